@@ -21,15 +21,15 @@ if TYPE_CHECKING:
     from solepath.lab.evaluate.report import Result
 
 
-settings.register_profile("unhurried", deadline=None)  # how long a case takes is the machine's matter
+settings.register_profile("unhurried", deadline=None)  # the time of a case depends on the machine
 settings.load_profile("unhurried")
 
 
 @pytest.fixture(scope="session")
 def data_dir() -> Path:
     """Return the folder of recorded data, SOLEPATH_DATA or beside the checkout; skip the test without it."""
-    named = os.environ.get("SOLEPATH_DATA")
-    folder = Path(named) if named else Path(__file__).resolve().parents[2] / "shared" / "data"
+    configured = os.environ.get("SOLEPATH_DATA")
+    folder = Path(configured) if configured else Path(__file__).resolve().parents[2] / "shared" / "data"
     if not folder.is_dir():
         pytest.skip(f"no recorded data at {folder}; SOLEPATH_DATA says where they are")
     return folder
@@ -37,8 +37,7 @@ def data_dir() -> Path:
 
 @pytest.fixture(scope="session")
 def evaluated(data_dir: Path) -> Callable[[str, str], Result]:
-    """What a recipe makes of the recordings of a data set, by the names of both; each is evaluated once
-    in a process."""
+    """Return a function from a data set's name and a recipe's name to the result; each is computed once a process."""
     from solepath.lab.evaluate.jobs import evaluate
 
     @cache
@@ -51,31 +50,31 @@ def evaluated(data_dir: Path) -> Callable[[str, str], Result]:
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browsing]:
-    """The browser that all tests of the page share; a skip where there can be none."""
+    """Yield the browser that all tests of the page share; skip the test where no browser can run."""
     from browsers import browsing, why_not
 
     reason = why_not()
     if reason is not None:
         pytest.skip(reason)
-    with browsing() as found:
-        yield found
+    with browsing() as browsing_:
+        yield browsing_
 
 
 @pytest.fixture
 def chromium(browser: Browsing) -> Browser:
-    """The same, for a test that is a coroutine."""
+    """Return the shared browser, for a test that is a coroutine."""
     return browser.browser
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
-    """Runs a test that is a coroutine: on the browser's loop where it asks for `chromium`, elsewhere on a loop of its
-    own, for half a minute at the most."""
+    """Run a test that is a coroutine: with the fixture `chromium` on the browser's loop, else on a new loop for at most
+    30 s."""
     if not iscoroutinefunction(pyfuncitem.obj):
         return None
-    given = {name: pyfuncitem.funcargs[name] for name in signature(pyfuncitem.obj).parameters}
-    if "chromium" in given:
-        pyfuncitem.funcargs["browser"].run(lambda _: pyfuncitem.obj(**given))
+    arguments = {name: pyfuncitem.funcargs[name] for name in signature(pyfuncitem.obj).parameters}
+    if "chromium" in arguments:
+        pyfuncitem.funcargs["browser"].run(lambda _: pyfuncitem.obj(**arguments))
     else:
-        asyncio.run(asyncio.wait_for(pyfuncitem.obj(**given), 30.0))
+        asyncio.run(asyncio.wait_for(pyfuncitem.obj(**arguments), 30.0))
     return True

@@ -29,21 +29,23 @@ REJECTIONS = [
 ]
 
 
-def raising(beneath: Backend, request: str, error: Exception, at: str = "", until: float = 1e9, where: str = "") -> Any:
-    """A Bluetooth in which this request raises `error` until then, for the device `at` and the channel `where`."""
-    base: Any = beneath.client
+def raising(backend: Backend, request: str, error: Exception, at: str = "", until: float = 1e9, where: str = "") -> Any:
+    """Return a backend whose `request` raises `error` until the time `until`, s, for the device and the channel.
+
+    `at` is the start of the device's address, `where` that of the channel's name."""
+    base: Any = backend.client
 
     class Client(base):
         pass
 
-    async def request_once(self: Any, *given: Any, **more: Any) -> Any:
-        channel = given[0].obj.channel if given and hasattr(given[0], "obj") else ""
+    async def request_once(self: Any, *arguments: Any, **options: Any) -> Any:
+        channel = arguments[0].obj.channel if arguments and hasattr(arguments[0], "obj") else ""
         if self.address.startswith(at) and channel.startswith(where) and asyncio.get_running_loop().time() < until:
             raise error
-        return await getattr(base, request)(self, *given, **more)
+        return await getattr(base, request)(self, *arguments, **options)
 
     setattr(Client, request, request_once)
-    return Backend(Client, beneath.scanner)
+    return Backend(Client, backend.scanner)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""bleak's own backend for Linux, with nothing of it replaced: over D-Bus, to an org.bluez of ours. In real time."""
+"""bleak's unchanged backend for Linux, over D-Bus, with a BlueZ service of the tests; in real time."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ pytestmark = [
 ]
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 THE_LEFT = DeviceConfig(None, "F0:5E:00:00:00:01")
-TAKES = 30.0
-"""s until a test gives up waiting."""
+TIME_LIMIT = 30.0
+"""Time limit of a test, s."""
 BUS = "DBUS_SYSTEM_BUS_ADDRESS"
 
 
@@ -44,22 +44,22 @@ def bench(faults: str = "", **devices: Device) -> Bench:
     worn = {Site(site): device for site, device in devices.items()} or {LEFT: Insole()}
     # at this offset no battery changes while a test lasts, whatever the machine's clock shows
     started_at = monotonic() - 0.5 * BATTERY_STEP
-    found = Bench(Route().walk(20.0), devices=worn, started_at=started_at, faults=parse_faults(faults))
-    found.prepare()
-    return found
+    bench_ = Bench(Route().walk(20.0), devices=worn, started_at=started_at, faults=parse_faults(faults))
+    bench_.prepare()
+    return bench_
 
 
 @pytest.fixture
 def on_a_bus(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Callable[[Callable[[str], Coroutine[Any, Any, Any]]], Any]:
-    """Runs a coroutine with a bus of its own as that of the system, whose address it is given."""
+    """Return a function that runs a coroutine with a new bus as the system bus; the coroutine gets its address."""
 
     def run(main: Callable[[str], Coroutine[Any, Any, Any]]) -> Any:
         async def alone() -> Any:
             async with message_bus(tmp_path) as address:
                 monkeypatch.setenv(BUS, address)
-                async with asyncio.timeout(2 * TAKES):
+                async with asyncio.timeout(2 * TIME_LIMIT):
                     return await main(address)
 
         return asyncio.run(alone())
@@ -70,7 +70,7 @@ def on_a_bus(
 async def until(devices: Devices, enough: Callable[[list[Packet]], bool]) -> list[Packet]:
     """Return the packets up to the first one that satisfies the condition."""
     received = []
-    async with asyncio.timeout(TAKES):
+    async with asyncio.timeout(TIME_LIMIT):
         async for packet in devices:
             received.append(packet)
             if enough(received):
@@ -91,8 +91,8 @@ def test_a_scan_lists_advertising_devices_and_leaves_the_adapter_alone_afterward
         async with Bluez(bench(left_foot=Insole(), right_foot=CC2650()).peripherals).serving(address) as bluez:
             return await scan(0.5), bluez.is_idle
 
-    found, idle = on_a_bus(main)
-    assert [(one.address, one.name, one.profile.name, one.signal) for one in found] == [
+    devices_found, idle = on_a_bus(main)
+    assert [(device.address, device.name, device.profile.name, device.signal) for device in devices_found] == [
         ("F0:5E:00:00:00:01", "solepath L", "insole", -60),
         ("F0:5E:00:00:00:02", "CC2650 SensorTag", "cc2650", -60),
     ]
@@ -100,30 +100,30 @@ def test_a_scan_lists_advertising_devices_and_leaves_the_adapter_alone_afterward
 
 
 def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
-    both = bench(left_foot=Insole(), right_foot=Insole())
+    pair = bench(left_foot=Insole(), right_foot=Insole())
     for site in (LEFT, RIGHT):
-        both[site].log = []
+        pair[site].log = []
 
     async def main(address):
-        async with Bluez(both.peripherals).serving(address) as bluez:
+        async with Bluez(pair.peripherals).serving(address) as bluez:
             async with Devices([DeviceConfig(None, "solepath R"), DeviceConfig(None, "solepath L")]) as devices:
                 received = await until(
                     devices, lambda received: all(len(of(received, "insole/frame", s)) > 150 for s in (LEFT, RIGHT))
                 )
                 tasks = others()
-            left = others()
-            return received, bluez.is_idle, len(tasks) - len(left)
+            remaining = others()
+            return received, bluez.is_idle, len(tasks) - len(remaining)
 
     received, idle, ended = on_a_bus(main)
     for site in (LEFT, RIGHT):
         arrived = of(received, "insole/frame", site)
-        assert arrived == [sent.value for sent in both[site].log if sent.channel == "insole/frame"][: len(arrived)]
+        assert arrived == [sent.value for sent in pair[site].log if sent.channel == "insole/frame"][: len(arrived)]
         # what is read comes once, although BlueZ tells of it as if it had been notified
-        once = ["insole/info", "device/firmware", "device/battery", "insole/control", "receiver/connected"]
-        assert [len(of(received, channel, site)) for channel in once] == [1] * len(once)
+        read_once = ["insole/info", "device/firmware", "device/battery", "insole/control", "receiver/connected"]
+        assert [len(of(received, channel, site)) for channel in read_once] == [1] * len(read_once)
     assert not troubles(received)
     assert idle and ended >= 3  # the search, and two connections
-    assert not any(device.is_connected for device in both.peripherals)
+    assert not any(device.is_connected for device in pair.peripherals)
 
 
 def test_a_sensortag_obeys_its_setup(on_a_bus):

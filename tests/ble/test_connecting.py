@@ -37,13 +37,13 @@ def test_a_device_that_left_before_it_was_connected_is_soon_searched_for_again()
 
 def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_ends_not_later():
     """Another program may hold the device, on systems that still report its advertisements."""
-    beneath = logged_radio(Strap("strap 1", address(1))).backend
+    memory_backend = logged_radio(Strap("strap 1", address(1))).backend
 
-    class Client(beneath.client):
+    class Client(memory_backend.client):
         async def connect(self, pair, **more):
             await asyncio.Event().wait()
 
-    packets = received(Backend(Client, beneath.scanner), ONE, seconds=55.0, patience=7.0)
+    packets = received(Backend(Client, memory_backend.scanner), ONE, seconds=55.0, patience=7.0)
     [trouble] = [packet for packet in packets if packet.channel == "receiver/trouble"]
     assert trouble.t == pytest.approx(7.0, abs=0.1)
     assert trouble.data.decode().endswith("see that no other program or phone holds it")
@@ -60,14 +60,14 @@ def test_failed_attempts_do_not_restart_patience():
 
 
 class Odd(Strap):
-    """Its stream cannot be subscribed."""
+    """A strap whose stream cannot be subscribed."""
 
     def subscribe(self, channel, on, now):
         raise AttError(0x80)
 
 
 def weak(every, seconds):
-    """Return the packets received over a link that breaks after these times, s."""
+    """Return the packets received over `seconds` from a link that breaks every `every` s."""
     cuts = [Fault(1.0 + every * k, Site.PELVIS, FaultKind.DISCONNECT) for k in range(int(seconds / every))]
 
     device = Strap("strap 1", address(1), faults=cuts)
@@ -98,8 +98,8 @@ def test_a_scan_that_fails_later_is_reported_to_searches_and_is_restarted() -> N
 def test_a_scan_without_advertisements_is_restarted() -> None:
     """Bluetooth was switched off and on, on systems that do not report it."""
     device = strap(faults="5 * disconnect")
-    beneath = MemoryRadio([device]).backend
-    scanner: Any = beneath.scanner
+    memory_backend = MemoryRadio([device]).backend
+    scanner: Any = memory_backend.scanner
 
     class Scanner(scanner):
         started_at = 0.0
@@ -112,9 +112,9 @@ def test_a_scan_without_advertisements_is_restarted() -> None:
             if now() < 5.0 or self.started_at > 20.0:
                 super().call_detection_callbacks(*given)
 
-    packets = received(Backend(beneath.client, Scanner), ONE, seconds=90.0)
-    back = times(packets, "receiver/connected")
-    assert len(back) == 2 and back[1] < 75.0
+    packets = received(Backend(memory_backend.client, Scanner), ONE, seconds=90.0)
+    connected_at = times(packets, "receiver/connected")
+    assert len(connected_at) == 2 and connected_at[1] < 75.0
     assert device.sent["strap/beat"] > 10 * RATE
 
 

@@ -29,28 +29,31 @@ from solepath.types import Foot, Site
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 ROUTE = Route().stand(3.0).walk(90.0).turn(1.5, radius=2.0).walk(60.0).turn(-1.5, radius=2.0).walk(60.0).stop(3.0)
-SHORTER = Route().stand(3.0).walk(40.0).turn(1.5, radius=2.0).walk(24.0).stop(3.0)
-ROUTES = {200: ROUTE, 60: SHORTER}
-"""Routes by the frequency of link losses."""
-FIRST, APART = 3.2, 0.81
-"""s: of the walk, and from one cut to the next; the feet take turns, and strides of 1.1 s are cut anywhere."""
+SHORT_ROUTE = Route().stand(3.0).walk(40.0).turn(1.5, radius=2.0).walk(24.0).stop(3.0)
+ROUTES = {200: ROUTE, 60: SHORT_ROUTE}
+"""Route for each number of link losses."""
+FIRST_CUT, CUT_INTERVAL = 3.2, 0.81
+"""Time of the first link loss in the walk, and interval between losses, s.
+
+The feet take turns. The interval differs from a stride's duration, 1.1 s, so that losses occur anywhere in a stride."""
 
 
 def worn() -> dict[Site, Device]:
-    """Insoles at 50 Hz: as many cuts as at 100 Hz in half as many packets."""
+    """Return insoles at 50 Hz, since half the packets of 100 Hz are enough for the same number of link losses."""
     return {site: Insole(cells=24, rate=50.0) for site in FEET}
 
 
 @define
 class Walked:
-    """Result of the walk, as the app sees it."""
+    """The result of a walk, collected from the events that an app receives."""
 
     truth: Truth
     started_at: float = 0.0
-    """The walk's 0 on the loop's clock, s."""
+    """Start of the walk, s, loop's clock."""
     places: dict[Foot, array[float]] = field(factory=lambda: {foot: array("d") for foot in Foot})
-    """Where each foot was said to be at the ends of its true steps: x, y, z and so on. An array is one block of memory,
-    so that what is collected here does not look like a leak."""
+    """Estimated position of each foot at the ends of its true strides, x, y, z in m, one after the other.
+
+    An array is one block of memory, so that its growth does not look like a leak."""
     steps: int = 0
     connected: int = 0
     disconnected: int = 0
@@ -58,14 +61,14 @@ class Walked:
     gaps: array[float] = field(factory=lambda: array("d"))
     """Durations of the gaps, s."""
     tasks: list[int] = field(factory=list)
-    """Beside the app's own, at every connection."""
+    """Number of tasks besides those of the app, at every connection."""
     blocks: list[int] = field(factory=list)
-    """Memory that Python holds, in its blocks, at every 20th connection."""
+    """Number of memory blocks that Python has allocated, at every 20th connection."""
     threads_before: int = 0
     threads: list[int] = field(factory=list)
-    """At every connection."""
+    """Number of threads at every connection."""
     left: int = -1
-    """Tasks of the adapter that are left once it is left, while the air is still there."""
+    """Number of tasks of the adapter that remain after leaving Devices, while the emulated devices still run."""
 
     def take(self, event: object) -> None:
         match event:
@@ -91,12 +94,12 @@ class Walked:
                 self.gaps.append(gap.duration)
 
     def ends(self, foot: Foot) -> list[float]:
-        """The rests between the true steps, s."""
+        """Return the times between the true strides, at which the foot rests, s."""
         steps = self.truth.steps(foot)
         return [steps[0].t_start, *(step.t_end for step in steps)]
 
     def error(self) -> float:
-        """Mean horizontal distance of both feet from where they were at the ends of their steps, m."""
+        """Return the mean horizontal error of both feet at the ends of their strides, m."""
         errors = []
         for foot in Foot:
             ends = np.array(self.ends(foot))
@@ -106,16 +109,16 @@ class Walked:
 
 
 def advertises(task: asyncio.Task[Any]) -> bool:
-    """Is it an emulated device that does so again, once its link is gone?"""
+    """Return whether the task is an emulated device that advertises again after the loss of its link."""
     return getattr(task.get_coro(), "__qualname__", "") == "Server._advertise"
 
 
 @cache
 def walk(seed: int, cuts: int = 200) -> Walked:
-    faults = [Fault(FIRST + APART * k, FEET[k % 2], FaultKind.DISCONNECT) for k in range(cuts)]
+    faults = [Fault(FIRST_CUT + CUT_INTERVAL * k, FEET[k % 2], FaultKind.DISCONNECT) for k in range(cuts)]
     bench = Bench(ROUTES[cuts], devices=worn(), seed=seed, faults=faults)
     truth = bench.truth()
-    assert truth.duration - 2.0 > FIRST + APART * cuts
+    assert truth.duration - 2.0 > FIRST_CUT + CUT_INTERVAL * cuts
     walked = Walked(truth)
 
     async def listen() -> None:
@@ -139,10 +142,10 @@ def walk(seed: int, cuts: int = 200) -> Walked:
     return walked
 
 
-OFTEN = pytest.mark.parametrize("cuts", [60, pytest.param(200, marks=pytest.mark.soak)])
+EACH_CUT_COUNT = pytest.mark.parametrize("cuts", [60, pytest.param(200, marks=pytest.mark.soak)])
 
 
-@OFTEN
+@EACH_CUT_COUNT
 def test_a_session_goes_on_through_any_number_of_disconnections_and_every_gap_is_an_event(cuts: int) -> None:
     walked = walk(1, cuts)
     assert walked.disconnected == cuts
@@ -157,7 +160,7 @@ def test_a_session_goes_on_through_any_number_of_disconnections_and_every_gap_is
     assert max(cut) < 0.5
 
 
-@OFTEN
+@EACH_CUT_COUNT
 def test_no_task_and_no_thread_is_left_behind_by_so_many_connections(cuts: int) -> None:
     walked = walk(1, cuts)
     assert walked.left == 0
@@ -173,7 +176,7 @@ def test_no_memory_is_left_behind_by_two_hundred_connections() -> None:
 
 
 def undisturbed(seed: int) -> float:
-    """The error of the same walk fed directly, m."""
+    """Return the error of the same walk without Bluetooth, m."""
     bench = Bench(ROUTE, devices=worn(), seed=seed)
     walked = Walked(bench.truth())
     session = Session(poses=True)
@@ -186,7 +189,7 @@ def undisturbed(seed: int) -> float:
 @pytest.mark.soak
 @pytest.mark.parametrize("seeds", [(1, 2), (1, 2, 3, 4, 5, 6)])
 def test_tracks_stay_on_average_within_twice_the_error_of_the_walks_without_disconnections(seeds: tuple[int]) -> None:
-    """On average: a single walk may by luck have hardly any error of its own to be compared with."""
+    """The errors are summed, since a single undisturbed walk may by chance have almost no error."""
     cut, whole = [walk(seed).error() for seed in seeds], [undisturbed(seed) for seed in seeds]
     print(f"m, with 200 disconnections {np.round(cut, 1)}, without {np.round(whole, 1)}")
     assert sum(cut) <= 2.0 * sum(whole)

@@ -42,8 +42,8 @@ from solepath.wire.insole import InsoleFrame, parse_frame
 E = TypeVar("E")
 STAND = Route().stand(9.0)
 WALK = Route().stand(3.0).walk(12.0).stop(3.0)
-FOOT = "F0:5E:00:00:00:01"
-SMALL = Insole(cells=8, rate=50.0)
+FOOT_ADDRESS = "F0:5E:00:00:00:01"
+SMALL_INSOLE = Insole(cells=8, rate=50.0)
 both = pytest.mark.parametrize("tier", TIERS)
 
 
@@ -52,9 +52,9 @@ def receive(
     tier: str,
     faults: str,
     seconds: float,
-    device: Device = SMALL,
+    device: Device = SMALL_INSOLE,
     route: Route = STAND,
-    configs: tuple[DeviceConfig, ...] = (DeviceConfig(LEFT, FOOT),),
+    configs: tuple[DeviceConfig, ...] = (DeviceConfig(LEFT, FOOT_ADDRESS),),
     sites: tuple[Site, ...] = (LEFT,),
 ) -> list[Packet]:
     bench = Bench(route, devices=dict.fromkeys(sites, device), seed=3, faults=parse_faults(faults))
@@ -101,7 +101,7 @@ def test_spoilt_notifications_are_rejected_with_their_reason_and_those_that_neve
 
 
 def by_number(packets: list[Packet]) -> dict[int, InsoleFrame]:
-    """The frames by their numbers, with fragments put together."""
+    """Return the frames by number, with their fragments joined."""
     return {frame.sequence: frame for frame in (parse_frame(packet.data) for packet in frames(whole(packets)))}
 
 
@@ -155,13 +155,15 @@ def test_a_device_that_vanishes_for_a_minute_is_stale_then_searched_for_and_back
     _, disconnected, stale, trouble, back, resumed = order
     assert disconnected.t == pytest.approx(4.0, abs=0.1)  # type: ignore[attr-defined]
     assert stale.t == pytest.approx(5.0, abs=0.1)  # type: ignore[attr-defined]
-    assert trouble.what.startswith(f"no device '{FOOT}' is heard")  # type: ignore[attr-defined]
+    assert trouble.what.startswith(f"no device '{FOOT_ADDRESS}' is heard")  # type: ignore[attr-defined]
     assert 64.0 < back.t < resumed.t < 67.0  # type: ignore[attr-defined]
 
 
 @both
 @pytest.mark.parametrize(
-    ("device", "control"), [(SMALL, "insole/control"), (Tag(), "cc2650/movement-config")], ids=["insole", "cc2650"]
+    ("device", "control"),
+    [(SMALL_INSOLE, "insole/control"), (Tag(), "cc2650/movement-config")],
+    ids=["insole", "cc2650"],
 )
 def test_a_rejected_setup_is_reported_and_repeated(tier: str, device: Device, control: str) -> None:
     found = events(receive(tier, f"0 * refuse {control}", 8.0, device=device))
@@ -185,7 +187,7 @@ def test_a_rejection_beside_the_stream_is_reported_and_the_stream_goes_on(tier: 
 
 
 @both
-@pytest.mark.parametrize("device", [SMALL, Tag()], ids=["insole", "cc2650"])
+@pytest.mark.parametrize("device", [SMALL_INSOLE, Tag()], ids=["insole", "cc2650"])
 def test_a_frozen_stream_is_restarted_and_resumes(tier: str, device: Device) -> None:
     found = events(receive(tier, "4 * freeze", 9.0, device=device))
     order = of((StreamStale, StreamRestarted, StreamResumed), found)  # type: ignore[arg-type]
@@ -209,9 +211,9 @@ WAKING = evolve(CC2650, setup=(CC2650.setup[0], Write("cc2650/movement-config", 
 
 @both
 def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
-    """He stands for a while, walks, and stands: the tag sleeps 10 s after its last motion."""
+    """The wearer stands, walks and stands; the tag sleeps 10 s after its last motion."""
     route = Route().stand(8.0).walk(5.0).stop(25.0)
-    configs = (DeviceConfig(LEFT, FOOT, WAKING),)
+    configs = (DeviceConfig(LEFT, FOOT_ADDRESS, WAKING),)
     packets = receive(tier, "", 36.0, device=Tag(), route=route, configs=configs)
     found = events(packets)
     moved = [packet.t for packet in packets if packet.channel == "cc2650/movement"]
@@ -224,7 +226,7 @@ def test_two_devices_with_one_name_are_reported_with_both_addresses(tier: str) -
     configs = (DeviceConfig(LEFT, "CC2650 SensorTag"),)
     found = events(receive(tier, "", 8.0, device=Tag(), configs=configs, sites=(LEFT, RIGHT)))
     [trouble] = of(LinkTrouble, found)
-    assert FOOT in trouble.what and "F0:5E:00:00:00:02" in trouble.what
+    assert FOOT_ADDRESS in trouble.what and "F0:5E:00:00:00:02" in trouble.what
     assert not of(Connected, found)
 
 

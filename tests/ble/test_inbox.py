@@ -22,7 +22,7 @@ lives = st.lists(st.one_of(puts, puts, takes), max_size=60)
 capacities = st.integers(1, 6)
 Puts = list[tuple[Site, bool]]
 Life = list[tuple[Site, bool] | None]
-"""None: something is taken."""
+"""None stands for taking a packet."""
 
 
 def lived(capacity: int, life: Life) -> tuple[list[Packet], list[Packet], Inbox]:

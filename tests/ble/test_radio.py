@@ -21,10 +21,10 @@ from solepath.show.links import is_sample_channel
 from solepath.types import Packet, Site
 
 ADDRESS, PROFILE = os.environ.get("SOLEPATH_RADIO", ""), os.environ.get("SOLEPATH_RADIO_PROFILE", "")
-LISTENED = 5.0
-"""s, from the first packet of samples on."""
+LISTENING_TIME = 5.0
+"""Time of listening after the first packet of samples, s."""
 PATIENCE = 30.0
-"""s that finding, connecting and setting up may take."""
+"""Time limit for finding, connecting and setting up, s."""
 
 pytestmark = [
     pytest.mark.radio,
@@ -49,14 +49,14 @@ async def receive() -> list[Packet]:
                 packets.append(packet)
                 if is_sample_channel(packet.channel):
                     break
-        return packets + await collect(devices, LISTENED)
+        return packets + await collect(devices, LISTENING_TIME)
 
 
 def test_a_real_device_is_found_connected_set_up_and_read_in_order() -> None:
     packets = asyncio.run(receive())
     frames = [packet for packet in packets if is_sample_channel(packet.channel)]
     assert all(a.t <= b.t for a, b in zip(packets, packets[1:], strict=False))
-    rate = len(frames) / LISTENED
+    rate = len(frames) / LISTENING_TIME
     assert rate > 5.0, f"{rate:.1f} packets of samples a second"
     assert {packet.device.upper() for packet in frames} == {ADDRESS.upper()}
     session = Session(poses=True)

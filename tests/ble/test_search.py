@@ -196,7 +196,7 @@ def test_a_device_of_ones_own_kind_is_found_by_name_or_by_what_it_advertises() -
 
 
 def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
-    """Its services may have been discovered in part, or its firmware is new."""
+    """The services may have been discovered only in part, or the firmware is new."""
 
     class Late(cc2650.CC2650Peripheral):
         def visible(self, now: float) -> bool:

@@ -166,7 +166,7 @@ async def test_devices_that_were_never_entered_do_not_end_silently() -> None:
 
 @virtually
 async def test_entering_twice_at_once_is_an_error() -> None:
-    """Also while the first is still waiting for Bluetooth; and an entry that failed is none."""
+    """This holds also while the first entry still waits for Bluetooth; an entry that failed does not count."""
     device = strap()
     open_devices = logged_radio(device)
     devices = Devices([ONE], backend=slowly(open_devices.backend))
@@ -183,7 +183,7 @@ async def test_entering_twice_at_once_is_an_error() -> None:
 
 
 def slowly(beneath: Backend) -> Backend:
-    """A Bluetooth whose scans start slowly."""
+    """Return a backend whose scans start slowly."""
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):

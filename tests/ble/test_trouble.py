@@ -36,7 +36,7 @@ UNAVAILABLE = [
     PermissionError(13, "Permission denied"),
     BleakError("something that nobody foresaw"),
 ]
-DO = ("plug", "turn it on", "is it on?", "allow", "ask", "can", "start", "join", "install", "nobody foresaw")
+REMEDY_WORDS = ("plug", "turn it on", "is it on?", "allow", "ask", "can", "start", "join", "install", "nobody foresaw")
 
 
 NOT_IN_TIME = "the device did not answer in time: it is sought again; if this goes on, switch it off and on"
@@ -64,7 +64,7 @@ async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_with_a_remedy(e
         await scan(1.0, backend=without_bluetooth(error))
     assert not others()
     assert "\n" not in one
-    assert any(words in one for words in DO)
+    assert any(words in one for words in REMEDY_WORDS)
 
 
 @pytest.mark.parametrize("words", ["Not connected", "disconnected", "the link was lost"])

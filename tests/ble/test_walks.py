@@ -27,12 +27,12 @@ from solepath.link.profile import Profile
 from solepath.types import Foot, Packet, Site
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
-MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
-SOME = Route().stand(3.0).walk(8.0).turn(1.5, radius=1.5).walk(4.0, speed=1.2).stop(3.0)
-LITTLE = Route().stand(1.5).walk(2.5).stop(1.0)
-"""Data sent in pieces costs as much for each piece."""
-LASTS = {MINUTE: 60.0, SOME: 15.0, LITTLE: 4.0}
-"""s."""
+ONE_MINUTE_ROUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
+MEDIUM_ROUTE = Route().stand(3.0).walk(8.0).turn(1.5, radius=1.5).walk(4.0, speed=1.2).stop(3.0)
+SHORT_ROUTE = Route().stand(1.5).walk(2.5).stop(1.0)
+"""A walk of 4 s, for devices that send in fragments, since each fragment costs as much as a packet."""
+DURATIONS = {ONE_MINUTE_ROUTE: 60.0, MEDIUM_ROUTE: 15.0, SHORT_ROUTE: 4.0}
+"""Duration of each route, s."""
 
 
 def receive(
@@ -56,10 +56,10 @@ def receive(
 @pytest.mark.parametrize(
     ("mtu", "route"),
     [
-        pytest.param(247, MINUTE, marks=pytest.mark.soak, id="247, a minute"),
-        pytest.param(247, SOME, id="247"),
-        pytest.param(185, LITTLE, id="185"),
-        pytest.param(23, LITTLE, id="23"),
+        pytest.param(247, ONE_MINUTE_ROUTE, marks=pytest.mark.soak, id="247, a minute"),
+        pytest.param(247, MEDIUM_ROUTE, id="247"),
+        pytest.param(185, SHORT_ROUTE, id="185"),
+        pytest.param(23, SHORT_ROUTE, id="23"),
     ],
 )
 def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_the_walk_fed_directly(
@@ -72,7 +72,7 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
     """
     bench = Bench(route, mtu=mtu)
     duration = bench.truth().duration
-    assert duration > LASTS[route]
+    assert duration > DURATIONS[route]
     packets, started_at = receive(bench, [DeviceConfig(None, profile=INSOLE)] * 2, duration)
     arrived = whole(packets)
 
@@ -108,7 +108,7 @@ TAGS: dict[str, tuple[Profile, Device]] = {
     "cc2541 at 10 Hz": (CC2541, sensortags.CC2541()),
     "cc2541 at 20 Hz": (CC2541_20HZ, sensortags.CC2541(rate=20.0)),
 }
-TAGGED = Route().stand(3.0).walk(30.0).turn(1.5, radius=1.5).walk(15.0, speed=1.1).stop(3.0)
+TAG_ROUTE = Route().stand(3.0).walk(30.0).turn(1.5, radius=1.5).walk(15.0, speed=1.1).stop(3.0)
 
 
 @pytest.mark.soak
@@ -117,7 +117,7 @@ def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_t
     settled = 8.0  # s of the walk until the clock knows which of the frames did not have to wait
     found: list[list[Event]] = []
     for waits in (None, interval):
-        bench = Bench(TAGGED)
+        bench = Bench(TAG_ROUTE)
         packets, started_at = receive(bench, [DeviceConfig(None, profile=INSOLE)] * 2, bench.truth().duration, waits)
         frames = [packet.t for packet in packets if packet.site is FEET[0] and packet.channel == "insole/frame"]
         apart = [b - a for a, b in pairwise(frames) if b > a]
@@ -152,7 +152,7 @@ def test_sensortags_give_the_steps_of_a_walk_end_to_end(
     profile, device = TAGS[tag]
     true = found = invented = 0
     for seed in seeds:
-        bench = Bench(TAGGED, devices=dict.fromkeys(FEET, device), seed=seed)
+        bench = Bench(TAG_ROUTE, devices=dict.fromkeys(FEET, device), seed=seed)
         configs = [DeviceConfig(worn.site, worn.address, profile) for worn in bench.peripherals]
         packets, started_at = receive(bench, configs, bench.truth().duration, interval)
         shifted = [evolve(packet, t=packet.t - started_at) for packet in packets]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.ble.watchdog import TRIES, Remedy, Watchdog
+from solepath.ble.watchdog import MAX_TRIES, Remedy, Watchdog
 
 STREAMS = ("acc", "gyro")
 PATIENCE = 2.0
@@ -13,16 +13,16 @@ PATIENCE = 2.0
 moments = st.lists(
     st.tuples(st.floats(0.0, 3.0), st.sampled_from(["acc", "gyro", "battery", None])), min_size=1, max_size=60
 )
-"""(time since the one before, s; channel of the notification, or None for a check)."""
+"""(time since the previous action, s; channel of the notification, or None for a check)."""
 
 
 def test_a_stream_that_never_started_is_set_up_again_and_then_given_up() -> None:
     dog = Watchdog(("acc",), PATIENCE, t_start=10.0)
     assert dog.check(11.9) is None
     remedies = []
-    while (due := dog.next_check_at()) is not None and len(remedies) <= TRIES:
+    while (due := dog.next_check_at()) is not None and len(remedies) <= MAX_TRIES:
         remedies.append(dog.check(due))
-    assert remedies == [("acc", Remedy.SET_UP)] * TRIES + [("acc", Remedy.RECONNECT)]
+    assert remedies == [("acc", Remedy.SET_UP)] * MAX_TRIES + [("acc", Remedy.RECONNECT)]
 
 
 def test_each_remedy_is_given_its_time() -> None:
@@ -42,7 +42,7 @@ def test_one_of_two_streams_that_froze_is_named() -> None:
 def test_a_remedy_that_worked_is_there_again_for_the_next_time() -> None:
     dog = Watchdog(("acc",), PATIENCE, t_start=0.0)
     t = 0.0
-    for _ in range(5 * TRIES):
+    for _ in range(5 * MAX_TRIES):
         t += PATIENCE + 0.1
         assert dog.check(t) == ("acc", Remedy.SET_UP)
         dog.add_notification("acc", t + 0.1)
@@ -104,7 +104,7 @@ def test_a_device_is_reconnected_only_after_every_try_failed_in_a_row(moments: l
         frozen = dog.check(now)
         if frozen is None:
             continue
-        assert frozen == ("acc", Remedy.SET_UP if tries < TRIES else Remedy.RECONNECT)
-        if tries == TRIES:
+        assert frozen == ("acc", Remedy.SET_UP if tries < MAX_TRIES else Remedy.RECONNECT)
+        if tries == MAX_TRIES:
             return
         tries, remedied = tries + 1, now

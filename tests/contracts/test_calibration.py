@@ -36,7 +36,7 @@ from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure.insole import in_newtons
 from solepath.recipes import Recipe
 
-WHOLE = Calibration(
+FULL_CALIBRATION = Calibration(
     insoles={
         Foot.LEFT: InsoleCalibration(
             Layout(2, Foot.LEFT, (Cell(0.2, 0.0), Cell(0.03, 0.01)), 0.26, scale=1.0),
@@ -53,16 +53,16 @@ WHOLE = Calibration(
 
 
 def test_a_calibration_is_read_as_it_was_written(tmp_path: Path) -> None:
-    write_calibration(tmp_path / "me.json", WHOLE)
-    assert read_calibration(tmp_path / "me.json") == WHOLE
+    write_calibration(tmp_path / "me.json", FULL_CALIBRATION)
+    assert read_calibration(tmp_path / "me.json") == FULL_CALIBRATION
 
 
 def test_a_newer_part_takes_the_place_of_the_older_and_the_rest_stays() -> None:
     newer = Calibration(insoles={Foot.LEFT: InsoleCalibration(noise=(9.0, 9.0))}, weight=800.0)
-    both = merged(WHOLE, newer)
-    assert both.insoles[Foot.LEFT].noise == (9.0, 9.0)
-    assert both.insoles[Foot.LEFT].newtons == WHOLE.insoles[Foot.LEFT].newtons
-    assert (both.weight, both.drift, both.shoe) == (800.0, WHOLE.drift, WHOLE.shoe)
+    result = merged(FULL_CALIBRATION, newer)
+    assert result.insoles[Foot.LEFT].noise == (9.0, 9.0)
+    assert result.insoles[Foot.LEFT].newtons == FULL_CALIBRATION.insoles[Foot.LEFT].newtons
+    assert (result.weight, result.drift, result.shoe) == (800.0, FULL_CALIBRATION.drift, FULL_CALIBRATION.shoe)
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_what_is_no_calibration_is_rejected_in_one_sentence(tmp_path: Path, text
 
 
 def test_a_number_that_is_none_is_rejected(tmp_path: Path) -> None:
-    write_calibration(tmp_path / "me.json", WHOLE)
+    write_calibration(tmp_path / "me.json", FULL_CALIBRATION)
     (tmp_path / "me.json").write_text((tmp_path / "me.json").read_text().replace("700.0", "NaN"))
     with pytest.raises(CalibrationError, match="nan"):
         read_calibration(tmp_path / "me.json")
@@ -101,7 +101,7 @@ def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
 
 
 def test_the_file_is_as_in_the_protocol(tmp_path: Path) -> None:
-    write_calibration(tmp_path / "me.json", WHOLE)
+    write_calibration(tmp_path / "me.json", FULL_CALIBRATION)
     saved = json.loads((tmp_path / "me.json").read_text())
     assert set(saved) == {"format", "version", "calibration"}
     text = (PROTOCOL / "calibration.md").read_text()
@@ -115,7 +115,7 @@ def test_a_raw_value_becomes_newtons_by_the_cubic_within_5_to_200() -> None:
 
 
 def test_a_layout_of_the_calibration_serves_samples_without_a_layout() -> None:
-    session = Session(calibration=WHOLE)
+    session = Session(calibration=FULL_CALIBRATION)
     session.feed(Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0), (20.0, 30.0)))
     worn = session.feet[Foot.LEFT].sole.insole.layout
     assert worn is not None and worn.length == 0.26
@@ -134,7 +134,7 @@ def insole(**known: Any) -> Calibration:
     return Calibration(insoles={Foot.LEFT: InsoleCalibration(**known)})
 
 
-ABSURD = {
+ABSURD_CALIBRATIONS = {
     "shoe.heel_radius": Calibration(shoe=ShoeGeometry(heel_radius=1e308)),
     "shoe.height": Calibration(shoe=ShoeGeometry(height=-0.01)),
     "shoe.steepest": Calibration(shoe=ShoeGeometry(steepest=1e200)),
@@ -158,14 +158,14 @@ ABSURD = {
 }
 
 
-@pytest.mark.parametrize("key", ABSURD)
+@pytest.mark.parametrize("key", ABSURD_CALIBRATIONS)
 def test_a_calibration_of_what_cannot_be_is_rejected_with_its_file_and_its_key(tmp_path: Path, key: str) -> None:
-    write_calibration(tmp_path / "me.json", ABSURD[key])
+    write_calibration(tmp_path / "me.json", ABSURD_CALIBRATIONS[key])
     with pytest.raises(CalibrationError, match=key) as error:
         read_calibration(tmp_path / "me.json")
     assert "me.json" in str(error.value) and "\n" not in str(error.value)
     with pytest.raises(ValueError, match=key):
-        Session(calibration=ABSURD[key])
+        Session(calibration=ABSURD_CALIBRATIONS[key])
 
 
 @pytest.mark.parametrize("what", [nan, inf, "heavy", True])
@@ -205,7 +205,7 @@ def test_a_calibration_of_something_else_than_records_is_rejected_by_the_session
 
 
 def test_what_can_be_is_not_rejected() -> None:
-    assert unusable(WHOLE) is None
+    assert unusable(FULL_CALIBRATION) is None
     assert unusable(Calibration()) is None
     for size in (24, 35, 96, 99):
         assert unusable(insole(layout=layout(size, Foot.LEFT))) is None
@@ -214,20 +214,20 @@ def test_what_can_be_is_not_rejected() -> None:
 def test_the_limits_are_those_of_the_protocol() -> None:
     rows = (PROTOCOL / "calibration.md").read_text().partition("## Limits")[2]
     numbers = {float(number) for number in re.findall(r"-?\d+(?:\.\d+)?(?:e-?\d+)?", rows)}
-    limits = [*_limits(WHOLE)]
+    limits = [*_limits(FULL_CALIBRATION)]
     assert {least for _, _, least, _, _ in limits} | {most for _, _, _, most, _ in limits} <= numbers
 
 
-OTHERS = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})
+OF_OTHER_INSOLES = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})
 
 
-KNOWN = [recipes.by_name(name) for name in ("zupt", "kupt-dfpc", "default")]
+TESTED_RECIPES = [recipes.by_name(name) for name in ("zupt", "kupt-dfpc", "default")]
 
 
-@pytest.mark.parametrize("recipe", KNOWN, ids=attrgetter("name"))
+@pytest.mark.parametrize("recipe", TESTED_RECIPES, ids=attrgetter("name"))
 def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_it(recipe: Recipe) -> None:
     items = samples(cells=96, rate=50.0)
-    session, bare = Session(recipe, calibration=OTHERS), Session(recipe)
+    session, bare = Session(recipe, calibration=OF_OTHER_INSOLES), Session(recipe)
     saved, plain = session.feed(items), bare.feed(items)
     assert of(CellsFailed, saved) == []
     left = [event.what for event in of(Limitation, saved) if event.site is Site.LEFT_FOOT]
@@ -248,13 +248,13 @@ def test_a_first_sample_that_is_cut_short_is_not_of_another_insole() -> None:
 
 
 def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> None:
-    apart = [
-        part
-        for s in samples(cells=96, rate=50.0)
-        for part in (evolve(s, pressure=None), evolve(s, t=s.t + 0.004, acc=None, gyro=None))
+    separated = [
+        half
+        for sample in samples(cells=96, rate=50.0)
+        for half in (evolve(sample, pressure=None), evolve(sample, t=sample.t + 0.004, acc=None, gyro=None))
     ]
-    session = Session(recipes.by_name("zupt"), calibration=OTHERS)
-    saved = session.feed(sorted(apart, key=attrgetter("t")))
+    session = Session(recipes.by_name("zupt"), calibration=OF_OTHER_INSOLES)
+    saved = session.feed(sorted(separated, key=attrgetter("t")))
     assert [event for event in of(Limitation, saved) if "no pressure" in event.what] == []
     assert of(StrideTaken, saved) != []
 

@@ -1,4 +1,4 @@
-"""Contract 1, the other half: a caller's own mistakes raise, by name, and change nothing."""
+"""Contract 1, second half: errors of the caller raise exceptions and change nothing."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from walks import LEFT, NAMES, Machine, machines
 
 from solepath import Packet, Session, SnapshotError
 
-GOOD = Packet(0.0, LEFT, "device/battery", b"\x20")
+GOOD_PACKET = Packet(0.0, LEFT, "device/battery", b"\x20")
 
 
 @pytest.mark.parametrize(
     "data",
-    [None, 5, "insole/frame", b"\xf5\x10", [GOOD, 5], [b"x"], object()],
+    [None, 5, "insole/frame", b"\xf5\x10", [GOOD_PACKET, 5], [b"x"], object()],
     ids=["none", "a number", "text", "bytes", "a list with a number", "a list of bytes", "an object"],
 )
 def test_what_is_neither_packet_nor_sample_is_a_type_error(data: Any) -> None:
@@ -27,10 +27,10 @@ def test_what_is_neither_packet_nor_sample_is_a_type_error(data: Any) -> None:
 @pytest.mark.parametrize("change", [{"data": "text"}, {"data": None}, {"site": "left_foot"}, {"channel": None}])
 def test_a_packet_of_the_wrong_types_is_a_type_error_and_changes_nothing(change: dict[str, Any]) -> None:
     session = Session()
-    before = session.snapshot()
+    snapshot = session.snapshot()
     with pytest.raises(TypeError, match="packet"):
-        session.feed(evolve(GOOD, **change))
-    assert session.snapshot() == before
+        session.feed(evolve(GOOD_PACKET, **change))
+    assert session.snapshot() == snapshot
 
 
 def test_a_recipe_is_a_recipe() -> None:

@@ -1,4 +1,4 @@
-"""The default recipe on sensors that it has never met: cheap, clipping, switched on in mid-walk."""
+"""The default recipe with sensors that it was not tuned on: cheap, clipping, or switched on during a walk."""
 
 from __future__ import annotations
 
@@ -42,27 +42,27 @@ def recorded(path: Path, seconds: float) -> tuple[Sample, ...]:
 
 
 def tracked(samples: Iterable[Sample], recover: bool = True) -> tuple[FootTracker, list[StrideTaken]]:
-    """One foot by the default recipe, without the body. Not `recover`: clipped readings are taken as they are."""
+    """Return a foot's tracker and strides by the default recipe; without `recover` clipped peaks are not restored."""
     parts = deepcopy(DEFAULT)
     corrector = ErrorStateFilter(ErrorStateSettings(recover=recover))
     tracker = FootTracker(Foot.RIGHT, parts.detector, corrector, cues=parts.cues)
-    steps: list[StrideTaken] = []
+    strides: list[StrideTaken] = []
     for sample in samples:
-        steps += of(StrideTaken, tracker.feed(sample))
-    return tracker, steps
+        strides += of(StrideTaken, tracker.feed(sample))
+    return tracker, strides
 
 
 def clipped(
     samples: Iterable[Sample], rate: float = 1e3, force: float = 1e3, range_known: bool = False
 ) -> list[Sample]:
     """Return the samples of a sensor that clips at `rate` rad/s and `force` m/s^2; `range_known` adds its range."""
-    cut: list[Sample] = []
+    clipped_samples: list[Sample] = []
     for sample in samples:
         assert sample.acc is not None and sample.gyro is not None
         gyro, acc = within(sample.gyro, rate), within(sample.acc, force)
         ends = range_known and (gyro, acc) != (sample.gyro, sample.acc)
-        cut.append(evolve(sample, gyro=gyro, acc=acc, saturated=ends))
-    return cut
+        clipped_samples.append(evolve(sample, gyro=gyro, acc=acc, saturated=ends))
+    return clipped_samples
 
 
 def within(v: Vec3, end: float) -> Vec3:
@@ -70,12 +70,12 @@ def within(v: Vec3, end: float) -> Vec3:
     return (x, y, z)
 
 
-def way(steps: Sequence[StrideTaken]) -> float:
-    return sum(step.length for step in steps)
+def total_length(strides: Sequence[StrideTaken]) -> float:
+    return sum(stride.length for stride in strides)
 
 
-def lengths(steps: Sequence[StrideTaken]) -> list[float]:
-    return [step.length for step in steps]
+def lengths(strides: Sequence[StrideTaken]) -> list[float]:
+    return [stride.length for stride in strides]
 
 
 @pytest.mark.parametrize("range_known", [False, True])
@@ -85,7 +85,7 @@ def test_strides_are_found_and_about_as_long_when_the_gyroscope_ends_at_250_degr
     _, whole = tracked(walk())
     _, cut = tracked(clipped(walk(), rate=radians(250.0), range_known=range_known))
     assert len(cut) == len(whole) > 8
-    assert way(cut) == pytest.approx(way(whole), rel=0.07)
+    assert total_length(cut) == pytest.approx(total_length(whole), rel=0.07)
 
 
 def test_clipping_of_a_gyroscope_at_400_degrees_per_second_is_corrected() -> None:
@@ -94,7 +94,7 @@ def test_clipping_of_a_gyroscope_at_400_degrees_per_second_is_corrected() -> Non
     _, corrected = tracked(cut)
     assert lengths(corrected) == pytest.approx(lengths(whole), rel=0.02)
     _, unmended = tracked(cut, recover=False)
-    assert abs(way(corrected) - way(whole)) < 0.3 * abs(way(unmended) - way(whole))
+    assert abs(total_length(corrected) - total_length(whole)) < 0.3 * abs(total_length(unmended) - total_length(whole))
 
 
 def test_clipping_of_an_accelerometer_at_2_g_is_corrected_in_part() -> None:
@@ -103,7 +103,7 @@ def test_clipping_of_an_accelerometer_at_2_g_is_corrected_in_part() -> None:
     _, corrected = tracked(cut)
     _, unmended = tracked(cut, recover=False)
     assert len(corrected) == len(whole)
-    assert abs(way(corrected) - way(whole)) < 0.75 * abs(way(unmended) - way(whole))
+    assert abs(total_length(corrected) - total_length(whole)) < 0.75 * abs(total_length(unmended) - total_length(whole))
 
 
 def test_one_broken_reading_does_not_hide_where_the_range_ends() -> None:
@@ -111,34 +111,34 @@ def test_one_broken_reading_does_not_hide_where_the_range_ends() -> None:
     broken = list(cut)
     broken[220] = evolve(cut[220], gyro=(90.0, -90.0, 90.0))
     _, whole = tracked(walk())
-    _, steps = tracked(broken)
-    assert way(steps[3:]) == pytest.approx(way(whole[3:]), rel=0.06)
+    _, strides = tracked(broken)
+    assert total_length(strides[3:]) == pytest.approx(total_length(whole[3:]), rel=0.06)
 
 
 def test_a_recorded_walk_of_a_clipping_gyroscope_comes_back_to_where_it_went(data_dir: Path) -> None:
     samples = recorded(data_dir / "pyshoe_vicon" / "2017-11-22-11-22-03.npz", 14.0)
-    whole, steps = tracked(samples)
-    cut, found = tracked(clipped(samples, rate=radians(250.0)))
-    assert len(found) == len(steps)
+    whole, strides = tracked(samples)
+    cut, cut_steps = tracked(clipped(samples, rate=radians(250.0)))
+    assert len(cut_steps) == len(strides)
     (x, y, z), (u, v, w) = whole.position, cut.position
-    assert hypot(u - x, v - y, w - z) < 0.04 * way(steps)
+    assert hypot(u - x, v - y, w - z) < 0.04 * total_length(strides)
 
 
 @given(gap_start=st.floats(4.0, 5.2))
 @settings(max_examples=4)
 def test_a_foot_that_walks_from_the_first_sample_on_is_levelled_in_its_second_stance(gap_start: float) -> None:
-    _, whole = tracked(walk())
+    _, all_strides = tracked(walk())
     t = walk()[0].t + gap_start
-    _, steps = tracked(sample for sample in walk() if sample.t >= t)
-    assert steps[0].t_start - t < 3.0
-    late = [step for step in whole if step.t_start > steps[1].t_start - 0.3]
-    assert lengths(steps[1:]) == pytest.approx(lengths(late), rel=0.06)
+    _, strides = tracked(sample for sample in walk() if sample.t >= t)
+    assert strides[0].t_start - t < 3.0
+    later_strides = [stride for stride in all_strides if stride.t_start > strides[1].t_start - 0.3]
+    assert lengths(strides[1:]) == pytest.approx(lengths(later_strides), rel=0.06)
 
 
 def test_the_time_of_day_changes_no_stride() -> None:
-    _, usual = tracked(walk())
-    _, late = tracked(evolve(sample, t=sample.t + 1.6e9) for sample in walk())
-    assert lengths(late) == pytest.approx(lengths(usual), abs=1e-3)
+    _, usual_strides = tracked(walk())
+    _, late_strides = tracked(evolve(sample, t=sample.t + 1.6e9) for sample in walk())
+    assert lengths(late_strides) == pytest.approx(lengths(usual_strides), abs=1e-3)
 
 
 def test_a_cheap_sensors_noise_bias_and_scale_cost_little() -> None:
@@ -156,6 +156,6 @@ def test_a_cheap_sensors_noise_bias_and_scale_cost_little() -> None:
                 gyro=(gx + g[0] + 0.05, gy + g[1] - 0.05, gz + g[2] + 0.05),
             )
         )
-    _, steps = tracked(cheap)
-    assert len(steps) == len(usual)
-    assert way(steps) == pytest.approx(way(usual), rel=0.03)
+    _, strides = tracked(cheap)
+    assert len(strides) == len(usual)
+    assert total_length(strides) == pytest.approx(total_length(usual), rel=0.03)

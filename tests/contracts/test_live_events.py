@@ -31,18 +31,19 @@ from solepath.calibration import InsoleCalibration, Newtons
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import LiveEvent
 
-BOTH = {"poses": True, "pressures": True}
-KNOWN = Calibration(insoles={Foot.LEFT: InsoleCalibration(SOLE)})
+LIVE_FLAGS = {"poses": True, "pressures": True}
+WITH_LAYOUT = Calibration(insoles={Foot.LEFT: InsoleCalibration(SOLE)})
 
 
 def frames(*cells: tuple[float, ...], t_start: float = 0.0) -> list[Sample]:
-    """Samples of the left foot's cells alone, at 100 Hz."""
+    """Return samples of the left foot's cells, without motion, at 100 Hz."""
     return [Sample(t_start + 0.01 * k, LEFT, pressure=values) for k, values in enumerate(cells)]
 
 
-STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 10, 0, 0), above(100, 100, 50, 150))
-"""On the whole sole, on the forefoot, in the air, on the heel, on the whole sole again. Known to have been in the air
-once the load has risen again."""
+STRIDE_LOADS = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 10, 0, 0), above(100, 100, 50, 150))
+"""Loads of the cells, N, during a stride: whole sole, forefoot, in the air, heel, whole sole.
+
+The swing is known only when the load has risen again."""
 
 
 def shown(session: Session, items: list[Sample]) -> list[FootPressed]:
@@ -52,7 +53,7 @@ def shown(session: Session, items: list[Sample]) -> list[FootPressed]:
 @pytest.mark.parametrize("kind", ["packets", "samples"])
 def test_live_events_change_no_other_events(kind: str) -> None:
     fed = insoles().packets if kind == "packets" else samples()
-    plain, live = Session(), Session(**BOTH)
+    plain, live = Session(), Session(**LIVE_FLAGS)
     plain_events = plain.feed(fed) + plain.finish()
     emitted = live.feed(fed) + live.finish()
     assert of(LiveEvent, plain_events) == []
@@ -71,18 +72,18 @@ def test_each_live_event_is_emitted_on_request_only() -> None:
 @pytest.mark.parametrize("name", ["default", "kupt-dfpc", "walking-modes"])
 def test_every_stride_is_followed_by_the_position_of_the_wearer(name: str) -> None:
     session = Session(recipes.by_name(name), poses=True)
-    steps = 0
+    stride_count = 0
     for packet in insoles().packets:
         emitted = session.feed(packet)
-        taken, moved = of(StrideTaken, emitted), of(WearerMoved, emitted)
-        assert len(moved) == bool(taken)
-        steps += len(taken)
+        strides, moved = of(StrideTaken, emitted), of(WearerMoved, emitted)
+        assert len(moved) == bool(strides)
+        stride_count += len(strides)
         for event in moved:
-            here = session.position
-            assert here is not None and emitted.index(event) > emitted.index(taken[-1])
-            assert (event.t, event.position, event.covariance) == (here.t, here.position, here.covariance)
+            position = session.position
+            assert position is not None and emitted.index(event) > emitted.index(strides[-1])
+            assert (event.t, event.position, event.covariance) == (position.t, position.position, position.covariance)
             assert event.known_at == max(packet.t, event.t) and not event.final
-    assert steps > 5
+    assert stride_count > 5
 
 
 def test_every_sample_with_cells_is_shown_with_its_own_times() -> None:
@@ -95,27 +96,27 @@ def test_every_sample_with_cells_is_shown_with_its_own_times() -> None:
 
 
 def test_a_foot_that_has_not_stepped_yet_is_shown_as_its_cells_have_it() -> None:
-    standing = shown(Session(pressures=True), frames(*[STEP[0]] * 50))
+    standing = shown(Session(pressures=True), frames(*[STRIDE_LOADS[0]] * 50))
     assert len(standing) == 50
-    assert {event.values for event in standing} == {STEP[0]} and standing[0].force == 460.0
+    assert {event.values for event in standing} == {STRIDE_LOADS[0]} and standing[0].force == 460.0
 
 
 def test_what_cells_show_in_the_air_is_not_shown_once_it_is_known() -> None:
-    emitted = shown(Session(calibration=KNOWN, pressures=True), frames(*STEP, *STEP))
-    assert [event.values for event in emitted[:2]] == [*STEP[:2]]
+    emitted = shown(Session(calibration=WITH_LAYOUT, pressures=True), frames(*STRIDE_LOADS, *STRIDE_LOADS))
+    assert [event.values for event in emitted[:2]] == [*STRIDE_LOADS[:2]]
     assert [event.values for event in emitted[-3:]] == [(0.0,) * 4, (30.0, 10.0, 0.0, 0.0), (100.0, 100.0, 50.0, 150.0)]
     assert [event.force for event in emitted[-3:]] == [0.0, 40.0, 400.0]
 
 
 def test_the_centre_is_where_the_load_is_and_in_the_air_there_is_none() -> None:
-    emitted = shown(Session(calibration=KNOWN, pressures=True), frames(*STEP, *STEP))
+    emitted = shown(Session(calibration=WITH_LAYOUT, pressures=True), frames(*STRIDE_LOADS, *STRIDE_LOADS))
     assert emitted[-3].centre is None
     assert emitted[-2].centre == pytest.approx((0.05, 0.005))
     assert emitted[-1].centre == pytest.approx((0.05 * 0.5 + 0.13 * 0.125 + 0.20 * 0.375, 0.02 * 0.375))
 
 
 def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_absent_while_the_foot_swings() -> None:
-    session = Session(**BOTH)
+    session = Session(**LIVE_FLAGS)
     paths: list[list[float]] = [[]]
     swings = centres = 0
     for packet in insoles().packets:
@@ -146,11 +147,11 @@ def test_without_a_layout_cells_are_shown_but_no_centre_of_theirs() -> None:
 
 
 def test_a_sample_of_another_number_of_cells_is_not_shown() -> None:
-    cut = [evolve(sample, pressure=sample.pressure[:3]) for sample in frames(STEP[0]) if sample.pressure]
-    session = Session(calibration=KNOWN, pressures=True)
-    assert len(shown(session, frames(*STEP))) == 5
+    cut = [evolve(sample, pressure=sample.pressure[:3]) for sample in frames(STRIDE_LOADS[0]) if sample.pressure]
+    session = Session(calibration=WITH_LAYOUT, pressures=True)
+    assert len(shown(session, frames(*STRIDE_LOADS))) == 5
     assert shown(session, [evolve(sample, t=1.0) for sample in cut]) == []
-    assert len(shown(session, frames(*STEP, t_start=2.0))) == 5
+    assert len(shown(session, frames(*STRIDE_LOADS, t_start=2.0))) == 5
 
 
 def test_a_cell_without_a_number_is_shown_as_nothing_even_where_a_cubic_makes_something_of_nothing() -> None:
@@ -167,26 +168,26 @@ def layouts(events: list[Event]) -> list[tuple[Site, int]]:
 
 
 def test_a_calibrations_layout_is_reported_once_samples_have_as_many_cells() -> None:
-    session = Session(calibration=KNOWN, pressures=True)
-    emitted = session.feed(frames(*STEP))
+    session = Session(calibration=WITH_LAYOUT, pressures=True)
+    emitted = session.feed(frames(*STRIDE_LOADS))
     assert layouts(emitted) == [(LEFT, 7)]
     assert emitted.index(of(LayoutKnown, emitted)[0]) < emitted.index(of(FootPressed, emitted)[0])
     restored = Session.restore(json.loads(json.dumps(session.snapshot())))
-    for one in (session, restored):
-        assert layouts(one.feed(frames(*STEP, t_start=1.0))) == []
+    for each_session in (session, restored):
+        assert layouts(each_session.feed(frames(*STRIDE_LOADS, t_start=1.0))) == []
 
 
 def test_a_calibrations_layout_of_another_number_of_cells_is_not_reported() -> None:
-    session = Session(calibration=KNOWN)
+    session = Session(calibration=WITH_LAYOUT)
     assert layouts(session.feed(frames(*[(1.0, 2.0)] * 200))) == []
 
 
 def test_a_layout_of_the_device_replaces_that_of_the_calibration() -> None:
-    own = {Foot.LEFT: InsoleCalibration(evolve(layout(96, Foot.LEFT), id=99))}
+    insoles_ = {Foot.LEFT: InsoleCalibration(evolve(layout(96, Foot.LEFT), id=99))}
     packets = [packet for packet in insoles().packets if packet.site is LEFT]
-    first = Session(calibration=Calibration(insoles=own)).feed(packets)
-    (plain_events,) = layouts(first)
+    first_events = Session(calibration=Calibration(insoles=insoles_)).feed(packets)
+    (plain_events,) = layouts(first_events)
     assert plain_events[1] != 99
-    late = Session(calibration=Calibration(insoles=own))
-    assert layouts(late.feed(frames((50.0,) * 96))) == [(LEFT, 99)]
-    assert layouts(late.feed(packets)) == [plain_events]
+    late_session = Session(calibration=Calibration(insoles=insoles_))
+    assert layouts(late_session.feed(frames((50.0,) * 96))) == [(LEFT, 99)]
+    assert layouts(late_session.feed(packets)) == [plain_events]

@@ -18,19 +18,19 @@ from solepath.emulate.routes.route import Route
 from solepath.wire.error import WireError
 from solepath.wire.insole import InsoleFrame, build_frame, parse_frame
 
-LOOP = Route().stand(1.0).walk(30.0, 1.3).turn(6.0, radius=2.0).walk(20.0).stop(1.0)
-"""About a minute, walked again and again."""
-LARGEST = 130_000
-"""Characters of a snapshot: a tenth of it are the wearer's gait, heights, and the ends of the sensors' ranges."""
-INTERVAL = 328
-"""Ticks of the emulated insoles between two samples."""
+LOOP_ROUTE = Route().stand(1.0).walk(30.0, 1.3).turn(6.0, radius=2.0).walk(20.0).stop(1.0)
+"""A route of about a minute, which is walked many times."""
+MAX_SNAPSHOT_LENGTH = 130_000
+"""Largest length of a snapshot, characters; a tenth of it is the wearer's gait, heights and the sensors' ranges."""
+TICK_INTERVAL = 328
+"""Number of ticks (1/32768 s) of the emulated insoles between two samples."""
 
 
 @cache
 def loop() -> tuple[tuple[Packet, InsoleFrame | None], ...]:
-    """The packets of one round over a lossy radio, with the frame in each whole one."""
+    """Return the packets of one round over a lossy radio, each with its frame if it has a whole one."""
     radio = Radio(loss=0.03, duplicate=0.005, truncate=0.005, latency=0.01, jitter=0.03)
-    return tuple((packet, frame_of(packet)) for packet in insoles(LOOP, radio, seed=4).packets)
+    return tuple((packet, frame_of(packet)) for packet in insoles(LOOP_ROUTE, radio, seed=4).packets)
 
 
 def frame_of(packet: Packet) -> InsoleFrame | None:
@@ -41,20 +41,21 @@ def frame_of(packet: Packet) -> InsoleFrame | None:
 
 
 def rounds(count: int, first: int | None = None) -> Iterator[list[Packet]]:
-    """The loop again and again: later by its length, with sequence and ticks running on and wrapping. `first`: only so
-    many packets of each round."""
-    frames = round((loop()[-1][0].t + 0.05) * 32768 / INTERVAL)
-    ticks = frames * INTERVAL
+    """Yield `count` rounds of the loop, in which time, sequence number and ticks continue and wrap around.
+
+    `first` is the number of packets of each round; None for all."""
+    frames = round((loop()[-1][0].t + 0.05) * 32768 / TICK_INTERVAL)
+    ticks = frames * TICK_INTERVAL
     length = ticks / 32768
     for k in range(count):
-        again = []
+        shifted_packets = []
         for packet, frame in loop()[:first]:
             data = packet.data
             if frame is not None:
                 sequence, now = (frame.sequence + k * frames) % 2**16, (frame.ticks + k * ticks) % 2**32
                 data = build_frame(evolve(frame, sequence=sequence, ticks=now))
-            again.append(evolve(packet, t=packet.t + k * length, data=data))
-        yield again
+            shifted_packets.append(evolve(packet, t=packet.t + k * length, data=data))
+        yield shifted_packets
 
 
 def size(session: Session) -> int:
@@ -62,20 +63,20 @@ def size(session: Session) -> int:
 
 
 def walk_on(session: Session, count: int) -> tuple[list[int], list[int]]:
-    """Sizes of the snapshot and steps found, round by round."""
-    sizes, steps = [], []
+    """Return the size of the snapshot, characters, and the number of strides, for each round."""
+    sizes, stride_counts = [], []
     for packets in rounds(count):
         emitted = session.feed(packets)
         assert all(lost.count < 40 for lost in of(PacketsLost, emitted)[2:]), "the rounds do not join"
-        steps.append(len(of(StrideTaken, emitted)))
+        stride_counts.append(len(of(StrideTaken, emitted)))
         sizes.append(size(session))
-    return sizes, steps
+    return sizes, stride_counts
 
 
-def check(sizes: list[int], steps: list[int]) -> None:
-    assert max(sizes) <= LARGEST
+def check(sizes: list[int], stride_counts: list[int]) -> None:
+    assert max(sizes) <= MAX_SNAPSHOT_LENGTH
     assert max(sizes[1:]) <= 1.05 * sizes[1], "the snapshot grows with the time walked"
-    assert min(steps) >= 0.9 * max(steps) > 30, "the walk did not go on"
+    assert min(stride_counts) >= 0.9 * max(stride_counts) > 30, "the walk did not go on"
 
 
 def test_a_session_of_two_insoles_is_as_large_after_three_minutes_as_after_one() -> None:
@@ -89,41 +90,41 @@ def test_a_session_of_two_insoles_is_as_large_after_an_hour_as_after_a_minute() 
 
 @pytest.mark.parametrize("seconds", [600.0, pytest.param(3600.0, marks=pytest.mark.soak)])
 def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
-    fed = [sample for sample in samples(LOOP, cells=0, rate=25.0) if sample.site is LEFT]
+    fed = [sample for sample in samples(LOOP_ROUTE, cells=0, rate=25.0) if sample.site is LEFT]
     length = fed[-1].t + 0.04
-    session, sizes, found = Session(), [], []
+    session, sizes, stride_counts = Session(), [], []
     for k in range(int(seconds / length) + 1):
         emitted = session.feed([Sample(s.t + k * length, s.site, s.acc, s.gyro) for s in fed])
         sizes.append(size(session))
-        found.append(len(of(StrideTaken, emitted)))
-    check(sizes, found)
+        stride_counts.append(len(of(StrideTaken, emitted)))
+    check(sizes, stride_counts)
 
 
 def test_the_interpreter_holds_no_more_after_each_round() -> None:
-    every = list(rounds(4, 400))  # each with the first steps of a round, after a pause
+    all_rounds = list(rounds(4, 400))  # each with the first steps of a round, after a pause
     session = Session()
     tracemalloc.start()
     try:
-        held = []
-        for packets in every:
+        traced_sizes = []
+        for packets in all_rounds:
             session.feed(packets)
             gc.collect()
-            held.append(tracemalloc.get_traced_memory()[0])
+            traced_sizes.append(tracemalloc.get_traced_memory()[0])
     finally:
         tracemalloc.stop()
-    assert held[0] < 1_000_000
-    assert max(held[1:]) - held[1] < 30_000, held
+    assert traced_sizes[0] < 1_000_000
+    assert max(traced_sizes[1:]) - traced_sizes[1] < 30_000, traced_sizes
 
 
 def test_garbage_without_end_leaves_nothing_behind() -> None:
     session = Session()
     session.feed([packet for packet, _ in loop()[:500]])
-    before = size(session)
+    size_before = size(session)
     for k in range(4000):
         emitted = session.feed(
             Packet(5.0 + 1e-3 * k, (LEFT, RIGHT)[k % 2], "insole/frame", bytes([k % 224, k % 251] * 9))
         )
         assert len(emitted) <= 4
         session.feed(Packet(5.0, list(Site)[k % 7], f"insole/{k}", b""))
-    assert size(session) < before + 3000
+    assert size(session) < size_before + 3000
     assert of(PacketRejected, session.feed(Packet(9.0, LEFT, "x", b"")))

@@ -1,4 +1,4 @@
-"""Contracts 5 and 7: any moment can be saved and restored elsewhere; equal input gives equal events everywhere."""
+"""Contracts 5 and 7: a session can be saved at any moment and restored elsewhere; equal input gives equal events."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ from solepath.saving.codec import checksum
 from solepath.session.state import VERSION
 
 SESSIONS = [name for name in NAMES if name.startswith("session")]
-QUICK = settings(max_examples=2, phases=[Phase.generate])
-"""A walk an example: few of them, and no shrinking."""
+FEW_EXAMPLES = settings(max_examples=2, phases=[Phase.generate])
+"""Settings for tests whose every example is a whole walk: few examples, without shrinking."""
 
 
 @pytest.mark.parametrize("name", NAMES)
 @given(st.data())
-@QUICK
+@FEW_EXAMPLES
 def test_a_machine_saved_at_any_moment_goes_on_as_if_nothing_had_happened(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
     cut = data.draw(st.integers(0, len(machine.items)))
-    # a machine that remembers nothing yet, which is always tried, need not go all the way
+    # cut = 0 is always tried; the machine has no state there yet, so 100 items are enough
     end = len(machine.items) if cut else min(100, len(machine.items))
     straight = machine.start()
     for item in machine.items[:cut]:
@@ -55,12 +55,12 @@ def test_a_machine_saved_at_any_moment_goes_on_as_if_nothing_had_happened(name: 
 @pytest.mark.parametrize("name", ["session, whole frames", "session, cc2541", "session, cc2650", "decoder, fragments"])
 def test_a_machine_saved_before_every_thirtieth_item_is_the_same_machine(name: str) -> None:
     machine = machines()[name]
-    one, events = machine.start(), []
+    session, events = machine.start(), []
     for k, item in enumerate(machine.items):
         if k % 30 == 0:
-            one = machine.load(machine.save(one)) if k % 60 else machine.repacked(one)
-        events += one.feed(item)
-    assert events + one.finish() == machine.events()
+            session = machine.load(machine.save(session)) if k % 60 else machine.repacked(session)
+        events += session.feed(item)
+    assert events + session.finish() == machine.events()
 
 
 def test_an_encoder_may_sort_keys_and_write_whole_floats_as_integers() -> None:
@@ -84,7 +84,7 @@ def test_a_snapshot_is_a_copy_and_saving_changes_nothing() -> None:
     assert json.dumps(saved) == text
 
 
-CHILD = """
+CHILD_PROGRAM = """
 import json, sys
 from solepath import Packet, Session, Site
 saved, packets = json.load(open(sys.argv[1]))
@@ -98,17 +98,17 @@ for event in session.finish():
 
 
 def elsewhere(folder: Path, saved: Any, packets: tuple[Packet, ...], **environment: str) -> list[str]:
-    """The events of another process that goes on from `saved`, as it prints them."""
-    file = folder / "work.json"
-    file.write_text(json.dumps([saved, [[p.t, p.site.value, p.channel, p.data.hex()] for p in packets]]))
-    done = subprocess.run(
-        [sys.executable, "-c", CHILD, str(file)],
+    """Return the printed events of another process that continues from the snapshot `saved`; None for a new session."""
+    input_file = folder / "work.json"
+    input_file.write_text(json.dumps([saved, [[p.t, p.site.value, p.channel, p.data.hex()] for p in packets]]))
+    process = subprocess.run(
+        [sys.executable, "-c", CHILD_PROGRAM, str(input_file)],
         capture_output=True,
         text=True,
         check=True,
         env={**os.environ, **environment},
     )
-    return done.stdout.splitlines()
+    return process.stdout.splitlines()
 
 
 def test_a_session_goes_on_in_another_process(tmp_path: Path) -> None:
@@ -124,24 +124,24 @@ def test_a_session_goes_on_in_another_process(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["session, four samples a frame", "session, cc2541 at 20 Hz"])
 def test_the_same_packets_give_the_same_events_in_every_process_whatever_its_hashes(name: str, tmp_path: Path) -> None:
     machine = machines()[name]
-    here = [repr(event) for event in machine.events()]
+    expected = [repr(event) for event in machine.events()]
     for seed in ("0", "12345"):
-        assert elsewhere(tmp_path, None, machine.items, PYTHONHASHSEED=seed) == here
+        assert elsewhere(tmp_path, None, machine.items, PYTHONHASHSEED=seed) == expected
 
 
 @pytest.mark.parametrize("name", SESSIONS)
 def test_two_sessions_of_one_recipe_share_nothing(name: str) -> None:
     machine = machines()[name]
-    one, other = machine.start(), machine.start()
-    some = machine.items[: len(machine.items) // 3]
-    events = [event for item in some for event in one.feed(item)]
-    assert [event for item in some for event in other.feed(item)] == events
-    assert asdict(machine.start().recipe) == asdict(one.recipe)
+    session, second_session = machine.start(), machine.start()
+    first_items = machine.items[: len(machine.items) // 3]
+    events = [event for item in first_items for event in session.feed(item)]
+    assert [event for item in first_items for event in second_session.feed(item)] == events
+    assert asdict(machine.start().recipe) == asdict(session.recipe)
 
 
 @cache
-def taken(name: str) -> str:
-    """A snapshot in the middle of a walk, as text."""
+def saved_text(name: str) -> str:
+    """Return a snapshot in the middle of a walk, as text."""
     machine = machines()[name]
     session = machine.start()
     session.feed(machine.items[: len(machine.items) // 2])
@@ -149,14 +149,14 @@ def taken(name: str) -> str:
 
 
 def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    """The paths of everything within a JSON value."""
+    """Return the paths of all values within a JSON value."""
     inside = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     return [path] + [place for key, item in inside for place in places(item, (*path, key))]
 
 
 @cache
 def places_of(name: str) -> list[tuple[Any, ...]]:
-    return places(json.loads(taken(name)))[1:]
+    return places(json.loads(saved_text(name)))[1:]
 
 
 _VALUES = st.one_of(
@@ -180,30 +180,30 @@ _VALUES = st.one_of(
 def test_a_damaged_snapshot_is_rejected_and_never_used_in_part(
     name: str, data: st.DataObject, value: Any, how: str
 ) -> None:
-    saved = json.loads(taken(name))
-    *way, last = data.draw(st.sampled_from(places_of(name)))
-    spot = saved
-    for key in way:
-        spot = spot[key]
+    saved = json.loads(saved_text(name))
+    *keys, last_key = data.draw(st.sampled_from(places_of(name)))
+    container = saved
+    for key in keys:
+        container = container[key]
     if how == "remove":
-        del spot[last]
-    elif how == "add" and isinstance(spot, dict):
-        spot["more"] = value
+        del container[last_key]
+    elif how == "add" and isinstance(container, dict):
+        container["more"] = value
     else:
-        spot[last] = value
+        container[last_key] = value
     try:
         session = machines()[name].load(saved)
     except SnapshotError:
         return
     # minus zero counts as zero: some encoders lose it
-    same = checksum(session.snapshot()) == checksum(json.loads(taken(name)))
-    assert same, "a changed snapshot was taken for a good one"
+    is_same = checksum(session.snapshot()) == checksum(json.loads(saved_text(name)))
+    assert is_same, "a changed snapshot was taken for a good one"
     session.feed(machines()[name].items[len(machines()[name].items) // 2 :])
 
 
 @pytest.mark.parametrize("version", [0, VERSION + 1, 99, "1", 1.0, True, None, [], {}])
 def test_a_snapshot_of_another_version_is_rejected_by_name(version: Any) -> None:
-    saved = json.loads(taken("session, cc2650"))
+    saved = json.loads(saved_text("session, cc2650"))
     saved["solepath"] = version
     with pytest.raises(SnapshotError, match="version"):
         Session.restore(saved)
@@ -211,28 +211,28 @@ def test_a_snapshot_of_another_version_is_rejected_by_name(version: Any) -> None
 
 @pytest.mark.parametrize("name", [name for name in PACKET_NAMES if name.startswith("session")])
 def test_a_flipped_digit_is_noticed(name: str) -> None:
-    text = taken(name)
-    found = re.search(r'"arrived": (\d)', text)
-    assert found is not None
-    at = found.start(1)
-    digit = str((int(text[at]) + 1) % 10)
+    text = saved_text(name)
+    match = re.search(r'"arrived": (\d)', text)
+    assert match is not None
+    index = match.start(1)
+    digit = str((int(text[index]) + 1) % 10)
     with pytest.raises(SnapshotError, match="damaged"):
-        Session.restore(json.loads(text[:at] + digit + text[at + 1 :]))
+        Session.restore(json.loads(text[:index] + digit + text[index + 1 :]))
 
 
 def test_a_floor_plan_is_not_in_the_snapshot_but_the_same_one_must_be_given_again() -> None:
-    one = machines()["session, particles"]
-    session = one.start()
-    session.feed(one.items[: len(one.items) // 2])
-    other = evolve(BUILDING, levels=BUILDING.levels[:1], connectors=())
-    bare = Session()
-    for taken_up, saved, without in (
-        (Session.restore, one.save(session), bare.snapshot()),
-        (Session.unpack, session.pack(), bare.pack()),
+    machine = machines()["session, particles"]
+    session = machine.start()
+    session.feed(machine.items[: len(machine.items) // 2])
+    other_plan = evolve(BUILDING, levels=BUILDING.levels[:1], connectors=())
+    plain_session = Session()
+    for restore, saved, plain_state in (
+        (Session.restore, machine.save(session), plain_session.snapshot()),
+        (Session.unpack, session.pack(), plain_session.pack()),
     ):
-        for plan in (None, other):
+        for plan in (None, other_plan):
             with pytest.raises(SnapshotError, match="with the floor plan that it had"):
-                taken_up(saved, floorplan=plan)
-        assert taken_up(saved, floorplan=BUILDING).place == session.place is not None
+                restore(saved, floorplan=plan)
+        assert restore(saved, floorplan=BUILDING).place == session.place is not None
         with pytest.raises(SnapshotError, match="without a floor plan"):
-            taken_up(without, floorplan=BUILDING)
+            restore(plain_state, floorplan=BUILDING)

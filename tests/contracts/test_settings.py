@@ -1,4 +1,4 @@
-"""Settings of a part never change: a packed state leaves them out, since the recipe makes the same part again."""
+"""Settings of a part never change; so a packed state omits them, since the recipe makes the same part again."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from solepath.recipes import own
 from solepath.saving import codec as machine
 from solepath.session.wearer import WearerParts
 
-BESIDES = ("fragments", "four samples a frame", "cc2541 at 20 Hz", "samples with pressure", "seven sites")
-WALKS = tuple(f"session, {name}" for name in (*RECIPES, *BESIDES))
+OTHER_WALKS = ("fragments", "four samples a frame", "cc2541 at 20 Hz", "samples with pressure", "seven sites")
+WALKS = tuple(f"session, {name}" for name in (*RECIPES, *OTHER_WALKS))
 
 
 def is_part(cls: type) -> bool:
@@ -28,20 +28,20 @@ def is_part(cls: type) -> bool:
 
 
 def changed(fresh: Any, used: Any, path: str = "") -> Iterator[str]:
-    """Settings of `used`, and of the parts that it was made with, that are not those of `fresh`."""
+    """Yield the settings of `used`, and of the parts within it, that differ from those of `fresh`."""
     if type(fresh) is not type(used):
         yield f"{path}: another part"
         return
     for f in attrs.fields(type(fresh)):
-        before, now = getattr(fresh, f.name), getattr(used, f.name)
-        if attrs.has(type(before)) and not isinstance(before, Recipe | Calibration):
-            yield from changed(before, now, f"{path}.{f.name}") if holds_state(before) else ()
-        elif f.init and is_part(type(fresh)) and before != now:
-            yield f"{path}.{f.name}: {before!r}, now {now!r}"
+        fresh_value, used_value = getattr(fresh, f.name), getattr(used, f.name)
+        if attrs.has(type(fresh_value)) and not isinstance(fresh_value, Recipe | Calibration):
+            yield from changed(fresh_value, used_value, f"{path}.{f.name}") if holds_state(fresh_value) else ()
+        elif f.init and is_part(type(fresh)) and fresh_value != used_value:
+            yield f"{path}.{f.name}: {fresh_value!r}, now {used_value!r}"
 
 
 def holds_state(record: Any) -> bool:
-    """Return whether it is a part, or has parts among its settings."""
+    """Return whether a record is a part, or has parts among its settings."""
     inner = [getattr(record, f.name) for f in attrs.fields(type(record))]
     return is_part(type(record)) or any(attrs.has(type(one)) and holds_state(one) for one in inner)
 
@@ -50,11 +50,11 @@ def changed_in(session: Session) -> list[str]:
     """Return the changed settings of all parts of a session."""
     used = session._state.wearer
     fresh = WearerParts(used.settings)
-    found = list(changed(fresh, used))
+    changes = list(changed(fresh, used))
     for foot, tracker in used.feet.items():
-        found += changed(fresh._tracker(foot), tracker, foot.value)
+        changes += changed(fresh._tracker(foot), tracker, foot.value)
     assert used.feet, "a walk that nobody heard"
-    return found
+    return changes
 
 
 @pytest.mark.parametrize("name", WALKS)
@@ -64,10 +64,10 @@ def test_settings_of_every_part_are_after_a_walk_what_they_were_before_it(name: 
 
 
 def test_a_calibration_that_does_not_fit_the_insoles_is_left_out_not_changed() -> None:
-    """The insoles report newtons themselves, and have other cells than those of the measured noise."""
+    """The insoles report newtons themselves, and have another number of cells than the calibration's noise."""
     cubic = Newtons((0.0, 1.0, 0.0, 0.0))
-    odd = Calibration({foot: InsoleCalibration(newtons=cubic, noise=(1.0,) * 9) for foot in Foot})
-    session, plain = Session(calibration=odd), Session()
+    unfit = Calibration({foot: InsoleCalibration(newtons=cubic, noise=(1.0,) * 9) for foot in Foot})
+    session, plain = Session(calibration=unfit), Session()
     emitted, usual = session.feed(packets()["whole frames"]), plain.feed(packets()["whole frames"])
     assert changed_in(session) == []
     assert {type(event).__name__ for event in emitted} - {type(event).__name__ for event in usual} == {"Limitation"}
@@ -79,36 +79,40 @@ def test_a_calibration_that_does_not_fit_the_insoles_is_left_out_not_changed() -
 
 def test_sessions_of_one_recipe_hold_one_copy_of_it_and_of_a_recipe_that_was_changed_another() -> None:
     body = BothFeet()
-    mine = recipes.DEFAULT.exchanged(TrackPart, body, "mine")
-    held = own(mine)
-    assert held is own(mine) is own(evolve(mine)) and held is not mine
-    assert held == mine
-    usual, body.settings = body.settings, BothFeetSettings(reach=1.25)
-    assert own(mine) is not held and held != mine
-    body.settings = usual
-    assert own(mine) is held
+    recipe = recipes.DEFAULT.exchanged(TrackPart, body, "mine")
+    own_copy = own(recipe)
+    assert own_copy is own(recipe) is own(evolve(recipe)) and own_copy is not recipe
+    assert own_copy == recipe
+    usual_settings, body.settings = body.settings, BothFeetSettings(reach=1.25)
+    assert own(recipe) is not own_copy and own_copy != recipe
+    body.settings = usual_settings
+    assert own(recipe) is own_copy
 
 
 def test_what_a_walk_does_to_parts_does_not_reach_the_recipe() -> None:
-    before = machine.save(recipes.DEFAULT)
-    one, other = Session(), Session()
-    one.feed(samples(cells=0, rate=50.0))
-    assert machine.save(one.recipe) == machine.save(other.recipe) == machine.save(recipes.DEFAULT) == before
+    saved = machine.save(recipes.DEFAULT)
+    session, second_session = Session(), Session()
+    session.feed(samples(cells=0, rate=50.0))
+    assert machine.save(session.recipe) == machine.save(second_session.recipe) == machine.save(recipes.DEFAULT) == saved
 
 
 def test_wearers_of_one_kind_of_insole_hold_its_layout_once() -> None:
-    one, other = Session(), Session()
-    for session in (one, other):
+    session_1, session_2 = Session(), Session()
+    for session in (session_1, session_2):
         session.feed(packets()["whole frames"][:40])
     for foot in Foot:
-        where = one.feet[foot].sole.insole.layout
-        assert where is not None and where is other.feet[foot].sole.insole.layout
-        assert len(where.xs) == len(where.ys) == len(layout(96, foot).cells)
+        shared_layout = session_1.feet[foot].sole.insole.layout
+        assert shared_layout is not None and shared_layout is session_2.feet[foot].sole.insole.layout
+        assert len(shared_layout.xs) == len(shared_layout.ys) == len(layout(96, foot).cells)
 
 
 def test_every_part_that_a_recipe_has_is_among_those_that_the_contracts_try() -> None:
     def parts(names: tuple[str, ...]) -> set[type]:
-        found = [recipes.by_name(name) for name in names]
-        return {type(part) for one in found for part in (one.detector, one.corrector, one.cues, one.place, *one.parts)}
+        recipes_found = [recipes.by_name(name) for name in names]
+        return {
+            type(part)
+            for one in recipes_found
+            for part in (one.detector, one.corrector, one.cues, one.place, *one.parts)
+        }
 
     assert parts(recipes.NAMES) == parts(("default", *RECIPES))

@@ -21,18 +21,18 @@ from solepath.types import Cell, shared
 
 
 def test_sessions_are_started_in_many_threads_at_once() -> None:
-    """Each of a recipe of its own, so that what they hold together changes all the time."""
-    failed: list[Exception] = []
+    """Every session has a different recipe, so that the shared copies change all the time."""
+    errors: list[Exception] = []
 
     def start_sessions(k: int) -> None:
         try:
             for i in range(25):
-                mine = BothFeet(BothFeetSettings(reach=1.0 + 0.001 * (1000 * k + i)))
-                Session(recipes.DEFAULT.exchanged(TrackPart, mine))
+                both_feet = BothFeet(BothFeetSettings(reach=1.0 + 0.001 * (1000 * k + i)))
+                Session(recipes.DEFAULT.exchanged(TrackPart, both_feet))
         except Exception as error:
-            failed.append(error)
+            errors.append(error)
 
-    usual = sys.getswitchinterval()
+    switch_interval = sys.getswitchinterval()
     sys.setswitchinterval(1e-5)
     try:
         threads = [threading.Thread(target=start_sessions, args=(k,)) for k in range(3)]
@@ -41,8 +41,8 @@ def test_sessions_are_started_in_many_threads_at_once() -> None:
         for thread in threads:
             thread.join()
     finally:
-        sys.setswitchinterval(usual)
-    assert failed == []
+        sys.setswitchinterval(switch_interval)
+    assert errors == []
 
 
 @define
@@ -62,7 +62,7 @@ class Quarrel(Likeness):
 
 @define(eq=False)
 class Loner(Likeness):
-    """Equal to itself only."""
+    """A detector that is equal only to itself."""
 
     __eq__ = object.__eq__
     __hash__ = object.__hash__
@@ -89,15 +89,15 @@ def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_the_equalit
 
 
 def test_recipes_are_distinguished_by_all_values_of_a_part_and_uncopyable_ones_are_not_kept() -> None:
-    one, other = (evolve(recipes.DEFAULT, detector=Loose()) for _ in range(2))
-    assert own(one) is own(other)
-    other.detector.__dict__["beside"] = 1.0
-    assert own(one) is not own(other) is own(other)
-    odd = evolve(recipes.DEFAULT, detector=Likeness({0.5, 0.75}))  # type: ignore[arg-type]
-    usual = own(recipes.DEFAULT)
+    recipe_1, recipe_2 = (evolve(recipes.DEFAULT, detector=Loose()) for _ in range(2))
+    assert own(recipe_1) is own(recipe_2)
+    recipe_2.detector.__dict__["beside"] = 1.0
+    assert own(recipe_1) is not own(recipe_2) is own(recipe_2)
+    uncopyable = evolve(recipes.DEFAULT, detector=Likeness({0.5, 0.75}))  # type: ignore[arg-type]
+    default = own(recipes.DEFAULT)
     for _ in range(40):
-        assert own(odd) == odd
-    assert own(recipes.DEFAULT) is usual is own(usual)
+        assert own(uncopyable) == uncopyable
+    assert own(recipes.DEFAULT) is default is own(default)
 
 
 def test_minus_zero_in_a_recipe_or_in_a_calibration_stays_what_it_is() -> None:
@@ -111,21 +111,22 @@ def test_minus_zero_in_a_recipe_or_in_a_calibration_stays_what_it_is() -> None:
 
 
 def test_a_layout_is_shared_only_with_those_that_are_the_same_to_the_bit() -> None:
-    usual = layout(24, Foot.LEFT)
-    for first, more in ((0.0, -0.0), (-0.0, 0.0)):
+    layout_24 = layout(24, Foot.LEFT)
+    for first, second in ((0.0, -0.0), (-0.0, 0.0)):
         number = 40 if str(first) == "0.0" else 41
-        both = [evolve(usual, id=number, cells=(Cell(x, 0.01), *usual.cells[1:])) for x in (first, more)]
-        assert [repr(shared(one)) for one in both] == [repr(one) for one in both]
-        sessions = [Session(calibration=Calibration({Foot.LEFT: InsoleCalibration(one)})) for one in both]
+        pair = [evolve(layout_24, id=number, cells=(Cell(x, 0.01), *layout_24.cells[1:])) for x in (first, second)]
+        assert [repr(shared(one)) for one in pair] == [repr(one) for one in pair]
+        sessions = [Session(calibration=Calibration({Foot.LEFT: InsoleCalibration(one)})) for one in pair]
         for session in sessions:
             session.feed(samples()[:60])
             again = Session.unpack(session.pack())
             assert again.pack() == session.pack()
             assert json.dumps(again.snapshot()) == json.dumps(session.snapshot())
     for changed in (
-        evolve(usual, id=usual.id + 1), evolve(usual, foot=Foot.RIGHT), evolve(usual, length=0.3),
-        evolve(usual, scale=None), evolve(usual, scale=0.0), evolve(usual, scale=-0.0), evolve(usual, full_scale=9.0),
-        evolve(usual, cells=usual.cells[:-1]), evolve(usual, cells=()),
+        evolve(layout_24, id=layout_24.id + 1), evolve(layout_24, foot=Foot.RIGHT), evolve(layout_24, length=0.3),
+        evolve(layout_24, scale=None), evolve(layout_24, scale=0.0), evolve(layout_24, scale=-0.0),
+        evolve(layout_24, full_scale=9.0),
+        evolve(layout_24, cells=layout_24.cells[:-1]), evolve(layout_24, cells=()),
     ):  # fmt: skip
         assert repr(shared(changed)) == repr(changed)
-        assert shared(changed) is shared(evolve(changed)) is not shared(usual)
+        assert shared(changed) is shared(evolve(changed)) is not shared(layout_24)

@@ -1,4 +1,4 @@
-"""Contracts 2 and 8: time is data, and every step of time is the sample's own."""
+"""Contracts 2 and 8: time is data, and every interval is computed from the times of the samples."""
 
 from __future__ import annotations
 
@@ -21,38 +21,39 @@ from solepath.emulate.wearers.walker import Walker
 
 
 def moved(item: Any, by: float) -> Any:
-    """Return the items `by` s later."""
+    """Return the item `by` s later."""
     if isinstance(item, Sample) and item.known_at is not None:
         return evolve(item, t=item.t + by, known_at=item.known_at + by)
     return evolve(item, t=item.t + by)
 
 
-EARLIER = ("decoder", "session, whole frames", "session, cc2541", "session, samples")
-"""Time shifts that separate clocks and sessions; a recipe's parts work the same before zero as after it."""
+SHIFTED_EARLIER = ("decoder", "session, whole frames", "session, cc2541", "session, samples")
+"""Starts of the names of machines that are also tested at negative times; for other recipes one shift is enough."""
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
 
 
 def split(event: Any) -> tuple[list[float], dict[str, Any]]:
-    """The times of an event, and the rest of it."""
+    """Return the times of an event, s, and its other fields."""
     values = {f.name: getattr(event, f.name) for f in attrs.fields(type(event))}
     times = [values.pop(name) for name in TIMES if values.get(name) is not None]
     return times, values
 
 
 @pytest.mark.parametrize(
-    ("name", "by"), [(name, 1e6) for name in NAMES] + [(name, -3600.0) for name in NAMES if name.startswith(EARLIER)]
+    ("name", "by"),
+    [(name, 1e6) for name in NAMES] + [(name, -3600.0) for name in NAMES if name.startswith(SHIFTED_EARLIER)],
 )
 def test_the_same_walk_at_another_time_gives_the_same_events_at_that_time(name: str, by: float) -> None:
     machine = machines()[name]
-    here = machine.events()
-    there = machine.events(tuple(moved(item, by) for item in machine.items))
-    assert [type(event) for event in there] == [type(event) for event in here]
-    for before, after in zip(here, there, strict=True):
-        (times, values), (shifted, others) = split(before), split(after)
-        assert shifted == pytest.approx([t + by for t in times], rel=0, abs=1e-6)
+    events = machine.events()
+    shifted_events = machine.events(tuple(moved(item, by) for item in machine.items))
+    assert [type(event) for event in shifted_events] == [type(event) for event in events]
+    for before, shifted_event in zip(events, shifted_events, strict=True):
+        (times, values), (shifted_times, shifted_values) = split(before), split(shifted_event)
+        assert shifted_times == pytest.approx([t + by for t in times], rel=0, abs=1e-6)
         if isinstance(before, StrideTaken | FootMoved):
             name_of = "displacement" if isinstance(before, StrideTaken) else "position"
-            assert others[name_of] == pytest.approx(values[name_of], abs=1e-4)
+            assert shifted_values[name_of] == pytest.approx(values[name_of], abs=1e-4)
 
 
 @pytest.mark.parametrize("name", [name for name in PACKET_NAMES if name.startswith("session")])
@@ -99,7 +100,7 @@ def walker() -> Walker:
 
 @cache
 def fine() -> list[Sample]:
-    """The left foot every millisecond, as a sensor with a low pass of 10 ms sees it: means over 11 samples."""
+    """Return samples of the left foot at 1000 Hz, filtered by means over 11 samples (a low pass of 10 ms)."""
     raw = walker().samples(Foot.LEFT, 1000.0, LSM6DSOX)
 
     def smooth(rows: list[Any]) -> list[Any]:
@@ -119,11 +120,11 @@ def regular() -> list[Sample]:
 def jittered(seed: int) -> list[Sample]:
     """Return samples whose interval varies from 8 to 12 ms, 1 ms early or late; each has its true time."""
     rng = np.random.default_rng(seed)
-    kept, at = [], 5.0
-    while at < len(fine()) - 5:
-        kept.append(fine()[round(at) + int(rng.integers(-1, 2))])
-        at += 10.0 + 2.0 * np.sin(at / 500.0)
-    return kept
+    chosen, position = [], 5.0
+    while position < len(fine()) - 5:
+        chosen.append(fine()[round(position) + int(rng.integers(-1, 2))])
+        position += 10.0 + 2.0 * np.sin(position / 500.0)
+    return chosen
 
 
 def steps_of(fed: list[Sample]) -> list[StrideTaken]:
@@ -132,31 +133,31 @@ def steps_of(fed: list[Sample]) -> list[StrideTaken]:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_jitter_of_the_sample_times_does_not_bend_the_track(seed: int) -> None:
-    one, other = steps_of(regular()), steps_of(jittered(seed))
-    assert len(one) == len(other) == len(walker().truth().steps(Foot.LEFT))
-    for a, b in zip(one, other, strict=True):
+    regular_strides, jittered_strides = steps_of(regular()), steps_of(jittered(seed))
+    assert len(regular_strides) == len(jittered_strides) == len(walker().truth().steps(Foot.LEFT))
+    for a, b in zip(regular_strides, jittered_strides, strict=True):
         assert b.t_end == pytest.approx(a.t_end, abs=0.02)
         assert b.length == pytest.approx(a.length, abs=0.03)
-    assert other[-1].position == pytest.approx(one[-1].position, abs=0.2)
-    assert not any(step.degraded for step in other)
+    assert jittered_strides[-1].position == pytest.approx(regular_strides[-1].position, abs=0.2)
+    assert not any(stride.degraded for stride in jittered_strides)
 
 
 def test_the_same_samples_with_regular_times_on_them_are_another_walk() -> None:
     fed = jittered(1)
     dt = (fed[-1].t - fed[0].t) / (len(fed) - 1)
-    untold = [evolve(sample, t=fed[0].t + k * dt) for k, sample in enumerate(fed)]
-    lengths = [[step.length for step in steps_of(one)] for one in (regular(), fed, untold)]
+    with_regular_times = [evolve(sample, t=fed[0].t + k * dt) for k, sample in enumerate(fed)]
+    lengths = [[stride.length for stride in steps_of(samples_)] for samples_ in (regular(), fed, with_regular_times)]
     assert max(abs(b - a) for a, b in zip(lengths[0], lengths[1], strict=True)) < 0.03
     assert max(abs(b - a) for a, b in zip(lengths[0], lengths[2], strict=False)) > 0.15
 
 
 def test_lost_packets_are_counted_and_their_gap_degrades_the_step() -> None:
     walk = emulate(ROUTE, devices={LEFT: Insole(cells=24)}, radio=CLEAN, seed=3)
-    kept = [packet for packet in walk.packets if not 6.0 < packet.t < 6.1]
-    emitted = Session().feed(kept)
+    remaining = [packet for packet in walk.packets if not 6.0 < packet.t < 6.1]
+    emitted = Session().feed(remaining)
     (lost,) = of(PacketsLost, emitted)
     (gap,) = of(SampleGap, emitted)
-    assert lost.count == len(walk.packets) - len(kept) == round(gap.duration * 100) - 1
+    assert lost.count == len(walk.packets) - len(remaining) == round(gap.duration * 100) - 1
     assert lost.t == pytest.approx(gap.t + 0.01, abs=1e-3)
-    assert [step.degraded for step in of(StrideTaken, emitted)].count(True) == 1
+    assert [stride.degraded for stride in of(StrideTaken, emitted)].count(True) == 1
     assert len(of(StrideTaken, emitted)) == len(walk.truth.steps(Foot.LEFT))

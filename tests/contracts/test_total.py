@@ -1,4 +1,4 @@
-"""Contract 1: feed takes anything; what is rejected changes nothing; only a caller's own mistakes raise."""
+"""Contract 1: `feed` accepts any data; rejected data change nothing; only errors of the caller raise exceptions."""
 
 from __future__ import annotations
 
@@ -17,32 +17,32 @@ from solepath import FootMoved, Packet, PacketRejected, Rejection, Sample, Sampl
 from solepath.link.catalogue import PROFILES
 
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})
-CUTS = 8
+SNAPSHOT_COUNT = 8
 TIMES = st.sampled_from([nan, inf, -inf, 1e300, -1e300, 2e11])
 
 
 @cache
 def cuts(name: str) -> list[tuple[int, Any]]:
-    """Snapshots of a machine on its way, and how much it had been fed."""
+    """Return (number of items fed, snapshot) of a machine at several moments of its input."""
     machine = machines()[name]
-    one, found = machine.start(), []
+    session, snapshots = machine.start(), []
     for k, item in enumerate(machine.items):
-        if k % (len(machine.items) // CUTS) == 3:
-            found.append((k, machine.save(one)))
-        one.feed(item)
-    return found
+        if k % (len(machine.items) // SNAPSHOT_COUNT) == 3:
+            snapshots.append((k, machine.save(session)))
+        session.feed(item)
+    return snapshots
 
 
 def without_exceptions(state: Any) -> Any:
-    """A snapshot without the two things that decoder.py lets a rejected packet change, and without its checksum."""
+    """Return a snapshot without its checksum and the two fields that a rejected packet may change (decoder.py)."""
     left_out = ("backwards", "fragments", "check")
     if isinstance(state, dict):
         return {key: without_exceptions(value) for key, value in state.items() if key not in left_out}
     return [without_exceptions(value) for value in state] if isinstance(state, list) else state
 
 
-def strict(events: list[Any]) -> None:
-    """Every event has sound times."""
+def check_times(events: list[Any]) -> None:
+    """Check that every event has finite times, and `known_at` not before `t`."""
     for event in events:
         assert isfinite(event.t) and isfinite(event.known_at) and event.known_at >= event.t, event
 
@@ -60,31 +60,31 @@ def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(na
         data.draw(st.sampled_from([*CHANNELS, "insole/frames", "toaster/crumbs", "", "/", "device/"])),
         data.draw(st.one_of(st.binary(max_size=24), st.binary(min_size=100, max_size=600))),
     )
-    one = machine.load(saved)
-    events = one.feed(packet)
-    strict(events)
-    after = machine.save(one)
+    session = machine.load(saved)
+    events = session.feed(packet)
+    check_times(events)
+    state_after = machine.save(session)
     if rejected := [event for event in events if isinstance(event, PacketRejected)]:
-        counted = any(event.reason is Rejection.TIME_BACKWARDS for event in rejected)
-        fragment = packet.channel == "insole/frame" and packet.data[:1] < b"\xe0"
-        if counted:
-            assert without_exceptions(after) == without_exceptions(saved)
-        elif not fragment:
-            assert after == saved
-    strict([event for item in machine.items[k : k + 20] for event in one.feed(item)] + one.finish())
+        is_counted = any(event.reason is Rejection.TIME_BACKWARDS for event in rejected)
+        is_fragment = packet.channel == "insole/frame" and packet.data[:1] < b"\xe0"
+        if is_counted:
+            assert without_exceptions(state_after) == without_exceptions(saved)
+        elif not is_fragment:
+            assert state_after == saved
+    check_times([event for item in machine.items[k : k + 20] for event in session.feed(item)] + session.finish())
 
 
-def certainly_bad(packet: Packet, kind: str, number: int, when: float) -> Packet:
+def certainly_bad(packet: Packet, kind: str, number: int, bad_time: float) -> Packet:
     """Return an unusable item made of a good packet."""
     prefix, data = packet.channel.partition("/")[0], packet.data
-    other = "cc2541/gyroscope" if prefix == "insole" else "insole/frame"
+    other_channel = "cc2541/gyroscope" if prefix == "insole" else "insole/frame"
     match kind:
         case "unknown channel":
             return evolve(packet, channel=f"{prefix}/crumbs", t=packet.t + 1000.0 * number)
         case "another device":
-            return evolve(packet, channel=other, data=b"\xf5" + bytes(5))
+            return evolve(packet, channel=other_channel, data=b"\xf5" + bytes(5))
         case "no time":
-            return evolve(packet, t=when)
+            return evolve(packet, t=bad_time)
         case "earlier":
             return evolve(packet, t=packet.t - 1.0 - number)
         case "site without a sensor":
@@ -95,32 +95,32 @@ def certainly_bad(packet: Packet, kind: str, number: int, when: float) -> Packet
     return evolve(packet, channel=channel, data=data + bytes(number + 30))
 
 
-QUICK = settings(max_examples=2, phases=[Phase.generate])
-"""A walk an example: few of them, and no shrinking."""
-SOME = {"min_size": 8, "max_size": 24}
-"""The first example of hypothesis is the least: a walk with nothing between would be one for nothing."""
+FEW_EXAMPLES = settings(max_examples=2, phases=[Phase.generate])
+"""Settings for tests whose every example is a whole walk: few examples, without shrinking."""
+SIZES = {"min_size": 8, "max_size": 24}
+"""Sizes of lists of unusable items; hypothesis tries the smallest first, and a walk without any would show nothing."""
 KINDS = ("unknown channel", "another device", "no time", "earlier", "site without a sensor", "too long", "nonsense")
 
 
 @pytest.mark.parametrize("name", PACKET_NAMES)
-@given(st.lists(st.tuples(st.integers(10, 10_000), st.sampled_from(KINDS), st.integers(0, 99), TIMES), **SOME))
-@QUICK
+@given(st.lists(st.tuples(st.integers(10, 10_000), st.sampled_from(KINDS), st.integers(0, 99), TIMES), **SIZES))
+@FEW_EXAMPLES
 def test_good_packets_give_the_same_events_whatever_comes_between_them(
     name: str, bad: list[tuple[int, str, int, float]]
 ) -> None:
     machine = machines()[name]
     places: dict[int, list[tuple[str, int, float]]] = {}
-    for where, *what in bad:
-        places.setdefault(10 + where % (len(machine.items) - 10), []).append(tuple(what))
-    one, emitted = machine.start(), []
+    for index, *what in bad:
+        places.setdefault(10 + index % (len(machine.items) - 10), []).append(tuple(what))
+    session, emitted = machine.start(), []
     for k, item in enumerate(machine.items):
-        emitted += one.feed(item)
+        emitted += session.feed(item)
         for what in places.get(k, ()):
             if item.channel.startswith("device/"):
                 continue  # battery and firmware are any device's
-            events = one.feed(certainly_bad(item, *what))
+            events = session.feed(certainly_bad(item, *what))
             assert [type(event) for event in events] == [PacketRejected], what
-    assert emitted + one.finish() == machine.events()
+    assert emitted + session.finish() == machine.events()
 
 
 def test_bytes_that_are_not_a_bytes_object_are_bytes_all_the_same() -> None:
@@ -137,14 +137,14 @@ def test_a_receiver_whose_clock_is_set_back_goes_on_finding_steps() -> None:
     size = len(json.dumps(session.snapshot()))
     again = session.feed([evolve(packet, t=packet.t - 1e5) for packet in insoles(seed=2).packets])
     assert len(of(StrideTaken, again)) >= len(of(StrideTaken, first)) - 2
-    strict(again)
+    check_times(again)
     settled = [event for event in again if isinstance(event, StrideTaken)]
     assert all(event.t < 0.0 and event.t_start < event.t_end for event in settled)
     assert len(json.dumps(session.snapshot())) < 1.2 * size
 
 
 def spoilt(sample: Sample, last: Sample) -> dict[str, tuple[Sample, Rejection]]:
-    """Return a sample made unusable in every possible way, and its reported reason; `last` is the one before it."""
+    """Return a sample made unusable in every way, with the reported reason; `last` is the foot's previous sample."""
     x = (0.0, 0.0, 9.8)
     return {
         "acc nan": (evolve(sample, acc=(0.0, nan, 9.8)), Rejection.NOT_FINITE),
@@ -165,46 +165,46 @@ def spoilt(sample: Sample, last: Sample) -> dict[str, tuple[Sample, Rejection]]:
     }
 
 
-WAYS = sorted(spoilt(Sample(0.0, LEFT), Sample(0.0, LEFT)))
+SAMPLE_FAULTS = sorted(spoilt(Sample(0.0, LEFT), Sample(0.0, LEFT)))
 
 
-FIRST = len(Site)
-"""Number of the item before which every site has sent a sample."""
+FIRST_INDEX = len(Site)
+"""Index of the first item before which every site has sent a sample."""
 
 
 def around(items: tuple[Sample, ...], k: int) -> tuple[Sample, Sample]:
-    """Item k, and the last item of its foot before it."""
+    """Return item k, and the previous item of the same site."""
     return items[k], next(item for item in reversed(items[:k]) if item.site is items[k].site)
 
 
-@pytest.mark.parametrize("kind", WAYS)
+@pytest.mark.parametrize("kind", SAMPLE_FAULTS)
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
 def test_a_sample_that_cannot_be_used_changes_nothing_and_is_named(name: str, kind: str) -> None:
     machine = machines()[name]
     for k, saved in cuts(name)[1::4]:
-        one = machine.load(saved)
+        session = machine.load(saved)
         bad, reason = spoilt(*around(machine.items, k))[kind]
-        events = one.feed(bad)
+        events = session.feed(bad)
         assert [(type(event), event.reason) for event in events] == [(SampleRejected, reason)]
-        strict(events)
-        assert machine.save(one) == saved
+        check_times(events)
+        assert machine.save(session) == saved
 
 
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
-@given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(WAYS)), **SOME))
-@QUICK
+@given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(SAMPLE_FAULTS)), **SIZES))
+@FEW_EXAMPLES
 def test_good_samples_give_the_same_events_whatever_comes_between_them(name: str, bad: list[tuple[int, str]]) -> None:
     machine = machines()[name]
     places: dict[int, list[str]] = {}
-    for where, kind in bad:
-        places.setdefault(FIRST + where % (len(machine.items) - FIRST), []).append(kind)
-    one, emitted = machine.start(), []
+    for index, kind in bad:
+        places.setdefault(FIRST_INDEX + index % (len(machine.items) - FIRST_INDEX), []).append(kind)
+    session, emitted = machine.start(), []
     for k, item in enumerate(machine.items):
         for kind in places.get(k, ()):
-            events = one.feed(spoilt(*around(machine.items, k))[kind][0])
+            events = session.feed(spoilt(*around(machine.items, k))[kind][0])
             assert [type(event) for event in events] == [SampleRejected]
-        emitted += one.feed(item)
-    assert emitted + one.finish() == machine.events()
+        emitted += session.feed(item)
+    assert emitted + session.finish() == machine.events()
 
 
 _FLOATS = st.floats(allow_nan=True, allow_infinity=True)
@@ -222,15 +222,15 @@ _SAMPLES = st.builds(
 
 
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
-@given(st.sampled_from(range(CUTS)), st.lists(_SAMPLES, max_size=12))
+@given(st.sampled_from(range(SNAPSHOT_COUNT)), st.lists(_SAMPLES, max_size=12))
 @settings(max_examples=15)
 def test_any_samples_at_all_give_events(name: str, cut: int, fed: list[Sample]) -> None:
     machine = machines()[name]
     k, saved = cuts(name)[cut]
-    one = machine.load(saved)
-    strict([event for sample in fed for event in one.feed(sample)])
-    strict([event for item in machine.items[k : k + 50] for event in one.feed(item)] + one.finish())
-    machine.save(one)
+    session = machine.load(saved)
+    check_times([event for sample in fed for event in session.feed(sample)])
+    check_times([event for item in machine.items[k : k + 50] for event in session.feed(item)] + session.finish())
+    machine.save(session)
 
 
 def test_a_session_that_only_received_nonsense_is_as_new() -> None:
@@ -247,4 +247,4 @@ def test_a_sample_cannot_be_known_before_it_was() -> None:
     session = Session(poses=True)
     emitted = session.feed([evolve(sample, known_at=sample.t - 3.0) for sample in samples()])
     assert len(of(FootMoved, emitted)) > 500
-    strict(emitted)
+    check_times(emitted)

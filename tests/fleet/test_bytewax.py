@@ -1,4 +1,4 @@
-"""A fleet on bytewax: every wearer's events are those of a session alone, however the engine runs it."""
+"""A fleet on bytewax: every wearer's events are those of a session without engine, however the engine runs it."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ from solepath.fleet.bytewax import gait, purge
 from solepath.session import Session
 from solepath.types import Packet, Site
 
-OFTEN = timedelta(milliseconds=20)
-"""Between two snapshots."""
+INTERVAL = timedelta(milliseconds=20)
+"""Time between two snapshots."""
 
 
 def job(
     items: Iterable[Any], emitted: list[tuple[str, NumberedEvent]], recipe: str = "default", **options: Any
 ) -> Dataflow:
-    """From a list to a list. The source keeps its place in the recovery store, the sink keeps none."""
+    """Run a fleet from a list to a list; the source saves its position in the recovery store, the sink nothing."""
     flow = Dataflow("job")
     sent = operators.input("sent", flow, TestingSource(items, batch_size=50))
     operators.output("events", gait("gait", sent, Fleet(RECIPES[recipe]), **options), TestingSink(emitted))
@@ -43,7 +43,7 @@ def job(
 
 
 def by_wearer(emitted: Iterable[tuple[str, NumberedEvent]]) -> dict[str, list[Any]]:
-    """Return the events of each wearer in the order of their numbers, without holes; repeated ones must be equal."""
+    """Return the events of each wearer in the order of their numbers, without gaps; repeated ones must be equal."""
     found: dict[str, dict[int, Any]] = {}
     for wearer, one in emitted:
         assert one.wearer == wearer
@@ -69,9 +69,9 @@ def test_each_wearer_has_the_events_of_a_session_of_their_own_also_when_the_job_
     emitted: list[tuple[str, NumberedEvent]] = []
     flow = job(items, emitted, recipe)
     for _ in range(3):
-        run_main(flow, epoch_interval=OFTEN, recovery_config=store)
+        run_main(flow, epoch_interval=INTERVAL, recovery_config=store)
         assert by_wearer(emitted) != events
-    run_main(flow, epoch_interval=OFTEN, recovery_config=store)
+    run_main(flow, epoch_interval=INTERVAL, recovery_config=store)
     assert by_wearer(emitted) == events
 
 
@@ -82,7 +82,7 @@ def test_wearers_are_divided_among_workers_and_move_when_their_number_changes(st
     emitted: list[tuple[str, NumberedEvent]] = []
     flow = job([*sent[:third], pause, *sent[third : 2 * third], pause, *sent[2 * third :]], emitted)
     for workers in (2, 3, 1):
-        cluster_main(flow, [], 0, epoch_interval=OFTEN, recovery_config=store, worker_count_per_proc=workers)
+        cluster_main(flow, [], 0, epoch_interval=INTERVAL, recovery_config=store, worker_count_per_proc=workers)
     assert by_wearer(emitted) == events
 
 
@@ -120,8 +120,8 @@ def test_who_has_ended_is_forgotten_after_a_while_though_the_job_stopped_in_betw
         return wearer, Sent(wearer, number, what, run)
 
     def run(items: list[Any], forget: timedelta | None) -> set[str]:
-        """Of whom the store has a state then."""
-        run_main(job([*before, *items, *pauses], [], forget=forget), epoch_interval=OFTEN, recovery_config=store)
+        """Return the wearers whose state is in the store."""
+        run_main(job([*before, *items, *pauses], [], forget=forget), epoch_interval=INTERVAL, recovery_config=store)
         before.extend(items)
         with closing(sqlite3.connect(tmp_path / "part-0.sqlite3")) as parts:
             rows = parts.execute("SELECT state_key FROM snaps WHERE step_id LIKE '%gait%' AND ser_change NOT NULL")
@@ -140,7 +140,7 @@ def test_who_has_ended_is_forgotten_after_a_while_though_the_job_stopped_in_betw
 
 
 def living() -> int:
-    """Wearers whose sessions are in memory."""
+    """Return the wearers whose sessions are in memory."""
     return sum([isinstance(one, Keyed) for one in gc.get_objects()])
 
 

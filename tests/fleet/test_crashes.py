@@ -1,4 +1,4 @@
-"""A fleet on bytewax in a process of its own that is killed, or whose disk is full: its files hold each event once."""
+"""A fleet on bytewax in a process that is killed, or whose disk is full: its files hold each event once."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_killed_at_any_moments_and_started_again_a_job_leaves_each_event_once(
     assert held(tmp_path / "events") == expected()
 
 
-FULL = """
+FULL_DISK_SCRIPT = """
 mount -t tmpfs -o size=16m none disk || exit 77
 head -c $((16 * 1024 * 1024 - ROOM)) /dev/zero > disk/ballast
 "$@" 2> said; echo $? > ended
@@ -72,12 +72,12 @@ rm disk/ballast
 "$@" || exit 1
 cp -r "$EVENTS" events_in_the_end
 """
-"""In a name space of its own: a small disk that is nearly full, the job, and the job again when there is room."""
+"""A script in a separate mount name space: a small disk that is nearly full, the job, and the job after making room."""
 
 
 @pytest.fixture
 def place(tmp_path: Path) -> Path:
-    """A directory where a small disk can be mounted."""
+    """Return a directory where a small disk can be mounted."""
     (tmp_path / "disk").mkdir()
     mount = ["unshare", "-rm", "mount", "-t", "tmpfs", "none", str(tmp_path / "disk")]
     if shutil.which("unshare") is None or subprocess.run(mount, capture_output=True).returncode:
@@ -88,7 +88,7 @@ def place(tmp_path: Path) -> Path:
 def until_full(place: Path, sent: Path, parts_directory: str, store: str, room: int) -> str:
     """Return the message of the job that ends because the disk is full."""
     environment = {**ENVIRONMENT, "EVENTS": parts_directory, "ROOM": str(room)}
-    apart = ["unshare", "-rm", "sh", "-c", FULL, "sh", *JOB, sent, parts_directory, store]
+    apart = ["unshare", "-rm", "sh", "-c", FULL_DISK_SCRIPT, "sh", *JOB, sent, parts_directory, store]
     subprocess.run(apart, env=environment, cwd=place, check=True)
     assert (place / "ended").read_text() == "1\n"
     return (place / "said").read_text()

@@ -1,4 +1,4 @@
-"""The job of a fleet: devices and registries of an app's own, which may be wrong, and how it goes to its workers."""
+"""The job of a fleet: an app's devices and calibrations, which may be wrong, and the pickling of the job."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def raises(sent: Any, known: Any) -> Reading:
     return toys.more(sent, known)
 
 
-WRONG = evolve(toys.NUMBERED, readers={"toy/data": toys.data, "toy/more": raises})
+WRONG_DRIVER = evolve(toys.NUMBERED, readers={"toy/data": toys.data, "toy/more": raises})
 
 
 def make_sent(number: int, k: int, what: int | None = None) -> Sent:
@@ -43,9 +43,9 @@ def make_sent(number: int, k: int, what: int | None = None) -> Sent:
 
 
 def test_a_reader_of_an_apps_own_that_raises_costs_its_wearer_a_fresh_start_and_nobody_else_anything() -> None:
-    fleet = Fleet(profiles=[WRONG], poses=True)
+    fleet = Fleet(profiles=[WRONG_DRIVER], poses=True)
     walk = [make_sent(k, k) for k in range(20)]
-    bare = Session(profiles=[WRONG], poses=True)
+    bare = Session(profiles=[WRONG_DRIVER], poses=True)
     events = [event for one in walk for event in bare.feed(one.what)]
     wrong = [*walk, make_sent(20, 20, 201), *[make_sent(21 + k, k) for k in range(20)]]
     _, emitted = fleet.step(WEARER, None, wrong)
@@ -59,7 +59,7 @@ def test_a_reader_of_an_apps_own_that_raises_costs_its_wearer_a_fresh_start_and_
 
 
 class Registry(Mapping[str, Calibration]):
-    """Calibrations of wearers, looked up one by one; some are wrong, and some look-ups fail."""
+    """A mapping of calibrations by wearer; some are wrong, and some look-ups fail."""
 
     def __getitem__(self, wearer: str) -> Calibration:
         if wearer == "lost":
@@ -104,7 +104,7 @@ class Ours(Fleet):
     """A job with a device of an app's own, whose constructs cannot be pickled."""
 
     def __init__(self) -> None:
-        super().__init__(profiles=[WRONG])
+        super().__init__(profiles=[WRONG_DRIVER])
 
     def __reduce__(self) -> tuple[type, tuple[()]]:
         return Ours, ()
@@ -112,7 +112,7 @@ class Ours(Fleet):
 
 def test_a_job_with_devices_of_its_own_goes_to_its_workers_by_name() -> None:
     with pytest.raises((TypeError, AttributeError)):
-        pickle.dumps(Fleet(profiles=[WRONG]))
+        pickle.dumps(Fleet(profiles=[WRONG_DRIVER]))
     walk = [make_sent(k, k) for k in range(40)]
     assert pickle.loads(pickle.dumps(Ours())).step(WEARER, None, walk) == Ours().step(WEARER, None, walk)
 

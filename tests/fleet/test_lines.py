@@ -16,13 +16,13 @@ pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheel
 
 from solepath.fleet import Unreadable, read_line
 from solepath.fleet.lines import LineSource
-from solepath.fleet.rows import LONGEST_LINE
+from solepath.fleet.rows import MAX_LINE_LENGTH
 
 State = dict[str, int]
 
 
 def read(source: LineSource, part: str = ".", state: State | None = None) -> tuple[list[bytes], State]:
-    """Lines to the end, and the state there."""
+    """Return the lines up to the end, and the state there."""
     partition, lines = source.build_part("phones", part, state), []
     with suppress(StopIteration):
         while True:
@@ -32,7 +32,7 @@ def read(source: LineSource, part: str = ".", state: State | None = None) -> tup
 
 @pytest.fixture
 def put(tmp_path: Path) -> Callable[[str, bytes], None]:
-    """Write something behind what is in a file."""
+    """Append data to a file."""
 
     def write(name: str, data: bytes) -> None:
         path = tmp_path / name
@@ -94,11 +94,11 @@ def test_what_is_new_is_read_at_the_next_start_whatever_the_names_and_lines_that
 
 
 def test_a_line_that_is_too_long_is_rejected_and_the_next_is_read(put: Put, tmp_path: Path) -> None:
-    longest = b"x" * LONGEST_LINE
-    put("a.jsonl", longest + b"\n" + longest + b"y\n" + b"z" * 5 * LONGEST_LINE + b"\n{}\n" + longest + b"abc")
+    longest = b"x" * MAX_LINE_LENGTH
+    put("a.jsonl", longest + b"\n" + longest + b"y\n" + b"z" * 5 * MAX_LINE_LENGTH + b"\n{}\n" + longest + b"abc")
     lines, state = read(LineSource(tmp_path))
     assert lines[0] == longest and lines[3] == b"{}"
-    assert [len(line) - LONGEST_LINE for line in lines[1:3] + lines[4:]] == [1, 2, 2]
+    assert [len(line) - MAX_LINE_LENGTH for line in lines[1:3] + lines[4:]] == [1, 2, 2]
     reasons = [one.what for one in map(read_line, lines) if isinstance(one, Unreadable)]
     assert ["are the most" in what for what in reasons] == [False, True, True, False, True]
     assert state == {"a.jsonl": (tmp_path / "a.jsonl").stat().st_size}

@@ -1,4 +1,4 @@
-"""Once: of what is delivered at least once, every event the first time."""
+"""Once accepts the first delivery of every event and rejects repeated deliveries."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from solepath.fleet import Once
-from solepath.fleet.step.once import RANGES
+from solepath.fleet.step.once import MAX_RANGES
 from solepath.saving.codec import SnapshotError
 
 WEARERS = st.sampled_from(["anna", "bert", ""])
@@ -49,7 +49,7 @@ def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(number
 
 def test_of_many_holes_the_lowest_counts_as_received() -> None:
     once = Once()
-    for number in range(1, 2 * RANGES + 2, 2):
+    for number in range(1, 2 * MAX_RANGES + 2, 2):
         assert once.first("anna", number)
     assert not once.first("anna", 0)
     assert once.first("anna", 2)

@@ -1,4 +1,4 @@
-"""The order of what a phone sends: protocol/fleet/stories.json; rows that are late, doubled or lost; new runs."""
+"""The order of a phone's rows: protocol/fleet/stories.json; rows that are late, repeated or lost; new runs."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 
 from solepath.events import PacketRejected, Rejection, StrideTaken
 from solepath.fleet import End, Fleet, NumberedEvent, NumbersMissing, Sent, SentRejected, Tick, read_line
-from solepath.fleet.step.sent import MOST
+from solepath.fleet.step.sent import MAX_COUNT
 
 STORIES = json.loads((PROTOCOL / "fleet" / "stories.json").read_text())
 FLEET = Fleet()
-NARROW = Fleet(window=3)
+NARROW_FLEET = Fleet(window=3)
 
 
 def as_used(gives: list[dict[str, Any]]) -> list[tuple[Any, ...]]:
@@ -63,29 +63,29 @@ def rows(count: int, ended: bool) -> list[Sent]:
 def test_rows_that_are_late_or_doubled_within_the_window_give_the_events_and_the_state_of_the_ordered_stream(
     late: list[int], ended: bool, again: list[tuple[int, int]], cuts: list[int]
 ) -> None:
-    """`late`: by how many places each row may come later than its turn; `again`: copies that come some time after."""
+    """Return rows in which each comes up to `late` places after its turn, and `again` copies come later."""
     ordered = rows(len(late), ended)
     places = [number + by for number, by in enumerate(late)] + ([len(late)] if ended else [])
     arrived = [one for _, one in sorted(zip(places, ordered, strict=True), key=lambda pair: pair[0])]
     for number, after in again:
         if number < len(ordered):
             arrived.insert(min(len(arrived), arrived.index(ordered[number]) + 1 + after), ordered[number])
-    assert stepped(NARROW, cut(arrived, cuts)) == stepped(NARROW, [ordered])
+    assert stepped(NARROW_FLEET, cut(arrived, cuts)) == stepped(NARROW_FLEET, [ordered])
 
 
-ANY = st.one_of(
+ANY_ROW = st.one_of(
     st.builds(shown, st.integers(0, 9), st.integers(0, 2)),
-    st.builds(shown, st.integers(0, MOST), st.integers(0, MOST)),
+    st.builds(shown, st.integers(0, MAX_COUNT), st.integers(0, MAX_COUNT)),
     st.builds(lambda number, run: Sent(WEARER, number, End(), run), st.integers(0, 9), st.integers(0, 2)),
     st.builds(lambda number, t: Sent(WEARER, number, Tick(t)), st.integers(0, 9), st.floats()),
 )
 
 
 @settings(max_examples=40)
-@given(arrived=st.lists(ANY, max_size=25), cuts=st.lists(st.integers(0, 25), max_size=6))
+@given(arrived=st.lists(ANY_ROW, max_size=25), cuts=st.lists(st.integers(0, 25), max_size=6))
 def test_how_rows_are_cut_into_calls_changes_nothing_whatever_they_are(arrived: list[Sent], cuts: list[int]) -> None:
-    state, emitted = stepped(NARROW, cut(arrived, cuts))
-    keyed = NARROW.open(WEARER, None)
+    state, emitted = stepped(NARROW_FLEET, cut(arrived, cuts))
+    keyed = NARROW_FLEET.open(WEARER, None)
     assert keyed.feed(arrived) == emitted
     assert keyed.state() == state
     assert [one.number for one in emitted] == list(range(len(emitted)))
@@ -94,7 +94,7 @@ def test_how_rows_are_cut_into_calls_changes_nothing_whatever_they_are(arrived: 
 @settings(max_examples=40)
 @given(arrived=st.lists(st.builds(shown, st.integers(0, 40), st.integers(0, 3)), max_size=60))
 def test_no_row_is_used_twice_and_those_of_a_run_are_used_in_order(arrived: list[Sent]) -> None:
-    keyed = NARROW.open(WEARER, None)
+    keyed = NARROW_FLEET.open(WEARER, None)
     used = [(run, number) for what, run, number, _ in uses(keyed.feed(arrived)) if what == "used"]
     assert len(used) == len(set(used))
     assert all(numbers == sorted(numbers) for run in range(4) for numbers in [[n for of, n in used if of == run]])
@@ -116,7 +116,7 @@ def test_what_was_given_up_long_ago_is_forgotten_but_nothing_is_used_twice() -> 
     assert late == [*[("rejected", 0, *one) for one in known], ("used", 0, 99, None)], "16 spans are remembered"
 
 
-AHEAD, NOW = 4_000_000_000_000, 1_790_000_000_000
+FUTURE_RUN, THIS_RUN = 4_000_000_000_000, 1_790_000_000_000
 
 
 def run(of: int, count: int, first: int = 0) -> list[Sent]:
@@ -128,30 +128,36 @@ def used(emitted: list[NumberedEvent]) -> list[tuple[int | None, int | None]]:
 
 
 def test_a_phone_whose_clock_is_put_right_loses_a_window_of_rows_and_no_more() -> None:
-    state, _ = FLEET.step(WEARER, None, run(AHEAD, 20))
-    for again in (run(AHEAD, 20), []):
-        _, emitted = FLEET.step(WEARER, state, [*again, *run(NOW, 400)])
-        assert used(emitted) == [(NOW, number) for number in range(256, 400)]
+    state, _ = FLEET.step(WEARER, None, run(FUTURE_RUN, 20))
+    for again in (run(FUTURE_RUN, 20), []):
+        _, emitted = FLEET.step(WEARER, state, [*again, *run(THIS_RUN, 400)])
+        assert used(emitted) == [(THIS_RUN, number) for number in range(256, 400)]
         assert [one.event.count for one in emitted if isinstance(one.event, SentRejected)] == [2**k for k in range(9)]
         assert [one.event.count for one in emitted if isinstance(one.event, NumbersMissing)] == [256]
         assert [one.number for one in emitted] == list(range(20, 20 + len(emitted)))
 
 
 def test_one_row_of_the_largest_run_there_is_does_not_silence_a_wearer() -> None:
-    _, emitted = FLEET.step(WEARER, None, [*run(NOW, 20), shown(0, MOST), *run(NOW, 400, 20), *run(NOW + 1, 5)])
+    _, emitted = FLEET.step(
+        WEARER, None, [*run(THIS_RUN, 20), shown(0, MAX_COUNT), *run(THIS_RUN, 400, 20), *run(THIS_RUN + 1, 5)]
+    )
     there = [*range(20), *range(276, 420)]
-    assert sorted(used(emitted)) == [*[(NOW, number) for number in there], *[(NOW + 1, k) for k in range(5)], (MOST, 0)]
+    assert sorted(used(emitted)) == [
+        *[(THIS_RUN, number) for number in there],
+        *[(THIS_RUN + 1, k) for k in range(5)],
+        (MAX_COUNT, 0),
+    ]
 
 
-ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MOST), st.integers(0, 3) | st.integers(0, MOST))
+ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MAX_COUNT), st.integers(0, 3) | st.integers(0, MAX_COUNT))
 ENDS = st.builds(lambda number, of: Sent(WEARER, number, End(), of), st.integers(0, 9), st.integers(0, 3))
 
 
 @settings(max_examples=60)
-@given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MOST))
+@given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MAX_COUNT))
 def test_whatever_came_before_a_new_run_is_used_except_a_window_of_rows(before: list[Sent], new: int) -> None:
     before = [one for one in before if one.run != new]
-    _, emitted = NARROW.step(WEARER, None, [*before, *run(new, 20)])
+    _, emitted = NARROW_FLEET.step(WEARER, None, [*before, *run(new, 20)])
     used_numbers = [number for of, number in used(emitted) if of == new]
     assert len(used_numbers) >= 17 and used_numbers[-13:] == list(range(7, 20))
 
@@ -161,16 +167,16 @@ def test_whatever_came_before_a_new_run_is_used_except_a_window_of_rows(before: 
 def test_rows_that_the_next_run_overtakes_do_not_lead_back(late: list[int], change: int) -> None:
     ordered = [*run(0, change), *run(1, 20 - change)]
     arrived = [ordered[k] for k in sorted(range(20), key=lambda k: (k + late[k], k))]
-    _, emitted = NARROW.step(WEARER, None, arrived)
+    _, emitted = NARROW_FLEET.step(WEARER, None, arrived)
     assert [number for of, number in used(emitted) if of == 1] == list(range(20 - change))
     assert not [one for one in emitted if isinstance(one.event, NumbersMissing) and one.event.run == 1]
 
 
 def test_rows_of_all_that_was_ever_sent_come_again_and_none_is_used_twice() -> None:
     sent = [one for of in range(60) for one in run(5 * of, 9)]
-    state, emitted = NARROW.step(WEARER, None, sent)
+    state, emitted = NARROW_FLEET.step(WEARER, None, sent)
     assert len(used(emitted)) == len(sent)
-    after, emitted = NARROW.step(WEARER, state, sent)
+    after, emitted = NARROW_FLEET.step(WEARER, state, sent)
     assert used(emitted) == [] and all([isinstance(one.event, SentRejected) for one in emitted])
     assert len(after) < len(state) + 10
 

@@ -1,4 +1,4 @@
-"""Parts of Parquet: whole or not there, each event once, and nothing lost that the engine still counts on."""
+"""Part files of Parquet are complete or absent, hold each event once, and no part is lost that the engine needs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from pyarrow import parquet
 
 from solepath.events import ActivityChanged, HeelStrike
 from solepath.fleet import EVENT_COLUMNS, NumberedEvent, StateRejected, event_row
-from solepath.fleet.parquet import GROUPS, PartFiles
+from solepath.fleet.parquet import MAX_GROUPS, PartFiles
 from solepath.types import Activity, Foot
 
 FIRST = "part-0-00000000.parquet"
@@ -29,7 +29,7 @@ Place = tuple[int, int]
 
 
 def make_events(count: int, wearers: int = 3) -> list[NumberedEvent]:
-    """Events of a few wearers by turns."""
+    """Return events of a few wearers in turn."""
     events = [
         HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT),
         ActivityChanged(t=0.1 + 0.2, known_at=0.5, activity=Activity.WALKING, probability=0.9),
@@ -44,7 +44,7 @@ def rows(directory: Path) -> list[dict[str, Any]]:
 
 
 def put(parts: PartFiles, events: list[Any]) -> Place:
-    """A part of them, and what the engine is to remember of it."""
+    """Write some events as a part, and return the numbers that the engine saves."""
     parts.write(events)
     return parts.close()
 
@@ -79,11 +79,11 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
 
 def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
     parts = PartFiles(tmp_path, group=2)
-    parts.write(make_events(2 * GROUPS + 1))
+    parts.write(make_events(2 * MAX_GROUPS + 1))
     assert names(tmp_path) == [FIRST]
     assert parts.close() == (parts.run, 2)
-    assert parquet.ParquetFile(file(tmp_path)).num_row_groups == GROUPS
-    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in make_events(2 * GROUPS + 1)])
+    assert parquet.ParquetFile(file(tmp_path)).num_row_groups == MAX_GROUPS
+    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in make_events(2 * MAX_GROUPS + 1)])
 
 
 def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:
@@ -198,7 +198,7 @@ def listed(directory: Path) -> list[tuple[str, int]]:
 
 
 def test_a_restart_with_fewer_partitions_hides_the_parts_of_the_others(tmp_path: Path) -> None:
-    """All wearers are numbered again, so no old event may stay beside the new ones."""
+    """The events of all wearers are numbered again, so no old event may stay beside the new ones."""
     three = written(tmp_path, [None] * 3)
     assert listed(tmp_path) == [("w0", 0), ("w1", 0), ("w2", 0)]
     two = written(tmp_path, [None] * 2)
@@ -244,7 +244,7 @@ def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is
     ("wearer", "name"), [("\ud800", "\\ud800"), ("ü \udc80", "ü \\udc80"), ("ü\n\x00", "ü\n\x00"), ("", "")]
 )
 def test_a_wearer_of_any_name_ends_no_job(tmp_path: Path, wearer: str, name: str) -> None:
-    """A key may hold half a character, as JSON lets it; a table holds UTF-8."""
+    """A key may hold an unpaired surrogate, which JSON allows; a table holds UTF-8."""
     make_events: list[Any] = [NumberedEvent(wearer, 0, STRIKE), NumberedEvent("w", 0, STRIKE)]
     put(PartFiles(tmp_path), make_events)
     assert listed(tmp_path) == sorted([(name, 0), ("w", 0)])

@@ -43,7 +43,7 @@ def kafka(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Broker]:
 
 @cache
 def sent_by(wearer: str) -> tuple[Sent, ...]:
-    """Walks that differ; every other one over a radio that loses, doubles and damages."""
+    """Return different walks; every second one over a radio that loses, repeats and damages packets."""
     number = WEARERS.index(wearer)
     walk = insoles(radio=ROUGH if number % 2 else CLEAN, seed=number + 1, cells=24).packets
     return tuple([Sent(wearer, at, what) for at, what in enumerate([*walk, End()])])
@@ -74,7 +74,7 @@ def unnumbered(read_messages: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def identities(read_messages: list[Message]) -> dict[tuple[str, int], set[tuple[bytes | None, bytes, int]]]:
-    """(wearer, number) -> each different message under it, with its partition."""
+    """Return, by (wearer, number), each different message with its partition."""
     found: dict[tuple[str, int], set[tuple[bytes | None, bytes, int]]] = {}
     for message in read_messages:
         row = json.loads(message.value)
@@ -146,12 +146,12 @@ def test_a_killed_job_emits_everything_again_under_the_same_identity_and_nothing
     assert len(read_messages) > each_once(read_messages), "no kill fell between a commit and what was told after it"
 
 
-TAKEN_OVER = "Recovery process complete"
-"""In the log of a job that has read the changelog of a partition."""
+RECOVERED_TEXT = "Recovery process complete"
+"""Text in the log of a job that has read the changelog of a partition."""
 
 
 def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was(kafka: Broker) -> None:
-    """A second job with a disk of its own joins, takes a partition over, and is killed; the first takes it back."""
+    """A second job with another disk joins, takes over a partition, and is killed; the first takes it back."""
     from brokers import kill
 
     walks = messages(lines=2)
@@ -160,7 +160,7 @@ def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was
         first = topics.start("one")
         wait_for(topics, 20)
         second, end = topics.start("two"), time.monotonic() + 90
-        while TAKEN_OVER not in topics.log("two"):
+        while RECOVERED_TEXT not in topics.log("two"):
             assert time.monotonic() < end and second.poll() is None, "the second job took nothing over"
             time.sleep(0.2)
         topics.send(walks[len(walks) // 3 : 2 * len(walks) // 3])
@@ -170,8 +170,8 @@ def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was
         each_once(topics.finish(first, "one"))
 
 
-LONGEST = 999_900
-"""Bytes of a key or of a header with which a producer still takes a message, and with a row beside it not."""
+MAX_KEY_BYTES = 999_900
+"""Size of a key or header, bytes, with which a producer accepts a message, but not together with a row."""
 NO_NAMES: list[bytes | None] = [None, b"", b"\xff\xfe", b"k" * 257, b"unkeyed/0"]
 KEYS = [*NO_NAMES, b"null", b"someone"]
 
@@ -191,8 +191,8 @@ def test_messages_without_key_or_sense_are_events_and_stall_nobody(kafka: Broker
     mine = WEARERS[:2]
     with kafka.topics("poisoned") as topics:
         topics.send(poison(), headers=[("h", b"\xff" * 500)])
-        topics.send([(b"someone", b"x")], headers=[("h", b"\xff" * LONGEST)])
-        topics.send([(b"k" * LONGEST, b"x")])
+        topics.send([(b"someone", b"x")], headers=[("h", b"\xff" * MAX_KEY_BYTES)])
+        topics.send([(b"k" * MAX_KEY_BYTES, b"x")])
         topics.send(messages(mine), timestamp=1)
         topics.send(poison())
         topics.send([(name.encode(), sent_line(Sent(name, 0, End(), run=1))) for name in mine])

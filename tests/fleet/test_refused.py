@@ -14,9 +14,9 @@ from here import PROTOCOL
 
 from solepath import SnapshotError, recipes
 from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, StateRejected, Tick, Unreadable
-from solepath.fleet.step.order import HELD
-from solepath.fleet.step.sent import LONGEST_DATA, MOST
-from solepath.fleet.step.state import Identity, OtherState, read_rest, write_state
+from solepath.fleet.step.order import MAX_HELD_BYTES
+from solepath.fleet.step.sent import MAX_COUNT, MAX_DATA_LENGTH
+from solepath.fleet.step.state import StateHead, StateRest, read_rest, write_state
 from solepath.session import Session
 from solepath.types import Packet, Site
 
@@ -31,7 +31,7 @@ def test_where_only_the_session_cannot_go_on_what_is_held_does(vector: dict[str,
     assert isinstance(emitted.event, StateRejected) and emitted.number == vector["identity"]["next_event"]
     assert (rest.ended, rest.session) == (expected["ended"], None)
     assert [[span.run, span.first, span.end] for span in rest.unused.spans] == expected["spans"]
-    assert [list(place) for place in rest.held] == expected["held"]
+    assert [list(place) for place in rest.held_rows] == expected["held"]
 
 
 def test_rows_that_were_held_when_a_session_was_lost_are_used_in_their_turn() -> None:
@@ -42,19 +42,19 @@ def test_rows_that_were_held_when_a_session_was_lost_are_used_in_their_turn() ->
     assert uses(rest) == [("used", 0, number, None) for number in (100, 101, 102, 103)]
 
 
-IN_ORDER = OtherState(held={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0): End()})
+IN_ORDER = StateRest(held_rows={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0): End()})
 
 
 @pytest.mark.parametrize(
     "held",
-    [[(6, 298)], [(5, 900)], [(6, 301), (6, 200)], [(6, MOST + 1)], [(MOST + 1, 0)]],
+    [[(6, 298)], [(5, 900)], [(6, 301), (6, 200)], [(6, MAX_COUNT + 1)], [(MAX_COUNT + 1, 0)]],
     ids=["used", "older run", "one of two", "number", "run"],
 )
 def test_a_state_that_holds_what_cannot_be_held_is_rejected(held: list[tuple[int, int]]) -> None:
-    """Its checksum is right: its writer was wrong, or it was damaged before."""
-    identity = Identity(6, 299, 1200, 12.25)
+    """The checksum is right: the writer had a fault, or the data were damaged before."""
+    identity = StateHead(6, 299, 1200, 12.25)
     assert read_rest(write_state(identity, IN_ORDER)) == IN_ORDER
-    state = write_state(identity, OtherState(held={place: Tick(1.0) for place in held}))
+    state = write_state(identity, StateRest(held_rows={place: Tick(1.0) for place in held}))
     after, emitted = Fleet(window=0).step(WEARER, state, [shown(305, 6), shown(306, 6)])
     assert isinstance(emitted[0].event, StateRejected)
     assert uses(emitted[1:]) == [("missing", 6, 299, 6), ("used", 6, 305, None), ("used", 6, 306, None)]
@@ -63,7 +63,7 @@ def test_a_state_that_holds_what_cannot_be_held_is_rejected(held: list[tuple[int
 
 @pytest.mark.parametrize("state", ["spfl", 0.5, 10**30, 41, [115, 112], {}], ids=repr)
 def test_a_state_that_is_no_bytes_is_a_mistake_of_the_job_and_not_of_a_wearer(state: Any) -> None:
-    """All wearers of the job would lose theirs: the job ends, and goes on when it is mended."""
+    """All wearers of the job would lose their states; so the job ends, and continues after a correction."""
     with pytest.raises(TypeError, match="state"):
         FLEET.step(WEARER, state, [])
     with pytest.raises(TypeError, match="state"):
@@ -85,7 +85,7 @@ def test_a_session_that_cannot_go_on_is_not_adopted_and_no_state_goes_on_from_a_
     ):
         with pytest.raises(SnapshotError, match=why):
             FLEET.adopt(snapshot)
-    state = write_state(Identity(-1, 0, 0, 1.0), OtherState(session=finished().pack()))
+    state = write_state(StateHead(-1, 0, 0, 1.0), StateRest(session=finished().pack()))
     _, (rejected, *rest) = FLEET.step(WEARER, state, [shown(0)])
     assert isinstance(rejected.event, StateRejected) and "finished" in rejected.event.detail
     assert uses(rest) == [("used", 0, 0, None)]
@@ -102,9 +102,9 @@ def test_the_held_bytes_are_limited_as_in_the_protocol() -> None:
     def large(number: int, size: int) -> Sent:
         return Sent(WEARER, number, Packet(0.0, Site.PELVIS, "c", bytes(size - 4), "dev"))
 
-    most = LONGEST_DATA
-    sizes = [most] * (HELD // most)
-    assert sum(sizes) == HELD == 65_536, "as the protocol has it"
+    most = MAX_DATA_LENGTH
+    sizes = [most] * (MAX_HELD_BYTES // most)
+    assert sum(sizes) == MAX_HELD_BYTES == 65_536, "as the protocol has it"
     exactly = [large(number, size) for number, size in enumerate(sizes, 1)]
     assert FLEET.open(WEARER, None).feed(exactly) == []
     emitted = FLEET.open(WEARER, None).feed([*exactly[:-1], large(len(sizes), most + 1)])
@@ -118,7 +118,7 @@ def runs_out(after: int, sent: Any, known: Any) -> Any:
 
 
 def test_out_of_memory_is_raised_and_the_last_state_can_continue() -> None:
-    """The wearer is not at fault: with more memory the same packet is used."""
+    """Too little memory is no fault of the wearer: with more memory the same packet is used."""
 
     def fleet(most: int) -> Fleet:
         return Fleet(profiles=[evolve(toys.NUMBERED, readers={"toy/more": partial(runs_out, most)})])

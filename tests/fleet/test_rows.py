@@ -1,4 +1,4 @@
-"""Rows and lines of a fleet: protocol/fleet/lines.json, and anything else that a table or a topic may hold."""
+"""Rows and lines of a fleet: protocol/fleet/lines.json, and any other content of a table or a topic."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ from solepath.fleet import (
     sent_line,
     sent_row,
 )
-from solepath.fleet.step.sent import LONGEST_DATA, LONGEST_NAME, MOST
+from solepath.fleet.step.sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_NAME_LENGTH
 from solepath.types import Foot, Packet, Site
 
 LINES = json.loads((PROTOCOL / "fleet" / "lines.json").read_text())
 NAMES = st.text(st.characters(exclude_categories=["Cs"]), max_size=8)
-COUNTS = st.integers(0, MOST)
+COUNTS = st.integers(0, MAX_COUNT)
 TIMES = st.floats(allow_nan=False, allow_infinity=False)
 PACKETS = st.builds(Packet, TIMES, st.sampled_from(Site), NAMES, st.binary(max_size=8), NAMES)
 SENT = st.builds(Sent, NAMES, COUNTS, st.one_of(PACKETS, st.builds(Tick, TIMES), st.just(End())), COUNTS)
@@ -101,9 +101,9 @@ def test_what_is_no_line_is_unreadable() -> None:
 
 
 def test_a_row_holds_no_more_than_a_phone_sends() -> None:
-    row = sent_row(Sent("w", 3, Packet(1.0, Site.PELVIS, "c", bytes(LONGEST_DATA), "d" * LONGEST_NAME)))
+    row = sent_row(Sent("w", 3, Packet(1.0, Site.PELVIS, "c", bytes(MAX_DATA_LENGTH), "d" * MAX_NAME_LENGTH)))
     assert isinstance(read_sent(row), Sent)
-    for key, value in (("data", bytes(LONGEST_DATA + 1)), ("channel", "c" * 257), ("device", "d" * 257)):
+    for key, value in (("data", bytes(MAX_DATA_LENGTH + 1)), ("channel", "c" * 257), ("device", "d" * 257)):
         assert read_sent(row | {key: value}) == Unreadable("w", read_sent(row | {key: value}).what, 0, 3)
 
 

@@ -70,7 +70,7 @@ def test_events_through_spark_are_those_of_a_session(spark, tmp_path, recipe):
 
 
 def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
-    """After a few batches Spark folds what it has written of its files into one."""
+    """After a few batches Spark joins its lists of files into one."""
     deliver(tmp_path / "sent", wearers=2, files=5)
     events = run(stream(spark, tmp_path / "sent"), tmp_path)
     assert list((tmp_path / "events/_spark_metadata").glob("*.compact"))
@@ -82,7 +82,7 @@ def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
 
 
 def test_messages_as_kafka_has_them_give_the_same_events(spark, tmp_path):
-    """Their key is the wearer, and their value are lines, of a second or so."""
+    """Return messages whose key is the wearer and whose value holds the lines of about a second."""
     from pyarrow import parquet, table
 
     wrong = {b"w0": [b"no JSON\n", b"\xff{\n", sent_line(sent(1, 1)[0])], b"\xff\xfe": [b"{}"], b"w3": [b"\n"] * 5000}
@@ -111,7 +111,7 @@ def without_number(row: Row) -> Row:
 
 
 def of_toys() -> Fleet:
-    """One that no pickle takes."""
+    """Return a fleet that cannot be pickled."""
     return Fleet(profiles=[BASE])
 
 
@@ -155,7 +155,7 @@ def test_a_wearer_of_anything_stalls_no_other(spark, tmp_path):
 
 
 def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
-    """Parquet holds whatever bytes were written as text."""
+    """Parquet accepts any bytes as text."""
     import pyarrow as pa
     from pyarrow import parquet
 
@@ -173,7 +173,7 @@ def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
 
 
 def test_a_state_that_cannot_go_on_is_reported_and_its_wearer_restarts(spark, tmp_path):
-    """The state has version 250, as after a step back to an older release."""
+    """The state has version 250, as after a return to an older release."""
     from binascii import crc32
 
     fleet = Fleet()

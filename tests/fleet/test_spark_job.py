@@ -25,7 +25,7 @@ _needed = pytest.fixture(needed, scope="module", autouse=True)
 
 
 class Job:
-    """examples/spark_gait.py in processes of its own: the driver, its JVM and the Python workers."""
+    """A run of examples/spark_gait.py in separate processes: the driver, its JVM and the Python workers."""
 
     def __init__(self, directory: Path, output: str = "events", checkpoint: str = "checkpoint") -> None:
         self.output, self.checkpoint, self.log = directory / output, directory / checkpoint, directory / f"{output}.log"
@@ -62,7 +62,7 @@ class Job:
         return read_output
 
     def kill(self) -> int:
-        """kill -9 of all of it at once. Returns how many processes there were."""
+        """Kill all processes at once as `kill -9` does, and return their number."""
         there = map(int, filter(str.isdigit, os.listdir("/proc")))
         session = [pid for pid in there if _session(pid) == self.process.pid]
         for pid in session:
@@ -120,7 +120,7 @@ def test_a_job_that_is_killed_in_mid_stream_emits_the_events_of_one_that_is_not(
 
 @pytest.fixture
 def small_disk(tmp_path: Path) -> Iterator[Path]:
-    """A place with room for almost nothing."""
+    """Return a directory on a disk that is almost full."""
     place = tmp_path / "events"
     place.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=32k", "tmpfs", place]

@@ -1,4 +1,4 @@
-"""The state of a wearer: protocol/fleet/states.json, and any other bytes in its place."""
+"""The state of a wearer: protocol/fleet/states.json, and any other bytes."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 from solepath import recipes
 from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, Sent, StateRejected, Tick, Unreadable
-from solepath.fleet.step.keyed import first_number
+from solepath.fleet.step.keyed import first_event_number
 from solepath.fleet.step.order import RejectedItem
-from solepath.fleet.step.state import READERS, VERSION, Identity, read_identity, read_rest, write_state
+from solepath.fleet.step.state import READERS, VERSION, StateHead, read_identity, read_rest, write_state
 from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import DEFAULT
 from solepath.session import Session
@@ -29,14 +29,14 @@ from solepath.types.vector import IDENTITY, ZERO
 
 STATES = json.loads((PROTOCOL / "fleet" / "states.json").read_text())
 FLEET = Fleet()
-HALF = 350
+MIDDLE = 350
 """Number of rows after which the walk has started."""
 
 
 @cache
 def halfway() -> tuple[bytes, int]:
     """Return a state in the middle of a walk, and the number of events before it."""
-    state, emitted = FLEET.step(WEARER, None, walked().sent[:HALF])
+    state, emitted = FLEET.step(WEARER, None, walked().sent[:MIDDLE])
     return state, len(emitted)
 
 
@@ -58,19 +58,19 @@ def test_a_state_is_as_in_the_protocol(vector: dict[str, Any]) -> None:
     identity = read_identity(state)
     if vector["result"] == "refused":
         known = vector["identity"]
-        assert identity == (None if known is None else Identity(**known))
+        assert identity == (None if known is None else StateHead(**known))
         (first, *_) = FLEET.step(WEARER, state, [shown(300, 7)])[1]
         assert isinstance(first.event, StateRejected)
-        assert first.number == (first_number(7, 300) if known is None else known["next_event"])
+        assert first.number == (first_event_number(7, 300) if known is None else known["next_event"])
         return
     fields = vector["fields"]
     rest = read_rest(state)
-    assert identity == Identity(*[fields[name] for name in ("run", "next", "next_event", "known")])
+    assert identity == StateHead(*[fields[name] for name in ("run", "next", "next_event", "known")])
     assert (rest.ended, rest.failure, rest.session) == (fields["ended"], fields["failure"], None)
     assert [[span.run, span.first, span.end] for span in rest.unused.spans] == fields["spans"]
     assert [[*runs] for runs in rest.unused.forgotten] == fields["forgotten"]
     assert [*astuple(rest.strays)] == fields["strays"]
-    assert [held_as_fields(place, what) for place, what in rest.held.items()] == fields["held"]
+    assert [held_as_fields(place, what) for place, what in rest.held_rows.items()] == fields["held"]
     assert write_state(identity, rest) == state
     assert FLEET.open(WEARER, state).state() == state
 
@@ -83,12 +83,12 @@ def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
 @settings(max_examples=40)
 @given(state=st.one_of(st.binary(max_size=80), st.binary(max_size=60).map(lambda rest: halfway()[0][:41] + rest)))
 def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> None:
-    sent = [shown(HALF, 5), Unreadable(WEARER, "no row"), shown(HALF + 1, 5)]
+    sent = [shown(MIDDLE, 5), Unreadable(WEARER, "no row"), shown(MIDDLE + 1, 5)]
     after, emitted = Fleet(window=0).step(WEARER, state, sent)
     assert isinstance(emitted[0].event, StateRejected)
     assert [one.number for one in emitted] == list(range(emitted[0].number, emitted[0].number + len(emitted)))
     assert [what for what, *_ in uses(emitted[1:])][-3:] == ["used", "rejected", "used"]
-    assert Fleet(window=0).step(WEARER, after, [shown(HALF + 2, 5)])[1][0].number == emitted[-1].number + 1
+    assert Fleet(window=0).step(WEARER, after, [shown(MIDDLE + 2, 5)])[1][0].number == emitted[-1].number + 1
 
 
 @settings(max_examples=40)
@@ -97,7 +97,7 @@ def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(
     state, before = halfway()
     damaged = bytearray(state)
     damaged[place % len(state)] ^= 1 << bit
-    _, emitted = FLEET.step(WEARER, bytes(damaged), walked().sent[HALF : HALF + 5])
+    _, emitted = FLEET.step(WEARER, bytes(damaged), walked().sent[MIDDLE : MIDDLE + 5])
     assert isinstance(emitted[0].event, StateRejected)
     assert emitted[0].number >= before
 
@@ -127,11 +127,13 @@ def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one
 def test_a_session_of_another_recipe_or_of_a_building_is_rejected_and_the_numbers_go_on() -> None:
     state, before = halfway()
     for fleet in (Fleet(recipes.by_name("kupt-dfpc")), Fleet(evolve(DEFAULT, name="mine")), Fleet(floorplan=BUILDING)):
-        after, emitted = fleet.step(WEARER, state, walked().sent[HALF : HALF + 50])
+        after, emitted = fleet.step(WEARER, state, walked().sent[MIDDLE : MIDDLE + 50])
         assert isinstance(emitted[0].event, StateRejected) and emitted[0].event.detail
         assert [one.number for one in emitted] == list(range(before, before + len(emitted)))
         assert emitted[0].event.t == read_identity(state).known
-        assert fleet.step(WEARER, after, walked().sent[HALF + 50 : HALF + 150])[1], "and the wearer is followed again"
+        assert fleet.step(WEARER, after, walked().sent[MIDDLE + 50 : MIDDLE + 150])[1], (
+            "and the wearer is followed again"
+        )
 
 
 def test_after_the_end_a_tombstone_is_left_which_every_job_can_read() -> None:
@@ -139,7 +141,7 @@ def test_after_the_end_a_tombstone_is_left_which_every_job_can_read() -> None:
     assert len(state) == 54 and FLEET.open(WEARER, state).ended
     other = Fleet(recipes.by_name("kupt-dfpc"))
     assert other.step(WEARER, state, walked().sent) == (state, [])
-    again, more = other.step(WEARER, state, [evolve(one, run=1) for one in walked().sent[:HALF]])
+    again, more = other.step(WEARER, state, [evolve(one, run=1) for one in walked().sent[:MIDDLE]])
     assert more[0].number == len(emitted) and not other.open(WEARER, again).ended
 
 
@@ -165,7 +167,7 @@ def test_a_state_keeps_what_is_held_whatever_it_is() -> None:
 
 @define
 class Unsound(Detector):
-    """A detector that after a while holds what cannot be saved."""
+    """A detector that after some time holds a value that cannot be saved."""
 
     updates: int = field(default=0, init=False)
     held: float = field(default=0.0, init=False)
@@ -182,11 +184,11 @@ class Unsound(Detector):
 def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_session_and_no_more() -> None:
     fleet = Fleet(evolve(DEFAULT, name="unsound", detector=Unsound()), parts=[Unsound])
     keyed = fleet.open(WEARER, None)
-    before = len(keyed.feed(walked().sent[:HALF]))
+    before = len(keyed.feed(walked().sent[:MIDDLE]))
     state = keyed.state()
     assert len(state) < 1000
     restored = fleet.open(WEARER, state)
-    rest = walked().sent[HALF : HALF + 100]
+    rest = walked().sent[MIDDLE : MIDDLE + 100]
     emitted = keyed.feed(rest)
     assert type(emitted[0].event).__name__ == "WearerFailed" and emitted[0].number == before
     assert restored.feed(rest) == emitted, "in memory and from bytes it goes on alike"
@@ -195,11 +197,11 @@ def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_sessio
 
 def test_a_phone_hands_its_wearer_over() -> None:
     sent, whole = walked().sent, Session()
-    first = [event for one in sent[:HALF] for event in whole.feed(one.what)]
+    first = [event for one in sent[:MIDDLE] for event in whole.feed(one.what)]
     state = FLEET.adopt(json.loads(json.dumps(whole.snapshot())))
     assert read_identity(state).known == whole.now
     numbers = count()
-    rest = [evolve(one, number=next(numbers), run=3) for one in sent[HALF:]]
+    rest = [evolve(one, number=next(numbers), run=3) for one in sent[MIDDLE:]]
     _, emitted = FLEET.step(WEARER, state, rest)
     assert (*first, *[one.event for one in emitted]) == walked().events
     assert [one.number for one in emitted] == list(range(len(emitted)))

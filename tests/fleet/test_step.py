@@ -19,11 +19,11 @@ from solepath.session import Session
 from solepath.types import Packet, Site
 
 FLEET = Fleet()
-BOTH = [DEFAULT, recipes.by_name("kupt-dfpc")]
-LONG = "w" * 10_000
+TESTED_RECIPES = [DEFAULT, recipes.by_name("kupt-dfpc")]
+LONG_NAME = "w" * 10_000
 
 
-@pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
+@pytest.mark.parametrize("recipe", TESTED_RECIPES, ids=lambda recipe: recipe.name)
 def test_the_events_of_a_wearer_are_those_of_a_session_with_the_same_packets(recipe: Recipe) -> None:
     sent, events = walked(recipe.name).sent, walked(recipe.name).events
     fleet = Fleet(recipe)
@@ -147,13 +147,13 @@ def test_what_has_no_place_in_the_order_is_rejected_at_once(item: Any) -> None:
     assert len(emitted[0].event.detail) <= 200 and len(state) < 1000
 
 
-@pytest.mark.parametrize("wearer", ["", LONG, "\ud83d", "ü\n"], ids=["none", "long", "half", "odd"])
+@pytest.mark.parametrize("wearer", ["", LONG_NAME, "\ud83d", "ü\n"], ids=["none", "long", "half", "odd"])
 def test_any_text_is_a_wearer(wearer: str) -> None:
     state, emitted = FLEET.step(wearer, None, [shown(0, wearer=wearer), Unreadable("", "no JSON")])
     assert [one.wearer for one in emitted] == [wearer, wearer] and len(state) < 1000
 
 
-REAL = st.deferred(lambda: st.sampled_from([one.what.data for one in walked().sent[:40]]))
+REAL_DATA = st.deferred(lambda: st.sampled_from([one.what.data for one in walked().sent[:40]]))
 CHANNELS = st.sampled_from(["insole/frame", "insole/info", "cc2650/movement", "device/battery", "receiver/tick", "x"])
 POISON = st.builds(
     lambda number, t, site, channel, data: Sent(WEARER, number, Packet(t, site, channel, data)),
@@ -161,7 +161,7 @@ POISON = st.builds(
     st.floats() | st.floats(0.0, 10.0),
     st.sampled_from(Site),
     CHANNELS,
-    st.binary(max_size=40) | REAL,
+    st.binary(max_size=40) | REAL_DATA,
 )
 
 

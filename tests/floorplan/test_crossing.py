@@ -30,7 +30,7 @@ Line = tuple[tuple[float, float], tuple[float, float]]
 
 
 def exactly_touch(a: Line, b: Line) -> bool:
-    """With fractions, as it is defined: p + s u = q + t v with s and t from 0 to 1, or on one line and overlapping."""
+    """Return by fractions whether p + s u = q + t v with s and t from 0 to 1, or the lines overlap on one line."""
     (px, py), (ex, ey) = [(Fraction(x), Fraction(y)) for x, y in a]
     (qx, qy), (fx, fy) = [(Fraction(x), Fraction(y)) for x, y in b]
     ux, uy, vx, vy = ex - px, ey - py, fx - qx, fy - qy
@@ -89,11 +89,11 @@ def test_walls_far_from_the_origin_are_as_solid(offset: int, x0: float, y0: floa
 @given(st.tuples(any_float, any_float, any_float, any_float))
 def test_any_floats_get_an_answer_and_no_place_is_behind_a_wall(move: tuple[float, float, float, float]) -> None:
     walls = [((0.0, 0.0), (5.0, 0.0)), ((5.0, 0.0), (5.0, 5.0))]
-    found = Walls(walls).crosses(*move)
+    crosses = Walls(walls).crosses(*move)
     if all(map(math.isfinite, move)):
-        assert found == any(exactly_touch((move[:2], move[2:]), wall) for wall in walls)
+        assert crosses == any(exactly_touch((move[:2], move[2:]), wall) for wall in walls)
     else:
-        assert found
+        assert crosses
 
 
 def test_nobody_slips_through_a_corner_where_walls_meet() -> None:
@@ -122,41 +122,48 @@ def test_walking_along_a_line_finds_all_cells_that_are_near_and_no_others(
 ) -> None:
     flat = [(*start, *end) for start, end in (line, *others)]
     grid = Grid(flat, 0.5, 0.25, most)
-    found = grid.near(*flat[0], within)
-    assert len(dict(found)) == len(found)
-    for at in range(grid.columns * grid.rows):
-        x, y = grid.left + (at % grid.columns + 0.5) * grid.cell, grid.bottom + (at // grid.columns + 0.5) * grid.cell
-        away = distance(*flat[0], x, y)
-        if abs(away - within) > 1e-9:
-            assert (at in dict(found)) == (away < within)
+    cells = grid.find_near(*flat[0], within)
+    assert len(dict(cells)) == len(cells)
+    for cell in range(grid.columns * grid.rows):
+        x, y = (
+            grid.left + (cell % grid.columns + 0.5) * grid.cell,
+            grid.bottom + (cell // grid.columns + 0.5) * grid.cell,
+        )
+        distance_ = distance(*flat[0], x, y)
+        if abs(distance_ - within) > 1e-9:
+            assert (cell in dict(cells)) == (distance_ < within)
 
 
 def test_a_wall_across_the_largest_plan_is_in_the_cells_along_it_only() -> None:
     grid = Grid([(0.0, 0.0, 5000.0, 5000.0)], 2.0, 0.5, 100_000)
     assert grid.columns * grid.rows > 95_000
-    assert len(grid.near(0.0, 0.0, 5000.0, 5000.0, 13.0)) < 1300
+    assert len(grid.find_near(0.0, 0.0, 5000.0, 5000.0, 13.0)) < 1300
 
 
 @settings(max_examples=60)
 @given(walls_of, st.integers(64, 400))
 def test_outside_is_what_a_walk_over_the_lattice_reaches_without_touching_a_wall(walls: list[Line], most: int) -> None:
     level, solid = Level("0", "", 0, 0.0, tuple(Wall(start, end) for start, end in walls)), Walls(walls)
-    found = Enclosure(level, solid, most)
-    every = {(i, j): found.place(i, j) for i in range(found.columns) for j in range(found.rows)}
-    assume(all(distance(*start, *end, *place) > 1e-6 for start, end in walls for place in every.values()))
-    reached, now = {(0, 0)}, [(0, 0)]
-    for i, j in now:
-        for there in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
-            if there in every and there not in reached and not solid.crosses(*every[i, j], *every[there]):
-                reached.add(there)
-                now.append(there)
-    assert sorted(found.outside) == sorted(every[at] for at in reached)
+    enclosure = Enclosure(level, solid, most)
+    places_by_index = {(i, j): enclosure.place(i, j) for i in range(enclosure.columns) for j in range(enclosure.rows)}
+    assume(all(distance(*start, *end, *place) > 1e-6 for start, end in walls for place in places_by_index.values()))
+    reached, queue = {(0, 0)}, [(0, 0)]
+    for i, j in queue:
+        for neighbour in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
+            if (
+                neighbour in places_by_index
+                and neighbour not in reached
+                and not solid.crosses(*places_by_index[i, j], *places_by_index[neighbour])
+            ):
+                reached.add(neighbour)
+                queue.append(neighbour)
+    assert sorted(enclosure.outside) == sorted(places_by_index[at] for at in reached)
 
 
-def level(own: str, elevation: float, **more: object) -> Level:
+def level(level_id: str, elevation: float, **more: object) -> Level:
     walls = (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)), Wall((10.0, 0.0), (10.0, 6.0)),
              Wall((10.0, 6.0), (0.0, 6.0)), Wall((0.0, 6.0), (0.0, 0.0)))  # fmt: skip
-    return Level(own, own, round(elevation / 3.0), elevation, walls, (Door((4.0, 0.0), (5.0, 0.0)),), **more)  # type: ignore[arg-type]
+    return Level(level_id, level_id, round(elevation / 3.0), elevation, walls, (Door((4.0, 0.0), (5.0, 0.0)),), **more)  # type: ignore[arg-type]
 
 
 LIFT = Connector(ConnectorKind.LIFT, "lift", (ConnectorStop("0", (9.0, 5.0)), ConnectorStop("1", (9.0, 5.0))))

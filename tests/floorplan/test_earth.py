@@ -1,4 +1,4 @@
-"""From degrees to the plan's metres."""
+"""Conversion from degrees to the plan's metres."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ metres = st.floats(-500.0, 500.0)
 
 
 def vincenty(a: tuple[float, float], b: tuple[float, float]) -> float:
-    """The length of the geodesic on the WGS84 ellipsoid, m, between (latitude, longitude) in degrees (Vincenty 1975,
-    Survey Review 23, inverse formula)."""
+    """Return the length of the geodesic on the WGS84 ellipsoid, m, between (latitude, longitude) in degrees (Vincenty
+    1975, Survey Review 23, inverse formula)."""
     major, f = 6378137.0, 1.0 / 298.257223563
     minor = (1.0 - f) * major
     u1, u2 = (math.atan((1.0 - f) * math.tan(math.radians(p[0]))) for p in (a, b))
@@ -34,12 +34,12 @@ def vincenty(a: tuple[float, float], b: tuple[float, float]) -> float:
         cos2_alpha = 1.0 - sin_alpha**2
         cos_2m = cos_sigma - 2.0 * math.sin(u1) * math.sin(u2) / cos2_alpha if cos2_alpha > 1e-12 else 0.0
         k = f / 16.0 * cos2_alpha * (4.0 + f * (4.0 - 3.0 * cos2_alpha))
-        before, lam = (
+        previous, lam = (
             lam,
             difference
             + (1.0 - k) * f * sin_alpha * (sigma + k * sin_sigma * (cos_2m + k * cos_sigma * (2.0 * cos_2m**2 - 1.0))),
         )
-        if abs(lam - before) < 1e-15:
+        if abs(lam - previous) < 1e-15:
             break
     square = cos2_alpha * (major**2 - minor**2) / minor**2
     big_a = 1.0 + square / 16384.0 * (4096.0 + square * (-768.0 + square * (320.0 - 175.0 * square)))
@@ -51,8 +51,8 @@ def vincenty(a: tuple[float, float], b: tuple[float, float]) -> float:
 @given(anchors, metres, metres)
 def test_a_place_comes_back_from_degrees(anchor: Anchor, x: float, y: float) -> None:
     tangent = Tangent(anchor)
-    found = tangent.plan(*tangent.degrees((x, y)))
-    assert found == pytest.approx((x, y), abs=1e-6)
+    place = tangent.plan(*tangent.degrees((x, y)))
+    assert place == pytest.approx((x, y), abs=1e-6)
 
 
 @given(anchors, metres, metres, metres, metres)

@@ -27,17 +27,17 @@ INVALID = json.loads((FILES / "invalid.json").read_text(encoding="utf-8"))
 
 @pytest.mark.parametrize("name", ["house-wgs84.geojson", "house.osm", "house-imdf"])
 def test_the_house_is_the_same_in_every_format(name: str) -> None:
-    found = read_floorplan(FILES / name)
-    assert found == HOUSE
-    assert found.fingerprint == HOUSE.fingerprint
-    assert found.remarks == ()
+    plan = read_floorplan(FILES / name)
+    assert plan == HOUSE
+    assert plan.fingerprint == HOUSE.fingerprint
+    assert plan.remarks == ()
 
 
 def test_the_house_is_what_it_looks_like() -> None:
     assert HOUSE.anchor == Anchor(48.15, 11.57, 0.0)
     assert [(level.id, level.name, level.ordinal) for level in HOUSE.levels] == [("0", "Ground floor", 0),
                                                                                ("1", "First floor", 1)]  # fmt: skip
-    assert [(one.kind, one.name, [stop.level for stop in one.stops]) for one in HOUSE.connectors] == [
+    assert [(c.kind, c.name, [stop.level for stop in c.stops]) for c in HOUSE.connectors] == [
         (ConnectorKind.LIFT, "Lift", ["0", "1"]), (ConnectorKind.STAIRS, "Stairs", ["0", "1"])]  # fmt: skip
     assert not HOUSE.heights_known
     plan = IndexedPlan(HOUSE)
@@ -142,7 +142,7 @@ def test_an_archive_reads_as_its_folder_does(folder: str, compression: int) -> N
 
 
 def test_a_bomb_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reading, "LARGEST", 100_000)
+    monkeypatch.setattr(reading, "MAX_FILE_SIZE", 100_000)
     bomb = archive({**imdf_files(), "unit.geojson": b" " * 10_000_000})
     assert len(bomb) < 100_000
     with pytest.raises(FloorPlanError, match="unpacked it is larger than"):
@@ -171,7 +171,7 @@ def test_unreadable_files_are_rejected(tmp_path: Path, monkeypatch: pytest.Monke
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(FloorPlanError, match="is no regular file$"):
         read_floorplan(tmp_path / "pipe")
-    monkeypatch.setattr(reading, "LARGEST", 1000)
+    monkeypatch.setattr(reading, "MAX_FILE_SIZE", 1000)
     with pytest.raises(FloorPlanError, match="too large for a floor plan$"):
         read_floorplan(FILES / "house.geojson")
 
@@ -208,7 +208,7 @@ def test_any_features_are_a_plan_or_rejected(more: list[Any], members: dict[str,
 
 
 def changed(draw: st.DrawFn, content: Any) -> Any:
-    """The JSON value with one of its parts, anywhere, replaced by any other."""
+    """Return the JSON value with one inner value, anywhere, replaced by any other."""
     whole = {"it": content}
     inside, key = whole, "it"
     for _ in range(draw(st.integers(0, 8))):

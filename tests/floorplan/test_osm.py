@@ -19,7 +19,7 @@ CORNER = Tangent(Anchor(48.15, 11.57))
 
 
 class Map:
-    """An OSM file in the making; places are metres east and north of one corner."""
+    """A builder of an OSM file; places are in m east and north of a corner."""
 
     def __init__(self) -> None:
         self._nodes: dict[Point, tuple[int, dict[str, str]]] = {}

@@ -152,18 +152,24 @@ def cut(drawn: tuple[Wall, ...], *through: Door) -> tuple[Wall, ...]:
     return with_doors_cut(Level("0", "", 0, 0.0, drawn, through)).walls
 
 
-LONG = (Wall((0.0, 0.0), (10.0, 0.0)),)
+LONG_WALLS = (Wall((0.0, 0.0), (10.0, 0.0)),)
 
 
 def test_a_door_leaves_a_gap_of_its_width() -> None:
-    assert cut(LONG, Door((4.0, 0.0), (5.0, 0.0))) == (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)))
-    assert cut(LONG, Door((5.0, 0.1), (4.0, -0.1))) == (Wall((0.0, 0.0), (4.0, 0.0)), Wall((5.0, 0.0), (10.0, 0.0)))
+    assert cut(LONG_WALLS, Door((4.0, 0.0), (5.0, 0.0))) == (
+        Wall((0.0, 0.0), (4.0, 0.0)),
+        Wall((5.0, 0.0), (10.0, 0.0)),
+    )
+    assert cut(LONG_WALLS, Door((5.0, 0.1), (4.0, -0.1))) == (
+        Wall((0.0, 0.0), (4.0, 0.0)),
+        Wall((5.0, 0.0), (10.0, 0.0)),
+    )
 
 
 def test_doors_side_by_side_and_at_the_end_leave_what_is_between_them() -> None:
-    found = cut(LONG, Door((9.0, 0.0), (11.0, 0.0)), Door((2.0, 0.0), (3.0, 0.0)), Door((2.5, 0.0), (4.0, 0.0)))
+    found = cut(LONG_WALLS, Door((9.0, 0.0), (11.0, 0.0)), Door((2.0, 0.0), (3.0, 0.0)), Door((2.5, 0.0), (4.0, 0.0)))
     assert found == (Wall((0.0, 0.0), (2.0, 0.0)), Wall((4.0, 0.0), (9.0, 0.0)))
-    assert cut(LONG, Door((-1.0, 0.0), (11.0, 0.0))) == ()
+    assert cut(LONG_WALLS, Door((-1.0, 0.0), (11.0, 0.0))) == ()
 
 
 def test_a_door_cuts_both_faces_of_a_wall_and_no_wall_across_it() -> None:
@@ -193,7 +199,7 @@ def test_one_walks_through_the_middle_of_a_door_in_a_wall_of_any_direction(turn:
         assert plan.crosses(0, *along(x, -0.4), *along(x, 0.4)) != free
 
 
-HUGE = 10**400
+HUGE_NUMBER = 10**400
 
 MISSHAPEN = [
     (evolve(HOUSE, levels=None), "the plan's levels are None, not a tuple"),
@@ -205,11 +211,11 @@ MISSHAPEN = [
     (evolve(HOUSE, anchor=Anchor("x", 0.0)), "the anchor's latitude is 'x', not a number"),
     (with_level(id=0), "a level's id is 0, not a text"),
     (with_level(ordinal="x"), "level '0': its ordinal is 'x', not a whole number up to 100000"),
-    (with_level(ordinal=HUGE), "level '0': its ordinal is a huge number, not a whole number up to 100000"),
+    (with_level(ordinal=HUGE_NUMBER), "level '0': its ordinal is a huge number, not a whole number up to 100000"),
     (with_level(elevation=None), "level '0': its elevation is None, not a number"),
-    (with_level(elevation=HUGE), "level '0': its elevation is a huge number"),
+    (with_level(elevation=HUGE_NUMBER), "level '0': its elevation is a huge number"),
     (with_level(walls=[]), "level '0': its walls are a list, not a tuple"),
-    (with_level(walls=(Wall((0, 0), (HUGE, 1)),)), "level '0': wall 0 is at (a huge number, 1)"),
+    (with_level(walls=(Wall((0, 0), (HUGE_NUMBER, 1)),)), "level '0': wall 0 is at (a huge number, 1)"),
     (with_level(walls=(Wall((0, 0), (1,)),)), "level '0': wall 0 is ((0, 0), (1)), not from (x, y) to (x, y)"),
     (with_level(walls=(Wall((0, 0), "ab"),)), "level '0': wall 0 is ((0, 0), 'ab'), not from (x, y) to (x, y)"),
     (with_level(doors=(Door((0, 0), (True, 1)),)),
@@ -219,7 +225,7 @@ MISSHAPEN = [
     (stairs(ConnectorStop(["0"], (1.0, 1.0))), "stairs 'A': the level of a stop is a list, not a text"),
     (stairs(ConnectorStop("0", (1.0, 1.0)), flights=1.5), "stairs 'A': has 1.5 flights, not a whole number"),
     (stairs(ConnectorStop("0", (1.0, 1.0)), flights=10**5000), "stairs 'A': has a huge number flights a storey"),
-    (stairs(ConnectorStop("0", (1.0, 1.0)), rise=HUGE), "stairs 'A': its steps rise a huge number m"),
+    (stairs(ConnectorStop("0", (1.0, 1.0)), rise=HUGE_NUMBER), "stairs 'A': its steps rise a huge number m"),
 ]  # fmt: skip
 
 
@@ -233,23 +239,23 @@ def test_a_plan_of_something_else_than_records_is_rejected_by_the_session_in_one
     assert str(error.value) == message
 
 
-NO_STARTS = [
+INVALID_STARTS = [
     (Start("0", (1,)), "its place is (1), not (x, y) in m"),
     (Start("0", (1.0, 2.0, 3.0)), "its place is (1, 2, 3), not (x, y) in m"),
     (Start("0", None), "its place is None, not (x, y) in m"),
-    (Start("0", (HUGE, 1)), "its place is (a huge number, 1), not (x, y) in m"),
+    (Start("0", (HUGE_NUMBER, 1)), "its place is (a huge number, 1), not (x, y) in m"),
     (Start("0", (math.nan, 1.0)), "its place is (nan, 1), not (x, y) in m"),
     (Start(0, (1.0, 2.0)), "its level is 0, not a text"),
     (Start("0", (1.0, 2.0), "x"), "its heading is 'x', not in rad"),
     (Start("0", (1.0, 2.0), 1e308), "its heading is 1e+308, not in rad"),
-    (Start("0", (1.0, 2.0), HUGE), "its heading is a huge number, not in rad"),
+    (Start("0", (1.0, 2.0), HUGE_NUMBER), "its heading is a huge number, not in rad"),
     (Start("0", (1.0, 2.0), spread=-1.0), "its spread is -1; it can be 0 to 5000 m"),
     (Start("0", (1.0, 2.0), spread=1e300), "its spread is 1e+300; it can be 0 to 5000 m"),
     (Start("0", (1.0, 2.0), spread=None), "its spread is None; it can be 0 to 5000 m"),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("start", "message"), NO_STARTS, ids=[message[:40] for _, message in NO_STARTS])
+@pytest.mark.parametrize(("start", "message"), INVALID_STARTS, ids=[message[:40] for _, message in INVALID_STARTS])
 def test_a_start_that_cannot_be_is_rejected_by_the_session_in_one_line(start: Start, message: str) -> None:
     with pytest.raises(FloorPlanError) as error:
         Session(floorplan=HOUSE, start=start)

@@ -1,4 +1,4 @@
-"""The command line in this process, without a terminal, or in a process of its own."""
+"""Runs of the command line without a terminal, in this process or in another process."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ def run(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 def run_failing(*arguments: object) -> str:
     """Return the one line with which the command fails."""
-    done = run(*arguments)
-    assert done.stdout == ""
-    one_line(done)
-    return done.stderr
+    process = run(*arguments)
+    assert process.stdout == ""
+    one_line(process)
+    return process.stderr
 
 
 def solepath(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Return the exit status and the output of a command in a process of its own."""
+    """Return the exit status and the output of a command in another process."""
     clean = {key: value for key, value in os.environ.items() if key != "SOLEPATH_DATA"}
     return subprocess.run(
         [sys.executable, "-m", "solepath", *map(str, arguments)],
@@ -49,7 +49,7 @@ def no_control_codes(text: str) -> bool:
 
 
 def one_line(done: subprocess.CompletedProcess[str]) -> str:
-    """The one line on stderr of a command that failed with exit status 2."""
+    """Return the only line on stderr of a command that failed with exit status 2."""
     assert done.returncode == 2, done.stderr
     line, end = done.stderr[:-1], done.stderr[-1:]
     assert end == "\n" and "\n" not in line and line.startswith("solepath: ") and no_control_codes(line)

@@ -22,12 +22,15 @@ from solepath.types import SITE_OF_FOOT, Foot, Packet, Sample
 from solepath.types.vector import GRAVITY
 
 SETUP = 0.05
-"""s after which a device measures; reading and writing come before."""
+"""Time of the start of measurement, s; attributes are read and written before."""
 
 
 @frozen
 class Worn:
-    """A device to be emulated: `rate` is the true one, and `build` makes the value of packet k of its samples."""
+    """A device to be emulated.
+
+    `rate` is the true sample rate, Hz. `each` is the number of samples in a packet. `build` makes the value of packet k
+    from its samples. `read` makes the value of each channel that is read."""
 
     driver: Driver
     rate: float
@@ -35,7 +38,7 @@ class Worn:
     build: Callable[[int, list[Sample]], Any]
     read: dict[str, Callable[[Foot], bytes]]
     beside: tuple[tuple[float, str, bytes], ...] = ()
-    """(time in s, channel, data) of what comes beside the stream."""
+    """Notifications (time, s, channel, data) besides the stream."""
 
 
 def counts(values: Iterable[float], unit: float) -> list[int]:
@@ -104,23 +107,25 @@ def sent(worn: Worn, walker: Walker, foot: Foot) -> list[Notification]:
     samples = walker.samples(foot, worn.rate, LSM6DSOX, layout=cells if worn is ORPHE else None)
     values = [(channel, worn.read[channel](foot)) for channel in profile.reads]
     values += [(write.channel, write.value) for write in profile.setup]
-    found = [Notification(SETUP * k / len(values), *value, True) for k, value in enumerate(values)]
+    notifications = [Notification(SETUP * k / len(values), *value, True) for k, value in enumerate(values)]
     (stream,) = profile.streams
     for k in range(len(samples) // worn.each):
-        some = samples[k * worn.each : (k + 1) * worn.each]
-        found.append(Notification(SETUP + some[-1].t, stream, worn.driver.write(stream, worn.build(k, some))))
-    found += [Notification(*value) for value in worn.beside]
-    return sorted(found, key=lambda one: one.t)
+        packet_samples = samples[k * worn.each : (k + 1) * worn.each]
+        notifications.append(
+            Notification(SETUP + packet_samples[-1].t, stream, worn.driver.write(stream, worn.build(k, packet_samples)))
+        )
+    notifications += [Notification(*value) for value in worn.beside]
+    return sorted(notifications, key=lambda notification: notification.t)
 
 
 def walked(worn: Worn, route: Route, radio: Radio, seed: int = 7) -> tuple[Packet, ...]:
-    """Packets of both feet by arrival."""
+    """Return the packets of both feet in the order of arrival."""
     walker = Walker(route, seed=seed)
-    both = [
+    packets = [
         packet
         for foot in Foot
         for packet in radio.transmit(
             sent(worn, walker, foot), SITE_OF_FOOT[foot], np.random.default_rng([seed, list(Foot).index(foot)])
         )
     ]
-    return tuple(sorted(both, key=lambda packet: packet.t))
+    return tuple(sorted(packets, key=lambda packet: packet.t))

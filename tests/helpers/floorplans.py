@@ -1,4 +1,4 @@
-"""Floor plans for tests: any that can be used, and the files of protocol/floorplans."""
+"""Floor plans for tests: random usable plans, and the files of protocol/floorplans."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ FILES = PROTOCOL / "floorplans"
 
 
 def archive(files: dict[str, Any], folder: str = "", compression: int = zipfile.ZIP_DEFLATED) -> bytes:
-    """A zip archive of JSON values or bytes."""
-    packed = BytesIO()
-    with zipfile.ZipFile(packed, "w", compression) as file:
+    """Return a zip archive of JSON values or bytes."""
+    buffer = BytesIO()
+    with zipfile.ZipFile(buffer, "w", compression) as file:
         for name, content in files.items():
             file.writestr(folder + name, content if isinstance(content, bytes) else json.dumps(content))
-    return packed.getvalue()
+    return buffer.getvalue()
 
 
 names = st.text(max_size=8)
@@ -37,20 +37,20 @@ doors = st.builds(Door, places, places, names).filter(lambda door: door.start !=
 
 @st.composite
 def plans(draw: st.DrawFn) -> FloorPlan:
-    """Plans as a reader makes them: their doors are cut out of their walls."""
+    """Return a random plan whose doors are cut out of its walls, as a reader does."""
     ids = draw(st.lists(st.text(min_size=1, max_size=5), min_size=1, max_size=3, unique=True))
     corner = Wall((-9.0, -9.0), (9.0, 9.0))  # so that no plan is smaller than a room
     levels = []
-    for i, own in enumerate(ids):
+    for i, level_id in enumerate(ids):
         elevation = 3.0 * i + draw(st.floats(0.0, 2.0))
-        drawn = (corner, *draw(st.lists(walls, max_size=4)))
-        levels.append(with_doors_cut(Level(own, draw(names), i, elevation, drawn,
+        level_walls = (corner, *draw(st.lists(walls, max_size=4)))
+        levels.append(with_doors_cut(Level(level_id, draw(names), i, elevation, level_walls,
                                            tuple(draw(st.lists(doors, max_size=3))),
                                            tuple(draw(st.lists(outlines, max_size=2))))))  # fmt: skip
     connectors = []
     for _ in range(draw(st.integers(0, 3))):
-        stops_at = [own for own in ids if draw(st.booleans())] or ids[:1]
-        stops = tuple(ConnectorStop(own, draw(places), draw(st.just(()) | outlines)) for own in stops_at)
+        stops_at = [level_id for level_id in ids if draw(st.booleans())] or ids[:1]
+        stops = tuple(ConnectorStop(level_id, draw(places), draw(st.just(()) | outlines)) for level_id in stops_at)
         flights, rise = draw(st.none() | st.integers(1, 4)), draw(st.none() | st.floats(0.1, 0.3))
         connectors.append(Connector(draw(st.sampled_from(ConnectorKind)), draw(names), stops, flights, rise))
     anchor = draw(st.none() | st.builds(Anchor, st.floats(-80.0, 80.0), st.floats(-180.0, 180.0), st.floats(-3.2, 3.2)))

@@ -1,7 +1,7 @@
-"""A small office of two floors, and a pedestrian in it: places on the plan in, events and positions of a body out.
+"""A small office of two floors, and a pedestrian who walks to given places and emits events and positions.
 
-The track errs as recorded ones do: 2 % of every length, 5 degrees a minute, 3 % of every step, and its heading in the
-plan is unknown.
+The errors of the track are those of recorded tracks: 2 % of every length, 5 degrees a minute, 3 % of every stride. Its
+heading in the plan is unknown.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ from solepath.papers.footstep_tracker.snake import SnakeGame
 
 STOREY = 3.6
 WIDE, DEEP = 40.0, 30.0
-"""Of the office, m: a ring corridor, rooms outside of it, and a block with stairs and lifts within."""
+"""Width (x) and depth (y) of the office, m: a ring corridor, rooms outside it, and stairs and elevators inside it."""
 LEFT, RIGHT, LOW, HIGH = 6.2, 33.8, 6.2, 23.8
-"""The middle of the corridor, which is 2.4 m wide."""
+"""Coordinates of the middle of the corridor, m; the corridor is 2.4 m wide."""
 LIFTS: dict[str, Point] = {"lift west": (8.2, 18.0), "lift south": (14.0, 8.2), "lift east": (31.8, 12.0)}
 STAIRS: dict[str, Point] = {"stairs north": (25.0, 21.8), "stairs south": (26.0, 8.2)}
 CABINS = {
@@ -56,14 +56,14 @@ WELLS = {"stairs north": (23.5, 17.0, 26.5, 22.6), "stairs south": (24.5, 7.4, 2
 
 
 def wall(walls: list[Wall], start: Point, end: Point, *gaps: tuple[float, float]) -> None:
-    """A wall with openings: each from so far to so far along it, m."""
+    """Add a wall with gaps (start, end), distances along it, m."""
     length = hypot(end[0] - start[0], end[1] - start[1])
     ux, uy = (end[0] - start[0]) / length, (end[1] - start[1]) / length
-    at = 0.0
+    s = 0.0
     for a, b in [*sorted(gaps), (length, length)]:
-        if a > at:
-            walls.append(Wall((start[0] + ux * at, start[1] + uy * at), (start[0] + ux * a, start[1] + uy * a)))
-        at = b
+        if a > s:
+            walls.append(Wall((start[0] + ux * s, start[1] + uy * s), (start[0] + ux * a, start[1] + uy * a)))
+        s = b
 
 
 def _walls(exit_door: bool) -> tuple[Wall, ...]:
@@ -91,9 +91,9 @@ def _walls(exit_door: bool) -> tuple[Wall, ...]:
     wall(walls, (east, south), (east, north), (4.0, 5.2))
     for x0, y0, x1, y1 in (*CABINS.values(), *WELLS.values()):
         for start, end in (((x0, y0), (x0, y1)), ((x1, y0), (x1, y1)), ((x0, y0), (x1, y0)), ((x0, y1), (x1, y1))):
-            across = abs(start[0] - end[0]) < 0.01 and min(abs(start[0] - west), abs(start[0] - east)) < 0.01
-            along = abs(start[1] - end[1]) < 0.01 and min(abs(start[1] - south), abs(start[1] - north)) < 0.01
-            if not across and not along:
+            on_side = abs(start[0] - end[0]) < 0.01 and min(abs(start[0] - west), abs(start[0] - east)) < 0.01
+            on_end = abs(start[1] - end[1]) < 0.01 and min(abs(start[1] - south), abs(start[1] - north)) < 0.01
+            if not on_side and not on_end:
                 wall(walls, start, end)
     # the rest of the block: rooms that nobody enters
     wall(walls, (west + 10.0, south), (west + 10.0, north))
@@ -117,12 +117,12 @@ def office(anchor: Anchor | None = None) -> FloorPlan:
 OFFICE = IndexedPlan(office())
 METHODS = (Particles, SnakeGame)
 Method = Particles | SnakeGame
-"""Finds a wearer on a plan."""
+"""A part that estimates the place of a wearer on a plan."""
 
 
 @define
 class FloorEvents:
-    """Simultaneous events of a body, and the true place of the wearer (None if it does not count)."""
+    """Simultaneous events of a wearer, and the true level and place, m (None if they are not compared)."""
 
     events: list[Event]
     here: Position
@@ -132,7 +132,7 @@ class FloorEvents:
 
 @define
 class Pedestrian:
-    """Walks, rides and climbs; `received` holds the resulting events."""
+    """A pedestrian who walks, rides and climbs; `received` holds the resulting events."""
 
     seed: int
     level: str = "0"
@@ -147,7 +147,7 @@ class Pedestrian:
     turned: float = field(init=False)
     count: int = 0
     late: list[Event] = field(factory=list)
-    """Events that are emitted with the third step from now."""
+    """Events that are emitted after `wait` more calls of `step`."""
     wait: int = 0
 
     def __attrs_post_init__(self) -> None:
@@ -157,7 +157,7 @@ class Pedestrian:
         self.turned = self.random.uniform(-pi, pi)
 
     def known_to(self, part: Method) -> Pedestrian:
-        """Set the start of the first step and the heading of the track."""
+        """Set the place of the start and the heading of the track in the part."""
         part.set_out(Start(self.level, self.place, -self.turned))
         return self
 
@@ -168,7 +168,7 @@ class Pedestrian:
         self.received.append(FloorEvents(list(events), self.here()))
 
     def step(self, dx: float, dy: float, dz: float = 0.0, counts: bool = True, degraded: bool = False) -> None:
-        """One step of one foot, in the plan's frame, m."""
+        """Move the wearer by (dx, dy, dz), m, plan frame, with one stride event."""
         self.t += 0.55
         self.turned += self.drift * 0.55
         noise = 0.03 * hypot(dx, dy)
@@ -185,9 +185,9 @@ class Pedestrian:
                 events, self.late = self.late, []
         foot, stride = (Foot.LEFT, Foot.RIGHT)[self.count % 2], 2.0 * hypot(ex, ey)
         events.append(stepped(self.t, foot, self.count, self.track, degraded, stride))
-        sure = counts and not self.late
+        counts_here = counts and not self.late
         self.received.append(
-            FloorEvents(events, self.here(), self.level if sure else None, self.place if sure else None)
+            FloorEvents(events, self.here(), self.level if counts_here else None, self.place if counts_here else None)
         )
 
     def walk(self, *ways: Point) -> None:
@@ -195,12 +195,12 @@ class Pedestrian:
             x0, y0 = self.place
             count = max(1, round(hypot(x1 - x0, y1 - y0) / self.stride))
             for k in range(1, count + 1):
-                aside = (0.0, 0.0) if k == count else (self.random.gauss(0.0, 0.05), self.random.gauss(0.0, 0.05))
-                x, y = x0 + (x1 - x0) * k / count + aside[0], y0 + (y1 - y0) * k / count + aside[1]
+                offset = (0.0, 0.0) if k == count else (self.random.gauss(0.0, 0.05), self.random.gauss(0.0, 0.05))
+                x, y = x0 + (x1 - x0) * k / count + offset[0], y0 + (y1 - y0) * k / count + offset[1]
                 self.step(x - self.place[0], y - self.place[1])
 
     def ride(self, level: str, height: float | None = None) -> None:
-        """From one level to the other; the event comes a second later."""
+        """Ride to the other level; the event comes 1 s after the end of the ride."""
         up = level > self.level
         start = self.t + 3.0
         self.t += 12.0
@@ -209,14 +209,14 @@ class Pedestrian:
         self.emit(LiftRidden(t=self.t - 1.0, known_at=self.t, t_start=start, up=up, height=height))
 
     def climb(self, level: str, name: str, flights: bool = True) -> None:
-        """Ten steps, a landing, ten steps back. The activity comes four steps late, and so does its end."""
+        """Climb ten treads, a landing and ten treads back; the activity and its end are reported four steps late."""
         up = level > self.level
-        ahead, rise = (1.0 if STAIRS[name][1] < 15.0 else -1.0), (STOREY if up else -STOREY) / 20.0
+        direction, rise = (1.0 if STAIRS[name][1] < 15.0 else -1.0), (STOREY if up else -STOREY) / 20.0
         t_start = self.t
         for k in range(20):
             if k == 4:
                 self.emit(activity_changed(t_start, self.t, Activity.STAIRS_UP if up else Activity.STAIRS_DOWN))
-            self.step(0.0, 0.28 * ahead * (1.0 if k < 10 else -1.0), rise, counts=False)
+            self.step(0.0, 0.28 * direction * (1.0 if k < 10 else -1.0), rise, counts=False)
             if flights and k in (9, 19):
                 height = 10.0 * rise
                 self.emit(
@@ -242,7 +242,7 @@ def activity_changed(t: float, known_at: float, activity: Activity) -> ActivityC
 
 def follow(part: Method, received: list[FloorEvents], plan: IndexedPlan = OFFICE) -> list[Event]:
     """Return all events of the part."""
-    return [event for one in received for event in part.follow(plan, one.events, one.here)]
+    return [event for step in received for event in part.follow(plan, step.events, step.here)]
 
 
 def placed(events: list[Event]) -> list[Placed]:
@@ -258,7 +258,7 @@ CORNERS = ((LEFT, LOW), (RIGHT, LOW), (RIGHT, HIGH), (LEFT, HIGH))
 
 
 def beside(place: Point) -> Point:
-    """The corridor's middle in front of a landing."""
+    """Return the place in the middle of the corridor in front of a landing, m."""
     x, y = place
     if x < 10.0 or x > 30.0:
         return (LEFT if x < 10.0 else RIGHT, y)
@@ -266,12 +266,15 @@ def beside(place: Point) -> Point:
 
 
 def round_to(start: Point, end: Point, forwards: bool) -> list[Point]:
-    """Along the corridor, with the corners on the way: counter-clockwise when forwards."""
-    here, there = _along(start), _along(end)
-    whole = 2.0 * (RIGHT - LEFT + HIGH - LOW)
-    way = (there - here) % whole if forwards else (here - there) % whole
-    corners = [((_along(c) - here) % whole if forwards else (here - _along(c)) % whole, c) for c in CORNERS]
-    return [start, *[corner for at, corner in sorted(corners) if 0.0 < at < way], end]
+    """Return the places along the corridor from start to end, with the corners; counter-clockwise if `forwards`."""
+    start_along, end_along = _along(start), _along(end)
+    perimeter = 2.0 * (RIGHT - LEFT + HIGH - LOW)
+    distance = (end_along - start_along) % perimeter if forwards else (start_along - end_along) % perimeter
+    corners = [
+        ((_along(c) - start_along) % perimeter if forwards else (start_along - _along(c)) % perimeter, c)
+        for c in CORNERS
+    ]
+    return [start, *[corner for along, corner in sorted(corners) if 0.0 < along < distance], end]
 
 
 def _along(place: Point) -> float:
@@ -286,12 +289,12 @@ def _along(place: Point) -> float:
 
 
 def tour(seed: int) -> Pedestrian:
-    """Out of a lift, along the corridor to some stairs, up, and on to a lift. Where to, and which way, by chance."""
-    chance = Random(seed * 7919)
-    lift, stairs, last = chance.choice(sorted(LIFTS)), chance.choice(sorted(STAIRS)), chance.choice(sorted(LIFTS))
-    one = Pedestrian(seed, "1", LIFTS[lift])
-    one.ride("0", -STOREY if chance.random() < 0.5 else None)
-    one.walk(*round_to(beside(LIFTS[lift]), beside(STAIRS[stairs]), chance.random() < 0.5), STAIRS[stairs])
-    one.climb("1", stairs, flights=chance.random() < 0.5)
-    one.walk(*round_to(beside(STAIRS[stairs]), beside(LIFTS[last]), chance.random() < 0.5), LIFTS[last])
-    return one
+    """Return a pedestrian who rode an elevator, walked to stairs, climbed and walked to an elevator, all at random."""
+    random = Random(seed * 7919)
+    lift, stairs, last = random.choice(sorted(LIFTS)), random.choice(sorted(STAIRS)), random.choice(sorted(LIFTS))
+    pedestrian = Pedestrian(seed, "1", LIFTS[lift])
+    pedestrian.ride("0", -STOREY if random.random() < 0.5 else None)
+    pedestrian.walk(*round_to(beside(LIFTS[lift]), beside(STAIRS[stairs]), random.random() < 0.5), STAIRS[stairs])
+    pedestrian.climb("1", stairs, flights=random.random() < 0.5)
+    pedestrian.walk(*round_to(beside(STAIRS[stairs]), beside(LIFTS[last]), random.random() < 0.5), LIFTS[last])
+    return pedestrian

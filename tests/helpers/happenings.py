@@ -1,4 +1,4 @@
-"""Any events at all, as hypothesis makes them from their classes."""
+"""Random events, which hypothesis makes from the event classes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ KINDS = get_args(Event)
 TAME = st.floats(0.0, 100.0)
 WIDE = st.floats(-1e11, 1e11)
 WILD = st.floats()
-"""None of them is ruled out, those that are no numbers neither."""
+"""Any float, also NaN and infinity."""
 
 
 def _value(hint: Any, number: st.SearchStrategy[float]) -> st.SearchStrategy[Any]:
@@ -23,11 +23,11 @@ def _value(hint: Any, number: st.SearchStrategy[float]) -> st.SearchStrategy[Any
     if hint is float:
         return number
     if get_origin(hint) in (Union, UnionType):
-        return st.one_of([_value(one, number) for one in arguments])
+        return st.one_of([_value(argument, number) for argument in arguments])
     if get_origin(hint) is tuple and arguments[-1:] == (Ellipsis,):
         return st.lists(_value(arguments[0], number), max_size=12).map(tuple)
     if get_origin(hint) is tuple:
-        return st.tuples(*[_value(one, number) for one in arguments])
+        return st.tuples(*[_value(argument, number) for argument in arguments])
     if attrs.has(hint):
         return _record(hint, number)
     return st.from_type(hint)
@@ -35,9 +35,9 @@ def _value(hint: Any, number: st.SearchStrategy[float]) -> st.SearchStrategy[Any
 
 def _record(kind: Any, number: st.SearchStrategy[float]) -> st.SearchStrategy[Any]:
     hints = get_type_hints(kind)
-    return st.builds(kind, **{one.name: _value(hints[one.name], number) for one in attrs.fields(kind)})
+    return st.builds(kind, **{field.name: _value(hints[field.name], number) for field in attrs.fields(kind)})
 
 
 def events() -> st.SearchStrategy[Any]:
-    """One event of any kind: with numbers that might be measured, with large ones, or with whatever a float holds."""
+    """Return a strategy for events of any kind, with numbers of TAME, WIDE or WILD."""
     return st.one_of([_record(kind, number) for number in (TAME, WIDE, WILD) for kind in KINDS])

@@ -1,4 +1,4 @@
-"""The left foot: of a walk, with gaps in it, and on a sole of four cells."""
+"""Samples of the left foot: in a walk, with gaps, and on a sole of four cells."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PHASES = HeelStrike | FootFlat | HeelOff | ToeOff
 SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
 """Two cells at the heel (x < 0.33 x 0.26), one under the arch, one at the forefoot (x > 0.55 x 0.26)."""
 TARE = (10.0, 20.0, 0.0, 30.0)
-"""Values of its cells in the air."""
+"""Values of the cells of SOLE while the foot is in the air."""
 STRAIGHT = Route().stand(2.0).walk(12.0, 1.3).stop(2.0)
 
 
@@ -25,13 +25,13 @@ def above(*loads: float) -> tuple[float, ...]:
 
 @cache
 def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
-    """The left foot at 100 Hz without cells, and its true steps."""
+    """Return the samples of the left foot at 100 Hz without cells, and its true strides."""
     walker = Walker(route, seed=seed)
     return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().steps(Foot.LEFT)
 
 
 def without(samples: tuple[Sample, ...], *gaps: tuple[float, float]) -> list[Sample]:
-    """Return the samples outside the gaps, which go from one time to another, s."""
+    """Return the samples outside the gaps (start, end), s."""
     return [sample for sample in samples if not any(a < sample.t < b for a, b in gaps)]
 
 

@@ -1,4 +1,4 @@
-"""A detector, a corrector and cues as an app may have them, and a walk to try them on."""
+"""A detector, a corrector and cues that an app could define, and a walk to test them with."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ WALKED = tuple(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0
 
 @define
 class StillDetector(Detector):
-    """A foot that turned slowly for a while."""
+    """A detector of stance: the rate was at most `limit` rad/s for `hold` s."""
 
     limit: float = 0.8
     hold: float = 0.04
@@ -39,28 +39,28 @@ class StillDetector(Detector):
             self.since = None
             return Stance(ZERO, inf, rate, None)
         self.since = t if self.since is None else self.since
-        sure = t - self.since >= self.hold
-        return Stance(ZERO, 0.01 if sure else 0.1, rate, Phase.STATIONARY if sure else None)
+        is_still = t - self.since >= self.hold
+        return Stance(ZERO, 0.01 if is_still else 0.1, rate, Phase.STATIONARY if is_still else None)
 
 
 @define
 class Resets(LinearDedrift):
-    """The velocity is reset in stance, and the position keeps its drift."""
+    """A corrector that resets the velocity in stance and leaves the position unchanged."""
 
     resets: int = field(default=0, init=False)
 
     def correct(self, t: float, stance: Stance) -> bool:
-        where = self.position
+        position = self.position
         if not LinearDedrift.correct(self, t, stance):
             return False
-        self.position = where
+        self.position = position
         self.resets += 1
         return True
 
 
 @define
 class ByMotion(Cues):
-    """A foot that is still has landed flat, one that is not is lifted, and one that is fast has left the ground."""
+    """Cues by motion: a still foot is flat on the ground, a moving foot is lifted, and a fast foot is in the air."""
 
     fast: float = 1.0
     for_foot: str = ""

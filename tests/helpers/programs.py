@@ -1,4 +1,4 @@
-"""Commands of solepath as programs of their own."""
+"""Commands of solepath as separate processes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TAKES = 30.0
 
 @contextmanager
 def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subprocess.Popen[str]]:
-    """A command that runs until the test is through with it; `code` runs before it."""
+    """Yield the process of a command, which is killed at the end of the context; `code` runs before the command."""
     words = [str(argument) for argument in arguments]
     program = ["-c", f"{code}from solepath.cli import main; raise SystemExit(main({words!r}))"]
     piped = dict.fromkeys(("stdout", "stderr"), subprocess.PIPE) | {"stdin": subprocess.DEVNULL}
@@ -33,23 +33,23 @@ def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subp
 
 @contextmanager
 def emulator(*arguments: object, port: int = 0) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Emulated devices, and where they are: tcp:HOST:PORT."""
+    """Yield the process of emulated devices, and their address tcp:HOST:PORT."""
     with started("emulate", "--listen", f"127.0.0.1:{port}", *arguments) as process:
         assert process.stdout is not None
-        text, where = process.stdout.readline().rsplit(maxsplit=1)
+        text, address = process.stdout.readline().rsplit(maxsplit=1)
         assert text == "serving at"
-        yield process, where
+        yield process, address
 
 
 def run(*arguments: object, expect: int = 0) -> subprocess.CompletedProcess[str]:
     command = [*SOLEPATH, *map(str, arguments)]
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False)
-    assert done.returncode == expect, done.stderr
-    return done
+    process = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60, check=False)
+    assert process.returncode == expect, process.stderr
+    return process
 
 
 def wait_for(path: Path, what: str, times: int = 1) -> None:
-    """Until `what` stands in the file, so many times."""
+    """Wait until `what` occurs in the file at least `times` times; fail after TAKES."""
     end = time.monotonic() + TAKES
     while not path.exists() or path.read_text(encoding="utf-8").count(what) < times:
         assert time.monotonic() < end, f"{what} did not come"
@@ -57,11 +57,11 @@ def wait_for(path: Path, what: str, times: int = 1) -> None:
 
 
 def drawn(terminal: int, until: str = "") -> str:
-    """Return the output on a terminal, up to these words or to its end."""
-    seen = b""
+    """Return the output on a terminal, up to the words `until` or to its end."""
+    data = b""
     try:
-        while (not until or until not in seen.decode()) and (part := os.read(terminal, 65536)):
-            seen += part
-    except OSError:  # how Linux says that the other end of a terminal was closed
+        while (not until or until not in data.decode()) and (part := os.read(terminal, 65536)):
+            data += part
+    except OSError:  # on Linux: the other end of the terminal was closed
         pass
-    return seen.decode()
+    return data.decode()

@@ -1,4 +1,4 @@
-"""Recordings of packets that tests write, and the files that come of them."""
+"""Recordings of packets that tests write, and the files that commands make from them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PACKETS = [
 
 
 def recorded(path: Path, packets: Iterable[Packet], header: dict[str, Any] | None = None) -> Path:
-    """The file, which holds them."""
+    """Write the packets into a recording and return its path."""
     with PacketWriter(path, {} if header is None else header) as writer:
         for packet in packets:
             writer.write(packet)
@@ -26,10 +26,10 @@ def recorded(path: Path, packets: Iterable[Packet], header: dict[str, Any] | Non
 
 
 def into(folder: Path) -> tuple[object, ...]:
-    """Options of a command that writes all that it can there."""
+    """Return the options with which a command writes all its output files into `folder`."""
     return ("--out", folder / "out", "--report", folder / "r.html")
 
 
 def written(folder: Path) -> dict[str, bytes]:
-    """All files below it, by their names there."""
+    """Return the contents of all files below `folder`, by relative path."""
     return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*") if file.is_file()}

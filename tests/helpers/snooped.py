@@ -1,4 +1,4 @@
-"""btsnoop logs made by hand for tests, with nothing but struct: what a phone writes of connections and attributes."""
+"""btsnoop logs made for tests with `struct` alone: the records of connections and attributes that a phone writes."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ COMMAND, ACL, EVENT = 1, 2, 4
 
 @define
 class Log:
-    """Records one after another. `t`: us since 1970, moves on by a millisecond with every record."""
+    """A log; `t` is the time of the last record, us since 1970, and grows by 1 ms with every record."""
 
     datalink: int = H4
     t: int = T_START
     piece: int = 251
-    """Bytes of L2CAP that one ACL packet holds."""
+    """Largest number of bytes of L2CAP in one ACL packet."""
     records: list[bytes] = field(factory=list)
     drops: int = 0
     adapter: int = 0
@@ -56,32 +56,32 @@ class Log:
     def connect(self, handle: int, address: str, subevent: int = 0x01) -> None:
         peer = bytes.fromhex(address.replace(":", ""))[::-1]
         start = struct.pack("<BBHBB", subevent, 0, handle, 0, 1) + peer
-        own = b"" if subevent == 0x01 else bytes(12)
-        end = b"\x00\x01" if subevent == 0x29 else b""
-        self.event(0x3E, start + own + struct.pack("<HHHB", 12, 0, 500, 0) + end + (b"\xff" if end else b""))
+        own_address = b"" if subevent == 0x01 else bytes(12)
+        rest = b"\x00\x01" if subevent == 0x29 else b""
+        self.event(0x3E, start + own_address + struct.pack("<HHHB", 12, 0, 500, 0) + rest + (b"\xff" if rest else b""))
 
     def disconnect(self, handle: int, reason: int = 0x08) -> None:
         self.event(0x05, struct.pack("<BHB", 0, handle, reason))
 
     def acl(self, handle: int, pdu: bytes, sent: bool, channel: int = 4, keep: slice = slice(None)) -> None:
         """Log one L2CAP PDU, in pieces if it is long; `keep` selects the logged pieces."""
-        whole = struct.pack("<HH", len(pdu), channel) + pdu
-        pieces = [whole[k : k + self.piece] for k in range(0, len(whole), self.piece)]
+        frame = struct.pack("<HH", len(pdu), channel) + pdu
+        pieces = [frame[k : k + self.piece] for k in range(0, len(frame), self.piece)]
         for k, piece in list(enumerate(pieces))[keep]:
             boundary = 1 if k else (0 if sent else 2)
             self.record(ACL, struct.pack("<HH", handle | boundary << 12, len(piece)) + piece, sent)
 
     def add_request(self, handle: int, request: str, answer: str | bytes) -> None:
-        """The host asks, the device answers; hexadecimal."""
+        """Log a request of the host and the answer of the device, as hexadecimal text or bytes."""
         self.acl(handle, bytes.fromhex(request), sent=True)
         self.acl(handle, bytes.fromhex(answer) if isinstance(answer, str) else answer, sent=False)
 
     def mtu(self, handle: int, mtu: int) -> None:
-        both = struct.pack("<H", mtu).hex()
-        self.add_request(handle, "02" + both, "03" + both)
+        encoded = struct.pack("<H", mtu).hex()
+        self.add_request(handle, "02" + encoded, "03" + encoded)
 
     def discover(self, handle: int, characteristics: dict[int, str]) -> None:
-        """As hosts do: by declarations, and a refusal at the end. Value handle -> UUID, short or full."""
+        """Log a discovery as hosts do it: by declarations, with an error at the end. Value handle -> UUID."""
         for value, uuid in characteristics.items():
             kind = bytes.fromhex(uuid.replace("-", ""))[::-1]
             declared = struct.pack("<HBH", value - 1, 0x10, value) + kind
@@ -109,7 +109,7 @@ def insole_uuid(short: int) -> str:
 
 
 INSOLE = {0x12: insole_uuid(2), 0x15: insole_uuid(3), 0x17: insole_uuid(4), 0x1A: "2a19"}
-"""Value handle -> UUID: frame, INFO, control, battery."""
+"""UUID of each value handle: frame, INFO, control, battery."""
 FRAME, INFO, CONTROL, BATTERY = INSOLE
 MOVEMENT = bytes(range(18))
 
@@ -140,17 +140,17 @@ def info(site: Site = Site.LEFT_FOOT) -> bytes:
 
 
 def read(log: Log, tmp_path: Path, **wishes: Any) -> tuple[list[tuple[str, str, str, bytes]], list[str]]:
-    """(device, site, channel, data) of every packet, and the reports without the file's name."""
+    """Return (device, site, channel, data) of every packet, and the reports without the file's name."""
     reports: list[str] = []
     path = log.save(tmp_path / "phone.log")
     packets = list(open_btsnoop(path, report=reports.append, **wishes))
     assert [p.t for p in packets] == sorted(p.t for p in packets)
-    found = [(p.device, p.site.value, p.channel, p.data) for p in packets]
-    return found, [report.removeprefix(f"{path}: ") for report in reports]
+    values = [(p.device, p.site.value, p.channel, p.data) for p in packets]
+    return values, [report.removeprefix(f"{path}: ") for report in reports]
 
 
 def data_of(found: list[tuple[str, str, str, bytes]], channel: str, device: str = LEFT) -> list[bytes]:
-    return [data for of, _, name, data in found if (of, name) == (device, channel)]
+    return [data for address, _, name, data in found if (address, name) == (device, channel)]
 
 
 def start_connection(

@@ -1,4 +1,4 @@
-"""Parts of the body, fed as a wearer feeds them."""
+"""Feeding of body parts in the same way as a wearer feeds them."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from solepath.types import Sample
 
 
 def seen(tracker: FootTracker, sample: Sample, events: Iterable[Event], other: float | None = None) -> FootView:
-    """The foot after a sample of which `events` came. `other`: the newest sample of the other foot, s."""
+    """Return the view after a sample with its events; `other` is the time of the other foot's newest sample, s."""
     known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
-    found = tuple(events)
-    stride = any(isinstance(event, StrideTaken) for event in found)
-    return tracker.view(sample, known_at, found, stride, other)
+    event_tuple = tuple(events)
+    stride = any(isinstance(event, StrideTaken) for event in event_tuple)
+    return tracker.view(sample, known_at, event_tuple, stride, other)
 
 
 def fed(

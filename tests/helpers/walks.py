@@ -1,4 +1,4 @@
-"""Walks that tests share, and every kind of session and decoder behind one interface, for tests of all of them."""
+"""Walks that tests share, and Machine, a common interface to sessions and decoders."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ from solepath.types import Foot, Packet, Sample, Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, latency=0.01, jitter=0.04)
-"""A radio that a session must tolerate; it loses, doubles, damages and delays packets."""
+"""A poor radio connection that a session must tolerate: lost, repeated, damaged and late packets."""
 SHORT = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(2.0).stop(1.0)
-"""A walk of about 8 s, with three or four strides of each foot."""
+"""A walk of about 8 s, three or four strides of each foot."""
 
 Item = Packet | Sample
 
@@ -54,18 +54,18 @@ def insoles(route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: in
 
 @cache
 def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: int = 1) -> tuple[Sample, ...]:
-    """Return the samples of both feet in the order of time, with the errors of LSM6DSOX, without packets."""
+    """Return the samples of both feet in the order of time, with the errors of an LSM6DSOX; without a radio."""
     return both_feet(Walker(route, seed=seed), rate, LSM6DSOX, cells)
 
 
 def both_feet(walker: Walker, rate: float, part: Imu, cells: int = 0, **more: Any) -> tuple[Sample, ...]:
     """Return the samples of two sensors of a walker, in the order of time."""
-    both = [
+    both_samples = [
         sample
         for foot in Foot
         for sample in walker.samples(foot, rate, part, layout=layout(cells, foot) if cells else None, **more)
     ]
-    return tuple(sorted(both, key=_time))
+    return tuple(sorted(both_samples, key=_time))
 
 
 def _time(sample: Sample) -> float:
@@ -73,9 +73,9 @@ def _time(sample: Sample) -> float:
 
 
 def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
-    """Return exact samples of a foot at 100 Hz as columns, as in a file of samples."""
-    found = walker.samples(foot, 100.0)
-    return {key: np.array([getattr(s, key) for s in found]) for key in ("t", "acc", "gyro")}
+    """Return exact samples of a foot at 100 Hz as the columns of a file of samples."""
+    foot_samples = walker.samples(foot, 100.0)
+    return {key: np.array([getattr(s, key) for s in foot_samples]) for key in ("t", "acc", "gyro")}
 
 
 def run_session(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
@@ -86,33 +86,37 @@ def run_session(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -
 
 @frozen
 class Machine:
-    """A session or decoder that is fed, saved and restored; `items` are the test's input, in order."""
+    """A session or decoder that tests feed, save and restore; `items` are the input, in order."""
 
     name: str
     items: tuple[Item, ...]
     start: Callable[[], Any]
     load: Callable[[Any], Any]
 
-    def save(self, one: Any) -> Any:
-        """Return its snapshot, after a round trip through strict JSON."""
-        value = one.snapshot() if isinstance(one, Session) else codec.save(one)
+    def save(self, machine: Any) -> Any:
+        """Return the snapshot of a session or decoder, after a round trip through strict JSON."""
+        value = machine.snapshot() if isinstance(machine, Session) else codec.save(machine)
         return json.loads(json.dumps(value, allow_nan=False))
 
-    def repacked(self, one: Any) -> Any:
-        """Return it after a round trip through its packed form; itself if it has none."""
-        return Session.unpack(one.pack(), one.recipe, floorplan=one._plan) if isinstance(one, Session) else one
+    def repacked(self, session: Any) -> Any:
+        """Return a session after a round trip through its packed form; a decoder unchanged."""
+        return (
+            Session.unpack(session.pack(), session.recipe, floorplan=session._plan)
+            if isinstance(session, Session)
+            else session
+        )
 
     def events(self, items: tuple[Item, ...] | None = None) -> list[Any]:
-        """Return all events when it is fed one item at a time and then finished."""
+        """Return all events of feeding one item at a time and finishing."""
         if items is None:
             return [event for events in machine_events(self.name) for event in events]
-        one = self.start()
-        events = [event for item in items for event in one.feed(item)]
-        return events + one.finish()
+        machine = self.start()
+        events = [event for item in items for event in machine.feed(item)]
+        return events + machine.finish()
 
 
 def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Machine:
-    pressures = name in ("fragments", "samples with pressure")  # only in two, because they are most of the output
+    pressures = name in ("fragments", "samples with pressure")  # in a few sessions only, since it makes most events
 
     def start() -> Session:
         return Session(recipe, poses=True, pressures=pressures)
@@ -121,7 +125,7 @@ def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Ma
 
 
 def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
-    """Return a session in a building where only the wearer's start is known."""
+    """Return a session in a building with a known start without a heading."""
     building = IndexedPlan(BUILDING)
     first_place = Start("0", (COLUMNS[0], 12.0))
 
@@ -143,7 +147,7 @@ def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
 
 @cache
 def packets() -> dict[str, tuple[Packet, ...]]:
-    """Return the packets of both feet over a bad radio, by the device that they wear."""
+    """Return the packets of both feet over a poor radio connection, by the name of their device."""
     devices = {
         "whole frames": Insole(),
         "fragments": Insole(cells=24, rate=50.0, mtu=23),
@@ -154,37 +158,37 @@ def packets() -> dict[str, tuple[Packet, ...]]:
         "cc2541": CC2541(presses=(2.0,)),
         "cc2541 at 20 Hz": CC2541(rate=20.0),
     }
-    found = {
+    by_device = {
         name: emulate(SHORT, devices={LEFT: device, RIGHT: evolve(device)}, radio=ROUGH, seed=7).packets
         for name, device in devices.items()
     }
-    return found | {worn.driver.name: declared.walked(worn, SHORT, ROUGH) for worn in declared.EVERY}
+    return by_device | {worn.driver.name: declared.walked(worn, SHORT, ROUGH) for worn in declared.EVERY}
 
 
 @cache
 def machines() -> dict[str, Machine]:
     """Return every machine by name."""
     plain, pressed = samples(cells=0, rate=50.0), samples(rate=50.0)
-    found = [_session(name, items) for name, items in packets().items()]
-    found += [_decoder(name, items) for name, items in packets().items()]
-    found += [_session("samples", samples(cells=0)), _session("samples with pressure", samples())]
+    all_machines = [_session(name, items) for name, items in packets().items()]
+    all_machines += [_decoder(name, items) for name, items in packets().items()]
+    all_machines += [_session("samples", samples(cells=0)), _session("samples with pressure", samples())]
     for detector in (ShoeDetector(), AngularRate(), MovingVariance(), Graph(), TwoArea(), MaximumPressure()):
         name = type(detector).__name__
         items = pressed if isinstance(detector, TwoArea | MaximumPressure) else plain
-        found.append(_session(name, items, Recipe(name, detector, ErrorStateFilter())))
-    found.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
-    found.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
+        all_machines.append(_session(name, items, Recipe(name, detector, ErrorStateFilter())))
+    all_machines.append(_session("LinearDedrift", plain, Recipe("LinearDedrift", Cycle(), LinearDedrift())))
+    all_machines.append(_session("LinearDedrift with pressure", pressed, Recipe("pressed", TwoArea(), LinearDedrift())))
     for name in RECIPES:
-        found.append(_session(name, packets()["few frames"], recipes.by_name(name)))
-    found.append(_session("seven sites", suited(), recipes.by_name("walking-modes")))
-    found.append(_placed("particles", plain, DEFAULT))
-    found.append(_placed("Snake game", plain, recipes.by_name("footstep-tracker")))
-    return {one.name: one for one in found}
+        all_machines.append(_session(name, packets()["few frames"], recipes.by_name(name)))
+    all_machines.append(_session("seven sites", suited(), recipes.by_name("walking-modes")))
+    all_machines.append(_placed("particles", plain, DEFAULT))
+    all_machines.append(_placed("Snake game", plain, recipes.by_name("footstep-tracker")))
+    return {machine.name: machine for machine in all_machines}
 
 
 @frozen
 class MachineRun:
-    """Result of a machine that was fed its items one by one, and then finished."""
+    """The result of a machine that was fed its items one by one and then finished."""
 
     events: tuple[tuple[Any, ...], ...]
     """Events after each item, and at the end."""
@@ -197,12 +201,12 @@ class MachineRun:
 @cache
 def run_machine(name: str) -> MachineRun:
     """Return the result, computed once for all tests that compare with it."""
-    known = machines()[name]
-    one = known.start()
-    events = [tuple(one.feed(item)) for item in known.items]
-    fed = known.save(one)
-    events.append(tuple(one.finish()))
-    return MachineRun(tuple(events), fed, known.save(one))
+    machine = machines()[name]
+    instance = machine.start()
+    events = [tuple(instance.feed(item)) for item in machine.items]
+    fed = machine.save(instance)
+    events.append(tuple(instance.finish()))
+    return MachineRun(tuple(events), fed, machine.save(instance))
 
 
 def machine_events(name: str) -> tuple[tuple[Any, ...], ...]:
@@ -221,12 +225,12 @@ RECIPES = (
     "shoe-sensing",
     "acceleration-magnitude",
 )
-"""Recipes that have a part of their own."""
+"""Recipes with a part that no other recipe has."""
 
 
 @cache
 def suited() -> tuple[Sample, ...]:
-    """Return samples of seven sites in the order of time; the feet wear insoles of 99 cells."""
+    """Return samples of pelvis, thighs, shanks and both feet, with insoles of 99 cells, in the order of time."""
     layouts = {LEFT: layout(99, Foot.LEFT), RIGHT: layout(99, Foot.RIGHT)}
     return tuple(limb_samples(Walker(SHORT, seed=3), 25.0, layouts=layouts))
 
@@ -244,7 +248,7 @@ _STREAMS = (
     "thingy",
 )
 DEVICES = ("few frames", *_STREAMS)
-"""Names of `packets`, known without emulating anything."""
+"""Names of `packets`, known without an emulation."""
 PACKET_NAMES = (
     *(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS),
     *(f"session, {recipe}" for recipe in RECIPES),
@@ -268,7 +272,7 @@ SAMPLE_NAMES = tuple(
     )
 )
 NAMES = PACKET_NAMES + SAMPLE_NAMES
-"""Names of `machines`, known without emulating anything: test ids must not cost a walk."""
+"""Names of `machines`, known without an emulation, since collecting tests must not emulate walks."""
 
 
 def of(kind: Any, events: list[Any]) -> list[Any]:
@@ -278,8 +282,8 @@ def of(kind: Any, events: list[Any]) -> list[Any]:
 
 def pieces(items: tuple[Item, ...], sizes: list[int]) -> Iterator[tuple[Item, ...]]:
     """Yield the items in chunks of these sizes, which are repeated until no item is left."""
-    at, k = 0, 0
-    while at < len(items):
-        size = max(1, sizes[k % len(sizes)]) if sizes else len(items)
-        yield items[at : at + size]
-        at, k = at + size, k + 1
+    start, number = 0, 0
+    while start < len(items):
+        size = max(1, sizes[number % len(sizes)]) if sizes else len(items)
+        yield items[start : start + size]
+        start, number = start + size, number + 1

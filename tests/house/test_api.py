@@ -23,15 +23,15 @@ TAG = re.compile(r"<[^>]+>")
 
 @cache
 def pages() -> dict[str, str]:
-    """The text of each page, by the name of its module."""
+    """Return the text of each page, by the name of its module."""
     with TemporaryDirectory() as folder:
         subprocess.run([sys.executable, ROOT / ".ci" / "api", folder], check=True, stdin=subprocess.DEVNULL)
-        found = Path(folder).rglob("*.html")
-        return {".".join(path.relative_to(folder).with_suffix("").parts): path.read_text("utf-8") for path in found}
+        paths = Path(folder).rglob("*.html")
+        return {".".join(path.relative_to(folder).with_suffix("").parts): path.read_text("utf-8") for path in paths}
 
 
 def words(page: str) -> str:
-    """A page as a reader sees it, with single spaces."""
+    """Return the visible text of a page, with single spaces."""
     return " ".join(html.unescape(TAG.sub("", page)).split())
 
 

@@ -1,4 +1,4 @@
-"""docs/architecture.md against the code: its rooms are there, the way of a packet is that, its parts work."""
+"""docs/architecture.md against the code: the folders exist, a packet makes the listed calls, the example parts work."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ROOT = Path(solepath.__file__).parent
 
 
 def block(name: str) -> str:
-    """The block below <!-- name -->."""
+    """Return the block below <!-- name --> in the page."""
     return PAGE.partition(f"<!-- {name} -->\n```")[2].partition("\n")[2].partition("```")[0]
 
 

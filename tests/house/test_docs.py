@@ -39,7 +39,7 @@ WALK = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), seed=1)
 
 @pytest.fixture
 def played(tmp_path, monkeypatch):
-    """Runs the programs of a page one after the other: (what they printed, the names that they made)."""
+    """Return a function that runs the programs of a page and returns (their outputs, their names)."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(EXAMPLES, "examples")
 
@@ -199,7 +199,7 @@ def test_commands_of_all_pages_can_be_typed():
 
 
 def test_options_of_all_pages_are_those_of_the_command_line():
-    """Of every command that is quoted within a line, also those with words to be filled in."""
+    """All commands quoted within a line are checked, also those with words to be filled in."""
     for quoted in re.findall(r"`solepath ([^`]+)`", "".join(PAGES.values())):
         name, *words = quoted.split()
         assert name in commands(), quoted
@@ -208,7 +208,7 @@ def test_options_of_all_pages_are_those_of_the_command_line():
 
 
 def _options(command: ArgumentParser) -> list[str]:
-    """Its options, and those of its own commands."""
+    """Return the options of a command and of its subcommands."""
     inner = [one for a in command._actions if isinstance(a.choices, dict) for one in a.choices.values()]
     return [f"{option} " for option in command._option_string_actions] + [o for one in inner for o in _options(one)]
 
@@ -225,7 +225,7 @@ def test_all_options_of_the_table_of_commands_exist():
 
 
 def anchors(text: str) -> set[str]:
-    """Return the anchors of its headings, as a forge makes them."""
+    """Return the anchors that a forge (GitHub) makes of the headings."""
     prose = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
     titles = re.findall(r"^#+ (.+)$", prose, re.MULTILINE)
     return {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}

@@ -22,31 +22,31 @@ CORE = {"types", "events", "saving", "calibration", "floorplan", "wire", "link",
 
 
 def rooms() -> dict[str, set[str]]:
-    """Room (a module or a folder of src/solepath) -> those that it may import, as docs/architecture.md has them."""
+    """Return, by room (a module or a folder of src/solepath), the rooms that it may import (docs/architecture.md)."""
     text = (DOCS / "architecture.md").read_text("utf-8").partition("<!-- rooms -->\n```text\n")[2].partition("```")[0]
     header, *lines = text.splitlines()
-    at = header.index("may import")
-    found = {}
+    column = header.index("may import")
+    allowed = {}
     for line in lines:
-        named = set(line[at:].split()) - {"-"}
-        found[line.split()[0]] = (named - {"CORE"}) | (CORE if "CORE" in named else set())
-    return found
+        names = set(line[column:].split()) - {"-"}
+        allowed[line.split()[0]] = (names - {"CORE"}) | (CORE if "CORE" in names else set())
+    return allowed
 
 
 ALLOWED = rooms() | {"__init__": CORE, "__main__": {"cli"}}
 
 FORBIDDEN = {"numpy", "bleak", "asyncio"}
 LIVE = CORE - {"papers", "saving"} | {"__init__"}
-"""Of papers and saving what is on the live path is seen when it runs, below."""
+"""Rooms on the live path; modules of papers and saving on this path are checked below, in a run."""
 
 
 def modules() -> dict[str, Path]:
-    """Dotted name below solepath -> file; a folder has the name of its __init__."""
-    found = {}
+    """Return the file of each module, by dotted name below solepath; a folder stands for its __init__."""
+    files = {}
     for path in sorted(ROOT.rglob("*.py")):
         parts = path.relative_to(ROOT).with_suffix("").parts
-        found[".".join(parts[:-1] if len(parts) > 1 and parts[-1] == "__init__" else parts)] = path
-    return found
+        files[".".join(parts[:-1] if len(parts) > 1 and parts[-1] == "__init__" else parts)] = path
+    return files
 
 
 MODULES = modules()
@@ -54,12 +54,12 @@ MODULES = modules()
 
 @cache
 def imports(name: str) -> tuple[set[str], set[str]]:
-    """(modules of solepath, top names of other packages) that a module imports anywhere, functions included."""
+    """Return (modules of solepath, top names of other packages) that a module imports, also within functions."""
     path = MODULES[name]
     package = () if name == "__init__" else tuple(name.split("."))
     if path.name != "__init__.py":
         package = package[:-1]
-    ours, others = set(), set()
+    own_modules, other_packages = set(), set()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             names = [(alias.name, ()) for alias in node.names]
@@ -69,7 +69,7 @@ def imports(name: str) -> tuple[set[str], set[str]]:
             target = ".".join((*base, *module))
             for alias in node.names:
                 inner = f"{target}.{alias.name}" if target else alias.name
-                ours.add(inner if inner in MODULES else target or "__init__")
+                own_modules.add(inner if inner in MODULES else target or "__init__")
             continue
         elif isinstance(node, ast.ImportFrom):
             names = [(node.module or "", ())]
@@ -78,10 +78,10 @@ def imports(name: str) -> tuple[set[str], set[str]]:
         for full, _ in names:
             top, _, rest = full.partition(".")
             if top == "solepath":
-                ours.add(rest or "__init__")
+                own_modules.add(rest or "__init__")
             else:
-                others.add(top)
-    return ours, others
+                other_packages.add(top)
+    return own_modules, other_packages
 
 
 def room(module: str) -> str:
@@ -125,7 +125,7 @@ def test_the_live_path_names_neither_numpy_nor_bleak_nor_asyncio() -> None:
     assert [name for name in MODULES if room(name) in LIVE and imports(name)[1] & FORBIDDEN] == []
 
 
-LISTEN = """
+LISTEN_PROGRAM = """
 import json, sys
 import solepath
 bare = sorted(sys.modules)
@@ -145,7 +145,9 @@ def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(
     for walked in (insoles().packets, *packets().values()):
         fed = walked if walked is insoles().packets else walked[: len(walked) // 4]
         file.write_text(json.dumps([[p.t, p.site.value, p.channel, p.data.hex()] for p in fed]))
-        done = subprocess.run([sys.executable, "-c", LISTEN, str(file)], capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            [sys.executable, "-c", LISTEN_PROGRAM, str(file)], capture_output=True, text=True, check=True
+        )
         bare, live, steps = json.loads(done.stdout)
         assert "solepath.session" in bare
         assert not FORBIDDEN & {name.partition(".")[0] for name in live}
@@ -157,7 +159,7 @@ def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(
             assert "link.devices.insole" in loaded and "link.devices.cc2650" not in loaded, "a device loads when heard"
 
 
-WALKED = """
+WALK_PROGRAM = """
 import json, sys
 from pathlib import Path
 from solepath import Packet, Session, Site, recipes
@@ -187,7 +189,7 @@ def test_a_session_loads_little_and_amid_a_walk_nothing_is_imported_and_no_file_
     file, saved = tmp_path / "packets.json", tmp_path / "saved.json"
     file.write_text(json.dumps([[p.t, p.site.value, p.channel, p.data.hex()] for p in insoles().packets]))
     for number in range(2):
-        words = [sys.executable, "-c", WALKED, str(file), name, str(saved)]
+        words = [sys.executable, "-c", WALK_PROGRAM, str(file), name, str(saved)]
         done = subprocess.run(words, capture_output=True, text=True, check=True)
         modules, lines, amid = json.loads(done.stdout)
         assert amid == []

@@ -16,8 +16,8 @@ from solepath.saving.schema import alternatives, is_frozen, is_open, is_part
 from solepath.types import Foot, Site
 
 SRC = ROOT / "src" / "solepath"
-LINES, FILES, NAMES = 300, 14, 20
-"""Lines of a file, Python files of a folder, names at the top of src/solepath: at the most."""
+MAX_LINES, MAX_FILES, MAX_NAMES = 300, 14, 20
+"""Largest number of lines of a file, of Python files in a folder, and of names at the top of src/solepath."""
 
 
 def lines(path: Path) -> int:
@@ -30,19 +30,19 @@ def python(folder: Path) -> list[Path]:
 
 def test_no_file_is_longer_than_300_lines() -> None:
     found = {path.relative_to(ROOT).as_posix(): lines(path) for top in (SRC, TESTS) for path in python(top)}
-    assert {name: count for name, count in found.items() if count > LINES} == {}, "split them by subject"
+    assert {name: count for name, count in found.items() if count > MAX_LINES} == {}, "split them by subject"
 
 
 def test_no_folder_holds_more_than_14_python_files() -> None:
     files = [path for top in (SRC, TESTS) for path in python(top) if path.name != "__init__.py"]
     folders = Counter(path.parent.relative_to(ROOT).as_posix() for path in files)
-    assert {name: count for name, count in folders.items() if count > FILES} == {}, "this is two rooms"
+    assert {name: count for name, count in folders.items() if count > MAX_FILES} == {}, "this is two rooms"
 
 
 def test_there_are_at_most_20_names_at_the_top() -> None:
     beside = {"__init__", "__main__", "__pycache__", "py"}
     names = {path.stem for path in SRC.iterdir() if path.is_dir() or path.suffix == ".py"} - beside
-    assert len(names) <= NAMES, sorted(names)
+    assert len(names) <= MAX_NAMES, sorted(names)
 
 
 def test_no_class_has_the_name_of_another() -> None:
@@ -55,14 +55,14 @@ def test_no_class_has_the_name_of_another() -> None:
     assert {name for name, count in named.items() if count > 1} == set()
 
 
-PARTED = ("foot", "body", "papers", "session")
+DIVIDED_FOLDERS = ("foot", "body", "papers", "session")
 
 
 def mixed() -> Iterator[str]:
     """Fields of classes with state that are chosen when one is made, and are neither a frozen record, a part of the
     kind that a recipe chooses, nor whose it is."""
     whose = {Foot, Site}
-    for path in (path for room in PARTED for path in python(SRC / room) if path.name != "__init__.py"):
+    for path in (path for room in DIVIDED_FOLDERS for path in python(SRC / room) if path.name != "__init__.py"):
         module = import_module(".".join(path.relative_to(ROOT / "src").with_suffix("").parts))
         for cls in vars(module).values():
             if not (isinstance(cls, type) and cls.__module__ == module.__name__ and attrs.has(cls) and is_part(cls)):

@@ -14,16 +14,16 @@ import pytest
 from here import DOCS, EXAMPLES, ROOT, TESTS
 
 SRC = ROOT / "src" / "solepath"
-LEANING = frozenset(
+LEANING_WORDS = frozenset(
     ["and", "but", "how", "of", "or", "so", "what", "when", "where", "whether", "which", "who", "whose", "why"]
 )
-"""A docstring that starts so leans on what stands before it, or names nothing."""
-SHORTEST = 3
-"""Words in the shortest docstring."""
+"""First words of docstrings that depend on the text before them, or name nothing."""
+MIN_WORDS = 3
+"""Smallest number of words in a docstring."""
 
 
 def private_words() -> tuple[frozenset[str], frozenset[str]]:
-    """The words that stay out, and the identifiers that may hold them."""
+    """Return the words that no identifier may contain, and the identifiers that are exceptions."""
     words: set[str] = set()
     standard: set[str] = set()
     for line in (DOCS / "words.txt").read_text(encoding="utf-8").splitlines():
@@ -38,7 +38,7 @@ PRIVATE, STANDARD = private_words()
 
 
 def words_of(identifier: str) -> list[str]:
-    """The words of a snake_case or CamelCase name."""
+    """Return the words of a snake_case or CamelCase name."""
     return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", identifier)]
 
 
@@ -70,7 +70,7 @@ def test_a_private_word_is_found_in_any_form_of_a_name() -> None:
 
 
 def docstrings(path: Path) -> Iterator[tuple[int, str]]:
-    """Line and text of each public docstring: of the module, of classes and functions, and of fields and constants."""
+    """Yield line and text of each public docstring: of the module, of classes, functions, fields and constants."""
     module = ast.parse(path.read_text(encoding="utf-8"))
     text = ast.get_docstring(module)
     if text is not None:
@@ -98,14 +98,14 @@ def _within(body: list[ast.stmt]) -> Iterator[tuple[int, str]]:
 
 
 def fault(text: str) -> str | None:
-    """What is wrong with a docstring; None for a sound one."""
+    """Return the fault of a docstring; None for a correct one."""
     first = text.strip().split("\n\n")[0].strip()
     words = first.split()
-    if len(words) < SHORTEST:
+    if len(words) < MIN_WORDS:
         return "is no sentence"
     if not (first[0].isupper() or first[0].isdigit() or first[0] in "`'\"(|") and not first.startswith("solepath"):
         return "starts in the middle"
-    if words[0].strip("`'\",.:;").lower() in LEANING:
+    if words[0].strip("`'\",.:;").lower() in LEANING_WORDS:
         return f"starts with {words[0]}"
     if text.rstrip()[-1] in ",:;":
         return "runs on"

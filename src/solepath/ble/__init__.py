@@ -1,4 +1,4 @@
-"""Real Bluetooth, through bleak: find, connect, set up, listen."""
+"""Connections to Bluetooth devices through bleak: search, connect, set up, and receive packets."""
 
 from .config import DeviceConfig
 from .connection import Connection, ConnectionState

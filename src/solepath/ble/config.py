@@ -1,4 +1,4 @@
-"""Device configs: which devices to connect to, their sites, and how they are distinguished."""
+"""Device configs: the devices to connect to, and their sites."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ class DeviceConfig:
     """The config of one device to connect to.
 
     `site` is where it is worn; None for an insole, which reports its own site. `which` is its address, or its name when
-    no other device nearby has that name; "" accepts any device of its kind. `profile` is its kind, needed where the
-    advertisement does not show it (20 Hz firmware of a CC2541, a device of your own) or `which` is "". Raises
-    ValueError when nothing says which device is meant, or when a device that cannot report its site has none."""
+    no other device nearby has that name; "" accepts any device of its profile. `profile` is needed when the
+    advertisement does not identify it (20 Hz firmware of a CC2541, a device of your own) and when `which` is "". Raises
+    ValueError when `which` and `profile` are both missing, or when a device that cannot report its site has none."""
 
     site: Site | None
     which: str = ""
@@ -32,7 +32,7 @@ class DeviceConfig:
 
     @property
     def description(self) -> str:
-        """Description of the device for use in a sentence."""
+        """Words for the device in an error message: its profile, its address or name."""
         kind = self.profile.name if self.profile is not None else "device"
         return f"{kind} {self.which!r}" if self.which else kind
 
@@ -47,12 +47,12 @@ class DeviceConfig:
         return bool(self.which) and (self.which == name or self.is_address(address))
 
     def is_address(self, address: str) -> bool:
-        """Return whether `which` is this address, so that no other device can be meant."""
+        """Return whether `which` is this address, in upper or lower case."""
         return self.which.upper() == address.upper()
 
 
 def reports_site(profile: Profile | None) -> bool:
-    """Return whether a device of this kind can report where it is worn."""
+    """Return whether a device of this profile can report where it is worn."""
     return profile is not None and "insole/info" in profile.reads
 
 
@@ -60,25 +60,25 @@ def check_configs(configs: Sequence[DeviceConfig]) -> None:
     """Raise ValueError when there is no config, two have one site, or nothing distinguishes two of them."""
     if not configs:
         raise ValueError("no device is wanted")
-    sites = [one.site for one in configs if one.site is not None]
+    sites = [config.site for config in configs if config.site is not None]
     if len(set(sites)) < len(sites):
         raise ValueError("two devices cannot be at one site")
     feet = len({*SITE_OF_FOOT.values()} - {*sites})
     if len(configs) - len(sites) > feet:
         raise ValueError("more insoles are wanted than there are feet for them")
-    for k, one in enumerate(configs):
-        for other in configs[:k]:
-            if one.which.upper() == other.which.upper() and (one.which or one.profile == other.profile):
-                if not one.which and reports_site(one.profile):
+    for k, config in enumerate(configs):
+        for earlier in configs[:k]:
+            if config.which.upper() == earlier.which.upper() and (config.which or config.profile == earlier.profile):
+                if not config.which and reports_site(config.profile):
                     continue
-                raise ValueError(f"nothing tells one {one.description} from the other: name them by their addresses")
+                raise ValueError(f"nothing tells one {config.description} from the other: name them by their addresses")
 
 
 def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:
-    """Return whether this is an advertisement of a device of this kind."""
+    """Return whether a device of this profile advertises this name or one of these service UUIDs."""
     return profile.matches_name(name) or not set(profile.services).isdisjoint(services)
 
 
 def identify(name: str, services: Sequence[str]) -> Profile | None:
-    """Return the kind of device that sends this advertisement; None for an unknown one."""
+    """Return the profile of the device that sends this advertisement; None for an unknown device."""
     return next((profile for profile in PROFILES if advertises(profile, name, services)), None)

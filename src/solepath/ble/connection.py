@@ -17,26 +17,26 @@ from ..wire.receiver import LONGEST_NAME, ConnectionFrame, build_connected
 from .config import DeviceConfig
 from .inbox import Emitter, shorten
 from .listening import Listening
-from .scanning import WEAKEST, Backend, Found, Scanner
-from .search import PRESENT_FOR, Search
-from .setup import INFO, WrongDevice, find_missing_stream, parse_site, read_info
+from .scanning import WEAKEST_SIGNAL, Backend, Found, Scanner
+from .search import PRESENCE_TIME, Search
+from .setup import INFO_CHANNEL, WrongDevice, find_missing_stream, parse_site, read_info
 from .trouble import FAILURES, NO_ANSWER, bleak_call, describe_error
 
-ATTEMPTS = 2
-"""Number of attempts to connect to a device that has just advertised, before the search starts again."""
-CONNECTING = 20.0
-"""Time limit for all these attempts, s, so that the search for a device that left starts again soon."""
-PAUSE = 0.25
-"""Delay before the next search after a link that broke soon or a connection without stream data, s.
+MAX_ATTEMPTS = 2
+"""Largest number of attempts to connect to a device that has just advertised, before the search starts again."""
+CONNECT_TIMEOUT = 20.0
+"""Time limit for all attempts to connect, s, so that the search for a device that left starts again soon."""
+SEARCH_DELAY = 0.25
+"""Delay before the next search after a connection that ended soon or brought no stream data, s.
 
-It doubles after each further connection that brought no stream data."""
-LONGEST_PAUSE = 8.0
+The delay doubles after each further connection that brought no stream data."""
+MAX_SEARCH_DELAY = 8.0
 """Upper limit of the delay before the next search, s."""
-STABLE_AFTER = 1.0
-"""Time of listening after which a lost link is searched for again at once, s."""
-DISCONNECTING = 5.0
+STABLE_TIME = 1.0
+"""Time of listening after which a lost device is searched for again without delay, s."""
+DISCONNECT_TIMEOUT = 5.0
 """Time limit of a disconnection, s."""
-RECHECK_AFTER = 60.0
+RECHECK_TIME = 60.0
 """Time after which a wrong device is tried again, s: its owner may have corrected it."""
 
 
@@ -57,11 +57,11 @@ class Connection:
     """The connection of one configured device, as `Devices` holds it.
 
     An app may read `config`, `site`, `state`, `signal`, `address` and `name`; the last two are "" until they are known.
-    Nothing here raises: troubles become packets, which the session turns into LinkTrouble.
+    `run` raises no Bluetooth failure: troubles become packets, which the session turns into LinkTrouble.
 
-    `run` is a task of its own, so no device waits for another. It reports through `emitter`. `pair` makes it pair when
-    connected. `patience` is the time until a device that does not advertise is reported, s. `siblings` are all
-    connections of the same owner, this one included; no two of them use the same device or the same site."""
+    Every connection runs in its own task, so no device waits for another. It reports through `emitter`. `pair` requests
+    pairing when connected. `patience` is the time until a device that does not advertise is reported, s. `siblings` are
+    all connections of the same owner, this one included; no two of them use the same device or the same site."""
 
     config: DeviceConfig
     backend: Backend
@@ -83,28 +83,28 @@ class Connection:
     _streamed: bool = field(default=False, init=False)
     """True if the current or last connection brought stream data."""
     _wrong_since: dict[str, float] = field(factory=dict, init=False)
-    """Addresses of wrong devices, each with the time at which that was found, s."""
+    """Time at which each wrong device was detected, s, by its address."""
 
     @property
     def site(self) -> Site:
-        """Site that the packets carry; provisional until a device that reports its site was read."""
+        """Site of the packets; provisional until a device that reports its own site was read."""
         return self.emitter.site
 
     @property
     def address(self) -> str:
-        """Address of the device once it is known; from then on no other device is accepted."""
+        """Address of the device, "" until it is known; from then on no other device is accepted."""
         return self.emitter.address
 
     async def run(self) -> None:
         """Keep the device connected; never returns."""
-        pause, self._no_stream_since = PAUSE, _now()
+        pause, self._no_stream_since = SEARCH_DELAY, _now()
         while True:
-            since, report_trouble = self._no_stream_since, self.emitter.report_trouble
+            silent_since, report_trouble = self._no_stream_since, self.emitter.report_trouble
             search = Search(
-                self.scanner, self.config, self.address, self._is_excluded, self.patience, since, report_trouble
+                self.scanner, self.config, self.address, self._is_excluded, self.patience, silent_since, report_trouble
             )
             found = await search.run()
-            self._current_address, self.signal = found.address, found.signal if found.signal > WEAKEST else None
+            self._current_address, self.signal = found.address, found.signal if found.signal > WEAKEST_SIGNAL else None
             self._streamed = False
             try:
                 await self._use(found)
@@ -117,21 +117,21 @@ class Connection:
                 stable = (
                     self._streamed
                     and self.state is ConnectionState.LISTENING
-                    and _now() - self._listening_since >= STABLE_AFTER
+                    and _now() - self._listening_since >= STABLE_TIME
                 )
                 self._current_address, self.state = "", ConnectionState.SEEKING
             if self._streamed:
-                pause, self._no_stream_since = PAUSE, _now()
+                pause, self._no_stream_since = SEARCH_DELAY, _now()
             if not stable:
                 await asyncio.sleep(pause)
             if not self._streamed:
-                pause = min(2.0 * pause, LONGEST_PAUSE)
+                pause = min(2.0 * pause, MAX_SEARCH_DELAY)
 
     def _is_excluded(self, found: Found) -> bool:
         """Return whether the device belongs to another connection or is known to be wrong."""
-        self._wrong_since = {address: t for address, t in self._wrong_since.items() if _now() - t < RECHECK_AFTER}
-        others = (one for one in self.siblings if one is not self)
-        return found.address in self._wrong_since or any(one._claims(found) for one in others)
+        self._wrong_since = {address: t for address, t in self._wrong_since.items() if _now() - t < RECHECK_TIME}
+        other_connections = (connection for connection in self.siblings if connection is not self)
+        return found.address in self._wrong_since or any(connection._claims(found) for connection in other_connections)
 
     def _claims(self, found: Found) -> bool:
         if self.address or self._current_address:
@@ -139,7 +139,7 @@ class Connection:
         return self.config.is_named(found.address, found.name)
 
     async def _use(self, found: Found) -> None:
-        """Connect, listen, and return when the connection is lost. Raises WrongDevice and FAILURES."""
+        """Connect and listen until the connection is lost. Raises WrongDevice and FAILURES."""
         profile = self.config.profile or found.profile
         name = found.name or found.address
         if profile is None:
@@ -153,7 +153,9 @@ class Connection:
                 raise WrongDevice(f"{name} is no {profile.name}: it has no {missing}")
             info = await read_info(client, profile)
             self._assign(None if info is None else parse_site(info, name), found, name)
-            listening = Listening(client, profile, self.emitter, disconnected, {} if info is None else {INFO: info})
+            listening = Listening(
+                client, profile, self.emitter, disconnected, {} if info is None else {INFO_CHANNEL: info}
+            )
             self.emitter.emit(
                 "receiver/connected", build_connected(ConnectionFrame(shorten(name, LONGEST_NAME), self.signal))
             )
@@ -166,22 +168,22 @@ class Connection:
                 self.emitter.emit("receiver/disconnected")
         finally:
             with suppress(*FAILURES):
-                async with bleak_call(DISCONNECTING):
+                async with bleak_call(DISCONNECT_TIMEOUT):
                     await client.disconnect()
 
     async def _connect(self, found: Found, name: str, disconnected: asyncio.Event) -> BleakClient:
         """Connect to the device; `disconnected` is set when the connection is lost. Raises FAILURES."""
         loop = asyncio.get_running_loop()
-        complain_at = max(self._no_stream_since + self.patience, _now() + min(PRESENT_FOR, self.patience))
+        complain_at = max(self._no_stream_since + self.patience, _now() + min(PRESENCE_TIME, self.patience))
         timer = loop.call_at(complain_at, self.emitter.report_trouble, NO_ANSWER)
         try:
-            async with bleak_call(CONNECTING):
+            async with bleak_call(CONNECT_TIMEOUT):
                 client = await establish_connection(
                     BleakClient,
                     found.device,
                     name,
                     lambda _: disconnected.set(),
-                    max_attempts=ATTEMPTS,
+                    max_attempts=MAX_ATTEMPTS,
                     pair=self.pair,
                     backend=self.backend.client,
                 )
@@ -190,21 +192,21 @@ class Connection:
         finally:
             timer.cancel()
         if client.is_connected:
-            disconnected.clear()  # a first attempt that was connected for a moment has set it
+            disconnected.clear()  # an earlier attempt may have set it: it was connected for a moment
         return client
 
     def _assign(self, reported: Site | None, found: Found, name: str) -> None:
-        """Take this device for the site that it reports; raise WrongDevice when that site is not the configured one."""
+        """Assign this device to the site that it reports; raise WrongDevice when another site is configured."""
         site, requested = reported or self.config.site, self.config.site
         if site is None:
             raise WrongDevice(f"{name} does not say where it is worn: name a site")
         if requested is not None and site is not requested:
             raise WrongDevice(f"{name} is a {_place(site)} one: wanted at the {_place(requested)}")
-        there = [one for one in self.siblings if one is not self and one.site is site]
-        if any(one.address or one.config.site is not None for one in there):
+        same_site = [other for other in self.siblings if other is not self and other.site is site]
+        if any(other.address or other.config.site is not None for other in same_site):
             raise WrongDevice(f"{name} is one more for the {_place(site)}")
-        for one in there:  # provisional sites are exchanged
-            one.emitter.site = self.site
+        for other in same_site:  # both sites are provisional, so they can be exchanged
+            other.emitter.site = self.site
         self.emitter.site, self.emitter.address, self.name = site, found.address, found.name
 
 

@@ -1,4 +1,4 @@
-"""Devices: the object through which an app receives packets of real sensors.
+"""The object through which an app receives packets of real sensors.
 
 async with Devices([DeviceConfig(Site.LEFT_FOOT, "F0:F1:F2:F3:F4:F5")]) as devices:
     async for packet in devices:
@@ -16,28 +16,27 @@ from .inbox import Emitter, Inbox
 from .scanning import NATIVE, Backend, Scanner, make_scanner
 from .trouble import FAILURES, BluetoothError, describe_error
 
-TICK = 0.2
-"""Time without a packet after which a packet that reports the passing of time is returned, s."""
-IN_A_ROW = 64
-"""Number of packets that are taken in a row before the event loop can serve Bluetooth again."""
+TICK_INTERVAL = 0.2
+"""Time without a packet after which a packet receiver/tick reports the time, s."""
+MAX_PACKETS_IN_A_ROW = 64
+"""Largest number of packets that are taken in a row before the event loop can serve Bluetooth again."""
 
 
 class Devices:
-    """Any number of devices: found, connected, set up, and connected again when lost; iterate for packets.
+    """The configured devices, connected for the duration of an `async with`; iterate over it for packets.
 
-    Every packet carries the time of the event loop's clock at its arrival (`loop.time()`, usually `time.monotonic()`)
-    and the address of its device. It can be taken in the loop's next turn. Besides notifications there are the values
+    Every packet has the address of its device and the time of the event loop's clock at its arrival, s (`loop.time()`,
+    usually `time.monotonic()`). It can be taken in the loop's next turn. Besides notifications there are the values
     that were read and written, and packets of the receiver itself (protocol/receiver.md): connections, troubles as
-    sentences, counts of dropped packets, and the passing of time while nothing arrives. All of them are for
-    `Session.feed`, which turns them into events, and for a recording.
+    sentences, counts of dropped packets, and ticks while nothing arrives. `Session.feed` turns all of them into events.
 
-    `capacity` is the number of notifications that can wait; beyond it the oldest are dropped and a packet says how
-    many. `pair` makes every device pair when it is connected. `patience` is the time until a device that does not
-    advertise is reported, s. `backend` replaces this machine's Bluetooth (loopback). Raises ValueError when no device
-    is configured, when two have the same site, or when nothing distinguishes two of them.
+    `capacity` is the number of notifications that can wait; beyond it the oldest are dropped and a packet reports their
+    number. `pair` requests pairing of every device when it is connected. `patience` is the time until a device that
+    does not advertise is reported, s. `backend` replaces this machine's Bluetooth (loopback). Raises ValueError when no
+    device is configured, when two have the same site, or when two configs can mean the same device.
 
-    Entering raises BluetoothError when Bluetooth cannot be used; nothing that happens later does. Leaving disconnects;
-    what has arrived by then can still be iterated."""
+    Entering raises BluetoothError when Bluetooth cannot be used; later failures are packets. A lost device is connected
+    again. Leaving disconnects; the packets that have arrived by then can still be iterated."""
 
     def __init__(
         self,
@@ -58,22 +57,22 @@ class Devices:
         self._tasks: list[asyncio.Task[None]] = []
         self._connections: list[Connection] = []
         self._waiter: asyncio.Future[None] | None = None
-        self._taken = 0
+        self._taken_in_a_row = 0
         self._entered = False
-        """True if the devices were entered at least once."""
+        """True once `async with` was entered."""
         self._in_use = False
         self._fault: asyncio.Task[None] | None = None
-        free = [site for site in Site if site not in {one.site for one in configs}]
-        for one in configs:
-            emitter = Emitter(self._inbox, free.pop(0) if one.site is None else one.site)
+        free_sites = [site for site in Site if site not in {config.site for config in configs}]
+        for config in configs:
+            emitter = Emitter(self._inbox, free_sites.pop(0) if config.site is None else config.site)
             self._connections.append(
-                Connection(one, backend, self._scanner, emitter, self._connections, pair, patience)
+                Connection(config, backend, self._scanner, emitter, self._connections, pair, patience)
             )
         self._inbox.on_arrival = self._wake
 
     @property
     def connections(self) -> tuple[Connection, ...]:
-        """Connections in the order of the configs: site, state, address, name, signal. Read only."""
+        """Read-only connections in the order of the configs: site, state, address, name, signal."""
         return tuple(self._connections)
 
     async def __aenter__(self) -> Devices:
@@ -92,7 +91,7 @@ class Devices:
         runs = [self._scanner.run(), *(connection.run() for connection in self._connections)]
         self._tasks = [asyncio.create_task(run) for run in runs]
         for task in self._tasks:
-            task.add_done_callback(self._ended)
+            task.add_done_callback(self._note_end)
         return self
 
     async def __aexit__(self, *error: object) -> None:
@@ -110,13 +109,13 @@ class Devices:
     async def __anext__(self) -> Packet:
         """Return the next packet.
 
-        Raises StopAsyncIteration when the devices were left and all packets are taken, and RuntimeError when they were
-        never entered. An error of this program in one of the tasks is raised unchanged."""
+        Raises StopAsyncIteration after `async with` when all packets are taken, and RuntimeError before `async with`.
+        A programming error in one of the tasks is raised unchanged."""
         if not self._entered:
             raise RuntimeError("nothing comes of devices before they are entered: async with Devices(...) as devices")
-        self._taken += 1
-        if self._taken >= IN_A_ROW:
-            self._taken = 0
+        self._taken_in_a_row += 1
+        if self._taken_in_a_row >= MAX_PACKETS_IN_A_ROW:
+            self._taken_in_a_row = 0
             await asyncio.sleep(0)
         packet = self._next()
         if packet is not None:
@@ -124,8 +123,8 @@ class Devices:
         if self._waiter is not None:
             raise RuntimeError("somebody else waits for the next packet already")
         loop = asyncio.get_running_loop()
-        self._taken, self._waiter = 0, loop.create_future()
-        timer = loop.call_later(TICK, self._wake)
+        self._taken_in_a_row, self._waiter = 0, loop.create_future()
+        timer = loop.call_later(TICK_INTERVAL, self._wake)
         try:
             await self._waiter
         finally:
@@ -146,13 +145,13 @@ class Devices:
         if self._waiter is not None and not self._waiter.done():
             self._waiter.set_result(None)
 
-    def _ended(self, task: asyncio.Task[None]) -> None:
-        """Note a fault: these tasks never end by themselves otherwise."""
+    def _note_end(self, task: asyncio.Task[None]) -> None:
+        """Note the end of a task as a fault, since a task ends only when it is cancelled or raises."""
         if not task.cancelled():
             self._fault = task
         self._wake()
 
-    def _report_trouble(self, what: str) -> None:
+    def _report_trouble(self, text: str) -> None:
         for connection in self._connections:
             if connection.state is ConnectionState.SEEKING:
-                connection.emitter.report_trouble(what)
+                connection.emitter.report_trouble(text)

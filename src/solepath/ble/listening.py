@@ -1,4 +1,4 @@
-"""One established connection: set up, listened to, and watched for frozen streams."""
+"""Handling of one established connection: set up, pass notifications on, and detect frozen streams."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from .inbox import Emitter
 from .setup import read, subscribe, write_setup
 from .watchdog import Remedy, Watchdog
 
-SHORTEST = 0.01
-"""Shortest interval between two checks, s: rounding of a loop's clock must not let them follow at once."""
+MIN_CHECK_INTERVAL = 0.01
+"""Shortest interval between two checks, s: rounding of the loop's clock must not make it zero."""
 
 
 @define(eq=False)
 class Listening:
-    """One established connection that passes notifications on.
+    """The handler of one established connection; it passes notifications on.
 
     `disconnected` is set when the connection is lost. `known` holds values that were read already, by channel.
-    `streamed` is True when stream data arrived. `closed` is True when further notifications are not passed on."""
+    `streamed` is True once stream data arrived. `closed` is True when further notifications are not passed on."""
 
     client: BleakClient
     profile: Profile
@@ -53,12 +53,14 @@ class Listening:
         self._watchdog = Watchdog(streams, self.profile.stale_after, asyncio.get_running_loop().time())
 
     async def run(self) -> None:
-        """Watch until the connection is lost or useless. Raises FAILURES."""
+        """Check the streams until the connection is lost, or a frozen stream requires a new one. Raises FAILURES."""
         now = asyncio.get_running_loop().time
         while not self.disconnected.is_set():
             next_check_at = self._watchdog.next_check_at()
             with suppress(TimeoutError):
-                async with asyncio.timeout(None if next_check_at is None else max(SHORTEST, next_check_at - now())):
+                async with asyncio.timeout(
+                    None if next_check_at is None else max(MIN_CHECK_INTERVAL, next_check_at - now())
+                ):
                     await self.disconnected.wait()
             frozen_stream = None if self.disconnected.is_set() else self._watchdog.check(now())
             if frozen_stream is None:
@@ -70,11 +72,11 @@ class Listening:
             await write_setup(self.client, self.profile, self.emitter)
 
     def _make_callback(self, channel: str) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
-        streams = channel in self.profile.streams
+        is_stream = channel in self.profile.streams
 
         def callback(_: BleakGATTCharacteristic, data: bytearray) -> None:
             if not self.closed:
-                self.streamed = self.streamed or streams
+                self.streamed = self.streamed or is_stream
                 self._watchdog.add_notification(channel, self.emitter.emit_notification(channel, bytes(data)))
 
         return callback

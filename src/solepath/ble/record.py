@@ -1,4 +1,4 @@
-"""Recording of packets on their way to a session."""
+"""Recording of packets before a session receives them."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from ..types import Packet
 async def record(
     packets: AsyncIterable[Packet], path: Path | str, header: Mapping[str, Any] = {}
 ) -> AsyncIterator[Packet]:
-    """Yield the same packets, each written to the file first, so that a replay feeds a session the same input.
+    """Write each packet to the file and yield it, so that a replay feeds a session the same input.
 
         async for packet in record(devices, "walk.jsonl"):
             session.feed(packet)
 
     `header` holds further keys of the first line. `began`, the time of day (UTC), and `began_t`, the packets' clock at
-    that time, are set by this function. Raises RecordingError when the file cannot be made or written any further (the
-    disk is full); what is in it stays intact."""
+    that time, s, are set by this function. Raises RecordingError when the file cannot be made or written any further
+    (the disk is full); packets already in the file stay intact."""
     with PacketWriter(path, {**header, **start_keys()}) as writer:
         async for packet in packets:
             writer.write(packet)
@@ -30,6 +30,6 @@ async def record(
 
 
 def start_keys() -> dict[str, Any]:
-    """Return the header keys for a recording that starts now: time of day and packets' clock (recording.md)."""
+    """Return the header keys of a recording that starts now: time of day (UTC) and packets' clock, s (recording.md)."""
     now = datetime.now(UTC).isoformat(timespec="milliseconds")
     return {"began": now, "began_t": asyncio.get_running_loop().time()}

@@ -1,4 +1,4 @@
-"""Scanning for advertisements: one shared scan for all searches, which runs only while somebody listens."""
+"""Scanning for advertisements: all searches share one scan, which runs only while it has a listener."""
 
 from __future__ import annotations
 
@@ -28,24 +28,24 @@ class Backend:
 NATIVE = Backend()
 """The Bluetooth of this machine."""
 
-RETRY = 2.0
+RETRY_DELAY = 2.0
 """Delay before a scan that failed is started again, s."""
-LONGEST_SILENCE = 60.0
+MAX_SILENCE = 60.0
 """Time without any advertisement after which the scan is started again, s.
 
 A scan may not survive Bluetooth being switched off and on."""
-WEAKEST, STRONGEST = -127, 20
+WEAKEST_SIGNAL, STRONGEST_SIGNAL = -127, 20
 """Range of the signal strength that a controller may report, dBm (Bluetooth Core, vol 4 part E, 7.7.65.2).
 
-A system that reports any other value has no signal strength to report."""
+Any other value stands for an unknown signal strength."""
 
 
 @frozen
 class Found:
     """The last advertisement of a device.
 
-    `signal` is in dBm, -127 when the system does not know it. `t` is in s on the event loop's clock. `services` holds
-    the UUIDs that the device advertises."""
+    `services` holds the UUIDs that the device advertises. `signal` is the signal strength, dBm, -127 when unknown. `t`
+    is the time of the advertisement, s, event loop's clock."""
 
     device: BLEDevice
     name: str
@@ -55,12 +55,12 @@ class Found:
 
     @property
     def address(self) -> str:
-        """Address as the system gives it; on macOS an identifier that is valid on this machine only."""
+        """Address from the system; on macOS an identifier that is valid on this machine only."""
         return self.device.address
 
     @property
     def profile(self) -> Profile | None:
-        """Kind of the device; None for an unknown one."""
+        """Profile of the device; None for an unknown device."""
         return identify(self.name, self.services)
 
 
@@ -69,9 +69,9 @@ OnAdvertisement = Callable[[Found], None]
 
 @define(eq=False)
 class Scanner:
-    """A scanner that scans while it has listeners, in the owner's task that runs `run`.
+    """A scanner that scans while it has listeners; the owner starts `run` as a task.
 
-    `report_trouble` receives a sentence when scanning fails."""
+    It calls `report_trouble` with a sentence when scanning fails."""
 
     backend: Backend
     report_trouble: Callable[[str], None]
@@ -101,15 +101,15 @@ class Scanner:
                     await self._wait_until_unused_or_silent()
             except FAILURES as error:
                 self.report_trouble(f"cannot look for devices: {describe_error(error)}")
-                await asyncio.sleep(RETRY)
+                await asyncio.sleep(RETRY_DELAY)
 
     async def _wait_until_unused_or_silent(self) -> None:
         now = asyncio.get_running_loop().time
         self._advertised_at = now()
-        while self._listeners and now() - self._advertised_at < LONGEST_SILENCE:
+        while self._listeners and now() - self._advertised_at < MAX_SILENCE:
             self._changed.clear()
             with suppress(TimeoutError):
-                async with asyncio.timeout(LONGEST_SILENCE):
+                async with asyncio.timeout(MAX_SILENCE):
                     await self._changed.wait()
 
     def _on_advertisement(self, found: Found) -> None:
@@ -124,24 +124,24 @@ def make_scanner(backend: Backend, on_advertisement: OnAdvertisement) -> BleakSc
 
     def on_detection(device: BLEDevice, advertisement: AdvertisementData) -> None:
         name = (advertisement.local_name or device.name or "").encode("utf-8", "replace").decode("utf-8")
-        signal = advertisement.rssi if WEAKEST <= advertisement.rssi <= STRONGEST else WEAKEST
+        signal = advertisement.rssi if WEAKEST_SIGNAL <= advertisement.rssi <= STRONGEST_SIGNAL else WEAKEST_SIGNAL
         on_advertisement(Found(device, name, tuple(advertisement.service_uuids), signal, loop.time()))
 
     return BleakScanner(on_detection, backend=backend.scanner)
 
 
 async def scan(seconds: float = 4.0, *, backend: Backend = NATIVE) -> list[Found]:
-    """Return the devices that advertise within `seconds`, unknown ones too, the strongest first.
+    """Return the devices, also unknown ones, that advertise within `seconds`, the strongest signal first.
 
-    The list is known when the time is over. Raises BluetoothError when there is no Bluetooth to scan with."""
-    found: dict[str, Found] = {}
+    Returns when the time is over. Raises BluetoothError when Bluetooth cannot be used."""
+    devices: dict[str, Found] = {}
 
-    def on_advertisement(one: Found) -> None:
-        found[one.address] = one
+    def on_advertisement(device: Found) -> None:
+        devices[device.address] = device
 
     try:
         async with make_scanner(backend, on_advertisement):
             await asyncio.sleep(seconds)
     except FAILURES as error:
         raise BluetoothError(describe_error(error)) from error
-    return sorted(found.values(), key=lambda one: (-one.signal, one.address))
+    return sorted(devices.values(), key=lambda one: (-one.signal, one.address))

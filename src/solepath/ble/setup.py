@@ -17,11 +17,11 @@ from .config import reports_site
 from .inbox import Emitter
 from .trouble import bleak_call, describe_error
 
-ANSWER = 5.0
-"""Time limit of an answer, s; then TimeoutError is raised and the connection is made again."""
+ANSWER_TIMEOUT = 5.0
+"""Time limit for the answer of a device, s; then TimeoutError is raised and the connection is made again."""
 
-INFO = "insole/info"
-"""The channel that holds the site of a device."""
+INFO_CHANNEL = "insole/info"
+"""Channel of the record that holds the site of a device."""
 
 NotifyCallback = Callable[[BleakGATTCharacteristic, bytearray], None]
 
@@ -33,14 +33,14 @@ class WrongDevice(Exception):
 def find_characteristic(client: BleakClient, channel: Channel) -> BleakGATTCharacteristic | None:
     """Return the channel's characteristic, the first of several; None when the device does not have it."""
     services = [service for service in client.services if service.uuid == channel.service]
-    found = (service.get_characteristic(channel.characteristic) for service in services)
-    return next((one for one in found if one is not None), None)
+    characteristics = (service.get_characteristic(channel.characteristic) for service in services)
+    return next((characteristic for characteristic in characteristics if characteristic is not None), None)
 
 
 def find_notifying(client: BleakClient, channel: Channel) -> BleakGATTCharacteristic | None:
-    """Return the channel's characteristic if it can be subscribed, else None: some batteries can only be read."""
-    one = find_characteristic(client, channel)
-    return one if one is not None and {"notify", "indicate"} & {*one.properties} else None
+    """Return the channel's characteristic if it can notify, else None: some battery levels can only be read."""
+    found = find_characteristic(client, channel)
+    return found if found is not None and {"notify", "indicate"} & {*found.properties} else None
 
 
 def find_missing_stream(client: BleakClient, profile: Profile) -> str | None:
@@ -51,10 +51,10 @@ def find_missing_stream(client: BleakClient, profile: Profile) -> str | None:
 
 async def read_info(client: BleakClient, profile: Profile) -> bytes | None:
     """Return the record that holds the device's site; None when it has none. Raises FAILURES."""
-    info = find_characteristic(client, profile.channel(INFO)) if reports_site(profile) else None
+    info = find_characteristic(client, profile.channel(INFO_CHANNEL)) if reports_site(profile) else None
     if info is None:
         return None
-    async with bleak_call(ANSWER):
+    async with bleak_call(ANSWER_TIMEOUT):
         return bytes(await client.read_gatt_char(info))
 
 
@@ -72,8 +72,8 @@ def parse_site(info: bytes, name: str) -> Site:
 def is_rejection(error: BleakError, client: BleakClient) -> bool:
     """Return whether the device rejected a request while the connection stands.
 
-    Not every system reports this as an ATT error: Windows says "Access Denied", BlueZ uses names of its own. An error
-    of D-Bus itself, that BlueZ is absent or silent, is no rejection."""
+    Not every system reports this as an ATT error: Windows reports "Access Denied", BlueZ its own D-Bus errors. An error
+    of D-Bus itself (BlueZ is absent or does not answer) is no rejection."""
     if isinstance(error, BleakDBusError) and error.dbus_error.startswith("org.freedesktop.DBus."):
         return False
     return isinstance(error, BleakGATTProtocolError) or client.is_connected
@@ -83,10 +83,10 @@ def is_rejection(error: BleakError, client: BleakClient) -> bool:
 async def device_request(client: BleakClient, emitter: Emitter, failure: str) -> AsyncIterator[None]:
     """Wrap one request to a device.
 
-    A rejection is reported, as `failure` and the reason, and the setup goes on. Any other failure is raised (FAILURES).
+    A rejection is reported, as `failure` and the reason, and the setup continues. Other failures are raised (FAILURES).
     """
     try:
-        async with bleak_call(ANSWER):
+        async with bleak_call(ANSWER_TIMEOUT):
             yield
     except BleakError as error:
         if not is_rejection(error, client):
@@ -95,39 +95,41 @@ async def device_request(client: BleakClient, emitter: Emitter, failure: str) ->
 
 
 async def read(client: BleakClient, channel: Channel, emitter: Emitter) -> None:
-    """Read the channel and emit its value, if the device has it and allows that."""
-    one = find_characteristic(client, channel)
-    if one is not None:
+    """Read the channel and emit its value; without the channel do nothing, and report a rejection."""
+    characteristic = find_characteristic(client, channel)
+    if characteristic is not None:
         async with device_request(client, emitter, f"{channel.name} cannot be read"):
-            emitter.emit(channel.name, bytes(await client.read_gatt_char(one)))
+            emitter.emit(channel.name, bytes(await client.read_gatt_char(characteristic)))
 
 
 async def subscribe(
     client: BleakClient, profile: Profile, make_callback: Callable[[str], NotifyCallback], emitter: Emitter
 ) -> None:
-    """Subscribe to every channel that notifies; other rejections than those of its streams are only reported."""
+    """Subscribe to every channel that notifies; raise the rejection of a stream, and report those of other channels."""
     for channel in profile.channels:
-        if channel.access is not Access.NOTIFY or (one := find_notifying(client, channel)) is None:
+        if channel.access is not Access.NOTIFY or (characteristic := find_notifying(client, channel)) is None:
             continue
         failure = f"{channel.name} cannot be subscribed"
-        async with bleak_call(ANSWER) if channel.name in profile.streams else device_request(client, emitter, failure):
-            await client.start_notify(one, make_callback(channel.name))
+        async with (
+            bleak_call(ANSWER_TIMEOUT) if channel.name in profile.streams else device_request(client, emitter, failure)
+        ):
+            await client.start_notify(characteristic, make_callback(channel.name))
 
 
 async def write_setup(client: BleakClient, profile: Profile, emitter: Emitter) -> list[Packet]:
-    """Write what the profile prescribes; return the packets of the values that were written.
+    """Write the values that the profile prescribes, and return the packets of those that were written.
 
-    A channel that the device does not have (old SensorTags have no periods), or a write that it rejects, is reported
-    and skipped: the watchdog detects a stream that does not start because of it."""
+    A channel that the device does not have (old SensorTags have no channel for periods), or a write that it rejects, is
+    reported and skipped: the watchdog detects a stream that does not start because of it."""
     written = []
     for write in profile.setup:
-        one = find_characteristic(client, profile.channel(write.channel))
-        if one is None:
+        characteristic = find_characteristic(client, profile.channel(write.channel))
+        if characteristic is None:
             emitter.report_trouble(f"{write.channel} is not there to be set: the device keeps to its own")
             continue
         packet: Packet | None = None
         async with device_request(client, emitter, f"{write.channel} was not set to {write.value.hex()}"):
-            await client.write_gatt_char(one, write.value)  # with a response, if it gives one
+            await client.write_gatt_char(characteristic, write.value)  # with response, where the device supports it
             packet = emitter.emit(write.channel, write.value)
         if packet is not None:
             written.append(packet)

@@ -1,4 +1,4 @@
-"""Failures of Bluetooth: caught at every call into bleak and described in a sentence that says what to do."""
+"""Failures of Bluetooth, caught at every call into bleak and described in a sentence with a remedy."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ LOG.addHandler(logging.NullHandler())  # the app decides whether to show the log
 
 
 class BluetoothError(Exception):
-    """Raised when Bluetooth cannot be used at all; the message says why and what to do."""
+    """Raised when Bluetooth cannot be used at all; the message gives the reason and a remedy."""
 
 
 class UnexpectedError(Exception):
-    """Raised for an exception that bleak does not document; it is the cause, and the message names it."""
+    """Raised from an exception that bleak does not document; the message names that exception."""
 
     def __init__(self, error: Exception) -> None:
         words = _plain(error)
@@ -39,10 +39,10 @@ else:
 
 @asynccontextmanager
 async def bleak_call(seconds: float) -> AsyncIterator[None]:
-    """Limit one call into bleak to `seconds` (then TimeoutError); only FAILURES are raised.
+    """Limit one call into bleak to `seconds`, then raise TimeoutError; raise only exceptions of FAILURES.
 
-    bleak also raises exceptions that it should not: its BlueZ client, for one, asserts that its bus still exists while
-    it waits for an answer. Such an exception ends this connection only; the traceback is logged."""
+    bleak also raises exceptions that it does not document: for example, its BlueZ client asserts that its bus still
+    exists while it waits for an answer. Such an exception ends this connection only; the traceback is logged."""
     try:
         async with asyncio.timeout(seconds):
             yield
@@ -54,7 +54,7 @@ async def bleak_call(seconds: float) -> AsyncIterator[None]:
 
 
 _REASON = exc.BleakBluetoothNotAvailableReason
-_NOT_AVAILABLE = {
+_UNAVAILABLE_SENTENCES = {
     _REASON.NO_BLUETOOTH: "this machine has no Bluetooth adapter: plug one in, or switch it on in the firmware's setup",
     _REASON.NO_BLE_CENTRAL_ROLE: "this Bluetooth adapter cannot connect to sensors: one with Bluetooth Low Energy can",
     _REASON.POWERED_OFF: "Bluetooth is off: turn it on",
@@ -63,7 +63,7 @@ _NOT_AVAILABLE = {
     _REASON.DENIED_BY_UNKNOWN: "this program may not use Bluetooth: allow it in the system's settings",
     _REASON.UNKNOWN: "Bluetooth is not available: is it on?",
 }
-_DBUS = {
+_DBUS_SENTENCES = {
     "org.freedesktop.DBus.Error.ServiceUnknown": "the Bluetooth service does not run: systemctl start bluetooth",
     "org.freedesktop.DBus.Error.NameHasNoOwner": "the Bluetooth service does not run: systemctl start bluetooth",
     "org.freedesktop.DBus.Error.AccessDenied": "this user may not use Bluetooth: join the group bluetooth",
@@ -74,30 +74,30 @@ _DBUS = {
 }
 _NOT_PAIRED = "the device wants to be paired first: pair=True, or --pair"
 _NOT_PAIRED_OVER_DBUS = ("org.bluez.Error.NotPermitted", "Not paired")
-"""Error of BlueZ for the codes of `_PAIRING`, except insufficient authorization."""
-_PAIRING = {
+"""D-Bus error of BlueZ for the codes of `_PAIRING_CODES`, except insufficient authorization."""
+_PAIRING_CODES = {
     exc.BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION,
     exc.BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHORIZATION,
     exc.BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION,
     exc.BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION_KEY_SIZE,
 }
-_LOST = ("not connected", "disconnected", "link was lost", "service discovery has not been performed")
+_LOST_TEXTS = ("not connected", "disconnected", "link was lost", "service discovery has not been performed")
 """Texts with which bleak, BlueZ and the loopback report that a connection ended during a request."""
 NO_ANSWER = "the device does not answer: bring it near, and see that no other program or phone holds it"
 
 
 def describe_error(error: BaseException) -> str:
-    """Return one line about any of FAILURES."""
+    """Return one line that describes an exception of FAILURES."""
     match error:
         case exc.BleakBluetoothNotAvailableError():
-            return _NOT_AVAILABLE[error.reason]
+            return _UNAVAILABLE_SENTENCES[error.reason]
         case BleakDBusError() if error.args[:2] == _NOT_PAIRED_OVER_DBUS:
             return _NOT_PAIRED
         case BleakDBusError() if error.dbus_error.startswith("org.bluez.Error.Authentication"):
             return "the device was not paired: make it ready for pairing, and remove what is left of an older one"
-        case BleakDBusError() if error.dbus_error in _DBUS:
-            return _DBUS[error.dbus_error]
-        case BleakGATTProtocolError() if error.code in _PAIRING:
+        case BleakDBusError() if error.dbus_error in _DBUS_SENTENCES:
+            return _DBUS_SENTENCES[error.dbus_error]
+        case BleakGATTProtocolError() if error.code in _PAIRING_CODES:
             return _NOT_PAIRED
         case BleakGATTProtocolError():
             meaning = str(error.args[-1]).removeprefix("GATT Protocol Error: ")
@@ -112,7 +112,7 @@ def describe_error(error: BaseException) -> str:
             return "the connection broke off while it was made: bring the device near"
         case retry.BleakConnectionError() if isinstance(error.__cause__, FAILURES):
             return f"cannot connect: {describe_error(error.__cause__)}"
-        case BleakError() if any(words in str(error).lower() for words in _LOST):
+        case BleakError() if any(words in str(error).lower() for words in _LOST_TEXTS):
             return "the connection was lost: the device is sought again, bring it near if this happens often"
         case FileNotFoundError() | ConnectionRefusedError():
             return f"no Bluetooth service to talk to ({_plain(error)}): install BlueZ, and systemctl start bluetooth"

@@ -1,8 +1,7 @@
-"""Watchdog that distinguishes a frozen stream from one that has nothing to send.
+"""Watchdog for streams that freeze while the connection stands.
 
-The CC2650's movement sensor is known to freeze while its connection stands (firmware before 1.12 on a weak coin cell);
-writing its configuration again wakes it. A device that may be silent by its configuration (wake-on-motion) is not
-watched."""
+The CC2650's movement sensor is known to freeze (firmware before 1.12 on a weak coin cell); writing its configuration
+again restarts it. A device whose configuration allows silence (wake-on-motion) is not watched."""
 
 from __future__ import annotations
 
@@ -12,22 +11,22 @@ from attrs import define, field
 
 
 class Remedy(Enum):
-    """The action against a frozen stream."""
+    """The measure against a frozen stream."""
 
     SET_UP = "write the setup again"
     RECONNECT = "disconnect and connect again"
 
 
-TRIES = 2
-"""Number of times that the setup is written again before the connection is given up."""
+MAX_TRIES = 2
+"""Largest number of times that the setup is written again before the device is disconnected."""
 
 
 @define
 class Watchdog:
     """The watchdog of one connection.
 
-    `streams` are the channels that must send, at most `patience` s apart; none when silence is allowed. `t_start` is
-    the time at which the device was set up, s."""
+    `streams` are the channels that must notify at least every `patience` s; none when silence is allowed. `t_start` is
+    the time at which the device was last set up, s."""
 
     streams: tuple[str, ...]
     patience: float
@@ -44,11 +43,11 @@ class Watchdog:
         return min((self._frozen_at(stream) for stream in self.streams), default=None)
 
     def check(self, now: float) -> tuple[str, Remedy] | None:
-        """Return the frozen channel, if any, and what to do; the remedy's time to work starts with this call."""
+        """Return the frozen channel and its remedy, or None; the remedy has `patience` s from `now` to take effect."""
         for stream in self.streams:
             if now < self._frozen_at(stream):
                 continue
-            if self._tries >= TRIES:
+            if self._tries >= MAX_TRIES:
                 return stream, Remedy.RECONNECT
             self._tries += 1
             self.t_start = now

@@ -1,9 +1,9 @@
-"""Many wearers on a stream engine: one pure step per wearer, whose state the engine keeps, moves and recovers.
+"""Processing of many wearers on a stream engine, which stores, moves and recovers the state of each wearer.
 
     fleet = Fleet(recipes.DEFAULT)
     state, events = fleet.step("w-17", None, [Sent("w-17", 0, packet), ...])
 
-protocol/fleet.md says what a phone sends, in what order it is used, and what a state holds."""
+protocol/fleet.md describes the rows that a phone sends, the order in which they are used, and the state."""
 
 from ..events.fleet import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
 from .fleet import Fleet

@@ -5,8 +5,8 @@
     events = gait("gait", keyed, Fleet(recipe))                         # of NumberedEvent, keyed by wearer
     operators.output("files", events, ParquetSink("events"))
 
-A job that is killed at any moment and started again with its recovery store goes on at the last snapshot: the source,
-every wearer and the sink at the same place. So the files hold each event once, if the source can go back."""
+A job that is killed at any moment and started again with its recovery store continues at the last snapshot. Source,
+wearers and sink continue at the same position. So the files hold each event once, if the source can go back."""
 
 from __future__ import annotations
 
@@ -34,45 +34,45 @@ from .step.sent import NumberedEvent
 def gait(
     step_id: str, up: KeyedStream[Any], fleet: Fleet, idle: timedelta | None = None, forget: timedelta | None = None
 ) -> KeyedStream[NumberedEvent]:
-    """Return the events of a fleet's sessions for what phones sent, wearer by wearer.
+    """Return the events of a fleet's sessions, wearer by wearer, for the rows that phones sent.
 
     `up` is keyed by the wearer's name and holds Sent and Unreadable, one at a time or in lists. The recovery store
-    holds the state of Fleet.step, and the time of the last row of a wearer who has ended. After a restart a session is
-    made again when its wearer's next row arrives.
+    holds the state of Fleet.step, and the time of the last row of a wearer who has ended. After a restart, a session is
+    created from its state when the wearer's next row arrives.
 
-    `idle`: the session of a wearer who sent nothing for this time is replaced by its bytes until the next row, which
-    changes memory and no event (unless a part of the app's own cannot be saved at that moment: Fleet.step). `forget`:
-    the state of a wearer who has ended, and sent nothing for this time, on the engine's clock and over restarts, is
-    discarded. Until then it keeps late copies from starting a session; a row that comes after that starts the wearer
-    again, with events that are numbered from 0 again. bytewax keeps the name (see `purge`)."""
-    named = operators.map("named", up, lambda item: (item[0], item))  # bytewax does not pass the key to a logic
+    `idle` is the time without a row after which a wearer's session is replaced by its bytes until the next row. This
+    saves memory and changes no event (unless an app's part cannot be saved at that moment: Fleet.step). `forget` is the
+    time without a row, on the engine's clock and over restarts, after which the state of a wearer who has ended is
+    discarded. Until then, late copies of rows do not start a session. A later row starts the wearer again, with events
+    numbered from 0. bytewax keeps the wearer's name (see `purge`)."""
+    items = operators.map("named", up, lambda item: (item[0], item))  # bytewax does not pass the key to a logic
     return operators.stateful_batch(
-        "sessions", named, lambda kept: KeyedWearer(fleet, idle, forget, *kept or (None, None))
+        "sessions", items, lambda saved: KeyedWearer(fleet, idle, forget, *saved or (None, None))
     )
 
 
 def purge(store: str | Path) -> None:
     """Remove forgotten wearers from the recovery store of a job that does not run.
 
-    bytewax keeps their names for ever, and SQLite keeps what was overwritten. What bytewax still relies on stays, which
-    is everything unless the job runs with `-b 0`."""
+    bytewax keeps their names for ever, and SQLite keeps overwritten data. Rows that bytewax may still need stay; these
+    are all rows unless the job runs with `-b 0`."""
     for path in sorted(Path(store).glob("part-*.sqlite3")):
-        with closing(sqlite3.connect(path)) as kept:
-            kept.execute(
+        with closing(sqlite3.connect(path)) as database:
+            database.execute(
                 "DELETE FROM snaps AS gone WHERE ser_change IS NULL AND NOT EXISTS (SELECT 1 FROM snaps WHERE "
                 "step_id = gone.step_id AND state_key = gone.state_key AND snap_epoch < gone.snap_epoch)"
             )
-            kept.commit()
-            kept.execute("VACUUM")
+            database.commit()
+            database.execute("VACUUM")
 
 
 @frozen
 class ParquetSink(FixedPartitionedSink[NumberedEvent, tuple[int, int]]):
     """A sink that writes NumberedEvent, keyed by wearer, as Parquet files into `directory` (fleet/parquet.py).
 
-    All workers must see the directory; every snapshot closes a part. `partitions` is the number of workers that write
-    at a time; it must not change during the life of a recovery store. The job ends with an OSError that names the file
-    when one cannot be written."""
+    All workers must see the directory. Every snapshot closes a part file. `partitions` is the number of workers that
+    write at the same time; it must not change during the life of a recovery store. When a file cannot be written, the
+    job ends with an OSError that names it."""
 
     directory: Path = field(converter=Path)
     partitions: int = 1
@@ -97,7 +97,7 @@ class _Partition(StatefulSinkPartition[NumberedEvent, tuple[int, int]]):
 
 @define
 class KeyedWearer(StatefulBatchLogic[tuple[str, Any], NumberedEvent, tuple[bytes | None, datetime | None]]):
-    """One wearer: a session, or its state as bytes, or both while they are equal.
+    """The logic of one wearer; it holds a session (`keyed`), its state as bytes, or both while they are equal.
 
     `ended` is the time of the last row, once the wearer has ended."""
 

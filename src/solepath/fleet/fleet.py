@@ -1,4 +1,4 @@
-"""Fleet: the keyed step that a stream engine calls for every wearer, with the state that the engine keeps."""
+"""The step that a stream engine calls for every wearer, with the state that the engine keeps."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..recipes import DEFAULT, Recipe
 from .step.keyed import Keyed
 from .step.sent import NumberedEvent, Sent, Unreadable
 from .step.sessions import Sessions
-from .step.state import Identity, OtherState, write_state
+from .step.state import StateHead, StateRest, write_state
 
 
 class Fleet:
@@ -21,11 +21,11 @@ class Fleet:
 
     `recipe`, `floorplan`, `profiles`, `poses` and `pressures` are those of Session, `parts` is that of Session.restore.
     `calibrations` holds the calibration of each wearer, looked up when a session of that wearer starts. `window` is the
-    number of rows that may arrive before a late one, until that one is given up. The app must keep new versions of its
-    own code in `recipe`, `profiles` and `parts` compatible. Raises TypeError and ValueError as Session does.
+    largest number of rows that may overtake a missing row before that row is given up. The app must keep new versions
+    of its own code in `recipe`, `profiles` and `parts` compatible. Raises TypeError and ValueError as Session does.
 
-    It can be pickled when its arguments can, which the constructs of a driver cannot. An engine that sends its job to
-    the workers by pickle takes a class of the app's own, in a module that the workers can import, by name:
+    A Fleet can be pickled when its arguments can; the readers of a driver cannot. For an engine that pickles its job,
+    define a class in a module that the workers can import, so that only its name is pickled:
 
         class Ours(Fleet):
             def __init__(self) -> None:
@@ -53,39 +53,38 @@ class Fleet:
         if type(window) is not int or window < 0:
             raise ValueError(f"window is {window}; it is a number of rows")
         plan = IndexedPlan(floorplan) if isinstance(floorplan, FloorPlan) else floorplan
-        own = (tuple(profiles), tuple(parts))
-        self._sessions = Sessions(recipe, calibrations, plan, *own, poses, pressures, window)
+        app_code = (tuple(profiles), tuple(parts))
+        self._sessions = Sessions(recipe, calibrations, plan, *app_code, poses, pressures, window)
         # an error that concerns all wearers is raised here, not in a worker
         self._sessions.unpack(self._sessions.make_session("", calibrated=False).pack())
 
     def step(
         self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]
     ) -> tuple[bytes, list[NumberedEvent]]:
-        """Return the state and the events of `wearer` after `sent`, given the state before; None for a new wearer.
+        """Return the state and the events of `wearer` after `sent`, from the previous state; None for a new wearer.
 
-        The step is pure: the same input gives the same output, on every machine and however the input is cut into
-        calls, if parts of the app's own can be saved at any moment. A part that cannot, since it holds an infinity at
-        that moment, ends its wearer's session (WearerFailed) where a state is taken then, and changes nothing where
-        none is.
+        The step is pure: the same input gives the same output, on every machine and however the input is divided among
+        calls, if the app's parts can be saved at any moment. A part that cannot be saved when a state is taken (since
+        it holds an infinity) ends its wearer's session with WearerFailed.
 
-        It never raises, whatever phones sent; a state that cannot be used gives StateRejected and a fresh session. It
-        raises TypeError, since the job itself is wrong, for a state that is neither bytes nor None and for a `sent`
-        that cannot be iterated, and MemoryError when memory runs out."""
+        No row makes it raise. A state that cannot be used gives StateRejected and a new session. It raises TypeError
+        for errors of the job itself, a state that is neither bytes nor None and a `sent` that cannot be iterated, and
+        MemoryError when memory runs out."""
         keyed = self.open(wearer, state)
         events = keyed.feed(sent)
         return keyed.state(), events
 
     def open(self, wearer: str, state: bytes | None) -> Keyed:
-        """Return the wearer in memory, for engines that keep objects between their snapshots; raises as `step` does."""
+        """Return the wearer as an object, for engines that keep objects between snapshots; raises as `step` does."""
         return Keyed(self._sessions, wearer, state)
 
     def adopt(self, snapshot: Any) -> bytes:
         """Return a state that continues a Session.snapshot taken elsewhere.
 
-        A phone hands its wearer over like this, and starts to send at number 0 of a run. Events are numbered from 0.
-        The settings of the job's recipe hold from here on, not those in the snapshot. Raises SnapshotError when it
-        cannot continue here (Session.unpack) or is finished."""
+        With it a phone hands its wearer over to the fleet; its first row has number 0 of a run. Events are numbered
+        from 0. From now on the settings of the job's recipe are used, not those in the snapshot. Raises SnapshotError
+        when the session cannot continue here (Session.unpack) or is finished."""
         session = self._sessions.restore_session(snapshot)
         now = session.now
-        identity = Identity(-1, 0, 0, 0.0 if now is None else now)
-        return write_state(identity, OtherState(session=session.pack()))
+        identity = StateHead(-1, 0, 0, 0.0 if now is None else now)
+        return write_state(identity, StateRest(session=session.pack()))

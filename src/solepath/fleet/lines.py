@@ -3,8 +3,8 @@
     lines = operators.input("phones", flow, LineSource("sent"))          # of bytes
     sent = operators.map("read", lines, read_line)                       # of Sent and Unreadable
 
-bytewax has file sources of its own. They end the job at a byte that is no UTF-8, and read all files of a directory at
-the same time, which mixes the hours of one wearer."""
+bytewax's own file sources end the job at a byte that is not UTF-8. They read all files of a directory at the same time,
+which mixes the rows of one wearer."""
 
 from __future__ import annotations
 
@@ -28,18 +28,17 @@ _LOG = logging.getLogger(__name__)
 class LineSource(FixedPartitionedSource[bytes, dict[str, int]]):
     """A source of the lines of the files in `directory` whose names match `pattern`, as bytes, without empty ones.
 
-    Files are read one after the other in the order of their names (so pad numbers with zeros). Every directory in
-    `directory` is read in the same way, at the same time as the others: all workers see all directories and share the
-    work by directory, and the files of one wearer lie in one of them. Hidden entries (with a name that starts with a
-    dot) are skipped.
+    Files are read one after the other in the order of their names (so pad numbers with zeros). The directories in
+    `directory` are read in the same way and in parallel: the workers, who must see all directories, divide them among
+    themselves. The files of one wearer must be in one directory. Hidden entries (with a name that starts with a dot)
+    are skipped.
 
-    A line counts when its line feed has been written: files may grow at their ends. The recovery store holds how much
-    of each file was read, so new lines are read at the next start, or by the same job if `follow` is given: then the
-    job does not end, and checks again after that time. A new directory is seen at the next start. A file that was read
-    to its end may be removed. Of a line that is too long for `read_line` only as much is passed on as makes it reject
-    the line.
+    A line is read after its line feed has been written; files may grow at their ends. The recovery store holds the
+    position in each file, so the next start reads new lines. With `follow` the job does not end but checks for new
+    lines after that time. A new directory is noticed at the next start. A file that was read to its end may be removed.
+    A line that is too long is cut at a length that `read_line` rejects.
 
-    `batch` is the number of lines read at a time. Raises NotADirectoryError when there is no such directory, and an
+    `batch` is the largest number of lines read at a time. Raises NotADirectoryError without the directory, and an
     OSError that names the file when one cannot be read. A job that ends logs a warning for each file that does not end
     with a line feed."""
 
@@ -84,4 +83,4 @@ class _Directory(StatefulSourcePartition[bytes, dict[str, int]]):
         return self.awake
 
     def snapshot(self) -> dict[str, int]:
-        return dict(self.files.read)
+        return dict(self.files.positions)

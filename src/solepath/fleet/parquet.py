@@ -1,17 +1,18 @@
-"""Events as Parquet: a directory of numbered part files that DuckDB, pandas, Polars and Spark read as one table.
+"""Writing of events as numbered Parquet files, which DuckDB, pandas, Polars and Spark read as one table.
 
     SELECT wearer, count(*) FROM 'events/*.parquet' WHERE event = 'StrideTaken' GROUP BY wearer       -- DuckDB
     pandas.read_parquet("events")        spark.read.parquet("events")
 
-Needs the extra `bytewax`, or pyarrow itself. This module knows no engine: its user writes through `PartFiles`, and
-keeps the number of the next part in a state of its own.
+Needs the extra `bytewax`, or pyarrow itself. This module depends on no engine: the caller writes through `PartFiles`
+and saves the number of the next part file in its own state.
 
-A part is written under a name that readers skip, flushed to the disk, and renamed. After a crash the engine says which
-part comes next; that part and all later ones are removed, since their events come again. So the files hold each event
-once; a reader may see the events of the last seconds before a crash disappear at the restart and come back unchanged.
+A part file ("part") is written under a name that readers skip, flushed to the disk, and renamed. After a crash the
+engine restores the number of the next part. That part and all later parts are removed, since their events are emitted
+again. So the files hold each event once. At the restart a reader may see the events of the last seconds before the
+crash disappear and return unchanged.
 
-Every `close` makes a file. With few wearers, close seldom, or join the files of past days in another directory, in
-DuckDB by `COPY (SELECT * FROM 'events/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`."""
+Every `close` makes a file. With few wearers, call `close` seldom, or join the files of past days in another directory,
+in DuckDB by `COPY (SELECT * FROM 'events/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`."""
 
 from __future__ import annotations
 
@@ -34,14 +35,14 @@ from .step.sent import NumberedEvent
 _ARROW = {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_()}
 SCHEMA = pa.schema([(name, _ARROW[kind]) for name, kind in EVENT_COLUMNS.items()])
 """Columns of the files, in the order of EVENT_COLUMNS."""
-REPEATED = ["wearer", "event", "foot", "final"]
-"""Columns that repeat their values, for which a dictionary saves space."""
-GROUP = 1 << 15
-"""Number of events in a row group: as rows they take about 40 MB."""
-GROUPS = 32
-"""Number of row groups after which a part is closed in any case."""
+DICTIONARY_COLUMNS = ["wearer", "event", "foot", "final"]
+"""Columns with few different values, which Parquet stores in less space with a dictionary."""
+EVENTS_PER_GROUP = 1 << 15
+"""Number of events in a row group; as Python rows they take about 40 MB of memory."""
+MAX_GROUPS = 32
+"""Largest number of row groups in a part; then it is closed without a call of `close`."""
 _NAME = re.compile(
-    r"\.?(?P<shown>part-(?P<partition>\w+)-(?P<run>\d+)-(?P<number>\d+)\.parquet)((?P<half>\.writing)|\.replaced)?"
+    r"\.?(?P<visible>part-(?P<partition>\w+)-(?P<run>\d+)-(?P<number>\d+)\.parquet)((?P<unfinished>\.writing)|\.replaced)?"
 )
 _LOG = logging.getLogger(__name__)
 _NEW_RUN = (
@@ -56,22 +57,22 @@ class PartFiles:
     """The part files of one writer in `directory`, which is created when missing.
 
     `partition`, letters and digits, distinguishes this writer from others in the same directory, in any process.
-    `resume` is the run and the number of the next part, as the last `close` that counts returned them; parts from there
-    on are removed. None, when nothing is remembered, starts a new run with parts numbered from 0. Parts of another run
-    are then hidden from readers (renamed, `.part-0-1749718800000-00000007.parquet.replaced`), since the events of a
-    fleet that starts again are numbered again, and a warning is logged. Resuming that run restores its parts.
+    `resume` is the run and the number of the next part, as `close` returned them at the engine's last snapshot; this
+    part and later ones are removed. None starts a new run with parts numbered from 0. Parts of another run are then
+    hidden from readers (renamed to `.part-0-1749718800000-00000007.parquet.replaced`) and a warning is logged, since a
+    new run uses the same event numbers again. Resuming the other run makes its parts visible again.
 
-    `partitions` are all partitions of the job, in every process. The first one hides the parts of other partitions,
-    which were written when the job had more; if `partitions` is empty, they stay. `group` is the number of events that
-    are sorted by wearer and packed as one row group.
+    `partitions` are all partitions of the job, in every process. The writer of the first partition also hides the parts
+    of partitions that are not in this list, from a time when the job had more; if the list is empty, they stay. `group`
+    is the number of events that are sorted by wearer and packed as one row group.
 
-    Raises OSError, naming the file, when one cannot be written (the disk is full). Nothing of it is then left on the
-    disk or here: start again with the last number that counted. Raises ValueError for a partition that is no word."""
+    Raises an OSError that names the file when one cannot be written (the disk is full); its data are then discarded, so
+    start again from the engine's last snapshot. Raises ValueError for a partition with other characters."""
 
     directory: Path
     partition: str = "0"
     resume: tuple[int, int] | None = None
-    group: int = GROUP
+    group: int = EVENTS_PER_GROUP
     partitions: Sequence[str] = ()
     run: int = field(init=False)
     """Time at which the run started, ms; part of the names of its parts."""
@@ -99,18 +100,18 @@ class PartFiles:
         return partition == self.partition or (is_first and partition not in self.partitions)
 
     def _hide_and_restore(self, names: list[re.Match[str]]) -> None:
-        """Leave visible to readers the parts of this run that count, and no others."""
+        """Make the valid parts of this run visible to readers, hide those of other runs, and remove all other files."""
         restored = hidden = 0
         for name in names:
-            path, shown = self.directory / name[0], self.directory / name["shown"]
-            mine = int(name["run"]) == self.run and name["partition"] == self.partition
-            if name["half"] or (mine and int(name["number"]) >= self.number):
+            path, visible = self.directory / name[0], self.directory / name["visible"]
+            is_own = int(name["run"]) == self.run and name["partition"] == self.partition
+            if name["unfinished"] or (is_own and int(name["number"]) >= self.number):
                 path.unlink()
-            elif mine and path != shown:
-                path.rename(shown)
+            elif is_own and path != visible:
+                path.rename(visible)
                 restored += 1
-            elif not mine and path == shown:
-                path.rename(shown.with_name(f".{shown.name}.replaced"))
+            elif not is_own and path == visible:
+                path.rename(visible.with_name(f".{visible.name}.replaced"))
                 hidden += 1
         if hidden and self.resume is None:
             _LOG.warning(_NEW_RUN, self.directory, hidden)
@@ -119,17 +120,17 @@ class PartFiles:
 
     def write(self, events: Iterable[NumberedEvent]) -> None:
         """Add events to the open part."""
-        for one in events:
-            self._rows.append(event_row(one))
+        for event in events:
+            self._rows.append(event_row(event))
             if len(self._rows) >= self.group:
                 self._flush()
-                if self._groups >= GROUPS:
+                if self._groups >= MAX_GROUPS:
                     self.close()
 
     def close(self) -> tuple[int, int]:
         """Write the collected events, if any, to the disk as one part; return the run and the next part's number.
 
-        The engine remembers these two numbers together with the state of the source of the events."""
+        The engine must save these two numbers together with the position of its source."""
         if self._rows:
             self._flush()
         if self._writer is not None:
@@ -140,10 +141,12 @@ class PartFiles:
         return self.run, self.number
 
     def _flush(self) -> None:
-        """Write a sorted row group of the collected events: a wearer's events are adjacent and compress better."""
+        """Write the collected events as a row group, sorted by wearer, since they then compress better."""
         if self._writer is None:
             self._buffer = pa.BufferOutputStream()
-            self._writer = parquet.ParquetWriter(self._buffer, SCHEMA, compression="zstd", use_dictionary=REPEATED)
+            self._writer = parquet.ParquetWriter(
+                self._buffer, SCHEMA, compression="zstd", use_dictionary=DICTIONARY_COLUMNS
+            )
         table = pa.Table.from_pylist(self._rows, SCHEMA)
         self._rows = []
         self._writer.write_table(table.sort_by([("wearer", "ascending"), ("number", "ascending")]))
@@ -165,10 +168,10 @@ class PartFiles:
 
 
 def _sync_directory(directory: Path) -> None:
-    """Flush the directory: a file name is on the disk only then; Windows has no such call and needs none."""
+    """Flush the directory, so that new file names are on the disk; Windows has no such call and needs none."""
     if hasattr(os, "O_DIRECTORY"):
-        at = os.open(directory, os.O_RDONLY | os.O_DIRECTORY)
+        descriptor = os.open(directory, os.O_RDONLY | os.O_DIRECTORY)
         try:
-            os.fsync(at)
+            os.fsync(descriptor)
         finally:
-            os.close(at)
+            os.close(descriptor)

@@ -6,9 +6,9 @@
     gait(app.dataframe(sent), Fleet(recipe)).to_topic(events, key=lambda row: row["wearer"])
     app.run()
 
-A job that is killed at any moment and started again goes on at the last commit and delivers again what it emitted after
-that: at least once, the same bytes under the same (wearer, number). A reader of the topic gets each event once with
-`Once`."""
+A job that is killed at any moment and started again continues at the last commit and delivers later events again. So
+delivery is at least once; a repeated event has the same bytes and the same (wearer, number). A reader of the topic
+detects repeated events with `Once`."""
 
 from __future__ import annotations
 
@@ -22,30 +22,29 @@ from ..events.fleet import SentRejected, SentRejection
 from .fleet import Fleet
 from .rows import event_row, read_line
 from .step.keyed import Keyed
-from .step.sent import LONGEST_NAME, NumberedEvent, Sent, Unreadable
+from .step.sent import MAX_NAME_LENGTH, NumberedEvent, Sent, Unreadable
 
-MOST_LINES = 4096
+MAX_LINES = 4096
 """Largest number of lines in one message.
 
 A message with more is rejected as a whole, since every line that cannot be read is reported."""
 UNKEYED = "unkeyed/"
-"""Prefix, before the partition's number, of the wearer for messages whose key is no wearer's name.
+"""Prefix of the wearer's name in events about messages whose key is no wearer's name.
 
-The number of such an event is the message's offset."""
+The partition's number follows the prefix. The event's number is the message's offset."""
 _NO_KEY = SentRejected(
     t=0.0, known_at=0.0, reason=SentRejection.UNREADABLE, detail="a message whose key is no wearer's name"
 )
 
 
 def gait(frame: StreamingDataFrame, fleet: Fleet, keep: int = 256) -> StreamingDataFrame:
-    """Return the events of a fleet's sessions for what phones sent, one message (`event_row`) for each event.
+    """Return the events of a fleet's sessions for the rows that phones sent, one message (`event_row`) for each event.
 
-    `frame` is of a topic of bytes whose key is the wearer's name in UTF-8, 1 to 256 characters. A message holds one
-    whole line of `sent_line` or several: the more lines, the less each costs. A message that cannot be read, or has no
-    such key, is reported as an event and stops nothing. The state of a wearer, that of Fleet.step, is one value in the
-    frame's store. `keep` is the number of wearers whose sessions also stay in memory, which changes the speed and no
-    event. Raises ValueError when the topic's values are not left as bytes, since a value that is no JSON would stop the
-    application."""
+    `frame` is of a topic of bytes whose key is the wearer's name in UTF-8, 1 to 256 characters. A message holds one or
+    more whole lines of `sent_line`; more lines cost less per line. A message that cannot be read, or has no such key,
+    is reported as an event. The state of a wearer (Fleet.step) is one value in the frame's store. `keep` is the number
+    of wearers whose sessions also stay in memory, for speed; it changes no event. Raises ValueError when the topic's
+    values are not left as bytes, since a value that is not JSON would stop the application."""
     for topic in frame.topics:
         if not isinstance(getattr(topic, "_value_deserializer", None), BytesDeserializer):
             raise ValueError(f'topic {topic.name!r} must be made with value_deserializer="bytes"')
@@ -56,52 +55,52 @@ def gait(frame: StreamingDataFrame, fleet: Fleet, keep: int = 256) -> StreamingD
 class _GaitStep:
     """The stateful step.
 
-    A session in memory is used only while the store holds the state that it returned: the partition may have been
-    elsewhere in the meantime, or messages may be repeated."""
+    A session in memory is used only while the store holds the state that it returned: another process may have had the
+    partition in the meantime, or messages may be repeated."""
 
     def __init__(self, fleet: Fleet, keep: int) -> None:
-        self._fleet, self._keep = fleet, keep
+        self._fleet, self._max_kept = fleet, keep
         self._kept: dict[str, tuple[bytes, Keyed]] = {}
         """Sessions by wearer, the most recently used last."""
 
-    def __call__(self, value: Any, key: Any, _at: int, _headers: Any, state: State[str, bytes]) -> list[dict[str, Any]]:
-        wearer = _wearer(key)
-        if wearer is None:  # no state either: this key, however long, would be its key in the changelog
-            at = message_context()
-            return [event_row(NumberedEvent(f"{UNKEYED}{at.partition}", at.offset, _NO_KEY))]
-        events, now = self._step(wearer, state.get_bytes("state"), _sent(wearer, value))
-        state.set_bytes("state", now)
-        return [event_row(one) for one in events]
+    def __call__(self, value: Any, key: Any, _t: int, _headers: Any, state: State[str, bytes]) -> list[dict[str, Any]]:
+        wearer = _parse_wearer(key)
+        if wearer is None:  # without a state: its key in the changelog would be this key, however long
+            context = message_context()
+            return [event_row(NumberedEvent(f"{UNKEYED}{context.partition}", context.offset, _NO_KEY))]
+        events, new_state = self._step(wearer, state.get_bytes("state"), _parse_message(wearer, value))
+        state.set_bytes("state", new_state)
+        return [event_row(event) for event in events]
 
     def _step(
-        self, wearer: str, before: bytes | None, sent: list[Sent | Unreadable]
+        self, wearer: str, old_state: bytes | None, sent: list[Sent | Unreadable]
     ) -> tuple[list[NumberedEvent], bytes]:
-        held, keyed = self._kept.pop(wearer, (None, None))
-        if keyed is None or held != before:
-            keyed = self._fleet.open(wearer, before)
+        kept_state, keyed = self._kept.pop(wearer, (None, None))
+        if keyed is None or kept_state != old_state:
+            keyed = self._fleet.open(wearer, old_state)
         events = keyed.feed(sent)
-        now = keyed.state()
-        if self._keep > 0:
-            self._kept[wearer] = (now, keyed)
-            if len(self._kept) > self._keep:
+        new_state = keyed.state()
+        if self._max_kept > 0:
+            self._kept[wearer] = (new_state, keyed)
+            if len(self._kept) > self._max_kept:
                 del self._kept[next(iter(self._kept))]
-        return events, now
+        return events, new_state
 
 
-def _wearer(key: Any) -> str | None:
+def _parse_wearer(key: Any) -> str | None:
     try:
         name = key.decode() if isinstance(key, bytes) else key
     except UnicodeDecodeError:
         return None
-    return name if isinstance(name, str) and 0 < len(name) <= LONGEST_NAME and not name.startswith(UNKEYED) else None
+    return name if isinstance(name, str) and 0 < len(name) <= MAX_NAME_LENGTH and not name.startswith(UNKEYED) else None
 
 
-def _sent(wearer: str, value: Any) -> list[Sent | Unreadable]:
+def _parse_message(wearer: str, value: Any) -> list[Sent | Unreadable]:
     lines = [line for line in value.split(b"\n") if line.strip()] if isinstance(value, bytes) else []
-    if not 0 < len(lines) <= MOST_LINES:
-        return [Unreadable(wearer, f"a message of {len(lines)} lines; 1 to {MOST_LINES} can be read")]
+    if not 0 < len(lines) <= MAX_LINES:
+        return [Unreadable(wearer, f"a message of {len(lines)} lines; 1 to {MAX_LINES} can be read")]
     sent = [read_line(line) for line in lines]
     mismatched = Unreadable(
         wearer, "a line of another wearer than its message"
     )  # without a number, so it takes no place in this wearer's order
-    return [one if one.wearer in (wearer, "") else mismatched for one in sent]
+    return [row if row.wearer in (wearer, "") else mismatched for row in sent]

@@ -1,6 +1,6 @@
-"""Rows and lines: what a phone sends and the events of a session, as tables, files and topics hold them.
+"""Conversion of a phone's items and a session's events to rows of tables and lines of files, and back.
 
-protocol/fleet.md describes both, column by column."""
+protocol/fleet.md describes every column."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from operator import index
 from typing import Any
 
 from ..types import Packet, Site
-from .step.sent import LONGEST_DATA, LONGEST_NAME, MOST, End, NumberedEvent, Sent, Tick, Unreadable
+from .step.sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_NAME_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 
 SENT_COLUMNS: Mapping[str, type] = {
     "wearer": str, "run": int, "number": int, "t": float, "site": str, "channel": str, "data": bytes, "device": str,
@@ -23,7 +23,7 @@ EVENT_COLUMNS: Mapping[str, type] = {
 """Columns of `event_row` with their types; t, known_at and foot may be None."""
 
 _SITES = {site.value: site for site in Site}
-LONGEST_LINE = 65_536
+MAX_LINE_LENGTH = 65_536
 """Longest line without its line feed, bytes."""
 
 
@@ -32,7 +32,7 @@ class _RowFlaw(Exception):
 
 
 def sent_row(sent: Sent) -> dict[str, Any]:
-    """Return the row of what a phone sends, with the columns of SENT_COLUMNS."""
+    """Return an item that a phone sends as a row with the columns of SENT_COLUMNS."""
     row = {"wearer": sent.wearer, "run": sent.run, "number": sent.number}
     match sent.what:
         case Packet(t, site, channel, data, device):
@@ -44,7 +44,7 @@ def sent_row(sent: Sent) -> dict[str, Any]:
 
 
 def read_sent(row: Any) -> Sent | Unreadable:
-    """Return the content of a row, or Unreadable with the reason and the fields that can be read. Never raises."""
+    """Return the item in a row, or Unreadable with the reason and the fields that can be read; never raise."""
     wearer, number, run = "", None, 0
     try:
         if not isinstance(row, Mapping):
@@ -70,20 +70,20 @@ def _read_payload(row: Mapping[str, Any]) -> Packet | Tick | End:
         data = bytes(data)
     if not isinstance(data, bytes):
         raise _RowFlaw(f"data is no bytes but a {type(data).__name__}")
-    if len(data) > LONGEST_DATA:
-        raise _RowFlaw(f"data of {len(data)} bytes; {LONGEST_DATA} are the most")
+    if len(data) > MAX_DATA_LENGTH:
+        raise _RowFlaw(f"data of {len(data)} bytes; {MAX_DATA_LENGTH} are the most")
     device = "" if row.get("device") is None else _read_name(row, "device")
     return Packet(_read_time(row), _SITES[site], channel, data, device)
 
 
 def _read_name(row: Mapping[str, Any], key: str) -> str:
     value = row.get(key)
-    if type(value) is str and len(value) <= LONGEST_NAME and value.isascii():
-        return value  # the fast path, taken for nearly all
+    if type(value) is str and len(value) <= MAX_NAME_LENGTH and value.isascii():
+        return value  # a fast path for nearly all values
     if not isinstance(value, str):
         raise _RowFlaw(f"{key} is no text but a {type(value).__name__}")
-    if len(value) > LONGEST_NAME:
-        raise _RowFlaw(f"{key} of {len(value)} characters; {LONGEST_NAME} are the most")
+    if len(value) > MAX_NAME_LENGTH:
+        raise _RowFlaw(f"{key} of {len(value)} characters; {MAX_NAME_LENGTH} are the most")
     try:
         value.encode()
     except UnicodeEncodeError:
@@ -100,7 +100,7 @@ def _read_count(row: Mapping[str, Any], key: str, default: int | None) -> int:
             value = index(_reject_bool(value))
         except TypeError:
             raise _RowFlaw(f"{key} is no whole number but a {type(value).__name__}") from None
-    if not 0 <= value <= MOST:
+    if not 0 <= value <= MAX_COUNT:
         raise _RowFlaw(f"{key} is not from 0 to 2**53 - 1")
     return value
 
@@ -112,7 +112,7 @@ def _reject_bool(value: Any) -> Any:
 
 
 def _read_time(row: Mapping[str, Any]) -> float:
-    """Return any float of the row: the session rejects what is no time."""
+    """Return the row's `t`, s, as a float; the session rejects infinity and NaN."""
     value = row.get("t")
     if type(value) is float:
         return value
@@ -125,16 +125,16 @@ def _read_time(row: Mapping[str, Any]) -> float:
 
 
 def sent_line(sent: Sent) -> bytes:
-    """Return one line of JSON, with its line feed; raise ValueError for a time that JSON cannot write."""
+    """Return an item as one line of JSON with its line feed; raise ValueError for a time that is not finite."""
     row = sent_row(sent)
     if row["data"] is not None:
         row["data"] = row["data"].hex()
-    kept = {key: value for key, value in row.items() if value is not None and (key != "run" or value != 0)}
-    return _ENCODER.encode(kept).encode() + b"\n"
+    fields = {key: value for key, value in row.items() if value is not None and (key != "run" or value != 0)}
+    return _ENCODER.encode(fields).encode() + b"\n"
 
 
 def read_line(line: Any) -> Sent | Unreadable:
-    """Return the content of a line, or Unreadable with the reason. Never raises."""
+    """Return the item in a line, or Unreadable with the reason; never raise."""
     try:
         row = _parse_object(line)
     except _RowFlaw as flaw:
@@ -142,19 +142,19 @@ def read_line(line: Any) -> Sent | Unreadable:
     data = row.get("data")
     if isinstance(data, str):
         try:
-            read = bytes.fromhex(data)
+            data_bytes = bytes.fromhex(data)
         except ValueError:
             return read_sent(row)
-        if 2 * len(read) == len(data):  # Python accepts blanks too
-            row["data"] = read
+        if 2 * len(data_bytes) == len(data):  # fromhex accepts blanks too, the protocol does not
+            row["data"] = data_bytes
     return read_sent(row)
 
 
 def _parse_object(line: Any) -> dict[str, Any]:
     if not isinstance(line, bytes | bytearray):
         raise _RowFlaw(f"a line is bytes, not a {type(line).__name__}")
-    if len(line) > LONGEST_LINE:
-        raise _RowFlaw(f"a line of {len(line)} bytes; {LONGEST_LINE} are the most")
+    if len(line) > MAX_LINE_LENGTH:
+        raise _RowFlaw(f"a line of {len(line)} bytes; {MAX_LINE_LENGTH} are the most")
     try:
         value = _DECODER.decode(line.decode())
     except (ValueError, RecursionError):
@@ -174,13 +174,13 @@ _FIELDS = json.JSONEncoder(allow_nan=False)
 
 
 def event_row(numbered: NumberedEvent) -> dict[str, Any]:
-    r"""Return the row of an event, with the columns of EVENT_COLUMNS.
+    r"""Return an event as a row with the columns of EVENT_COLUMNS.
 
     `fields` holds the other fields of the event as JSON, with the names of events.jsonl. An unpaired surrogate in the
     wearer's name is written `\\ud800`, since a table holds UTF-8."""
     record, wearer = numbered.event.to_dict(), numbered.wearer
     if not wearer.isascii():
         wearer = wearer.encode("utf-8", "backslashreplace").decode()
-    first = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}
+    columns = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}
     fields = _FIELDS.encode(record)
-    return {"wearer": wearer, "number": numbered.number, **first, "fields": fields}
+    return {"wearer": wearer, "number": numbered.number, **columns, "fields": fields}

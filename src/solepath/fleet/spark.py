@@ -5,9 +5,9 @@
 
 Needs the extra `spark`, Java 17, and a session that was configured with STORE. examples/spark_gait.py is a whole job.
 
-A micro-batch reads and writes a wearer's state once, and its events come out when it ends. What Spark repeats after a
-crash gives the same events under the same identities (NumberedEvent), and changes the state once. The sink's files may
-be those of a killed task: Spark ignores these, for other readers see spark_files.py."""
+A micro-batch reads and writes a wearer's state once, and its events are available when it ends. A batch that Spark
+repeats after a crash emits the same events with the same identities (NumberedEvent). A killed task may leave files in
+the sink's directory: Spark ignores them; other readers need spark_files.py."""
 
 from __future__ import annotations
 
@@ -25,48 +25,48 @@ from . import EVENT_COLUMNS, SENT_COLUMNS, Fleet, Sent, Unreadable, event_row, r
 _ROCKS = "org.apache.spark.sql.execution.streaming.state.RocksDBStateStoreProvider"
 STORE = {"spark.sql.streaming.stateStore.providerClass": _ROCKS}
 """Configuration that the Spark session needs: transformWithState keeps its state in RocksDB only."""
-MOST_LINES = 4096
+MAX_LINES = 4096
 """Largest number of lines in one message.
 
 A message with more is rejected as a whole, since every line that cannot be read is reported."""
 
 
-def _ddl(columns: Mapping[str, type]) -> str:
+def _make_schema(columns: Mapping[str, type]) -> str:
     kinds = {str: "string", int: "bigint", float: "double", bool: "boolean", bytes: "binary"}
     return ", ".join(f"{name} {kinds[kind]}" for name, kind in columns.items())
 
 
-SENT_SCHEMA, EVENT_SCHEMA = _ddl(SENT_COLUMNS), _ddl(EVENT_COLUMNS)
+SENT_SCHEMA, EVENT_SCHEMA = _make_schema(SENT_COLUMNS), _make_schema(EVENT_COLUMNS)
 """Schemas of the rows of solepath.fleet, in Spark's notation."""
 
 
 def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame | None = None) -> DataFrame:
-    """Return the events (EVENT_SCHEMA) of a fleet's sessions for what phones sent.
+    """Return the events (EVENT_SCHEMA) of a fleet's sessions for the rows that phones sent.
 
-    The rows may come in any order within the fleet's window. `rows` is of SENT_SCHEMA, or holds messages as Kafka has
-    them, `key` the wearer's name and `value` lines of `sent_line`: the more lines in one message, the less each costs.
-    What cannot be read is reported, under the name "" if the wearer is unknown.
+    The rows may arrive in any order within the fleet's window. `rows` is of SENT_SCHEMA, or holds messages of Kafka:
+    `key` is the wearer's name and `value` holds lines of `sent_line`; more lines in a message cost less per line. An
+    unreadable row is reported as an event, of the wearer "" if its wearer is unknown.
 
-    `fleet` goes to the executors by pickle, with every task. For a fleet that is large or cannot be pickled (drivers),
-    give a function that makes it, at the top level of a module that the executors can import: it is called once in each
-    process. `states` (wearer string, state binary) holds the wearers' first states for a new checkpoint."""
+    `fleet` is pickled and sent to the executors with every task. For a fleet that is large or cannot be pickled
+    (drivers), give a function that makes it, at the top level of a module that the executors can import: each process
+    calls it once. `states` (wearer string, state binary) holds the wearers' first states for a new checkpoint."""
     if "value" in rows.columns:
-        rows = rows.select(_text("key"), "value")
+        rows = rows.select(_text_column("key"), "value")
     else:
-        columns = [_text(name) if kind is str else name for name, kind in SENT_COLUMNS.items()]
-        rows = rows.select(_text("wearer").alias("key"), *columns)
+        columns = [_text_column(name) if kind is str else name for name, kind in SENT_COLUMNS.items()]
+        rows = rows.select(_text_column("wearer").alias("key"), *columns)
     keyed = rows.fillna("", ["key"]).groupBy("key")
     initial = None if states is None else states.groupBy("wearer")
     return keyed.transformWithState(GaitProcessor(fleet), EVENT_SCHEMA, "Append", timeMode="None", initialState=initial)
 
 
-def _text(name: str) -> Column:
-    # invalid UTF-8 would end the worker, and with it the job, each time that the job is started
+def _text_column(name: str) -> Column:
+    # invalid UTF-8 would end the worker, and with it the job, at every start
     return f.make_valid_utf8(f.col(name).cast("string")).alias(name)
 
 
 class GaitProcessor(StatefulProcessor):
-    """The keyed step; its only state is the wearer's, as Fleet.step returns it."""
+    """The step for one wearer; its state is that of Fleet.step."""
 
     def __init__(self, fleet: Fleet | Callable[[], Fleet]) -> None:
         self.fleet = fleet
@@ -79,23 +79,23 @@ class GaitProcessor(StatefulProcessor):
         self._state.update((initialState.state,))
 
     def handleInputRows(self, key: Any, rows: Iterable[Row], timerValues: TimerValues) -> Iterator[Row]:
-        known = self._state.get()
-        # the shuffle brings the rows of a batch in any order; the fleet's window is for what another batch brings
-        sent = sorted(chain.from_iterable(map(_read, rows)), key=_place)
-        state, events = self._step(key[0], None if known is None else bytes(known[0]), sent)
+        old_state = self._state.get()
+        # the shuffle changes the order within a batch; the fleet's window is needed for rows of different batches
+        sent = sorted(chain.from_iterable(map(_read_row, rows)), key=_sort_key)
+        state, events = self._step(key[0], None if old_state is None else bytes(old_state[0]), sent)
         self._state.update((state,))
-        return (Row(**event_row(one)) for one in events)
+        return (Row(**event_row(event)) for event in events)
 
 
-def _read(row: Row) -> list[Sent | Unreadable]:
+def _read_row(row: Row) -> list[Sent | Unreadable]:
     if "value" not in row:
         return [read_sent(row.asDict())]
     lines = bytes(row.value or b"").splitlines()
-    return [*map(read_line, lines)] if len(lines) <= MOST_LINES else [Unreadable("", f"{len(lines)} lines at once")]
+    return [*map(read_line, lines)] if len(lines) <= MAX_LINES else [Unreadable("", f"{len(lines)} lines at once")]
 
 
 _make_fleet = lru_cache(lambda make: make())
 
 
-def _place(sent: Sent | Unreadable) -> tuple[int, int]:
+def _sort_key(sent: Sent | Unreadable) -> tuple[int, int]:
     return sent.run, -1 if sent.number is None else sent.number

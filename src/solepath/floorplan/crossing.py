@@ -1,14 +1,14 @@
 """Test whether a straight move crosses a wall, over a uniform grid, for candidates and particles.
 
-A cell of the grid knows the walls within REACH of it and its distance from the nearest wall. A move that is shorter
-than this distance is free at once; other moves up to REACH are tested against the walls of their first cell; longer
-ones against the walls of the cells on their way. The signed distances of both ends from a wall's line exclude most
-walls; only where these are uncertain or the move goes through the line, the exact test (segments.py) decides.
+A cell of the grid lists the walls within MAX_SHORT_MOVE of it and its distance from the nearest wall. A move that is
+shorter than this distance crosses nothing. Other moves up to MAX_SHORT_MOVE are tested against the walls of their first
+cell, and longer moves against the walls of all cells along them. The signed distances of both ends from a wall's line
+exclude most walls; where they do not, the exact test (segments.py) decides.
 
-Time for a step's move among 500 walls in rooms of 15 m^2, the mean over moves in all directions from anywhere: 2 us;
-0.5 us in the open, 3 to 5 us where it does cross a wall; half as much again among 10,000 walls. A move of 4 m: 8 us.
-Indexing takes about 0.05 ms and 1.2 kB for each wall, for long walls in proportion to their length.
-tests/bench/floorplan.py measures it."""
+A move of the length of a step among 500 walls in rooms of 15 m^2 takes 2 us, the mean over moves in all directions from
+anywhere: 0.5 us far from walls, 3 to 5 us if it crosses a wall. Among 10,000 walls it takes 1.5 times as long. A move
+of 4 m takes 8 us. Indexing takes about 0.05 ms and 1.2 kB for each wall, for long walls in proportion to their length.
+tests/bench/floorplan.py measures these times."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from .grid import Grid
 from .plan import Point
 from .segments import distance, touch
 
-REACH = 1.5
-"""Longest move that needs one cell only, m: more than a step, less than a wide corridor."""
+MAX_SHORT_MOVE = 1.5
+"""Longest move that is tested in one cell only, m: longer than a step, shorter than the width of a wide corridor."""
 
-CELL = 0.5
-"""Side of a cell, m; larger where the plan would have more than MOST_CELLS."""
+CELL_SIZE = 0.5
+"""Side of a cell, m; larger where the plan would have more than MAX_CELLS."""
 
-MOST_CELLS = 100_000
+MAX_CELLS = 100_000
 
-_REACH2 = REACH * REACH
+_MAX_SHORT_MOVE2 = MAX_SHORT_MOVE * MAX_SHORT_MOVE
 
-_CERTAIN = 1e-6
-"""Distance from a wall's line beyond which the side is certain, m: below 1e7 m, coordinates are good to 1e-8."""
+_SIDE_MARGIN = 1e-6
+"""Distance from a wall's line beyond which the side is certain, m: coordinates below 1e7 m are accurate to 1e-8 m."""
 
 _Wall = tuple[float, float, float, float, float, float, float]
 """(a, b, c) with a x + b y - c the signed distance from the wall's line, and the wall's ends ax, ay, bx, by."""
@@ -39,101 +39,102 @@ _Wall = tuple[float, float, float, float, float, float, float]
 class Walls:
     """Straight walls in a grid; `walls` are (start, end) in m, and none of them is a single point."""
 
-    __slots__ = ("_all", "_bottom", "_clear", "_columns", "_left", "_near", "_per_m", "_rows")
+    __slots__ = ("_wall_lines", "_bottom", "_free_distances2", "_columns", "_left", "_walls_near", "_per_m", "_rows")
 
-    def __init__(self, walls: Sequence[tuple[Point, Point]], most: int = MOST_CELLS) -> None:
+    def __init__(self, walls: Sequence[tuple[Point, Point]], most: int = MAX_CELLS) -> None:
         """Index the walls in a grid of at most `most` cells."""
-        self._all = [_make_wall(start, end) for start, end in dict.fromkeys(walls)]
-        grid = Grid(self.ends, REACH + CELL, CELL, most)
+        self._wall_lines = [_make_wall(start, end) for start, end in dict.fromkeys(walls)]
+        grid = Grid(self.ends, MAX_SHORT_MOVE + CELL_SIZE, CELL_SIZE, most)
         self._left, self._bottom, self._per_m = grid.left, grid.bottom, grid.per_m
         self._columns, self._rows = grid.columns, grid.rows
-        self._near: list[tuple[_Wall, ...]] = [()] * (self._columns * self._rows)
-        self._clear = [_REACH2] * (self._columns * self._rows)
+        self._walls_near: list[tuple[_Wall, ...]] = [()] * (self._columns * self._rows)
+        self._free_distances2 = [_MAX_SHORT_MOVE2] * (self._columns * self._rows)
         self._index(grid)
 
     def _index(self, grid: Grid) -> None:
         """Add every wall to the cells from which it can be reached."""
-        half = grid.cell * sqrt(0.5) + 1e-6  # from the centre to a corner, and the rounding of the assignment to cells
-        near: dict[int, list[_Wall]] = {}
-        clear: dict[int, float] = {}
-        for wall in self._all:
-            for at, away in grid.near(*wall[3:], REACH + half):
-                known = near.get(at)
-                if known is None:
-                    near[at], clear[at] = [wall], away
+        # from a cell's centre to its corner, m, with a margin for the rounding of the assignment to cells
+        half_diagonal = grid.cell * sqrt(0.5) + 1e-6
+        walls_by_cell: dict[int, list[_Wall]] = {}
+        distances2: dict[int, float] = {}
+        for wall in self._wall_lines:
+            for cell, distance2 in grid.find_near(*wall[3:], MAX_SHORT_MOVE + half_diagonal):
+                cell_walls = walls_by_cell.get(cell)
+                if cell_walls is None:
+                    walls_by_cell[cell], distances2[cell] = [wall], distance2
                 else:
-                    known.append(wall)
-                    if away < clear[at]:
-                        clear[at] = away
-        for at, walls in near.items():
-            self._near[at] = tuple(walls)
-            self._clear[at] = max(sqrt(clear[at]) - half, 0.0) ** 2
+                    cell_walls.append(wall)
+                    if distance2 < distances2[cell]:
+                        distances2[cell] = distance2
+        for cell, walls in walls_by_cell.items():
+            self._walls_near[cell] = tuple(walls)
+            self._free_distances2[cell] = max(sqrt(distances2[cell]) - half_diagonal, 0.0) ** 2
 
     def crosses(self, x0: float, y0: float, x1: float, y1: float) -> bool:
         """Return whether the straight move from (x0, y0) to (x1, y1), m, touches a wall; ends count.
 
         Exact for all finite floats. True for a move with an end that is NaN or infinite: no such move is possible."""
         dx, dy = x1 - x0, y1 - y0
-        long = dx * dx + dy * dy
-        across, up = (x0 - self._left) * self._per_m, (y0 - self._bottom) * self._per_m
-        if not long <= _REACH2:  # also if it is NaN
+        length2 = dx * dx + dy * dy
+        column, row = (x0 - self._left) * self._per_m, (y0 - self._bottom) * self._per_m
+        if not length2 <= _MAX_SHORT_MOVE2:  # also if it is NaN
             return self._crosses_far(x0, y0, x1, y1)
-        if not (0.0 <= across < self._columns and 0.0 <= up < self._rows):
-            return False  # outside the grid no wall is within REACH
-        at = int(up) * self._columns + int(across)
-        if long < self._clear[at]:
+        if not (0.0 <= column < self._columns and 0.0 <= row < self._rows):
+            return False  # outside the grid no wall is within MAX_SHORT_MOVE
+        cell = int(row) * self._columns + int(column)
+        if length2 < self._free_distances2[cell]:
             return False
-        return _touches_any(self._near[at], x0, y0, x1, y1)
+        return _touches_any(self._walls_near[cell], x0, y0, x1, y1)
 
     @property
-    def densest(self) -> tuple[int, Point]:
-        """The largest number of walls that a move is tested against, and about where that is, m."""
-        counts = [len(walls) for walls in self._near]
-        at = max(range(len(counts)), key=counts.__getitem__)
-        i, j = at % self._columns, at // self._columns
-        return counts[at], (self._left + (i + 0.5) / self._per_m, self._bottom + (j + 0.5) / self._per_m)
+    def densest_cell(self) -> tuple[int, Point]:
+        """The largest number of walls listed by one cell, and the centre of that cell, m."""
+        counts = [len(walls) for walls in self._walls_near]
+        cell = max(range(len(counts)), key=counts.__getitem__)
+        i, j = cell % self._columns, cell // self._columns
+        return counts[cell], (self._left + (i + 0.5) / self._per_m, self._bottom + (j + 0.5) / self._per_m)
 
     @property
     def ends(self) -> list[tuple[float, float, float, float]]:
-        """(ax, ay, bx, by) of every wall, in the order given; equal walls appear once."""
-        return [wall[3:] for wall in self._all]
+        """The ends (ax, ay, bx, by) of every wall, m, in the given order; equal walls appear once."""
+        return [wall[3:] for wall in self._wall_lines]
 
-    def is_continued(self, x: float, y: float, own: tuple[float, float, float, float], within: float) -> bool:
-        """Return whether another wall than `own`, or a repetition of it, comes within `within` <= REACH, m."""
-        same = (own, (own[2], own[3], own[0], own[1]))
-        return any(wall[3:] not in same and distance(*wall[3:], x, y) <= within for wall in self._at(x, y))
+    def has_wall_near(self, x: float, y: float, excluded: tuple[float, float, float, float], within: float) -> bool:
+        """Return whether a wall other than `excluded`, in either direction, is within `within` <= MAX_SHORT_MOVE, m."""
+        same = (excluded, (excluded[2], excluded[3], excluded[0], excluded[1]))
+        return any(wall[3:] not in same and distance(*wall[3:], x, y) <= within for wall in self._walls_at(x, y))
 
     def _crosses_far(self, x0: float, y0: float, x1: float, y1: float) -> bool:
         if not (isfinite(x0) and isfinite(y0) and isfinite(x1) and isfinite(y1)):
             return True
-        pieces = hypot(x1 - x0, y1 - y0) / (0.999 * REACH)
-        if pieces > len(self._all) or max(abs(x0), abs(y0), abs(x1), abs(y1)) > 1e7:
-            return any(touch(*wall[3:], x0, y0, x1, y1) for wall in self._all)
+        pieces = hypot(x1 - x0, y1 - y0) / (0.999 * MAX_SHORT_MOVE)
+        if pieces > len(self._wall_lines) or max(abs(x0), abs(y0), abs(x1), abs(y1)) > 1e7:
+            return any(touch(*wall[3:], x0, y0, x1, y1) for wall in self._wall_lines)
         count = ceil(pieces)
         dx, dy = (x1 - x0) / count, (y1 - y0) / count
-        tried = None
+        tested = None
         for k in range(count):
-            near = self._at(x0 + k * dx, y0 + k * dy)
-            if near is not tried and _touches_any(near, x0, y0, x1, y1):
+            cell_walls = self._walls_at(x0 + k * dx, y0 + k * dy)
+            if cell_walls is not tested and _touches_any(cell_walls, x0, y0, x1, y1):
                 return True
-            tried = near
+            tested = cell_walls
         return False
 
-    def _at(self, x: float, y: float) -> tuple[_Wall, ...]:
-        """Return the walls that the cell of a place knows."""
-        across, up = (x - self._left) * self._per_m, (y - self._bottom) * self._per_m
-        inside = 0.0 <= across < self._columns and 0.0 <= up < self._rows
-        return self._near[int(up) * self._columns + int(across)] if inside else ()
+    def _walls_at(self, x: float, y: float) -> tuple[_Wall, ...]:
+        """Return the walls that the cell of (x, y) lists."""
+        column, row = (x - self._left) * self._per_m, (y - self._bottom) * self._per_m
+        inside = 0.0 <= column < self._columns and 0.0 <= row < self._rows
+        return self._walls_near[int(row) * self._columns + int(column)] if inside else ()
 
 
 def _touches_any(walls: tuple[_Wall, ...], x0: float, y0: float, x1: float, y1: float) -> bool:
     for a, b, c, ax, ay, bx, by in walls:
         before = a * x0 + b * y0 - c
         after = a * x1 + b * y1 - c
-        if before > _CERTAIN:
-            if after > _CERTAIN:
+        if before > _SIDE_MARGIN:
+            if after > _SIDE_MARGIN:
                 continue
-        elif before < -_CERTAIN and after < -_CERTAIN:
+        elif before < -_SIDE_MARGIN and after < -_SIDE_MARGIN:
             continue
         if touch(ax, ay, bx, by, x0, y0, x1, y1):
             return True
@@ -142,6 +143,6 @@ def _touches_any(walls: tuple[_Wall, ...], x0: float, y0: float, x1: float, y1: 
 
 def _make_wall(start: Point, end: Point) -> _Wall:
     (ax, ay), (bx, by) = start, end
-    long = hypot(bx - ax, by - ay)
-    a, b = (ay - by) / long, (bx - ax) / long
+    length = hypot(bx - ax, by - ay)
+    a, b = (ay - by) / length, (bx - ax) / length
     return a, b, a * ax + b * ay, ax, ay, bx, by

@@ -5,71 +5,71 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import ceil, floor, hypot, sqrt
 
-from .crossing import MOST_CELLS, Walls
-from .doors import BESIDE
+from .crossing import MAX_CELLS, Walls
+from .doors import MAX_DOOR_OFFSET
 from .plan import Level, Point
 from .segments import side
 
-LATTICE = 0.5
-"""Distance between the tested places, m; larger where there would be more than MOST_PLACES.
+LATTICE_SPACING = 0.5
+"""Distance between the tested places, m; larger where there would be more than MAX_PLACES.
 
-A gap in a wall along the axes that is wider than this is found, a slanting one from 0.7 m on."""
+Every gap wider than this is detected in a wall along x or y, and every gap wider than 0.7 m in a slanting wall."""
 
-MOST_PLACES = 30_000
+MAX_PLACES = 30_000
 
-_POST = BESIDE + 0.05
-"""Distance from a door's end within which a wall's end is the door's post, m."""
+_POST_DISTANCE = MAX_DOOR_OFFSET + 0.05
+"""Largest distance of a wall's end from a door's end at which the two are joined by a closing line, m."""
 
-OPEN_END = 0.05
-"""Distance from all other walls and doors beyond which a wall's end is open, m."""
+OPEN_END_DISTANCE = 0.05
+"""Distance from all other walls and doors beyond which a wall's end counts as open, m."""
 
-_ON = 1e-9
-"""Distance from a place of the lattice, in units of its spacing, below which a wall goes through it."""
+_LATTICE_MARGIN = 1e-9
+"""Distance from a place of the lattice, in units of the spacing, below which a wall counts as going through it."""
 
 
 class Enclosure:
-    """The places that can be reached from outside a level without going through a wall or a door.
+    """The area that the walls and closed doors of a level enclose, on a lattice of places.
 
-    Takes about 1 us for each place, 15 to 30 ms for a storey of 56 m by 63 m. `walls` are those of the level, `most` is
-    the largest number of places."""
+    Construction takes about 1 us for each place, 15 to 30 ms for a storey of 56 m by 63 m. `walls` are those of the
+    level, `most` is the largest number of places."""
 
     __slots__ = ("_bottom", "_hull", "_left", "_outside", "_closed_doors", "_space", "_walls", "columns", "open_end",
-                 "order", "rows")  # fmt: skip
+                 "outside_numbers", "rows")  # fmt: skip
 
-    def __init__(self, level: Level, walls: Walls, most: int = MOST_PLACES) -> None:
+    def __init__(self, level: Level, walls: Walls, most: int = MAX_PLACES) -> None:
         self._walls = walls
         doors = [(door.start, door.end) for door in level.doors if door.start != door.end]
-        self._closed_doors = Walls(doors + _find_posts(level), min(most, MOST_CELLS))
+        self._closed_doors = Walls(doors + _find_posts(level), min(most, MAX_CELLS))
         lines = self._walls.ends + self._closed_doors.ends
         xs = [x for ax, _, bx, _ in lines for x in (ax, bx)] or [0.0]
         ys = [y for _, ay, _, by in lines for y in (ay, by)] or [0.0]
         width, depth = max(xs) - min(xs), max(ys) - min(ys)
-        self._space = max(LATTICE, sqrt(width * depth / most), width / most, depth / most)
+        self._space = max(LATTICE_SPACING, sqrt(width * depth / most), width / most, depth / most)
         # an odd fraction, so that walls at round numbers do not lie on the lattice
         self._left, self._bottom = min(xs) - 1.37 * self._space, min(ys) - 1.37 * self._space
         self.columns, self.rows = ceil(width / self._space) + 3, ceil(depth / self._space) + 3
         self._outside = bytearray(self.columns * self.rows)
-        self.order: list[int] = []
-        """Numbers of the places outside, in the order of their distance from the start of the flood fill."""
+        self.outside_numbers: list[int] = []
+        """Numbers (row times `columns` plus column) of the places outside, in the order of the flood fill."""
         self._flood(*self._find_barriers(lines))
-        self.open_end: Point | None = next(self._open_ends(), None)
-        """End of a wall, outside, at which no other wall goes on; None when there is none."""
+        self.open_end: Point | None = next(self._find_open_ends(), None)
+        """End of a wall, m, that is outside and near no other wall; None when there is none."""
         points = [point for ax, ay, bx, by in lines for point in ((ax, ay), (bx, by))]
         self._hull = _hull(points) if self.open_end is not None else []
 
     @property
     def outside(self) -> Iterator[Point]:
-        """The places outside, in the order of their distance from the start of the flood fill, m."""
-        return (self.place(at % self.columns, at // self.columns) for at in self.order)
+        """The places outside, m, in the order in which the flood fill reaches them."""
+        return (self.place(at % self.columns, at // self.columns) for at in self.outside_numbers)
 
     def place(self, i: int, j: int) -> Point:
-        """Return a place of the lattice, m: number i of `columns` from the west, number j of `rows` from the south."""
+        """Return a place of the lattice, m: column i counts along x, row j along y."""
         return self._left + i * self._space, self._bottom + j * self._space
 
     def _find_barriers(self, lines: list[tuple[float, float, float, float]]) -> tuple[bytearray, bytearray]:
-        """Return flags of a line between each place and the next one to the east, and to the north.
+        """Return for each place whether a wall separates it from its neighbour in +x ("east"), and in +y ("north").
 
-        After the last place of a row or a column there always is a barrier."""
+        There is always a barrier after the last place of a row or a column."""
         columns, rows, per_m = self.columns, self.rows, 1.0 / self._space
         east, north = bytearray(columns * rows), bytearray(columns * rows)
         east[columns - 1 :: columns] = b"\1" * rows
@@ -87,41 +87,41 @@ class Enclosure:
 
     def _flood(self, east: bytearray, north: bytearray) -> None:
         outside, columns = self._outside, self.columns
-        order = self.order = [0]
+        outside_numbers = self.outside_numbers = [0]
         outside[0] = 1
-        for at in order:  # it grows in the loop
-            # west of the first column lies the last one, which has a barrier; south of the first row likewise
+        for number in outside_numbers:  # the list grows in the loop
+            # number - 1 of a first column is the last place of another row, which has a barrier; rows likewise
             for blocked, neighbour in (
-                (east[at], at + 1),
-                (east[at - 1], at - 1),
-                (north[at], at + columns),
-                (north[at - columns], at - columns),
+                (east[number], number + 1),
+                (east[number - 1], number - 1),
+                (north[number], number + columns),
+                (north[number - columns], number - columns),
             ):
                 if not blocked and not outside[neighbour]:
                     outside[neighbour] = 1
-                    order.append(neighbour)
+                    outside_numbers.append(neighbour)
 
-    def _open_ends(self) -> Iterator[Point]:
-        for own in (*self._walls.ends, *self._closed_doors.ends):
-            for end in (own[:2], own[2:]):
-                if self._near_outside(end) and not any(
-                    [walls.is_continued(*end, own, OPEN_END) for walls in (self._walls, self._closed_doors)]
+    def _find_open_ends(self) -> Iterator[Point]:
+        for wall in (*self._walls.ends, *self._closed_doors.ends):
+            for end in (wall[:2], wall[2:]):
+                if self._is_near_outside(end) and not any(
+                    [walls.has_wall_near(*end, wall, OPEN_END_DISTANCE) for walls in (self._walls, self._closed_doors)]
                 ):
                     yield end
 
-    def _near_outside(self, point: Point) -> bool:
-        i, j = self._nearest(*point)
+    def _is_near_outside(self, point: Point) -> bool:
+        i, j = self._find_nearest(*point)
         return any(
             0 <= k < self.columns and 0 <= m < self.rows and self._outside[m * self.columns + k]
             for k in (i - 1, i, i + 1)
             for m in (j - 1, j, j + 1)
         )
 
-    def _nearest(self, x: float, y: float) -> tuple[int, int]:
+    def _find_nearest(self, x: float, y: float) -> tuple[int, int]:
         return round((x - self._left) / self._space), round((y - self._bottom) / self._space)
 
     def inside(self, x: float, y: float) -> bool:
-        """Return whether (x, y), m, is enclosed or, where the walls have open ends, within the hull of them all."""
+        """Return whether (x, y), m, is enclosed or, if a wall has an open end, within the hull of all walls."""
         if self._hull:
             return all(
                 side(*a, *b, x, y) >= 0 for a, b in zip(self._hull, (*self._hull[1:], self._hull[0]), strict=True)
@@ -129,7 +129,7 @@ class Enclosure:
         if not (0.0 <= x - self._left <= self.columns * self._space
                 and 0.0 <= y - self._bottom <= self.rows * self._space):  # fmt: skip
             return False
-        i, j = self._nearest(x, y)
+        i, j = self._find_nearest(x, y)
         for k, m in ((i, j), (i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
             if (
                 0 <= k < self.columns
@@ -141,42 +141,42 @@ class Enclosure:
 
 
 def _lattice_crossings(a: Point, b: Point) -> Iterator[tuple[int, int, int]]:
-    """Yield where the line from a to b, in coordinates (u, v), passes the lattice rows.
+    """Yield (v, first, last) for each lattice row v that the line from a to b crosses; coordinates (u, v) in spacings.
 
-    For each whole number v it gives the first and the last whole number u after which the line passes on that row.
-    Rather one too many than one too few."""
-    low, high = ceil(min(a[1], b[1]) - _ON), floor(max(a[1], b[1]) + _ON)
-    tall = b[1] - a[1]
+    The line crosses the row between u and u + 1 for a whole number u from `first` to `last`. Where rounding leaves
+    this open, the range includes one number too many."""
+    low, high = ceil(min(a[1], b[1]) - _LATTICE_MARGIN), floor(max(a[1], b[1]) + _LATTICE_MARGIN)
+    height = b[1] - a[1]
     for v in range(low, high + 1):
-        if abs(tall) <= 2.0 * _ON:
-            yield v, floor(min(a[0], b[0]) - _ON), floor(max(a[0], b[0]) + _ON)
+        if abs(height) <= 2.0 * _LATTICE_MARGIN:
+            yield v, floor(min(a[0], b[0]) - _LATTICE_MARGIN), floor(max(a[0], b[0]) + _LATTICE_MARGIN)
         else:
-            u = a[0] + min(max((v - a[1]) / tall, 0.0), 1.0) * (b[0] - a[0])
-            yield v, floor(u - _ON), floor(u + _ON)
+            u = a[0] + min(max((v - a[1]) / height, 0.0), 1.0) * (b[0] - a[0])
+            yield v, floor(u - _LATTICE_MARGIN), floor(u + _LATTICE_MARGIN)
 
 
 def _find_posts(level: Level) -> list[tuple[Point, Point]]:
-    """Return lines from the ends of doors to near ends of walls: a door may be drawn beside its gap."""
+    """Return lines from the ends of doors to near ends of walls, since a map may draw a door beside its gap."""
     ends: dict[tuple[int, int], list[Point]] = {}
     for x, y in dict.fromkeys(end for wall in level.walls for end in (wall.start, wall.end)):
-        ends.setdefault((round(x / _POST), round(y / _POST)), []).append((x, y))
-    found = set()
+        ends.setdefault((round(x / _POST_DISTANCE), round(y / _POST_DISTANCE)), []).append((x, y))
+    posts = set()
     for x, y in dict.fromkeys(end for door in level.doors for end in (door.start, door.end)):
-        i, j = round(x / _POST), round(y / _POST)
-        around = [end for k in (i - 1, i, i + 1) for m in (j - 1, j, j + 1) for end in ends.get((k, m), ())]
-        found |= {((x, y), end) for end in around if 0.0 < hypot(end[0] - x, end[1] - y) <= _POST}
-    return sorted(found)
+        i, j = round(x / _POST_DISTANCE), round(y / _POST_DISTANCE)
+        near_ends = [end for k in (i - 1, i, i + 1) for m in (j - 1, j, j + 1) for end in ends.get((k, m), ())]
+        posts |= {((x, y), end) for end in near_ends if 0.0 < hypot(end[0] - x, end[1] - y) <= _POST_DISTANCE}
+    return sorted(posts)
 
 
 def _hull(points: list[Point]) -> list[Point]:
     """Return the convex hull, counter-clockwise (Andrew 1979, Information Processing Letters 9)."""
     ordered = sorted(set(points))
-    found: list[Point] = []
+    hull: list[Point] = []
     for sequence in (ordered, ordered[::-1]):
         half: list[Point] = []
         for point in sequence:
             while len(half) >= 2 and side(*half[-2], *half[-1], *point) <= 0:
                 half.pop()
             half.append(point)
-        found += half[:-1]
-    return found
+        hull += half[:-1]
+    return hull

@@ -1,28 +1,28 @@
-"""A floor plan indexed for queries that occur thousands of times a step.
+"""A floor plan indexed for queries that occur thousands of times a stride.
 
-`crosses` takes 2 us for a step's move (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py). Construction takes
-about 0.1 ms for each wall, some seconds for the largest usable plans; no later query waits for any of that. The index
-is not saved: the same plan gives the same index again."""
+`crosses` takes 2 us for a move of the length of a step (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py).
+Construction takes about 0.1 ms for each wall, some seconds for the largest usable plans. The index is not saved: the
+same plan gives the same index again."""
 
 from __future__ import annotations
 
 from math import isfinite
 
 from .checks import unusable
-from .crossing import MOST_CELLS, Walls
-from .enclosure import MOST_PLACES, Enclosure
-from .grid import CELLS, PLACES, share
+from .crossing import MAX_CELLS, Walls
+from .enclosure import MAX_PLACES, Enclosure
+from .grid import MAX_CELLS_PER_PLAN, MAX_PLACES_PER_PLAN, share_limit
 from .outlines import Ring
 from .plan import FloorPlan, FloorPlanError
-from .rooms import MOST_CELLS as MOST_ROOM_CELLS
+from .rooms import MAX_CELLS as MAX_ROOM_CELLS
 from .rooms import Rooms
 
-MOST_WALLS_NEAR = 2000
+MAX_WALLS_NEAR = 2000
 """Largest number of walls around one place: a move is tested against all of them."""
 
 
 class IndexedPlan:
-    """A floor plan with its walls in grids; levels are numbered by their place in `plan.levels`.
+    """A floor plan with its walls in grids; levels are numbered by their index in `plan.levels`.
 
     Raises FloorPlanError when the plan cannot be used."""
 
@@ -36,28 +36,28 @@ class IndexedPlan:
         self.fingerprint: int = plan.fingerprint
         self._numbers = {level.id: number for number, level in enumerate(plan.levels)}
         count = len(plan.levels)
-        cells = share(MOST_CELLS, CELLS, count)
+        cells = share_limit(MAX_CELLS, MAX_CELLS_PER_PLAN, count)
         self._walls = [Walls([(wall.start, wall.end) for wall in level.walls], cells) for level in plan.levels]
         for level, walls in zip(plan.levels, self._walls, strict=True):
-            densest, (x, y) = walls.densest
-            if densest > MOST_WALLS_NEAR:
+            densest, (x, y) = walls.densest_cell
+            if densest > MAX_WALLS_NEAR:
                 raise FloorPlanError(f"level {level.id!r}: {densest} walls lie around ({x:.0f}, {y:.0f})")
         outlines: list[list[Ring]] = [[] for _ in plan.levels]
-        for stop in [stop for one in plan.connectors for stop in one.stops]:
+        for stop in [stop for connector in plan.connectors for stop in connector.stops]:
             outlines[self._numbers[stop.level]].append(stop.outline)
-        room_cells = share(MOST_ROOM_CELLS, CELLS, count)
-        places = share(MOST_PLACES, PLACES, sum([not level.rooms for level in plan.levels]))
+        room_cells = share_limit(MAX_ROOM_CELLS, MAX_CELLS_PER_PLAN, count)
+        places = share_limit(MAX_PLACES, MAX_PLACES_PER_PLAN, sum([not level.rooms for level in plan.levels]))
         self._insides: list[Rooms | Enclosure] = [
-            Rooms(level, tuple(here), room_cells) if level.rooms else Enclosure(level, walls, places)
-            for level, walls, here in zip(plan.levels, self._walls, outlines, strict=True)
+            Rooms(level, tuple(level_outlines), room_cells) if level.rooms else Enclosure(level, walls, places)
+            for level, walls, level_outlines in zip(plan.levels, self._walls, outlines, strict=True)
         ]
 
     def number(self, level: str) -> int:
         """Return the index in `plan.levels` of the level with this id; raise FloorPlanError when there is none."""
-        found = self._numbers.get(level)
-        if found is None:
+        index = self._numbers.get(level)
+        if index is None:
             self.plan.level(level)  # raises, and names the levels that exist
-        return found or 0
+        return index or 0
 
     def crosses(self, level: int, x0: float, y0: float, x1: float, y1: float) -> bool:
         """Return whether the straight move from (x0, y0) to (x1, y1), m, meets a solid wall of this level.
@@ -67,11 +67,11 @@ class IndexedPlan:
         return self._walls[level].crosses(x0, y0, x1, y1)
 
     def inside(self, level: int, x: float, y: float) -> bool:
-        """Return whether (x, y), m, is a place where a person can be.
+        """Return whether a person can be at (x, y), m, plan frame, on this level.
 
-        On a level with rooms that is in a room, a stairwell or a cabin, or on a doorstep; otherwise within the area
-        that its walls and doors enclose, or within the hull of all walls where they do not close. False on a level
-        without walls and rooms, and for NaN or infinity."""
+        On a level with rooms these places are the rooms, stairwells, cabins and doorsteps. On other levels they are the
+        area that walls and doors enclose, or the hull of all walls if the walls do not close. False on a level without
+        walls and rooms, and for NaN or infinity."""
         if not (isfinite(x) and isfinite(y)):
             return False
         return self._insides[level].inside(x, y)

@@ -10,28 +10,28 @@ from .segments import distance
 Ring = tuple[Point, ...]
 Edges = tuple[tuple[float, float, float, float], ...]
 
-CLOSED = 0.05
-"""Distance from its start within which a ring must end to be closed, m."""
+MAX_CLOSING_DISTANCE = 0.05
+"""Largest distance between the first and last point of a closed ring, m."""
 
 
 def without_repeats(points: list[Point]) -> list[Point]:
-    """Return the points without those that equal the one before."""
+    """Return the points without those that equal the previous point."""
     return [point for i, point in enumerate(points) if i == 0 or point != points[i - 1]]
 
 
-def ring(points: list[Point]) -> tuple[Ring, float]:
-    """Return an outline from points whose last repeats the first, and the distance of that last point from it, m.
+def make_ring(points: list[Point]) -> tuple[Ring, float]:
+    """Return an outline from points whose last repeats the first, and the distance between these two points, m.
 
-    If the distance is more than CLOSED, the last point stays, as a corner."""
+    If the distance is more than MAX_CLOSING_DISTANCE, the last point stays as a corner."""
     open_by = hypot(points[-1][0] - points[0][0], points[-1][1] - points[0][1]) if points else 0.0
-    kept = without_repeats(points[:-1] if open_by <= CLOSED and len(points) > 1 else points)
-    if len(kept) > 1 and kept[0] == kept[-1]:
-        kept.pop()
-    return tuple(kept), open_by
+    corners = without_repeats(points[:-1] if open_by <= MAX_CLOSING_DISTANCE and len(points) > 1 else points)
+    if len(corners) > 1 and corners[0] == corners[-1]:
+        corners.pop()
+    return tuple(corners), open_by
 
 
-def not_closed(open_by: float) -> str:
-    """Return the remark about a ring that does not close."""
+def describe_open_ring(open_by: float) -> str:
+    """Return the remark about a ring that ends `open_by` m from its start."""
     return f"its outline does not close, it ends {open_by:.2f} m from where it begins"
 
 
@@ -40,8 +40,8 @@ def edges(outline: Ring) -> Edges:
     return tuple((*a, *b) for a, b in zip(outline, (*outline[1:], *outline[:1]), strict=True))
 
 
-def holds(lines: Edges, x: float, y: float) -> bool:
-    """Return whether a place is within these edges, by the even-odd rule with a ray to +x."""
+def contains(lines: Edges, x: float, y: float) -> bool:
+    """Return whether (x, y), m, is within these edges, by the even-odd rule with a ray to +x."""
     odd = False
     for ax, ay, bx, by in lines:
         if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
@@ -55,10 +55,10 @@ def area(outline: Ring) -> float:
     return 0.5 * sum((ax - ox) * (by - oy) - (bx - ox) * (ay - oy) for ax, ay, bx, by in edges(outline))
 
 
-def middle(outline: Ring) -> Point:
-    """Return a place within the outline.
+def find_inner_point(outline: Ring) -> Point:
+    """Return a place within the outline, m.
 
-    It is the centroid if that is inside, else the middle of the widest stretch at that height."""
+    It is the centroid if that is inside, else the middle of the widest inner stretch along x at the centroid's y."""
     lines, (ox, oy) = edges(outline), outline[0]
     x, y = sum(p[0] for p in outline) / len(outline), sum(p[1] for p in outline) / len(outline)
     size = area(outline)
@@ -68,43 +68,43 @@ def middle(outline: Ring) -> Point:
             weight = (ax - ox) * (by - oy) - (bx - ox) * (ay - oy)
             sx, sy = sx + (ax + bx - 2.0 * ox) * weight, sy + (ay + by - 2.0 * oy) * weight
         x, y = ox + sx / (6.0 * size), oy + sy / (6.0 * size)
-    if holds(lines, x, y):
+    if contains(lines, x, y):
         return x, y
-    met = sorted(ax + (y - ay) * (bx - ax) / (by - ay) for ax, ay, bx, by in lines if (ay > y) != (by > y))
-    stretches = list(zip(met[::2], met[1::2], strict=False))
+    crossings = sorted(ax + (y - ay) * (bx - ax) / (by - ay) for ax, ay, bx, by in lines if (ay > y) != (by > y))
+    stretches = list(zip(crossings[::2], crossings[1::2], strict=False))
     if not stretches:
         return x, y
     low, high = max(stretches, key=lambda stretch: stretch[1] - stretch[0])
     return 0.5 * (low + high), y
 
 
-def tidy(outline: Ring) -> Ring:
+def normalize_ring(outline: Ring) -> Ring:
     """Return the outline counter-clockwise, from its leftmost, lowest corner on, without corners on straight lines."""
     ordered = outline if area(outline) >= 0.0 else outline[::-1]
-    bent = [
+    corners = [
         b
         for a, b, c in zip((ordered[-1], *ordered), ordered, (*ordered[1:], ordered[0]), strict=False)
-        if not _straight(a, b, c)
+        if not _is_straight(a, b, c)
     ]
-    ordered = tuple(bent) if len(bent) >= 3 else ordered
+    ordered = tuple(corners) if len(corners) >= 3 else ordered
     first = ordered.index(min(ordered))
     return ordered[first:] + ordered[:first]
 
 
-def _straight(a: Point, b: Point, c: Point) -> bool:
-    """Return whether b is no corner: it lies between a and c, within a millimetre of the line."""
-    between = (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]) < 0.0
-    return between and distance(*a, *c, *b) <= 1e-3
+def _is_straight(a: Point, b: Point, c: Point) -> bool:
+    """Return whether b lies between a and c within 1 mm of their line, so that it is no corner."""
+    is_between = (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]) < 0.0
+    return is_between and distance(*a, *c, *b) <= 1e-3
 
 
-def with_holes(rings: tuple[Ring, ...]) -> Ring:
+def join_holes(rings: tuple[Ring, ...]) -> Ring:
     """Return one ring for an outline and its holes.
 
-    Each hole is joined to the outline by a cut, passed in both directions, which the even-odd rule ignores."""
+    A line that runs to each hole and back joins it to the outline; the even-odd rule ignores this line."""
     outline = rings[0] if rings else ()
     for hole in rings[1:]:
         k = hole.index(min(hole))
-        away = [hypot(x - hole[k][0], y - hole[k][1]) for x, y in outline]
-        i = away.index(min(away))
+        distances = [hypot(x - hole[k][0], y - hole[k][1]) for x, y in outline]
+        i = distances.index(min(distances))
         outline = (*outline[: i + 1], *hole[k:], *hole[: k + 1], *outline[i:])
     return outline

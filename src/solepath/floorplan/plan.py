@@ -1,8 +1,8 @@
-"""A floor plan as plain records: levels with walls, doors and rooms, and the stairs and lifts that join them.
+"""A floor plan as plain records: levels with walls, doors and rooms, and the stairs and elevators that join them.
 
 Plan frame: x and y in m, right handed, z up; a level's z is its `elevation`. Readers of three formats (reading.py) make
-these records, and so can a program. Walls are solid: a reader cuts every door out of them (doors.py). checks.py has the
-requirements on a plan."""
+these records; a program can make them too. Walls are solid: a reader cuts every door out of them (doors.py). checks.py
+has the requirements on a plan."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Point = tuple[float, float]
 
 
 class FloorPlanError(ValueError):
-    """Raised when a floor plan cannot be read or used, in one line with the file, the feature and the fault."""
+    """Raised when a floor plan cannot be read or used; its one line names the file, the feature and the fault."""
 
 
 @frozen
@@ -57,10 +57,10 @@ class ConnectorStop:
 
 @frozen
 class Connector:
-    """Stairs or a lift.
+    """Stairs or an elevator.
 
     `stops` go from the lowest to the highest. `flights` is the number of flights of stairs per storey, None when
-    unknown. `rise` is the height of one step of the stairs, m, None when unknown."""
+    unknown. `rise` is the height of one tread of the stairs, m, None when unknown."""
 
     kind: ConnectorKind
     name: str
@@ -73,9 +73,9 @@ class Connector:
 class Level:
     """One storey of a building.
 
-    `ordinal` is its place in the order of storeys, 0 at the ground. `elevation` is the height of its floor, m, in the
-    plan's z. `rooms` are outlines within which a person can walk, rings that do not repeat their first point; empty
-    when unknown."""
+    `ordinal` is its number in the order of storeys, 0 at the ground. `elevation` is its floor's z, m, plan frame.
+    `rooms` are outlines within which a person can walk, rings that do not repeat their first point; empty when
+    unknown."""
 
     id: str
     name: str
@@ -88,7 +88,7 @@ class Level:
 
 @frozen
 class Anchor:
-    """Position of the plan on the Earth.
+    """The position and orientation of the plan on the Earth.
 
     `latitude` and `longitude` are those of the plan's origin (0, 0), degrees, WGS84. `bearing` is the angle from true
     north clockwise to the plan's +y, rad; with 0, +x is east and +y is north."""
@@ -104,8 +104,8 @@ class FloorPlan:
 
     `levels` go from the lowest to the highest. `connectors` join them. `anchor` is None when the position on the Earth
     is unknown; nothing requires it. `heights_known` is False when the file has no elevations and the reader has assumed
-    one storey's usual height between the levels: then no height may be corrected by them. `remarks` are the reader's,
-    one line each; they do not count in comparisons of plans."""
+    the height between levels: then heights must not be corrected by elevations. `remarks` are lines about faults that
+    the reader tolerated; comparisons of plans ignore them."""
 
     name: str
     levels: tuple[Level, ...]
@@ -120,18 +120,18 @@ class FloorPlan:
 
     @property
     def fingerprint(self) -> int:
-        """Checksum, the same for equal plans on every machine; others differ but for one chance in 2^32.
+        """Checksum of the plan: equal on every machine for equal plans, and by chance (1 in 2^32) for other plans.
 
         It is computed at each access, in a time that grows with the plan."""
         return checksum(save(evolve(self, remarks=())))
 
     @property
     def origin(self) -> Point:
-        """A round place near the plan, m: values stored with few digits are stored relative to it."""
+        """A place near the plan in whole m, plan frame: values stored with few digits are stored relative to it."""
         for level in self.levels:
             for x, y in [wall.start for wall in level.walls[:1]] + [room[0] for room in level.rooms[:1] if room]:
                 return x // 1.0, y // 1.0
-        for x, y in [stop.place for one in self.connectors[:1] for stop in one.stops[:1]]:
+        for x, y in [stop.place for connector in self.connectors[:1] for stop in connector.stops[:1]]:
             return x // 1.0, y // 1.0
         return 0.0, 0.0
 

@@ -1,4 +1,4 @@
-"""Type checks of a floor plan's records: a program may have put anything into them."""
+"""Checks of the types in a floor plan's records, which a program can fill with anything."""
 
 from __future__ import annotations
 
@@ -7,92 +7,94 @@ from typing import Any
 
 from .plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Start, Wall
 
-FARTHEST = 1e7
+MAX_COORDINATE = 1e7
 """Largest absolute coordinate from the plan's origin, m: national grids have up to 1e7."""
 
-HIGHEST_ORDINAL = 100_000
-"""Largest absolute ordinal of a storey; a reader may number underground levels freely."""
+MAX_ORDINAL = 100_000
+"""Largest absolute ordinal of a storey."""
 
-WIDEST_SPREAD = 5000.0
-"""Largest spread of a start, m: a start anywhere in the largest building says nothing."""
+MAX_SPREAD = 5000.0
+"""Largest spread of a start, m: the largest width of a building."""
 
-MOST_TURNED = 1000.0
+MAX_HEADING = 1000.0
 """Largest absolute heading, rad."""
 
 
-def misshapen(plan: FloorPlan) -> Iterator[str]:
+def find_type_faults(plan: FloorPlan) -> Iterator[str]:
     """Yield one line for each field that is not of the type that plan.py declares.
 
     Only the first line is reliable: later checks assume that everything before them is right."""
-    yield from _kind("the plan", plan, FloorPlan)
-    yield from _text("the plan's name", plan.name)
-    yield from _kind("heights_known", plan.heights_known, bool)
-    for what, some, kind in (("level", plan.levels, Level), ("connector", plan.connectors, Connector),
+    yield from _check_kind("the plan", plan, FloorPlan)
+    yield from _check_text("the plan's name", plan.name)
+    yield from _check_kind("heights_known", plan.heights_known, bool)
+    for noun, values, type_ in (("level", plan.levels, Level), ("connector", plan.connectors, Connector),
                              ("remark", plan.remarks, str)):  # fmt: skip
-        yield from _all(f"the plan's {what}s", some, kind)
+        yield from _check_all(f"the plan's {noun}s", values, type_)
     for level in plan.levels:
-        yield from _of_level(level)
-    for one in plan.connectors:
-        yield from _of_connector(one)
+        yield from _check_level(level)
+    for connector in plan.connectors:
+        yield from _check_connector(connector)
     if plan.anchor is not None:
-        yield from _kind("the anchor", plan.anchor, Anchor)
+        yield from _check_kind("the anchor", plan.anchor, Anchor)
         for name in ("latitude", "longitude", "bearing"):
-            yield from _number(f"the anchor's {name}", getattr(plan.anchor, name))
+            yield from _check_number(f"the anchor's {name}", getattr(plan.anchor, name))
 
 
-def _of_level(level: Level) -> Iterator[str]:
-    yield from _text("a level's id", level.id)
+def _check_level(level: Level) -> Iterator[str]:
+    yield from _check_text("a level's id", level.id)
     name = f"level {level.id!r}"
-    yield from _text(f"{name}: its name", level.name)
-    if isinstance(level.ordinal, bool) or not isinstance(level.ordinal, int) or abs(level.ordinal) > HIGHEST_ORDINAL:
-        yield f"{name}: its ordinal is {shown(level.ordinal)}, not a whole number up to {HIGHEST_ORDINAL}"
-    yield from _number(f"{name}: its elevation", level.elevation)
-    for what, some, kind in (("wall", level.walls, Wall), ("door", level.doors, Door), ("room", level.rooms, tuple)):
-        yield from _all(f"{name}: its {what}s", some, kind)
+    yield from _check_text(f"{name}: its name", level.name)
+    if isinstance(level.ordinal, bool) or not isinstance(level.ordinal, int) or abs(level.ordinal) > MAX_ORDINAL:
+        yield f"{name}: its ordinal is {describe(level.ordinal)}, not a whole number up to {MAX_ORDINAL}"
+    yield from _check_number(f"{name}: its elevation", level.elevation)
+    for noun, values, type_ in (("wall", level.walls, Wall), ("door", level.doors, Door), ("room", level.rooms, tuple)):
+        yield from _check_all(f"{name}: its {noun}s", values, type_)
     for i, wall in enumerate(level.walls):
         if not (_is_point(wall.start) and _is_point(wall.end)):
-            yield f"{name}: wall {i} is {shown((wall.start, wall.end))}, not from (x, y) to (x, y)"
+            yield f"{name}: wall {i} is {describe((wall.start, wall.end))}, not from (x, y) to (x, y)"
     for i, door in enumerate(level.doors):
         if not (_is_point(door.start) and _is_point(door.end)):
-            yield f"{name}: door {i} is {shown((door.start, door.end))}, not from (x, y) to (x, y)"
-        yield from _text(f"{name}: the name of door {i}", door.name)
+            yield f"{name}: door {i} is {describe((door.start, door.end))}, not from (x, y) to (x, y)"
+        yield from _check_text(f"{name}: the name of door {i}", door.name)
     for i, room in enumerate(level.rooms):
         for point in room:
             if not _is_point(point):
-                yield f"{name}: room {i} has a corner {shown(point)}, not (x, y)"
+                yield f"{name}: room {i} has a corner {describe(point)}, not (x, y)"
 
 
-def _of_connector(one: Connector) -> Iterator[str]:
-    yield from _kind("a connector's kind", one.kind, ConnectorKind)
-    yield from _text("a connector's name", one.name)
-    name = f"{one.kind.value} {one.name!r}"
-    yield from _all(f"{name}: its stops", one.stops, ConnectorStop)
-    for stop in one.stops:
-        yield from _text(f"{name}: the level of a stop", stop.level)
-        yield from _all(f"{name}: an outline", stop.outline, tuple)
+def _check_connector(connector: Connector) -> Iterator[str]:
+    yield from _check_kind("a connector's kind", connector.kind, ConnectorKind)
+    yield from _check_text("a connector's name", connector.name)
+    name = f"{connector.kind.value} {connector.name!r}"
+    yield from _check_all(f"{name}: its stops", connector.stops, ConnectorStop)
+    for stop in connector.stops:
+        yield from _check_text(f"{name}: the level of a stop", stop.level)
+        yield from _check_all(f"{name}: an outline", stop.outline, tuple)
         for point in (stop.place, *stop.outline):
             if not _is_point(point):
-                yield f"{name}: a stop has a place {shown(point)}, not (x, y)"
-    if one.flights is not None and (isinstance(one.flights, bool) or not isinstance(one.flights, int)):
-        yield f"{name}: has {shown(one.flights)} flights, not a whole number"
-    if one.rise is not None:
-        yield from _number(f"{name}: the rise of a step", one.rise)
+                yield f"{name}: a stop has a place {describe(point)}, not (x, y)"
+    if connector.flights is not None and (
+        isinstance(connector.flights, bool) or not isinstance(connector.flights, int)
+    ):
+        yield f"{name}: has {describe(connector.flights)} flights, not a whole number"
+    if connector.rise is not None:
+        yield from _check_number(f"{name}: the rise of a step", connector.rise)
 
 
 def no_start(start: Start) -> str | None:
     """Return why this start is invalid on any plan, in one line; None when it is valid."""
-    return next(_of_start(start), None)
+    return next(_check_start(start), None)
 
 
-def _of_start(start: Start) -> Iterator[str]:
-    yield from _text("its level", start.level)
-    if not (_is_point(start.place) and all([abs(value) <= FARTHEST for value in start.place])):
-        yield f"its place is {shown(start.place)}, not (x, y) in m"
+def _check_start(start: Start) -> Iterator[str]:
+    yield from _check_text("its level", start.level)
+    if not (_is_point(start.place) and all([abs(value) <= MAX_COORDINATE for value in start.place])):
+        yield f"its place is {describe(start.place)}, not (x, y) in m"
     heading, spread = start.heading, start.spread
-    if heading is not None and not (_is_number(heading) and abs(heading) <= MOST_TURNED):
-        yield f"its heading is {shown(heading)}, not in rad"
-    if not (_is_number(spread) and 0.0 <= spread <= WIDEST_SPREAD):
-        yield f"its spread is {shown(spread)}; it can be 0 to {WIDEST_SPREAD:g} m"
+    if heading is not None and not (_is_number(heading) and abs(heading) <= MAX_HEADING):
+        yield f"its heading is {describe(heading)}, not in rad"
+    if not (_is_number(spread) and 0.0 <= spread <= MAX_SPREAD):
+        yield f"its spread is {describe(spread)}; it can be 0 to {MAX_SPREAD:g} m"
 
 
 def _is_number(value: Any) -> bool:
@@ -103,37 +105,37 @@ def _is_point(value: Any) -> bool:
     return isinstance(value, tuple) and len(value) == 2 and _is_number(value[0]) and _is_number(value[1])
 
 
-def _number(what: str, value: Any) -> Iterator[str]:
+def _check_number(what: str, value: Any) -> Iterator[str]:
     if not _is_number(value):
-        yield f"{what} is {shown(value)}, not a number"
+        yield f"{what} is {describe(value)}, not a number"
 
 
-def _text(what: str, value: Any) -> Iterator[str]:
+def _check_text(what: str, value: Any) -> Iterator[str]:
     if not isinstance(value, str):
-        yield f"{what} is {shown(value)}, not a text"
+        yield f"{what} is {describe(value)}, not a text"
 
 
-def _kind(what: str, value: Any, kind: type) -> Iterator[str]:
-    if not isinstance(value, kind):
-        yield f"{what} is {shown(value)}, no {kind.__name__}"
+def _check_kind(what: str, value: Any, type_: type) -> Iterator[str]:
+    if not isinstance(value, type_):
+        yield f"{what} is {describe(value)}, no {type_.__name__}"
 
 
-def _all(what: str, some: Any, kind: type) -> Iterator[str]:
-    if not isinstance(some, tuple):
-        yield f"{what} are {shown(some)}, not a tuple"
-    for one in some:
-        if not isinstance(one, kind):
-            yield f"{what}: one is {shown(one)}, no {kind.__name__}"
+def _check_all(what: str, values: Any, type_: type) -> Iterator[str]:
+    if not isinstance(values, tuple):
+        yield f"{what} are {describe(values)}, not a tuple"
+    for value in values:
+        if not isinstance(value, type_):
+            yield f"{what}: one is {describe(value)}, no {type_.__name__}"
 
 
-def shown(value: object) -> str:
+def describe(value: object) -> str:
     """Return a value for use in a sentence: short, on one line, of any type."""
     if isinstance(value, float):
         return f"{value:g}"
     if isinstance(value, int) and not abs(value) < 10**30:
         return "a huge number"
     if isinstance(value, tuple) and len(value) <= 3:
-        return f"({', '.join([shown(one) for one in value])})"
+        return f"({', '.join([describe(item) for item in value])})"
     if isinstance(value, str | int | None):
         return repr(value)[:60]
     return f"a {type(value).__name__}"

@@ -1,4 +1,4 @@
-"""Exact geometry of straight lines: the sign of a cross product never depends on rounding."""
+"""Geometry of straight lines; the sign of a cross product is exact, without rounding errors."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def side(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> in
 def touch(ax: float, ay: float, bx: float, by: float, px: float, py: float, qx: float, qy: float) -> bool:
     """Return whether the straight lines a to b and p to q, ends included, have a point in common.
 
-    Exact for all finite floats, also where a line is a single point."""
+    Exact for all finite floats, also when a line is a single point."""
     if max(ax, bx) < min(px, qx) or max(px, qx) < min(ax, bx) or max(ay, by) < min(py, qy) or max(py, qy) < min(ay, by):
         return False
     # with overlapping boxes, lines that lie on one straight line touch as well
@@ -49,7 +49,7 @@ def touch(ax: float, ay: float, bx: float, by: float, px: float, py: float, qx: 
 def distance(ax: float, ay: float, bx: float, by: float, x: float, y: float) -> float:
     """Return the distance from (x, y) to the nearest point of the straight line from a to b, m."""
     dx, dy = bx - ax, by - ay
-    long = dx * dx + dy * dy
-    along = ((x - ax) * dx + (y - ay) * dy) / long if long > 0.0 else 0.0
+    length2 = dx * dx + dy * dy
+    along = ((x - ax) * dx + (y - ay) * dy) / length2 if length2 > 0.0 else 0.0
     along = min(max(along, 0.0), 1.0)
     return hypot(x - ax - along * dx, y - ay - along * dy)

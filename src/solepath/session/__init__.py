@@ -1,5 +1,5 @@
-"""The session, which an app holds: one wearer, packets or samples in, events out."""
+"""The session that an app holds for one wearer: it takes packets or samples and returns events."""
 
-from .session import A_NUMBER, Session
+from .session import NUMBER_TYPES, Session
 
-__all__ = ["A_NUMBER", "Session"]
+__all__ = ["NUMBER_TYPES", "Session"]

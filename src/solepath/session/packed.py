@@ -1,10 +1,10 @@
-"""A session's state as bytes, and back.
+"""Packing of a session's state into bytes, and unpacking.
 
     magic  form  version  schema  check  body        protocol/snapshot.md
 
-`form` is the format of numbers, `version` that of the state, `schema` the CRC-32 of the body's schema, `check` that of
-all the rest. The bytes hold neither the recipe nor what it makes: unpacking starts a session of the given recipe, and
-restores its state."""
+`form` is the version of the number format and `version` that of the state. `schema` is the CRC-32 of the body's schema.
+`check` is the CRC-32 of all other bytes. The bytes do not hold the recipe: unpacking starts a session of the given
+recipe and restores its state."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ MAGIC = b"sole"
 FORM = 2
 HEADER = Struct("<4sHHII")
 
-KEPT = 16
-"""Number of new sessions that are kept, to serve as templates again."""
+MAX_TEMPLATES = 16
+"""Largest number of new sessions that are kept as templates for unpacking."""
 
 
 @define
@@ -65,12 +65,12 @@ def _schema_check() -> int:
 def pack(state: SessionState) -> bytes:
     """Return the state as bytes.
 
-    Raises TypeError when a part of the app's own has a field of a kind that cannot be saved, SnapshotError when it
-    holds a value that cannot."""
+    Raises TypeError when an app's part has a field of a type that cannot be saved, and SnapshotError when the field's
+    value cannot be saved."""
     wearer = state.wearer
-    known = wearer.settings
-    check_names(known.recipe)
-    head = Head(known.recipe.name, known.calibration, known.poses, known.pressures, known.plan)
+    settings = wearer.settings
+    check_names(settings.recipe)
+    head = Head(settings.recipe.name, settings.calibration, settings.poses, settings.pressures, settings.plan)
     lists: Lists = ([], [], [], [])
     try:
         write(HEAD, head, lists)
@@ -83,7 +83,7 @@ def pack(state: SessionState) -> bytes:
 
 
 def _units(wearer: WearerParts) -> Units:
-    """Return the load of one count for each foot, N: the loads of its cells are multiples of it."""
+    """Return the load of one count of a cell, N, for the left and the right foot; 0 when unknown."""
     feet = [wearer.feet.get(foot) for foot in Foot]
     layouts = [None if foot is None else foot.sole.insole.layout for foot in feet]
     left, right = [0.0 if layout is None or layout.scale is None else layout.scale for layout in layouts]
@@ -91,16 +91,16 @@ def _units(wearer: WearerParts) -> Units:
 
 
 def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionState:
-    """Return the packed state, of a session of this recipe.
+    """Return the packed state of a session of this recipe.
 
-    Raises SnapshotError for anything else; TypeError and ValueError for an invalid recipe, invalid parts, or two parts
-    of one name."""
-    held = own(recipe)
+    Raises SnapshotError for other data. Raises TypeError and ValueError for an invalid recipe, invalid parts, or two
+    parts of one name."""
+    own_recipe = own(recipe)
     classes = make_class_lookup(parts)
     body = _check_header(data)
     try:
-        return _read_state(Streams(*from_bytes(body)), held, classes)
-    except (SnapshotError, MemoryError, RecursionError):  # out of memory, the state may still be good
+        return _read_state(Streams(*from_bytes(body)), own_recipe, classes)
+    except (SnapshotError, MemoryError, RecursionError):  # when memory runs out, the bytes may still be sound
         raise
     except Exception as error:
         raise SnapshotError(f"not a packed session: {error or type(error).__name__}") from error
@@ -113,25 +113,25 @@ def _check_header(data: Any) -> memoryview:
     packed = bytes(data)
     if len(packed) < HEADER.size or not packed.startswith(MAGIC):
         raise SnapshotError("not a packed session")
-    _, form, version, made_with, found = HEADER.unpack_from(packed)
+    _, form, version, packed_schema, packed_checksum = HEADER.unpack_from(packed)
     if (form, version) != (FORM, VERSION):
         raise SnapshotError(f"packed as version {version}, form {form}; this release reads {VERSION}, {FORM} alone")
-    start = HEADER.pack(MAGIC, form, version, made_with, 0)
+    start = HEADER.pack(MAGIC, form, version, packed_schema, 0)
     body = memoryview(packed)[HEADER.size :]
-    if crc32(body, crc32(start)) != found:
+    if crc32(body, crc32(start)) != packed_checksum:
         raise SnapshotError("the packed session was damaged: its checksum is another")
-    if made_with != _schema_check():
+    if packed_schema != _schema_check():
         raise SnapshotError(f"packed by another release of version {version}: its schema is another")
     return body
 
 
-_kept: tuple[tuple[Recipe, Head, SessionState], ...] = ()
+_templates: tuple[tuple[Recipe, Head, SessionState], ...] = ()
 
 
 def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionState:
-    """Return the state that the streams hold, of a session of this recipe, which nobody changes (recipes.own).
+    """Return the state that the streams hold; `recipe` is a copy that nobody changes (recipes.own).
 
-    Raises SnapshotError when it was of another recipe."""
+    Raises SnapshotError when the state was packed with another recipe."""
     head: Head = read(HEAD, streams, classes)
     if head.recipe != recipe.name:
         raise SnapshotError(f"packed with the recipe {head.recipe!r}, and this is {recipe.name!r}")
@@ -145,15 +145,15 @@ def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionSt
 
 
 def _make_initial_state(recipe: Recipe, head: Head) -> SessionState:
-    """Return a new session's state, whose settings, which never change, the unpacked state shares.
+    """Return the state of a new session; the unpacked state shares its settings, which never change.
 
-    Making one takes longer than all the rest, so the newest are kept; nothing else holds them."""
-    global _kept
-    for known, known_head, state in _kept:
-        if known is recipe and repr(known_head) == repr(head):
+    Making it takes longer than the rest of unpacking, so the newest MAX_TEMPLATES are kept here and nowhere else."""
+    global _templates
+    for kept_recipe, kept_head, state in _templates:
+        if kept_recipe is recipe and repr(kept_head) == repr(head):
             return state
     wearer = WearerParts(WearerSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
     state = SessionState(wearer)
     state.wearer.feet = {foot: state.wearer._tracker(foot) for foot in Foot}
-    _kept = ((recipe, head, state), *_kept[: KEPT - 1])
+    _templates = ((recipe, head, state), *_templates[: MAX_TEMPLATES - 1])
     return state

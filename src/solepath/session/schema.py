@@ -12,8 +12,8 @@ from .packed import schema
 from .state import VERSION
 
 
-def as_data() -> dict[str, Any]:
-    """Return the version, the schema of a session, and those of links and parts by their packed identity."""
+def make_schemas() -> dict[str, Any]:
+    """Return the version, the schema of a session, and the schemas of links and parts by their packed identity."""
     parts = {}
     for name in (*LINKS, *PARTS):
         cls = part_class(name)
@@ -23,4 +23,4 @@ def as_data() -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    print(json.dumps(as_data(), indent=1))
+    print(json.dumps(make_schemas(), indent=1))

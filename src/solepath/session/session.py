@@ -1,7 +1,7 @@
-"""The session, which an app holds: packets or samples in, events out.
+"""The session that an app holds for one wearer: it takes packets or samples and returns events.
 
-It opens no socket, reads no clock, starts no thread, and is a plain record that can be saved at any moment. The same
-input gives the same events on every machine, however it is cut into calls."""
+It opens no socket, reads no clock and starts no thread. It can be saved at any moment. The same input gives the same
+events on every machine, however it is divided among calls."""
 
 from __future__ import annotations
 
@@ -31,26 +31,27 @@ if TYPE_CHECKING:
     from ..link.driver import Driver
     from ..saving.codec import Json
 
-A_NUMBER = (float, int)
+NUMBER_TYPES = (float, int)
 
 
 class Session:
-    """One wearer: packets or samples in, events out.
+    """The processing of one wearer's packets or samples into events.
 
-    `recipe` names the parts. `calibration` describes the wearer, shoes and insoles. `poses` also emits FootMoved, the
-    live position at every sample, and WearerMoved after every stride; `pressures` emits FootPressed, the loads of an
+    `recipe` holds the parts. `calibration` describes the wearer, shoes and insoles. `poses` also emits FootMoved, the
+    live position at every sample, and WearerMoved after every stride. `pressures` emits FootPressed, the loads of an
     insole's cells. `devices` gives the address of the device at a site (`Packet.device`, in upper or lower case); a
-    site without one is bound to the first device that sends. `profiles` are devices of the app's own. `floorplan` is
-    indexed once (IndexedPlan) where many sessions share it; `start` is the first place on it. ValueError for impossible
-    values of these.
+    site without an address is bound to the first device that sends. `profiles` are the app's own devices. `floorplan`
+    can be an IndexedPlan that many sessions share. `start` is the first place on it. Raises ValueError for impossible
+    values of these arguments.
 
-    `feed`, `advance` and `finish` return the events that became known, in that order. `feed` is total: any bytes give
-    events, never an exception, unless a reader or a part of the app's own is itself wrong. It raises TypeError for an
-    item that is neither packet nor sample, after using the items before it, and ValueError after `finish`.
+    `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
+    give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
+    that is neither packet nor sample, after using the items before it, and ValueError after `finish`.
 
-    Latency: zero velocity and live position with the sample. Heel-strike and toe-off one sample once a foot has pushed
-    off the first time; a foot that does not push off is known to swing after 0.15 s (0.4 s right after a heel-strike).
-    Foot-flat and the stride that it ends about 40 ms. Heel-off 40 to 140 ms, in slow walking up to 320 ms."""
+    Latency: zero velocity and live position are known with the sample. Heel-strike and toe-off have a latency of one
+    sample once a foot has pushed off the first time; without a push-off, swing is known after 0.15 s (0.4 s right after
+    a heel-strike). The latency of foot-flat and of the stride that it ends is about 40 ms. The latency of heel-off is
+    40 to 140 ms, in slow walking up to 320 ms."""
 
     __slots__ = ("_kinds", "_plan", "_state")
 
@@ -67,10 +68,10 @@ class Session:
         start: Start | None = None,
     ) -> None:
         self._kinds: DeviceKinds = make_kinds(profiles)
-        known = Calibration() if calibration is None else check_calibration(calibration)
+        own_calibration = Calibration() if calibration is None else check_calibration(calibration)
         self._plan = index_floorplan(floorplan)
         plan = None if self._plan is None else self._plan.fingerprint
-        wearer = WearerParts(WearerSettings(own(recipe), known, poses, pressures, plan))
+        wearer = WearerParts(WearerSettings(own(recipe), own_calibration, poses, pressures, plan))
         if start is not None:
             wearer.find_attribute("set_out")(check_start(start, self._plan))
         wearer.set_plan(self._plan)
@@ -87,9 +88,9 @@ class Session:
         if state.finished:
             raise ValueError("this session is finished")
         if isinstance(data, Sample):
-            return self._sample(state, data)
+            return self._feed_sample(state, data)
         if isinstance(data, Packet):
-            return self._packet(data)
+            return self._feed_packet(data)
         if not isinstance(data, Iterable) or isinstance(data, str | bytes):
             raise TypeError(f"feed takes packets or samples, not {type(data).__name__}")
         events: list[Event] = []
@@ -100,7 +101,7 @@ class Session:
         return events
 
     def advance(self, now: float) -> list[Event]:
-        """Let time pass until `now` (s, packets' clock): silence may become an event. ValueError if not finite."""
+        """Let time pass until `now` (s, packets' clock) and return the events of silence; ValueError if not finite."""
         if not isfinite(as_float(now)):
             raise ValueError(f"now is {now}")
         state = self._state
@@ -125,20 +126,20 @@ class Session:
         return events
 
     def bind(self, site: Site, device: str) -> None:
-        """Bind `site` to another device, "" for the next that sends; layout, ranges and clock before are forgotten."""
+        """Bind `site` to another device, "" for the next that sends, and forget the old layout, ranges and clock."""
         if not isinstance(site, Site) or not isinstance(device, str):
             raise TypeError("a Site is bound to the address of a device, a str")
         state = self._state
-        known = state.decoders.get(site)
-        if known is None or not known.is_bound_to(device):
+        decoder = state.decoders.get(site)
+        if decoder is None or not decoder.is_bound_to(device):
             state.decoders = sort_by_key({**state.decoders, site: Decoder(site, device)}, Site)
             state.wearer.reset(site)
 
-    def _packet(self, packet: Packet) -> list[Event]:
+    def _feed_packet(self, packet: Packet) -> list[Event]:
         state, events = self._state, list[Event]()
         site, channel, data, device = packet.site, packet.channel, packet.data, packet.device
-        timed = isinstance(packet.t, A_NUMBER) and isinstance(site, Site) and isinstance(channel, str)
-        if not (timed and isinstance(data, bytes | bytearray | memoryview) and isinstance(device, str)):
+        has_valid_types = isinstance(packet.t, NUMBER_TYPES) and isinstance(site, Site) and isinstance(channel, str)
+        if not (has_valid_types and isinstance(data, bytes | bytearray | memoryview) and isinstance(device, str)):
             raise TypeError("a packet holds a time, a Site, a channel's name, bytes and a device's address")
         if isinstance(packet.t, int):
             packet = evolve(packet, t=as_float(packet.t))
@@ -148,14 +149,14 @@ class Session:
             if isinstance(item, PacketRejected):
                 # a rejected packet changes nothing, so time does not pass with it either
                 if site not in state.decoders:
-                    return [one for one in items if isinstance(one, PacketRejected)]
+                    return [event for event in items if isinstance(event, PacketRejected)]
                 self._use_items(site, items, events)
                 return events
         if site not in state.decoders:
             state.decoders = sort_by_key({**state.decoders, site: decoder}, Site)
-        for elsewhere, other in state.decoders.items():
-            if elsewhere is not site and (late := other.advance(packet.t, self._kinds)):
-                self._use_items(elsewhere, late, events)
+        for other_site, other_decoder in state.decoders.items():
+            if other_site is not site and (other_items := other_decoder.advance(packet.t, self._kinds)):
+                self._use_items(other_site, other_items, events)
         if state.now is None or packet.t > state.now:
             state.now = packet.t
         if decoder.link is not None:
@@ -165,9 +166,9 @@ class Session:
         self._use_items(site, items, events)
         return events
 
-    def _sample(self, state: SessionState, sample: Sample) -> list[Event]:
+    def _feed_sample(self, state: SessionState, sample: Sample) -> list[Event]:
         t, site = sample.t, sample.site
-        if not isinstance(site, Site) or not isinstance(t, A_NUMBER):
+        if not isinstance(site, Site) or not isinstance(t, NUMBER_TYPES):
             raise TypeError("a sample holds a time and a Site")
         events = state.wearer.feed(sample, site in state.decoders)
         rejected = events and any([isinstance(event, SampleRejected) for event in events])
@@ -176,29 +177,29 @@ class Session:
         return events
 
     def _use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
-        """Pass samples of a link to the wearer, and events where they matter there."""
+        """Pass the samples and events of a link to the wearer, and add the events that follow."""
         wearer = self._state.wearer
         for item in items:
             events += wearer.feed(item, True) if isinstance(item, Sample) else wearer.receive(site, item)
 
     @property
     def now(self) -> float | None:
-        """Newest time that is known, s; None before any."""
+        """Newest known time, s, packets' clock; None before the first."""
         return self._state.now
 
     @property
     def recipe(self) -> Recipe:
-        """The parts of this session."""
+        """A copy of the recipe of this session."""
         return deepcopy(self._state.wearer.settings.recipe)
 
     @property
     def feet(self) -> dict[Foot, FootTracker]:
-        """Trackers of the feet that sent samples: position, velocity, attitude, covariance, phase. Read only."""
+        """Read-only trackers of the feet that sent samples: position, velocity, attitude, covariance, phase."""
         return dict(self._state.wearer.feet)
 
     @property
     def position(self) -> Position | None:
-        """Position of the wearer, by the recipe's track, world frame, with its covariance; None before any sample."""
+        """Position of the wearer in the world frame, with its covariance; None before any sample."""
         return self._state.wearer.position
 
     @property
@@ -209,13 +210,13 @@ class Session:
 
     @property
     def activity(self) -> Activity:
-        """Activity by the newest ActivityChanged; UNKNOWN before any."""
+        """Activity of the newest ActivityChanged; UNKNOWN before the first."""
         activity: Activity | None = self._state.wearer.find_attribute("activity")
         return Activity.UNKNOWN if activity is None else activity
 
     @property
     def gait(self) -> GaitParameters | None:
-        """Means of the steady gait cycles so far, of walking or of running as the newest was; None before any."""
+        """Means over the steady gait cycles of the newest gait, walking or running; None before the first."""
         gait: GaitParameters | None = self._state.wearer.find_attribute("parameters")
         return gait
 
@@ -231,7 +232,7 @@ class Session:
         return None if tracker is None else tracker.phase
 
     def snapshot(self) -> dict[str, Json]:
-        """Return the whole state as plain data for JSON or any other encoder; takes some milliseconds."""
+        """Return the whole state as plain data for JSON or another encoder; this takes some milliseconds."""
         from .snapshot import take_snapshot
 
         return take_snapshot(self._state)
@@ -247,15 +248,15 @@ class Session:
     ) -> Session:
         """Return a session that continues from the snapshot `saved`.
 
-        A snapshot holds no functions and no floor plan: give `profiles`, `floorplan` and `parts`, the classes of the
-        app's own parts, again; the app must keep their functions the same. Raises SnapshotError for no sound snapshot
-        of this version, and for one taken with other devices, another floor plan or other parts."""
+        A snapshot holds no functions and no floor plan. Therefore give `profiles`, `floorplan` and `parts` (the classes
+        of the app's own parts) again, with unchanged functions. Raises SnapshotError for a damaged snapshot, one of
+        another version, and one taken with other devices, another floor plan or other parts."""
         from .snapshot import restore_state
 
         return cls._from_state(restore_state(saved, parts), profiles, floorplan)
 
     def pack(self) -> bytes:
-        """Return the state in 10 to 20 kB, in about 0.3 ms (protocol/snapshot.md), without its recipe. Needs numpy."""
+        """Return the state, without its recipe, as 10 to 20 kB in about 0.3 ms (protocol/snapshot.md); needs numpy."""
         from .packed import pack
 
         return pack(self._state)
@@ -272,10 +273,10 @@ class Session:
     ) -> Session:
         """Return a session that continues from packed bytes.
 
-        `recipe` must be the same as then; the other arguments are those of `restore`. Only the recipe's name and the
-        kind of every part are compared; settings of `recipe` hold from here on, so a tuned recipe can continue. Raises
-        SnapshotError if they differ, for other bytes, and where `restore` does. A checksum detects damage, not intent:
-        trust a state like code."""
+        `recipe` must be the one with which the session was packed; the other arguments are those of `restore`. Only the
+        recipe's name and the class of every part are compared. The settings of `recipe` are used from now on, so a
+        tuned recipe can continue. Raises SnapshotError if name or class differs, for other bytes, and where `restore`
+        raises it. The checksum detects accidental damage, not manipulation: trust a state as you trust code."""
         from .packed import unpack
 
         return cls._from_state(unpack(data, recipe, parts), profiles, floorplan)
@@ -284,7 +285,7 @@ class Session:
     def _from_state(
         cls, state: SessionState, profiles: Iterable[Driver], floorplan: FloorPlan | IndexedPlan | None
     ) -> Session:
-        """Return a session of a state; raise SnapshotError without the floor plan or the driver that it needs."""
+        """Return a session of a state; raise SnapshotError when the floor plan or a driver of the state is missing."""
         from .snapshot import check_fit
 
         session = cls.__new__(cls)

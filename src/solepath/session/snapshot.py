@@ -1,4 +1,4 @@
-"""The state of a session as plain data for JSON, and the conditions for a state to continue."""
+"""Conversion of a session's state to plain data for JSON and back, and checks that a restored state can continue."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def take_snapshot(state: SessionState) -> dict[str, Json]:
-    """Return the state with a checksum: a session of damaged numbers could do anything later."""
+    """Return the state with a checksum, since damaged numbers could cause any fault later."""
     check_names(state.wearer.settings.recipe)
     saved_state = save(state)
     return {"solepath": VERSION, "check": checksum(saved_state), "state": saved_state}
@@ -44,7 +44,7 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
 
 
 def check_names(recipe: Recipe) -> None:
-    """Raise TypeError for a part of the app's own with the name of one of ours: it would be restored as that."""
+    """Raise TypeError for an app's part that has the name of a part of solepath: it would be restored as the latter."""
     for part in (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place):
         name = type(part).__name__
         if name in PARTS and part_class(name) is not type(part):
@@ -52,29 +52,29 @@ def check_names(recipe: Recipe) -> None:
 
 
 def make_class_lookup(parts: Iterable[type]) -> Classes:
-    """Return a lookup of classes of parts, the app's first.
+    """Return a function from a name to the class of a part; the app's classes come first.
 
-    Raises TypeError for a class that is no record, ValueError for two of one name."""
+    Raises TypeError for a class that is no record, and ValueError when two classes have one name."""
     classes = list(dict.fromkeys(parts))
     for cls in classes:
         if not is_record(cls):
             raise TypeError(f"a part is an attrs class, and {cls!r} is none")
-    named = {cls.__name__: cls for cls in classes}
-    if len(named) != len(classes):
+    by_name = {cls.__name__: cls for cls in classes}
+    if len(by_name) != len(classes):
         raise ValueError("two parts have one name")
-    return lambda name: named.get(name) or part_class(name)
+    return lambda name: by_name.get(name) or part_class(name)
 
 
-def check_fit(state: SessionState, known: DeviceKinds, plan: IndexedPlan | None) -> None:
-    """Raise SnapshotError if the state needs another floor plan than `plan`, or a device that is not `known`."""
-    had = state.wearer.settings.plan
-    if had != (None if plan is None else plan.fingerprint):
-        with_one = "with the floor plan that it had" if had is not None else "without a floor plan"
-        raise SnapshotError(f"a snapshot of a session is restored {with_one}")
+def check_fit(state: SessionState, kinds: DeviceKinds, plan: IndexedPlan | None) -> None:
+    """Raise SnapshotError if the state needs another floor plan than `plan`, or a device that is not in `kinds`."""
+    saved_plan = state.wearer.settings.plan
+    if saved_plan != (None if plan is None else plan.fingerprint):
+        condition = "with the floor plan that it had" if saved_plan is not None else "without a floor plan"
+        raise SnapshotError(f"a snapshot of a session is restored {condition}")
     for decoder in state.decoders.values():
         if decoder.link is None:
             continue
-        kind = known.get(decoder.link.name)
+        kind = kinds.get(decoder.link.name)
         if kind is None:
             raise SnapshotError(f"a snapshot of a device {decoder.link.name!r}: restore it with its profile")
         if not kind.accepts(decoder.link):

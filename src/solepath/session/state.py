@@ -8,9 +8,7 @@ from ..types.attrs import define, field
 from .wearer import WearerParts
 
 VERSION = 3
-"""Version of the state: one more for every release with other state or other settings.
-
-A state of another version is rejected."""
+"""Version of the state, increased by 1 with every release that changes state or settings; others are rejected."""
 
 
 @define
@@ -19,6 +17,6 @@ class SessionState:
 
     wearer: WearerParts
     now: float | None = field(default=None, init=False)
-    """Newest time that is known, s."""
+    """Newest known time, s, packets' clock; None before the first."""
     decoders: dict[Site, Decoder] = field(factory=dict, init=False)
     finished: bool = field(default=False, init=False)

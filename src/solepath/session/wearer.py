@@ -1,4 +1,4 @@
-"""One wearer: samples of all sites in, events out, after a session has turned packets into samples."""
+"""Processing of one wearer's samples, of all sites, into events."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
 
 _Key = TypeVar("_Key")
-_Held = TypeVar("_Held")
+_Value = TypeVar("_Value")
 _Calibrated = TypeVar("_Calibrated")
 
 
@@ -42,14 +42,14 @@ class WearerSettings:
     """Settings of a session."""
 
     recipe: Recipe
-    """The recipe; read only, since others may share it."""
+    """The recipe, read only, since other sessions may share it."""
     calibration: Calibration
     poses: bool = False
     """True to emit FootMoved, and WearerMoved after a stride."""
     pressures: bool = False
     """True to emit FootPressed with every sample of cells."""
     plan: int | None = None
-    """Fingerprint of the floor plan, with which the recipe's place part is used; None without one."""
+    """Fingerprint of the floor plan; None without a plan, and then the recipe's place part is not used."""
 
 
 @define
@@ -60,12 +60,12 @@ class WearerParts:
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """Parts in the order in which they receive events."""
     sampled: tuple[Part, ...] = field(default=(), init=False, metadata=NOT_SAVED)
-    """Parts that currently need every sample, even one without events."""
+    """Parts that currently need every sample, also samples without events."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
-    """Height of the wearer above the feet's tracks, m, and its variance, m^2."""
+    """Height correction added to the tracks' z, m, positive upwards, and its variance, m^2."""
     unsettled: dict[Site, float | None] = field(factory=dict, init=False)
-    """The newest ClockUnsettled of each site."""
+    """Time up to which each site's times are not comparable with another site's, s; None when they are comparable."""
     unused: list[Site] = field(factory=list, init=False)
     """Sites whose samples the recipe cannot use; reported once."""
 
@@ -90,20 +90,20 @@ class WearerParts:
     def feed(self, sample: Sample, scale_reported: bool) -> list[Event]:
         """Add a sample of any site and return the events.
 
-        `scale_reported` says that its link, which knows the range, checks the scale, so the foot need not."""
+        `scale_reported` is True when the link checks the scale, since it knows the range; then the foot does not."""
         if sample.quat is not None:
             sample = with_sound_attitude(sample)
         foot = sample.site.foot
         if foot is None:
             return self._feed_limb(sample)
-        known = self.feet.get(foot)
-        tracker = self._tracker(foot) if known is None else known
+        known_tracker = self.feet.get(foot)
+        tracker = self._tracker(foot) if known_tracker is None else known_tracker
         if scale_reported:
             tracker.scale_reported = True
         events = tracker.feed(sample)
-        if tracker.t is None:  # it could not be used, and the foot has no earlier sample
+        if tracker.t is None:  # the sample could not be used, and the foot has no earlier sample
             return events
-        if known is None:
+        if known_tracker is None:
             self._add_tracker(tracker)
         if events and isinstance(events[0], SampleRejected):
             return events
@@ -117,7 +117,7 @@ class WearerParts:
                 if output := part.feed(view):
                     self._apply(output, events)
                     self._run_parts(
-                        events, view, known_at, 1 + next(k for k, one in enumerate(self.parts) if one is part)
+                        events, view, known_at, 1 + next(number for number, one in enumerate(self.parts) if one is part)
                     )
                     break
         else:
@@ -176,7 +176,7 @@ class WearerParts:
     ) -> WearerMoved | None:
         """Pass `view` and `events` to the parts from number `first` on, in order, and add what they emit.
 
-        Returns the position of the wearer after it, if a part needs it."""
+        Returns the wearer's new position, if a part or the app needs it."""
         moved = None
         for part in self.parts[first:]:
             received = tuple(events)
@@ -198,23 +198,23 @@ class WearerParts:
         return moved
 
     def _apply(self, output: Sequence[PartOutput], events: list[Any]) -> None:
-        """Add the emitted events, an app's own too, to those of the sample, and apply corrections."""
-        for one in output:
-            if isinstance(one, Shift):
-                self.feet[one.foot].shift(one.yaw, one.by)
-            elif isinstance(one, HeightShift):
-                self.height = (one.above, one.variance)
-            elif isinstance(one, Replacement):
-                events[:] = [one.by if event is one.event else event for event in events]
+        """Add the emitted events, also those that an app defines, to `events`, and apply the corrections."""
+        for item in output:
+            if isinstance(item, Shift):
+                self.feet[item.foot].shift(item.yaw, item.by)
+            elif isinstance(item, HeightShift):
+                self.height = (item.above, item.variance)
+            elif isinstance(item, Replacement):
+                events[:] = [item.by if event is item.event else event for event in events]
             else:
-                events.append(one)
+                events.append(item)
 
     def _make_moved(self, known_at: float) -> WearerMoved | None:
-        here = self.position
-        if here is None:
+        position = self.position
+        if position is None:
             return None
-        t, place, covariance = here.t, here.position, here.covariance
-        return WearerMoved(t=t, known_at=max(t, known_at), position=place, covariance=covariance)
+        t, point, covariance = position.t, position.position, position.covariance
+        return WearerMoved(t=t, known_at=max(t, known_at), position=point, covariance=covariance)
 
     def _feed_limb(self, sample: Sample) -> list[Event]:
         """Pass a sample from above the ankle to the parts that use it."""
@@ -229,8 +229,8 @@ class WearerParts:
             self._apply(part.feed_limb(sample), events)
         if not parts and site not in self.unused:
             self.unused.append(site)
-            what = f"recipe {self.settings.recipe.name} has no use for a sensor at the {site.value}"
-            events.append(Limitation(t=t, known_at=known_at, site=site, what=what))
+            text = f"recipe {self.settings.recipe.name} has no use for a sensor at the {site.value}"
+            events.append(Limitation(t=t, known_at=known_at, site=site, what=text))
         return events
 
     def _reset_parts(self, site: Site) -> None:
@@ -240,39 +240,39 @@ class WearerParts:
 
     @property
     def position(self) -> Position | None:
-        """Position by the recipe's track, at the height that its parts find; None before any sample."""
+        """Position by the recipe's track, with the height correction of its parts; None before any sample."""
         poses = {foot: pose for foot, tracker in self.feet.items() if (pose := tracker.pose) is not None}
         track = next((part for part in self.parts if isinstance(part, TrackPart)), None)
-        found = None if track is None else track.position(poses)
-        above, variance = self.height
-        if found is None or (above == 0.0 and variance == 0.0):
-            return found
-        x, y, z = found.position
-        xx, xy, xz, yy, yz, zz = found.covariance
-        return Position(found.t, (x, y, z + above), (xx, xy, xz, yy, yz, zz + variance))
+        tracked = None if track is None else track.position(poses)
+        height, variance = self.height
+        if tracked is None or (height == 0.0 and variance == 0.0):
+            return tracked
+        x, y, z = tracked.position
+        xx, xy, xz, yy, yz, zz = tracked.covariance
+        return Position(tracked.t, (x, y, z + height), (xx, xy, xz, yy, yz, zz + variance))
 
     def find_attribute(self, name: str) -> Any:
-        """Return this attribute of the first part that has it; None if none has."""
+        """Return the attribute `name` of the first part that has it; None if no part has it."""
         return next((getattr(part, name) for part in self.parts if hasattr(part, name)), None)
 
     def _tracker(self, foot: Foot) -> FootTracker:
-        """Return the foot's tracker, or a new one that is not held yet."""
+        """Return the foot's tracker, or a new one, which is not yet added to `feet`."""
         tracker = self.feet.get(foot)
         if tracker is None:
-            recipe, known = self.settings.recipe, self.settings.calibration
+            recipe, calibration = self.settings.recipe, self.settings.calibration
             settings = FootSettings(self.settings.poses, recipe.needs_pressure)
             detector, corrector, cues, insole = deepcopy(
                 (recipe.detector, recipe.corrector, recipe.cues, recipe.insole)
             )
             tracker = FootTracker(
                 foot,
-                _calibrated(detector, known, foot),
-                _calibrated(corrector, known, foot),
+                _calibrated(detector, calibration, foot),
+                _calibrated(corrector, calibration, foot),
                 settings,
-                cues=_calibrated(cues, known, foot),
-                sole=Sole(foot, _calibrated(insole, known, foot), settings),
+                cues=_calibrated(cues, calibration, foot),
+                sole=Sole(foot, _calibrated(insole, calibration, foot), settings),
             )
-            layout = known.insole(foot).layout
+            layout = calibration.insole(foot).layout
             if layout is not None:
                 tracker.sole.set_calibrated_layout(layout)
         return tracker
@@ -282,12 +282,12 @@ class WearerParts:
             self.feet = sort_by_key({**self.feet, tracker.foot: tracker}, Foot)
 
 
-def sort_by_key(held: dict[_Key, _Held], keys: Iterable[_Key]) -> dict[_Key, _Held]:
-    """Return the dict in the order of the enum: the result must not depend on which site sent first."""
-    return {key: held[key] for key in keys if key in held}
+def sort_by_key(values: dict[_Key, _Value], keys: Iterable[_Key]) -> dict[_Key, _Value]:
+    """Return the dict in the order of `keys`, so that results do not depend on which site sent first."""
+    return {key: values[key] for key in keys if key in values}
 
 
-def _calibrated(part: _Calibrated, known: Calibration, foot: Foot) -> _Calibrated:
-    """Return the part of a foot, calibrated if it can be."""
+def _calibrated(part: _Calibrated, calibration: Calibration, foot: Foot) -> _Calibrated:
+    """Return the part with the foot's calibration, or unchanged if it has no `calibrated`."""
     calibrated = getattr(part, "calibrated", None)
-    return part if calibrated is None else calibrated(foot, known)
+    return part if calibrated is None else calibrated(foot, calibration)

@@ -1,4 +1,4 @@
-"""A broker that speaks Kafka, on a free port of this machine and in memory only, and what tests send and read there."""
+"""A broker with Kafka's protocol in memory, on a free port of this machine, and topics for tests."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Message:
 
 @define
 class Topics:
-    """A pair of topics, for input and events, and the jobs between them, with a consumer group of their own."""
+    """A pair of topics, for input and events, and the jobs between them, which form a consumer group."""
 
     address: str
     name: str
@@ -38,13 +38,14 @@ class Topics:
     partitions: int
     recipe: str = "default"
     put: Counter[int] = field(factory=Counter)
-    """Messages sent, by partition. The broker's own word for the end of a partition is wrong: it names the beginning of
-    the last batch."""
+    """Number of messages sent, by partition.
+
+    The broker cannot be asked: as the end of a partition it reports the start of the last batch."""
     _jobs: list[subprocess.Popen[bytes]] = field(factory=list)
     _ears: Consumer | None = None
 
     def send(self, messages: Iterable[tuple[bytes | None, bytes | None]], **options: object) -> None:
-        """(key, value), in order."""
+        """Send messages (key, value) in order."""
         producer = Producer({"bootstrap.servers": self.address, "enable.idempotence": True})
         for key, value in messages:
             producer.produce(f"{self.name}-sent", key=key, value=value, on_delivery=self._delivered, **options)
@@ -56,11 +57,11 @@ class Topics:
         self.put[message.partition()] += 1  # type: ignore[attr-defined]
 
     def start(self, state: str = "state") -> subprocess.Popen[bytes]:
-        """A job, as it would be started on a machine with its disk at `state`."""
-        place = self.directory / self.name / state
-        place.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, str(JOB), self.address, self.name, str(place), self.recipe, str(self.partitions)]
-        with (place / "log").open("ab") as log:
+        """Start a job with its disk at the directory `state`."""
+        directory = self.directory / self.name / state
+        directory.mkdir(parents=True, exist_ok=True)
+        command = [sys.executable, str(JOB), self.address, self.name, str(directory), self.recipe, str(self.partitions)]
+        with (directory / "log").open("ab") as log:
             job = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
         self._jobs.append(job)
         return job
@@ -69,11 +70,13 @@ class Topics:
         return (self.directory / self.name / state / "log").read_text()
 
     def committed(self) -> Counter[int]:
-        """Messages that the jobs are done with for good, by partition."""
+        """Return the number of messages that the jobs have committed, by partition."""
         if self._ears is None:
             self._ears = Consumer({"bootstrap.servers": self.address, "group.id": self.name})
         assigned = [TopicPartition(f"{self.name}-sent", number) for number in range(self.partitions)]
-        return Counter({at.partition: max(at.offset, 0) for at in self._ears.committed(assigned, timeout=20)})
+        return Counter(
+            {partition.partition: max(partition.offset, 0) for partition in self._ears.committed(assigned, timeout=20)}
+        )
 
     def done(self) -> bool:
         return +self.committed() == +self.put
@@ -83,16 +86,16 @@ class Topics:
         consumer = Consumer(
             {"bootstrap.servers": self.address, "group.id": f"{self.name}-reader", "enable.partition.eof": True}
         )
-        found: list[Message] = []
+        messages: list[Message] = []
         try:
             for number in range(self.partitions):
                 consumer.assign([TopicPartition(f"{self.name}-events", number, 0)])
                 while (message := consumer.poll(20)) is not None and message.error() is None:
-                    found.append(Message(number, message.key(), message.value()))
+                    messages.append(Message(number, message.key(), message.value()))
                 assert message is not None and message.error().name() == "_PARTITION_EOF"
         finally:
             consumer.close()
-        return found
+        return messages
 
     def finish(self, job: subprocess.Popen[bytes], state: str = "state", within: float = 180.0) -> list[Message]:
         """Return the messages when the job has used all input; then kill it."""
@@ -112,7 +115,7 @@ class Topics:
 
 
 def kill(job: subprocess.Popen[bytes]) -> None:
-    """Kill it as `kill -9` does."""
+    """Kill the job as `kill -9` does."""
     job.kill()
     job.wait()
 
@@ -125,9 +128,9 @@ class Broker:
     @contextmanager
     def topics(self, name: str, *, partitions: int = 2, recipe: str = "default") -> Iterator[Topics]:
         admin = AdminClient({"bootstrap.servers": self.address})
-        kept = {"retention.ms": A_DAY}
-        made = [NewTopic(f"{name}-{what}", partitions, 1, config=kept) for what in ("sent", "events")]
-        for future in admin.create_topics(made).values():
+        config = {"retention.ms": A_DAY}
+        new_topics = [NewTopic(f"{name}-{what}", partitions, 1, config=config) for what in ("sent", "events")]
+        for future in admin.create_topics(new_topics).values():
             future.result(20)
         topics = Topics(self.address, name, self.directory, partitions, recipe)
         try:
@@ -141,8 +144,8 @@ def broker(directory: Path) -> Iterator[Broker]:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         address = f"127.0.0.1:{free.getsockname()[1]}"
-    at = f"tcp://{address}"
-    urls = [f"--listener-url={at}", f"--advertised-listener-url={at}", "--storage-engine=memory://solepath/"]
+    url = f"tcp://{address}"
+    urls = [f"--listener-url={url}", f"--advertised-listener-url={url}", "--storage-engine=memory://solepath/"]
     with (directory / "broker.log").open("wb") as log:
         environment = {"RUST_LOG": "error"}
         process = subprocess.Popen(

@@ -1,4 +1,4 @@
-"""A job on bytewax for a process of its own: what phones sent, from files of lines, through the fleet into files.
+"""A job on bytewax for a separate process: it reads the rows of phones from files of lines and writes event files.
 
 python fleet_job.py SENT DIRECTORY STORE [--die-at N]
 """
@@ -24,7 +24,7 @@ from solepath.fleet.lines import LineSource
 
 
 def reader(die_at: int | None) -> Callable[[bytes], Sent | Unreadable]:
-    """Whoever gets to line `die_at` of those that this process reads dies there, without another word."""
+    """Return a reader of lines that kills this process at line number `die_at` of those that it reads."""
     lines = count()
 
     def read(line: bytes) -> Sent | Unreadable:
@@ -51,7 +51,7 @@ def main() -> None:
     operators.output("files", gait("gait", keyed, Fleet()), ParquetSink(options.directory, partitions=2))
     try:
         run_main(flow, epoch_interval=timedelta(milliseconds=50), recovery_config=RecoveryConfig(options.store))
-    except Exception as error:  # bytewax hangs its own around what a sink raised
+    except Exception as error:  # bytewax wraps the exception of a sink in its own
         raise SystemExit(f"error: {error.__cause__ or error}") from None
 
 

@@ -1,4 +1,4 @@
-"""Wearers of a fleet that tests share: walks as a phone sends them, and rows that show which of them were used."""
+"""Wearers of a fleet that tests share: walks as a phone sends them, and rows whose events show that they were used."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Item = Sent | Unreadable
 
 @frozen
 class Walked:
-    """A walk as it is sent, and what a bare session makes of its packets."""
+    """A walk as a phone sends it, and the events of a session without a fleet."""
 
     sent: tuple[Sent, ...]
     events: tuple[Event, ...]
@@ -31,7 +31,7 @@ class Walked:
 
 @cache
 def walked(recipe: str = "default") -> Walked:
-    """A short walk with two insoles over a bad radio, and its end."""
+    """Return a short walk with two insoles over a poor radio connection, with an End."""
     worn = Insole(cells=24, rate=50.0)
     packets = emulate(SHORT, devices={LEFT: worn, RIGHT: evolve(worn)}, radio=ROUGH, seed=7).packets
     session = Session(recipes.by_name(recipe))
@@ -41,7 +41,7 @@ def walked(recipe: str = "default") -> Walked:
 
 
 def shown(number: int, run: int = 0, wearer: str = WEARER) -> Sent:
-    """A packet that a session rejects in one event, which names it: it was used, and nothing else happened."""
+    """Return a row whose packet a session rejects in one event that names it, which shows that the row was used."""
     return Sent(wearer, number, Packet(0.25 * number, LEFT, f"story/{run}-{number}", b""), run)
 
 

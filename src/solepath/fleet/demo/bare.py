@@ -1,7 +1,6 @@
-"""Reference run of the walks through sessions alone: `python -m solepath.fleet.demo.bare RUN PART`.
+"""Reference run of the walks through sessions without an engine: `python -m solepath.fleet.demo.bare RUN PART`.
 
-It writes the events, and the time that `Session.feed` takes for them, one wearer after the other and with the packets
-prepared beforehand."""
+It writes the events and the time of `Session.feed`, one wearer after the other, with packets that were made before."""
 
 from __future__ import annotations
 
@@ -23,12 +22,12 @@ from .job import EVENTS
 from .sending import DemoPayload
 from .wearers import DemoWearer, Wearers
 
-MEASURED = 60
+MEASURED_WEARERS = 60
 """Number of wearers whose states are measured."""
 
 
 def main(run: str, part: int) -> None:
-    """Write the events, and the time that they took, into the directory of a run."""
+    """Write the events of partition `part`, and the time that they took, s, into the directory `run`."""
     end_with_parent()
     home = Path(run)
     wearers = Wearers.read(home.parent)
@@ -37,45 +36,45 @@ def main(run: str, part: int) -> None:
     freeze_garbage()
     taken = cpu = 0.0
     for wearer in wearers.of_part(part):
-        seconds, used, events = _through(wearers.recipe, wearer.inputs())
-        taken += seconds
-        cpu += used
+        seconds_used, cpu_used, events = _run_session(wearers.recipe, wearer.inputs())
+        taken += seconds_used
+        cpu += cpu_used
         parts.write(NumberedEvent(wearer.name, number, event) for number, event in enumerate(events))
     parts.close()
-    states = _states(fleet, wearers.of_part(part)[:MEASURED], wearers.bundles)
-    found = {"seconds": taken, "cpu": cpu, "states": states}
-    (home / f"bare-{part}.json").write_text(json.dumps(found), encoding="utf-8")
+    states = _measure_states(fleet, wearers.of_part(part)[:MEASURED_WEARERS], wearers.bundles)
+    results = {"seconds": taken, "cpu": cpu, "states": states}
+    (home / f"bare-{part}.json").write_text(json.dumps(results), encoding="utf-8")
 
 
-def _through(recipe: Recipe, inputs: list[DemoPayload]) -> tuple[float, float, list[Event]]:
-    """Run a session from its start; return its duration, s, its processor time, s, and its events."""
+def _run_session(recipe: Recipe, inputs: list[DemoPayload]) -> tuple[float, float, list[Event]]:
+    """Run a session from start to end; return its duration, s, its processor time, s, and its events."""
     events: list[Event] = []
-    t_start, used = perf_counter(), process_time()
+    t_start, cpu_start = perf_counter(), process_time()
     session = Session(recipe)
-    for what in inputs:
-        if type(what) is Packet:
-            events += session.feed(what)
-        elif isinstance(what, Tick):
-            events += session.advance(what.t)
+    for payload in inputs:
+        if type(payload) is Packet:
+            events += session.feed(payload)
+        elif isinstance(payload, Tick):
+            events += session.advance(payload.t)
         else:
             events += session.finish()
-    return perf_counter() - t_start, process_time() - used, events
+    return perf_counter() - t_start, process_time() - cpu_start, events
 
 
-def _states(fleet: Fleet, wearers: list[DemoWearer], bundles: int) -> list[tuple[int, int, float]]:
-    """Measure the wearers' states after each bundle: bytes, rows held in it, and time to take it, s.
+def _measure_states(fleet: Fleet, wearers: list[DemoWearer], bundles: int) -> list[tuple[int, int, float]]:
+    """Return size, bytes, number of held rows, and time to take it, s, of each wearer's state after each bundle.
 
     The states are taken one wearer after the other, as an engine does."""
-    opened, found = [fleet.open(wearer.name, None) for wearer in wearers], []
+    sessions, measurements = [fleet.open(wearer.name, None) for wearer in wearers], []
     for number in range(bundles):
-        for keyed, wearer in zip(opened, wearers, strict=True):
+        for keyed, wearer in zip(sessions, wearers, strict=True):
             keyed.feed(wearer.bundle(number))
-        for keyed in opened:
+        for keyed in sessions:
             t_start = perf_counter()
             state = keyed.state()
             seconds = perf_counter() - t_start
-            found.append((len(state), len(read_rest(state).held), seconds))
-    return found
+            measurements.append((len(state), len(read_rest(state).held_rows), seconds))
+    return measurements
 
 
 if __name__ == "__main__":

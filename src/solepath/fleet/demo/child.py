@@ -1,4 +1,4 @@
-"""Functions that the processes of a demonstration share: their end, garbage collection, and memory."""
+"""Functions for the processes of a demonstration: end with the parent, garbage collection, and memory."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from typing import Any
 def freeze_garbage() -> None:
     """Keep all present objects for ever and exclude them from Python's garbage collection.
 
-    Its thresholds stay as they are: reading packets drops reference cycles, so higher ones cost memory and save
-    nothing."""
+    The thresholds of the collection stay: reading packets makes reference cycles, so higher thresholds would cost
+    memory and save no time."""
     gc.collect()
     gc.freeze()
 
 
 def end_with_parent() -> None:
-    """End this process when its parent ends, in any way: the parent's end of our stdin closes then."""
+    """End this process when its parent ends in any way, which closes the pipe to our stdin."""
 
     def watch() -> None:
         while os.read(0, 1):
@@ -32,12 +32,12 @@ def end_with_parent() -> None:
 
 
 def memory() -> int | None:
-    """Return the bytes that this process holds, or the most so far where only that is known; None if unknown."""
+    """Return the memory of this process now, bytes, or the largest so far if only that is known; None if unknown."""
     return _read_status("VmRSS") or most_memory()
 
 
 def most_memory() -> int | None:
-    """Return the most bytes that this process has held; None on systems that do not report it."""
+    """Return the largest memory of this process so far, bytes; None on systems that do not report it."""
     # on Linux, getrusage returns at least the largest memory of the parent process
     size = _read_status("VmHWM")
     if size is not None:
@@ -52,7 +52,7 @@ def most_memory() -> int | None:
 
 
 def _read_status(key: str) -> int | None:
-    """Return one value of Linux's status of this process, bytes; None on other systems."""
+    """Return one value of this process's status in Linux, bytes; None on other systems."""
     try:
         lines = Path("/proc/self/status").read_text(encoding="utf-8").splitlines()
     except OSError:

@@ -2,8 +2,9 @@
 
     python -m solepath.fleet.demo.job STAGE/RUN SECONDS [NUMBER ADDRESS ADDRESS ...]
 
-STAGE was prepared (wearers.py); events go to STAGE/RUN/events, and beside it reports of the run. This module replaces
-`python -m bytewax.run`, which takes only whole seconds between two snapshots (-s), too rare for a short run."""
+STAGE is a prepared directory (wearers.py). Events are written to STAGE/RUN/events, and reports of the run beside it.
+This module replaces `python -m bytewax.run`, whose interval between two snapshots (-s) is at least 1 s, too long for a
+short run."""
 
 from __future__ import annotations
 
@@ -35,9 +36,9 @@ from .wearers import Wearers
 
 EVENTS, RECOVERY = "events", "recovery"
 """Directories of a run."""
-REOPENED = "reopened-"
-"""Prefix of files, one for each process, with one byte for each wearer who went on from a state."""
-POSITION = Struct("<q")
+REOPENED_PREFIX = "reopened-"
+"""Prefix of files, one for each process, with one byte for each wearer who continued from a state."""
+POSITION_FORMAT = Struct("<q")
 
 Keyed = tuple[str, list[Sent | Unreadable]]
 
@@ -45,7 +46,7 @@ Keyed = tuple[str, list[Sent | Unreadable]]
 def main(run: str, every: float, number: int | None, addresses: list[str]) -> None:
     """Run one process of the engine.
 
-    `every` is the time between two snapshots, s. `number` is the index of its own address in `addresses`."""
+    `every` is the time between two snapshots, s. `number` is the index of this process's address in `addresses`."""
     cli_main(  # type: ignore[no-untyped-call]
         flow(run),
         process_id=number,
@@ -73,20 +74,20 @@ def flow(run: str) -> Dataflow:
 
 
 def _warm(fleet: Fleet, wearers: Wearers) -> None:
-    """Do the one-time work of the first packets, state and restart before it would count for a wearer."""
-    first, state = wearers.all[0], None
+    """Do the one-time work of first packets, state and restart now, so that it does not count for a wearer."""
+    wearer, state = wearers.all[0], None
     for number in range(wearers.bundles):
-        state, _ = fleet.step(first.name, state, first.bundle(number))
+        state, _ = fleet.step(wearer.name, state, wearer.bundle(number))
 
 
 class CountedSessions(Fleet):
-    """A fleet that writes one byte for each session opened from a state, for the process that kills this one."""
+    """A fleet that writes one byte to a file for each wearer opened from a state; the killing process counts them."""
 
     __slots__ = ("_file",)
 
     def __init__(self, recipe: Recipe, home: Path) -> None:
         super().__init__(recipe)
-        self._file = os.open(home / f"{REOPENED}{os.getpid()}", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+        self._file = os.open(home / f"{REOPENED_PREFIX}{os.getpid()}", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
 
     def open(self, wearer: str, state: bytes | None) -> keyed.Keyed:
         if state is not None:
@@ -98,8 +99,8 @@ class CountedSessions(Fleet):
 class ProcessReport:
     """Resources that one process of a run used.
 
-    `started` and `ended` are times of the system's clock at the first bundle and at the end of the work, s; `cpu` is
-    the processor time between them, s. `empty` is the memory at the first bundle, `full` the most until the end, bytes.
+    `started` and `ended` are the times of the first bundle and of the end of the work, s, system's clock. `cpu` is the
+    processor time between them, s. `empty` is the memory at the first bundle, `full` the largest until the end, bytes.
     """
 
     started: float | None = None
@@ -121,9 +122,9 @@ class ProcessReport:
 
 
 class Phones(FixedPartitionedSource[Keyed, int]):
-    """A source of the bundles of all wearers at full speed: the first of each, then the second.
+    """A source of the bundles of all wearers at full speed: first the first bundle of every wearer, then the second.
 
-    They can be read again from any position."""
+    It can be read again from any position."""
 
     def __init__(self, wearers: Wearers, home: Path, report: ProcessReport) -> None:
         self._wearers, self._home, self._report = wearers, home, report
@@ -136,34 +137,35 @@ class Phones(FixedPartitionedSource[Keyed, int]):
 
 
 class CountingPart(StatefulSourcePartition[Keyed, int]):
-    """One partition of the source; its state is the number of bundles that were read."""
+    """A partition of the source; its state is the number of bundles that were read."""
 
     def __init__(self, wearers: Wearers, part: int, at: int, home: Path, report: ProcessReport) -> None:
         self._wearers, self._report = wearers.of_part(part), report
-        self._at, self._end = at, len(self._wearers) * wearers.bundles
-        started = {"part": part, "at": at, "end": self._end, "time": time()}
+        self._position, self._end_position = at, len(self._wearers) * wearers.bundles
+        started = {"part": part, "at": at, "end": self._end_position, "time": time()}
         with (home / "began.jsonl").open("a", encoding="utf-8") as file:
             file.write(json.dumps(started) + "\n")
-        self._reached = os.open(home / f"reached-{part}", os.O_WRONLY | os.O_CREAT)
+        self._position_file = os.open(home / f"reached-{part}", os.O_WRONLY | os.O_CREAT)
 
     def next_batch(self) -> list[Keyed]:
         self._report.note_start()
-        at = self._at
-        if at >= self._end:
+        position = self._position
+        if position >= self._end_position:
             raise StopIteration
-        number, who = divmod(at, len(self._wearers))
-        wearer = self._wearers[who]
-        self._at = at + 1
-        os.lseek(self._reached, 0, os.SEEK_SET)
-        os.write(self._reached, POSITION.pack(at + 1))  # for the process that kills this one and measures the cost
+        number, index = divmod(position, len(self._wearers))
+        wearer = self._wearers[index]
+        self._position = position + 1
+        os.lseek(self._position_file, 0, os.SEEK_SET)
+        # for the process that kills this one and measures the cost
+        os.write(self._position_file, POSITION_FORMAT.pack(position + 1))
         bundle = wearer.bundle(number)
         return [(wearer.name, bundle)] if bundle else []
 
     def snapshot(self) -> int:
-        return self._at
+        return self._position
 
     def close(self) -> None:
-        os.close(self._reached)
+        os.close(self._position_file)
 
 
 if __name__ == "__main__":

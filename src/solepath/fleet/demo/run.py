@@ -16,12 +16,12 @@ from attrs import define, field
 from bytewax.recovery import init_db_dir
 
 from ...recording import printable
-from .job import EVENTS, POSITION, RECOVERY, REOPENED
+from .job import EVENTS, POSITION_FORMAT, RECOVERY, REOPENED_PREFIX
 
-LOOK = 0.005
+CHECK_INTERVAL = 0.005
 """Interval between two checks for the end of a process, s."""
-PATIENCE = 3.0
-"""Time for the processes of a job to end by themselves after a kill of one, s; then they are killed too."""
+END_TIMEOUT = 3.0
+"""Time that the processes of a job have to end after one of them was killed, s; then they are killed too."""
 
 
 class RunFailed(Exception):
@@ -29,7 +29,7 @@ class RunFailed(Exception):
 
 
 def start(module: str, *arguments: str, home: Path, log: Path) -> subprocess.Popen[bytes]:
-    """Start a Python process that ends with this one; it does not receive Ctrl-C, so its parent must end it."""
+    """Start a Python process that ends when this one ends; it does not receive Ctrl-C."""
     package = Path(__file__).parents[3]
     path = os.pathsep.join([str(package), *filter(None, [os.environ.get("PYTHONPATH")])])
     with log.open("ab") as out:
@@ -46,7 +46,7 @@ def start(module: str, *arguments: str, home: Path, log: Path) -> subprocess.Pop
 
 @define
 class Children:
-    """Processes that end with the block: `with Children() as children`."""
+    """The processes that are killed at the end of `with Children() as children`."""
 
     running: list[subprocess.Popen[bytes]] = field(factory=list)
 
@@ -57,7 +57,7 @@ class Children:
         self.kill()
 
     def ended(self, patience: float) -> bool:
-        """Return whether all ended within `patience` s, or one with an error: the others might wait for it for ever."""
+        """Return whether all ended within `patience` s or one failed, since the others might wait for it for ever."""
         limit = monotonic() + patience
         while True:
             statuses = [child.poll() for child in self.running]
@@ -65,14 +65,14 @@ class Children:
                 return True
             if monotonic() > limit:
                 return False
-            sleep(LOOK)
+            sleep(CHECK_INTERVAL)
 
     def is_running(self) -> bool:
         """Return whether at least one still runs."""
         return any(child.poll() is None for child in self.running)
 
     def kill(self, which: int | None = None) -> None:
-        """Kill one process, or all, as `kill -9` does."""
+        """Kill the process number `which`, or all if None, as `kill -9` does."""
         killed = self.running if which is None else [self.running[which]]
         for child in killed:
             child.kill()
@@ -83,7 +83,7 @@ class Children:
                     child.stdin.close()
 
     def check(self, what: str, log: Path) -> None:
-        """Raise RunFailed when one of them ended with an error; the last line of the log says why."""
+        """Raise RunFailed, with the last line of the log, when a process ended with an error."""
         for child in self.running:
             if child.returncode:
                 lines = log.read_text(encoding="utf-8", errors="replace").strip().splitlines() or ["it said nothing"]
@@ -104,45 +104,45 @@ class EngineRun:
 
     @classmethod
     def create(cls, home: Path, processes: int, every: float) -> EngineRun:
-        """Return a run that has read nothing yet."""
+        """Return a new run with empty directories."""
         (home / RECOVERY).mkdir(parents=True)
         init_db_dir(home / RECOVERY, processes)  # type: ignore[no-untyped-call]
         return cls(home, processes, every)
 
     @property
     def events(self) -> Path:
-        """Directory of its events."""
+        """Directory of the events."""
         return self.home / EVENTS
 
     def start(self) -> None:
         """Start the job, or continue it from its last snapshot."""
         job = ("solepath.fleet.demo.job", str(self.home), str(self.every))
         self.children = Children()
-        for place in _places(self.processes):
-            child = start(*job, *place, home=self.home, log=self.home / "log")
+        for arguments in _process_arguments(self.processes):
+            child = start(*job, *arguments, home=self.home, log=self.home / "log")
             self.children.running.append(child)
 
     def finish(self) -> list[dict[str, Any]]:
         """Wait for the end and return each process's report (job.ProcessReport). Raises RunFailed."""
-        while not self.ended(PATIENCE):
+        while not self.ended(END_TIMEOUT):
             pass
         self.children.kill()
         reports = [self.home / f"report-{child.pid}.json" for child in self.children.running]
         return [json.loads(report.read_text(encoding="utf-8")) for report in reports]
 
     def ended(self, patience: float) -> bool:
-        """Return whether the job came to its end within `patience` s. Raises RunFailed if it failed."""
+        """Return whether the job ended within `patience` s. Raises RunFailed if it failed."""
         if not self.children.ended(patience):
             return False
         self.children.check("the job", self.home / "log")
         return True
 
     def kill(self, which: int | None) -> None:
-        """Kill one process, or all; the others end by themselves or are killed after PATIENCE."""
+        """Kill one process, or all if None; those that have not ended after END_TIMEOUT are killed too."""
         self.children.kill(which)
-        limit = monotonic() + PATIENCE
+        limit = monotonic() + END_TIMEOUT
         while self.children.is_running() and monotonic() < limit:
-            sleep(LOOK)
+            sleep(CHECK_INTERVAL)
         self.children.kill()
 
     def close(self) -> None:
@@ -150,22 +150,22 @@ class EngineRun:
         self.children.kill()
 
     def reached(self) -> dict[int, int]:
-        """Return the number of bundles read by now, of each partition that has started."""
-        found = {}
+        """Return the number of bundles read by now, by partition."""
+        counts = {}
         for path in self.home.glob("reached-*"):
             data = path.read_bytes()
-            if len(data) == POSITION.size:
-                found[int(path.name.partition("-")[2])] = POSITION.unpack(data)[0]
-        return found
+            if len(data) == POSITION_FORMAT.size:
+                counts[int(path.name.partition("-")[2])] = POSITION_FORMAT.unpack(data)[0]
+        return counts
 
     def share(self) -> float:
         """Return the share of all bundles that were read; 0 before all partitions were opened."""
-        ends = {one["part"]: one["end"] for one in self.starts()}
+        ends = {start["part"]: start["end"] for start in self.starts()}
         return sum(self.reached().values()) / sum(ends.values()) if len(ends) == self.processes else 0.0
 
     def reopened(self) -> int:
-        """Return the number of wearers who went on from their states, over all restarts."""
-        return sum(path.stat().st_size for path in self.home.glob(f"{REOPENED}*"))
+        """Return the number of wearers who continued from their states, over all restarts."""
+        return sum(path.stat().st_size for path in self.home.glob(f"{REOPENED_PREFIX}*"))
 
     def starts(self) -> list[dict[str, Any]]:
         """Return each opening of a partition: its `part`, its position `at`, its `end`, and its `time`."""
@@ -174,8 +174,8 @@ class EngineRun:
         return [json.loads(line) for line in lines if line.endswith("}")]
 
 
-def _places(processes: int) -> list[tuple[str, ...]]:
-    """Return the arguments that give each process of a job its own number and all addresses."""
+def _process_arguments(processes: int) -> list[tuple[str, ...]]:
+    """Return the arguments of each process of a job: its number and all addresses."""
     if processes == 1:
         return [()]
     addresses = [f"127.0.0.1:{port}" for port in _free_ports(processes)]
@@ -186,6 +186,6 @@ def _free_ports(count: int) -> list[int]:
     """Return free ports of this machine."""
     with ExitStack() as stack:
         sockets = [stack.enter_context(socket.socket()) for _ in range(count)]
-        for one in sockets:
-            one.bind(("127.0.0.1", 0))
-        return [one.getsockname()[1] for one in sockets]
+        for socket_ in sockets:
+            socket_.bind(("127.0.0.1", 0))
+        return [socket_.getsockname()[1] for socket_ in sockets]

@@ -1,6 +1,6 @@
 """Transport of a phone's packets to the engine: in bundles, with packets late, repeated or out of order.
 
-A Sending is made once and shared by many wearers; only a wearer's name, runs and time of walking are its own."""
+A Sending is made once and shared by many wearers, who differ in name, runs and time of walking."""
 
 from __future__ import annotations
 
@@ -16,33 +16,29 @@ from ...events.fleet import SentRejection
 from ...link.decoder import Decoder
 from ...link.kinds import make_kinds
 from ...types import Packet, Sample, Site
-from ..step.sent import LONGEST_DATA, End, Tick
+from ..step.sent import MAX_DATA_LENGTH, End, Tick
 
-LATE, BEHIND = 0.02, 100
-"""Share of the rows that come late, and the largest number of others that may come before one of them.
-
-That number is less than the fleet's window."""
-TWICE, AGAIN = 0.02, 400
-"""Share of the rows that come a second time, and the largest number of others that may come in between."""
-LOST, TOO_LATE = 12, 400
-"""Rows that are lost for ever, and the number of rows before one of them arrives after all.
-
-That number is more than the fleet's window."""
-TICK_AFTER = 0.25
+LATE_SHARE, MAX_DELAY_ROWS = 0.02, 100
+"""Share of the rows that come late, and the largest number of rows that overtake one; less than the fleet's window."""
+REPEATED_SHARE, MAX_REPEAT_ROWS = 0.02, 400
+"""Share of the rows that come a second time, and the largest number of other rows between the two."""
+LOST_ROWS, TOO_LATE_ROWS = 12, 400
+"""Number of rows that are lost, and number of rows after which one of them arrives; more than the fleet's window."""
+TICK_INTERVAL = 0.25
 """Time without a packet after which a phone sends the time, s."""
 
 DemoPayload = Packet | Tick | End
 Row = dict[str, Any]
-"""A row of a faulty phone: columns of protocol/fleet.md with any content."""
+"""A row of a faulty phone: the columns of protocol/fleet.md with any values."""
 Item = tuple[int, int, DemoPayload | Row]
-"""(run index of the phone, number, content)."""
+"""(index of the phone's run, number, payload)."""
 
 
 @frozen
 class Remark:
-    """An expected event of the fleet itself about something that was sent.
+    """An expected event of the fleet itself about a row.
 
-    `run` is the index of the phone's run; None where no place in the order can be read. `number` is that of the
+    `run` is the index of the phone's run; None for a row without readable run and number. `number` is that of the
     rejected row, or the first missing one. `why` is the reason of a SentRejected or the count of a NumbersMissing."""
 
     event: str
@@ -53,10 +49,10 @@ class Remark:
 
 @frozen(eq=False)
 class Sending:
-    """The output of a phone.
+    """The rows of a phone.
 
-    `bundles` holds the items that arrive, one bundle for each period. `ordered` holds the session's input in order.
-    `remarks` holds the events that the fleet itself must emit."""
+    `bundles` holds the items in the order of arrival, one bundle for each period. `ordered` holds the session's input
+    in the right order. `remarks` holds the events that the fleet itself must emit."""
 
     bundles: tuple[tuple[Item, ...], ...]
     ordered: tuple[DemoPayload, ...]
@@ -66,51 +62,50 @@ class Sending:
 def make_sending(packets: Sequence[Packet], every: float, rng: Random, *, runs: int = 1, ends: bool = False) -> Sending:
     """Return the Sending of a walk, in bundles of `every` s.
 
-    `runs` is the number of times that the phone's app was started meanwhile. `ends` adds that the wearer takes the
-    sensors off at last."""
+    `runs` is the number of times that the phone's app was started during the walk. `ends` adds an End."""
     received = [*_add_ticks(packets), *([End()] if ends else [])]
     cuts = [len(received) * k // runs for k in range(runs + 1)]
     arrived: list[Item] = []
     for run in range(runs):
         numbered = list(enumerate(received[cuts[run] : cuts[run + 1]]))
-        arrived += [(run, number, what) for number, what in _disturb(numbered, rng)]
+        arrived += [(run, number, payload) for number, payload in _disturb(numbered, rng)]
     return Sending(_make_bundles(arrived, every), tuple(received))
 
 
 def make_gap(packets: Sequence[Packet], every: float, rng: Random) -> Sending | None:
-    """Return the Sending of a walk that loses LOST consecutive rows, one of which comes long after it was given up.
+    """Return the Sending of a walk that loses LOST_ROWS consecutive rows; one of them comes after it was given up.
 
-    Returns None when too few rows come after them for that."""
+    Returns None when the walk has too few rows for that."""
     received = list(_add_ticks(packets))
     first = len(received) // 8
-    end = first + LOST
-    if len(received) < end + TOO_LATE + BEHIND:
+    end = first + LOST_ROWS
+    if len(received) < end + TOO_LATE_ROWS + MAX_DELAY_ROWS:
         return None
-    placed = _disturb([(n, what) for n, what in enumerate(received) if not first <= n < end], rng)
-    at = next(place for place, (number, _) in enumerate(placed) if number >= end + TOO_LATE)
+    delivered = _disturb([(n, payload) for n, payload in enumerate(received) if not first <= n < end], rng)
+    index = next(k for k, (number, _) in enumerate(delivered) if number >= end + TOO_LATE_ROWS)
     late = rng.randrange(first, end)
-    placed.insert(at, (late, received[late]))
-    remarks = (Remark("NumbersMissing", 0, first, LOST), Remark("SentRejected", 0, late, SentRejection.LATE.value))
-    items = [(0, number, what) for number, what in placed]
+    delivered.insert(index, (late, received[late]))
+    remarks = (Remark("NumbersMissing", 0, first, LOST_ROWS), Remark("SentRejected", 0, late, SentRejection.LATE.value))
+    items = [(0, number, payload) for number, payload in delivered]
     return Sending(_make_bundles(items, every), tuple([*received[:first], *received[end:]]), remarks)
 
 
 def make_poison(packets: Sequence[Packet], every: float, rng: Random) -> Sending:
-    """Return a Sending with random bytes in half of a walk's packets, among invalid rows."""
+    """Return a Sending of a walk with random bytes in many packets, and with invalid rows."""
     received, items, remarks, number = list[DemoPayload](), list[Item](), list[Remark](), 0
     for packet in packets:
-        drawn = rng.random()
-        if drawn < 0.1:
+        draw = rng.random()
+        if draw < 0.1:
             row = _make_bad_row(packet, number, rng)
-            numbered = row["number"] == number  # others have no place in the order
-            run, place = (0, number) if numbered else (None, None)
-            remarks.append(Remark("SentRejected", run, place, SentRejection.UNREADABLE.value))
-            number += numbered
+            is_numbered = row["number"] == number  # other rows have no place in the order
+            run, remark_number = (0, number) if is_numbered else (None, None)
+            remarks.append(Remark("SentRejected", run, remark_number, SentRejection.UNREADABLE.value))
+            number += is_numbered
             items.append((0, number, row))
             continue
-        if drawn < 0.5:
+        if draw < 0.5:
             site = rng.choice(list(Site))
-            data = rng.randbytes(rng.choice((0, 1, 20, 244, LONGEST_DATA)))
+            data = rng.randbytes(rng.choice((0, 1, 20, 244, MAX_DATA_LENGTH)))
             packet = Packet(packet.t, site, rng.choice((packet.channel, "insole/frame", "\N{SKULL}")), data)
         received.append(packet)
         items.append((0, number, packet))
@@ -120,23 +115,23 @@ def make_poison(packets: Sequence[Packet], every: float, rng: Random) -> Sending
 
 def _make_bad_row(packet: Packet, number: int, rng: Random) -> Row:
     row: Row = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data}
-    wrong: tuple[Row, ...] = (
+    faults: tuple[Row, ...] = (
         {"site": "tail"},
         {"data": None},
         {"t": "noon"},
-        {"data": bytes(LONGEST_DATA + 1)},
+        {"data": bytes(MAX_DATA_LENGTH + 1)},
         {"number": -1},
         {"number": None, "channel": 7},
     )
-    return {"number": number, **row, **rng.choice(wrong)}
+    return {"number": number, **row, **rng.choice(faults)}
 
 
 def _add_ticks(packets: Sequence[Packet]) -> Iterator[DemoPayload]:
-    """Yield the packets, and ticks where nothing arrives."""
+    """Yield the packets, and a Tick every TICK_INTERVAL while no packet arrives."""
     now = packets[0].t if packets else 0.0
     for packet in packets:
-        while packet.t - now > 2 * TICK_AFTER:
-            now += TICK_AFTER
+        while packet.t - now > 2 * TICK_INTERVAL:
+            now += TICK_INTERVAL
             yield Tick(now)
         now = max(now, packet.t)
         yield packet
@@ -145,35 +140,35 @@ def _add_ticks(packets: Sequence[Packet]) -> Iterator[DemoPayload]:
 def _disturb(sent: Iterable[tuple[int, DemoPayload]], rng: Random) -> list[tuple[int, DemoPayload]]:
     """Return the rows with some of them late, repeated and out of order."""
     placed: list[tuple[float, int, DemoPayload]] = []
-    for at, (number, what) in enumerate(sent):
-        late = rng.uniform(1, BEHIND) if rng.random() < LATE else 0.0
-        placed.append((at + late, number, what))
-        if rng.random() < TWICE:
-            placed.append((at + late + rng.uniform(0, AGAIN), number, what))
-    return [(number, what) for _, number, what in sorted(placed, key=itemgetter(0))]
+    for index, (number, payload) in enumerate(sent):
+        delay = rng.uniform(1, MAX_DELAY_ROWS) if rng.random() < LATE_SHARE else 0.0
+        placed.append((index + delay, number, payload))
+        if rng.random() < REPEATED_SHARE:
+            placed.append((index + delay + rng.uniform(0, MAX_REPEAT_ROWS), number, payload))
+    return [(number, payload) for _, number, payload in sorted(placed, key=itemgetter(0))]
 
 
 def _make_bundles(items: Iterable[Item], every: float) -> tuple[tuple[Item, ...], ...]:
-    """Return bundles by the newest time that arrived; late rows may make the last bundle longer."""
-    found: list[list[Item]] = [[]]
+    """Return bundles of `every` s by the newest time that arrived; late rows may make the last bundle longer."""
+    bundles: list[list[Item]] = [[]]
     due = every
     for item in items:
-        what = item[2]
-        t = what.t if isinstance(what, Packet | Tick) else 0.0
+        payload = item[2]
+        t = payload.t if isinstance(payload, Packet | Tick) else 0.0
         while t >= due:
-            found.append([])
+            bundles.append([])
             due += every
-        found[-1].append(item)
-    return tuple(tuple(bundle) for bundle in found)
+        bundles[-1].append(item)
+    return tuple(tuple(bundle) for bundle in bundles)
 
 
 @cache
 def count_samples(sending: Sending) -> int:
-    """Return the number of samples that links make of it."""
-    known, links, found = make_kinds(()), dict[Site, Decoder](), 0
+    """Return the number of samples that links make of the packets of a Sending."""
+    kinds, links, count = make_kinds(()), dict[Site, Decoder](), 0
     for packet in sending.ordered:
         if not isinstance(packet, Packet):
             continue
         link = links.setdefault(packet.site, Decoder(packet.site))
-        found += sum(isinstance(item, Sample) for item in link.feed(packet, known))
-    return found + sum(isinstance(item, Sample) for link in links.values() for item in link.finish())
+        count += sum(isinstance(item, Sample) for item in link.feed(packet, kinds))
+    return count + sum(isinstance(item, Sample) for link in links.values() for item in link.finish())

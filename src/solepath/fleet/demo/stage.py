@@ -1,4 +1,4 @@
-"""The whole demonstration: the same walks through the engine, through sessions alone, and through killed engines."""
+"""The whole demonstration: the same walks through the engine, through sessions without engine, and with kills."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ from attrs import define, field, frozen
 
 from .compare import compare_remarks, differences, files, find_number_gaps, read_events, session_events
 from .job import EVENTS
-from .kills import Outcome, draw, play
+from .kills import Outcome, draw, play_run
 from .run import Children, EngineRun, start
 from .wearers import DemoPlan, Wearers, prepare
 
-SNAPSHOTS = 8
-"""Number of snapshots in the time that sessions alone take; the engine takes longer."""
-OFTEN, RARELY = 0.1, 10.0
+TARGET_SNAPSHOTS = 8
+"""Number of snapshots in the time that sessions take without an engine; the engine takes longer."""
+MIN_INTERVAL, MAX_INTERVAL = 0.1, 10.0
 """Shortest and longest time between two snapshots, s; bytewax's default is the longest."""
 
-FEW = 500
-"""Smallest number of wearers for a memory figure: with fewer, the engine's own growth would count as theirs."""
+MIN_WEARERS_FOR_MEMORY = 500
+"""Smallest number of wearers for a memory per wearer: with fewer, the growth of the engine itself would dominate."""
 
 
 @frozen
 class Engine:
-    """Measurements of an uninterrupted run.
+    """The measurements of an uninterrupted run.
 
-    `whole` is the duration with the start of its processes, `seconds` that from the first bundle to the end, s. `every`
-    is the time between two snapshots, s, and `snapshots` their number before the one at the end, counted from the
-    files, since each snapshot closes one of every part. `cpu` is the time of the processors, s. `empty` and `full` are
-    the memory of all processes at the first bundle and at its most, bytes; None where the system does not report it.
-    `events` and `files` are counts."""
+    `whole` is the duration with the start of the processes, `seconds` that from the first bundle to the end, s. `every`
+    is the time between two snapshots, s. `snapshots` is their number without the one at the end, computed from the
+    number of files, since each snapshot closes one file of every partition. `cpu` is the processor time, s. `empty` and
+    `full` are the memory of all processes at the first bundle and at the maximum, bytes; None where the system does not
+    report it. `events` and `files` are counts."""
 
     whole: float
     seconds: float
@@ -53,11 +53,11 @@ class Engine:
 
 @frozen
 class Bare:
-    """Measurements of sessions alone, in as many processes.
+    """The measurements of sessions without an engine, in the same number of processes.
 
-    `rate` is that of all together, samples/s; `cpu` is the time of the processors, s. `state` and `largest` are the
-    mean and the most bytes of a wearer's state in the engine while no row is held; `held` is the most with held rows,
-    None if there were none. `snapshot` is the median time to take a state, s."""
+    `rate` is that of all processes together, samples/s. `cpu` is the processor time, s. `state` and `largest` are the
+    mean and the largest size of a wearer's state while no row is held, bytes. `held` is the largest size with held
+    rows, bytes; None if no row was held. `snapshot` is the median time to take a state, s."""
 
     rate: float
     cpu: float
@@ -71,7 +71,7 @@ class Bare:
 class DemoStage:
     """A demonstration in the empty directory `at`.
 
-    Its methods are used in this order: `prepare`, `bare`, `uninterrupted`, then `killed`. Raises RunFailed when a
+    Call its methods in this order: `prepare`, `bare`, `uninterrupted`, then `killed`. They raise RunFailed when a
     process ends with an error."""
 
     at: Path
@@ -95,18 +95,18 @@ class DemoStage:
 
     @property
     def every(self) -> float:
-        """Time between two snapshots, s: as planned, or such that a run has several by the duration of `bare`."""
+        """Time between two snapshots, s: the planned one, or a share of the duration of `bare`."""
         if self.plan.every is not None:
             return self.plan.every
         if self.sessions is None:
-            return RARELY
-        return min(max(sum(self.samples) / self.sessions.rate / SNAPSHOTS, OFTEN), RARELY)
+            return MAX_INTERVAL
+        return min(max(sum(self.samples) / self.sessions.rate / TARGET_SNAPSHOTS, MIN_INTERVAL), MAX_INTERVAL)
 
     @property
     def memory(self) -> float | None:
-        """Growth of memory per wearer, bytes; None if unknown or for few wearers."""
+        """Growth of memory per wearer, bytes; None if unknown or with few wearers."""
         engine = self.engine
-        if engine is None or engine.full is None or engine.empty is None or self.plan.wearers < FEW:
+        if engine is None or engine.full is None or engine.empty is None or self.plan.wearers < MIN_WEARERS_FOR_MEMORY:
             return None
         return (engine.full - engine.empty) / self.plan.wearers
 
@@ -122,14 +122,14 @@ class DemoStage:
         with closing(run):
             run.start()
             reports = run.finish()
-        whole = monotonic() - t_start
+        duration = monotonic() - t_start
         seconds = max(r["ended"] for r in reports) - min(r["started"] for r in reports if r["started"] is not None)
         self.engine = Engine(
-            whole=whole,
+            whole=duration,
             seconds=seconds,
             every=self.every,
             snapshots=max(len(files(self.events)) // self.plan.parts - 1, 0),
-            cpu=sum(r["cpu"] for r in reports),
+            cpu=sum(report["cpu"] for report in reports),
             empty=_sum(reports, "empty"),
             full=_sum(reports, "full"),
             events=len(read_events(self.events)),
@@ -138,7 +138,7 @@ class DemoStage:
         return self.engine
 
     def bare(self) -> Bare:
-        """Run the same walks through sessions alone."""
+        """Run the same walks through sessions without an engine."""
         home = self.at / "sessions"
         home.mkdir()
         parts, log = range(self.plan.parts), home / "log"
@@ -149,17 +149,19 @@ class DemoStage:
             while not children.ended(1.0):
                 pass
             children.check("the sessions alone", log)
-        found = [json.loads((home / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
-        states = [state for one in found for state in one["states"]]
-        taken = median(seconds for _, _, seconds in states)
-        free, held = ([size for size, waits, _ in states if bool(waits) is holds] for holds in (False, True))
-        rate = sum(samples / one["seconds"] for samples, one in zip(self.samples, found, strict=True))
-        cpu = sum(one["cpu"] for one in found)
-        self.sessions = Bare(rate, cpu, mean(free), max(free), max(held, default=None), taken)
+        results = [json.loads((home / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
+        states = [state for result in results for state in result["states"]]
+        snapshot_time = median(seconds for _, _, seconds in states)
+        sizes, held_sizes = (
+            [size for size, held_rows, _ in states if bool(held_rows) is is_held] for is_held in (False, True)
+        )
+        rate = sum(samples / result["seconds"] for samples, result in zip(self.samples, results, strict=True))
+        cpu = sum(result["cpu"] for result in results)
+        self.sessions = Bare(rate, cpu, mean(sizes), max(sizes), max(held_sizes, default=None), snapshot_time)
         return self.sessions
 
     def compare(self) -> list[str]:
-        """Return the differences of the uninterrupted run from the sessions and the expected remarks."""
+        """Return the differences of the uninterrupted run from the sessions and from the expected remarks."""
         engine, sessions = read_events(self.events), read_events(self.at / "sessions" / EVENTS)
         expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(self.at).all}
         return [
@@ -169,16 +171,16 @@ class DemoStage:
         ]
 
     def killed(self, kills: int, *, keep: bool) -> Iterator[Outcome]:
-        """Run jobs with so many kills and restarts, and compare each with the uninterrupted one at its end.
+        """Run jobs with this number of kills and restarts, and yield the comparison of each with the uninterrupted run.
 
         `keep` leaves the files of the runs."""
         engine = self.engine or self.uninterrupted()
         expected = read_events(self.events)
-        starting = engine.whole - engine.seconds
-        planned = draw(kills, starting, engine.seconds, self.plan.parts, Random(f"kills {self.plan.seed}"))
-        for number, of_run in enumerate(planned, 1):
+        start_duration = engine.whole - engine.seconds
+        planned = draw(kills, start_duration, engine.seconds, self.plan.parts, Random(f"kills {self.plan.seed}"))
+        for number, run_kills in enumerate(planned, 1):
             home = self.at / f"killed-{number}"
-            outcome = play(partial(EngineRun.create, home, self.plan.parts, self.every), of_run, expected)
+            outcome = play_run(partial(EngineRun.create, home, self.plan.parts, self.every), run_kills, expected)
             self.outcomes.append(outcome)
             if not keep:
                 shutil.rmtree(home)

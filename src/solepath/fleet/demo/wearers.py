@@ -1,7 +1,7 @@
 """The wearers of a demonstration: their walks, times and transport to the engine, the same in every process.
 
 A stage is a directory with `plan.json` and the shared walks as recordings. Every process of a demonstration reads it,
-so that none has to emulate anything, and what one wearer sends is the same for all."""
+so that no process emulates walks, and every process has the same rows of a wearer."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from ..rows import read_sent
 from ..step.sent import Sent, Tick, Unreadable
 from .sending import DemoPayload, Item, Remark, Sending, count_samples, make_gap, make_poison, make_sending
 
-ROUGH = Radio(loss=0.02, duplicate=0.005, corrupt=0.005, truncate=0.005, latency=0.01, jitter=0.03)
-"""A poor radio: of a hundred notifications two never arrive, and one is damaged."""
-SPEED = 1.3
+POOR_RADIO = Radio(loss=0.02, duplicate=0.005, corrupt=0.005, truncate=0.005, latency=0.01, jitter=0.03)
+"""A poor radio connection: of a hundred notifications two never arrive, and one is damaged."""
+WALKING_SPEED = 1.3
 """Walking speed, m/s."""
 DEVICES: dict[str, Device] = {
     "insoles": Insole(cells=48),
@@ -39,41 +39,41 @@ DEVICES: dict[str, Device] = {
     "CC2541": CC2541(rate=20.0),
 }
 """Device on both feet, by the name of the walk."""
-SILENT = "insoles out of reach"
-"""The walk in which nothing arrives for some time."""
-SILENCE = (0.5, 0.65)
-"""Start and end of that silence, as shares of the walk."""
+SILENT_WALK = "insoles out of reach"
+"""Name of the walk in which no packet arrives for some time."""
+SILENCE_SHARES = (0.5, 0.65)
+"""Start and end of the silence in SILENT_WALK, as shares of its duration."""
 
 
 def walk(name: str, seconds: float, seed: int) -> list[Packet]:
-    """Return the packets of the first `seconds` of a walk in laps that starts with a stand, in arrival order."""
+    """Return the packets, in arrival order, of the first `seconds` of a walk in laps that starts with standing."""
     route, length = Route().stand(1.0), 0.0
-    while length < SPEED * seconds:
-        route = route.walk(6.0, SPEED).turn(pi / 2, radius=1.5)
+    while length < WALKING_SPEED * seconds:
+        route = route.walk(6.0, WALKING_SPEED).turn(pi / 2, radius=1.5)
         length += 6.0 + 1.5 * pi / 2
     worn = {site: DEVICES[name] for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
-    received = [packet for packet in emulate(route, devices=worn, radio=ROUGH, seed=seed).packets if packet.t < seconds]
-    if name == SILENT:
-        start, end = (share * seconds for share in SILENCE)
+    received = [p for p in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if p.t < seconds]
+    if name == SILENT_WALK:
+        start, end = (share * seconds for share in SILENCE_SHARES)
         received = [packet for packet in received if not start <= packet.t < end]
     return received
 
 
-POISONED = 97
-"""One wearer in this many sends random bytes, the fourth first."""
-GAPPED = 10
-"""One wearer in this many loses some of its rows for ever, the sixth first."""
+POISON_EVERY = 97
+"""One wearer in this many sends random bytes; the first is wearer number 3."""
+GAP_EVERY = 10
+"""One wearer in this many loses some of its rows; the first is wearer number 5."""
 FIRST_RUN = 1_790_000_000_000
-"""Time at which the phones were started, ms."""
+"""Time at which the first phone was started, ms since 1970; it is the number of a run."""
 
 
 @frozen
 class DemoPlan:
-    """Settings that determine every byte of a demonstration.
+    """The settings that determine every byte of a demonstration.
 
-    `seconds` is the duration of walking. `bundle` is the time of walking that a phone sends at once, s. `parts` is the
-    number of partitions of the source and of the files, and of processes. `every` is the time between two snapshots, s;
-    None chooses it to suit the run."""
+    `seconds` is the duration of a walk. `bundle` is the time of walking that a phone sends at once, s. `parts` is the
+    number of processes, and of partitions of the source and of the files. `every` is the time between two snapshots, s;
+    None derives it from the duration of the run."""
 
     wearers: int
     seconds: float
@@ -87,19 +87,19 @@ class DemoPlan:
 def prepare(stage: Path, plan: DemoPlan) -> None:
     """Emulate the walks and write them and the plan into the directory `stage`. Raises OSError, RecordingError."""
     for number, name in enumerate(DEVICES):
-        with PacketWriter(_recording(stage, number)) as writer:
+        with PacketWriter(_walk_path(stage, number)) as writer:
             for packet in walk(name, plan.seconds, plan.seed + number):
                 writer.write(packet)
     (stage / "plan.json").write_text(json.dumps(asdict(plan)), encoding="utf-8")
 
 
-def _recording(stage: Path, number: int) -> Path:
+def _walk_path(stage: Path, number: int) -> Path:
     return stage / f"walk-{number}.jsonl"
 
 
 @frozen
 class DemoWearer:
-    """One wearer; `shift` is the offset from the walk's time to its own, s, `run` that of its phone."""
+    """One wearer; `shift` is added to the times of the walk, s, and `run` to the run indices of the Sending."""
 
     name: str
     sending: Sending
@@ -107,17 +107,17 @@ class DemoWearer:
     run: int
 
     def bundle(self, number: int) -> list[Sent | Unreadable]:
-        """Return what arrives from this wearer in this period."""
+        """Return the rows that arrive from this wearer in this period."""
         bundles = self.sending.bundles
         if number >= len(bundles):
             return []
         name, run, shift = self.name, self.run, self.shift
-        # a fast path for packets, the majority, since the engine is what is measured
+        # a fast path for packets, the majority, so that the measurement shows the engine's time
         return [
-            Sent(name, at, Packet(what.t + shift, what.site, what.channel, what.data), run + k)
-            if type(what) is Packet
-            else self._make_other((k, at, what))
-            for k, at, what in bundles[number]
+            Sent(name, n, Packet(payload.t + shift, payload.site, payload.channel, payload.data), run + k)
+            if type(payload) is Packet
+            else self._make_row((k, n, payload))
+            for k, n, payload in bundles[number]
         ]
 
     def remarks(self) -> list[Remark]:
@@ -126,19 +126,19 @@ class DemoWearer:
 
     def inputs(self) -> list[DemoPayload]:
         """Return the input of this wearer's session, in order."""
-        return [_shift(what, self.shift) for what in self.sending.ordered]
+        return [_shift_time(payload, self.shift) for payload in self.sending.ordered]
 
-    def _make_other(self, item: Item) -> Sent | Unreadable:
-        k, number, what = item
-        if isinstance(what, dict):
-            return read_sent({**what, "wearer": self.name, "run": self.run + k})
-        return Sent(self.name, number, _shift(what, self.shift), self.run + k)
+    def _make_row(self, item: Item) -> Sent | Unreadable:
+        run_index, number, payload = item
+        if isinstance(payload, dict):
+            return read_sent({**payload, "wearer": self.name, "run": self.run + run_index})
+        return Sent(self.name, number, _shift_time(payload, self.shift), self.run + run_index)
 
 
-def _shift(what: DemoPayload, shift: float) -> DemoPayload:
-    if isinstance(what, Packet):
-        return Packet(what.t + shift, what.site, what.channel, what.data)
-    return Tick(what.t + shift) if isinstance(what, Tick) else what
+def _shift_time(payload: DemoPayload, shift: float) -> DemoPayload:
+    if isinstance(payload, Packet):
+        return Packet(payload.t + shift, payload.site, payload.channel, payload.data)
+    return Tick(payload.t + shift) if isinstance(payload, Tick) else payload
 
 
 @define(eq=False)
@@ -158,7 +158,7 @@ class Wearers:
     def read(cls, stage: Path) -> Wearers:
         """Read the wearers of a stage."""
         plan = DemoPlan(**json.loads((stage / "plan.json").read_text(encoding="utf-8")))
-        walks = [list(read_packets(_recording(stage, number))) for number in range(len(DEVICES))]
+        walks = [list(read_packets(_walk_path(stage, number))) for number in range(len(DEVICES))]
         rng = Random(f"sendings {plan.seed}")
         sendings = []
         for packets in walks:
@@ -166,15 +166,17 @@ class Wearers:
             sendings.append(make_sending(packets, plan.bundle, rng, ends=True))
             sendings.append(make_sending(packets, plan.bundle, rng, runs=2))
         poisons = [make_poison(packets, plan.bundle, rng) for packets in walks]
-        gaps = [one for packets in walks if (one := make_gap(packets, plan.bundle, rng)) is not None]
-        found = []
+        gaps = [gap for packets in walks if (gap := make_gap(packets, plan.bundle, rng)) is not None]
+        wearers = []
         for number in range(plan.wearers):
             rng = Random(f"wearer {plan.seed} {number}")
-            kind = poisons if number % POISONED == 3 else (gaps or sendings) if number % GAPPED == 5 else sendings
-            drawn = rng.choice(kind)
+            kind = (
+                poisons if number % POISON_EVERY == 3 else (gaps or sendings) if number % GAP_EVERY == 5 else sendings
+            )
+            sending = rng.choice(kind)
             run = FIRST_RUN + rng.randrange(10**8)
-            found.append(DemoWearer(f"w{number:05d}", drawn, rng.uniform(0.0, 1e5), run))
-        return cls(plan, sendings, poisons, gaps, found)
+            wearers.append(DemoWearer(f"w{number:05d}", sending, rng.uniform(0.0, 1e5), run))
+        return cls(plan, sendings, poisons, gaps, wearers)
 
     @property
     def recipe(self) -> Recipe:
@@ -183,22 +185,22 @@ class Wearers:
     @property
     def bundles(self) -> int:
         """Largest number of bundles that a wearer sends."""
-        return max(len(one.bundles) for one in chain(self.sendings, self.poisons, self.gaps))
+        return max(len(sending.bundles) for sending in chain(self.sendings, self.poisons, self.gaps))
 
     @property
     def poisoned(self) -> int:
         """Number of wearers who send random bytes."""
-        return sum(one.sending in self.poisons for one in self.all)
+        return sum(wearer.sending in self.poisons for wearer in self.all)
 
     @property
     def gapped(self) -> int:
         """Number of wearers who lose rows for ever."""
-        return sum(one.sending in self.gaps for one in self.all)
+        return sum(wearer.sending in self.gaps for wearer in self.all)
 
     def samples(self, part: int) -> int:
-        """Return the number of samples of one part's wearers; slow at the first call."""
-        return sum(count_samples(one.sending) for one in self.of_part(part))
+        """Return the number of samples of the wearers of one partition; slow at the first call."""
+        return sum(count_samples(wearer.sending) for wearer in self.of_part(part))
 
     def of_part(self, part: int) -> list[DemoWearer]:
-        """Return the wearers of one partition, or process."""
+        """Return the wearers of one partition, which are those of one process."""
         return self.all[part :: self.plan.parts]

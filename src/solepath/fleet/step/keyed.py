@@ -1,4 +1,4 @@
-"""One wearer of a fleet in memory: a session, the order of its input, and the numbers of its events."""
+"""One wearer of a fleet as an object: a session, the order of its rows, and the numbers of its events."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from ...events.fleet import FleetEvent, NumbersMissing, SentRejected, SentReject
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...types import Packet
-from .order import Missing, Order, RejectedItem, check_payload, is_valid
-from .sent import LONGEST_DETAIL, MOST, End, NumberedEvent, Sent, Tick, Unreadable
+from .order import MissingNumbers, RejectedItem, RowOrder, check_payload, is_valid
+from .sent import MAX_COUNT, MAX_DETAIL_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 from .sessions import Sessions
-from .state import Identity, OtherState, StateError, read_identity, read_rest, write_state
+from .state import StateError, StateHead, StateRest, read_identity, read_rest, write_state
 
 _Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRejected, WearerFailed)
 
@@ -21,13 +21,13 @@ _Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRejected, WearerFail
 class Keyed:
     """One wearer, for engines that keep objects between two snapshots; made by `Fleet.open`.
 
-    `feed` never raises, whatever phones sent, except MemoryError, after which this object must be discarded: the last
-    `state()` is good. The number of calls that the input is cut into makes no difference, nor does, if parts of the
-    app's own can be saved at any moment (Fleet.step), the number of times that `state()` is taken and opened."""
+    `feed` raises only MemoryError, whatever phones sent; then discard this object and continue from the last `state()`.
+    The output does not depend on how the input is divided among calls, nor on how often `state()` is taken and opened,
+    if the app's parts can be saved at any moment (Fleet.step)."""
 
     __slots__ = (
         "_known_at",
-        "_numbered",
+        "_has_numbers",
         "_opened_state",
         "_order",
         "_pending",
@@ -39,15 +39,15 @@ class Keyed:
 
     def __init__(self, sessions: Sessions, wearer: str, state: bytes | None) -> None:
         self._sessions, self._wearer = sessions, wearer
-        self._order = Order(sessions.window)
+        self._order = RowOrder(sessions.window)
         self._session: Session | None = None
         self._next_event, self._known_at = 0, 0.0
         self._pending: tuple[type[StateRejected | WearerFailed], str] | None = None
-        """The failure of the state or session that is reported before anything else."""
+        """Kind and detail of a failure of the state or session, to be reported before other events."""
         self._opened_state: bytes | None = None
-        """The state that caused the pending failure, until it is reported."""
-        self._numbered = True
-        """False if not even the numbers of the state could be read, until a numbered row comes."""
+        """The state that caused the pending failure, until the failure is reported."""
+        self._has_numbers = True
+        """False if the state was unreadable and no numbered row has come, so that the next number is unknown."""
         if state is not None:
             if not isinstance(state, bytes | bytearray | memoryview):
                 raise TypeError(f"a state is bytes, or None for a new wearer, not a {type(state).__name__}")
@@ -55,61 +55,61 @@ class Keyed:
 
     @property
     def ended(self) -> bool:
-        """True if the wearer has taken the sensors off, and nothing came since that starts a session."""
+        """True if the wearer has taken the sensors off and no later row has started a session."""
         return self._order.ended
 
     def feed(self, sent: Iterable[Sent | Unreadable]) -> list[NumberedEvent]:
-        """Return the events of the wearer's session and of the fleet for what was sent.
+        """Return the events of the wearer's session and of the fleet for these rows.
 
-        Latency: none for rows that come in their turn."""
+        A row in its turn, neither late nor early, is used at once."""
         emitted: list[NumberedEvent] = []
-        if self._pending is not None and self._numbered:
+        if self._pending is not None and self._has_numbers:
             self._emit_pending(emitted)
         for item in sent:
             if type(item) is Sent and self._is_next_packet(item):
-                self._order.next += 1
+                self._order.next_number += 1
                 self._use(item.what, emitted)
             else:
                 self._use_in_order(item, emitted)
         return emitted
 
     def state(self) -> bytes:
-        """Return the whole state, to continue with `Fleet.open` or `Fleet.step`, elsewhere or later."""
+        """Return the whole state, with which `Fleet.open` or `Fleet.step` continues."""
         if self._opened_state is not None:
             return self._opened_state
-        order, session, known, failure = self._order, None, self._known_at, ""
+        order, session, known_at, failure = self._order, None, self._known_at, ""
         if self._session is not None:
-            known = self._now()
+            known_at = self._now()
             try:
                 session = self._session.pack()
             except MemoryError:
                 raise
             except Exception as error:  # of a part of the app's own
-                self._session, self._known_at = None, known
+                self._session, self._known_at = None, known_at
                 self._pending = (WearerFailed, _describe(error))
         if self._pending is not None:
             failure = self._pending[1]
-        rest = OtherState(order.ended, order.unused, order.strays, order.held, failure, session)
-        return write_state(Identity(order.run, order.next, self._next_event, known), rest)
+        rest = StateRest(order.ended, order.unused, order.strays, order.held_rows, failure, session)
+        return write_state(StateHead(order.run, order.next_number, self._next_event, known_at), rest)
 
     def _open(self, state: bytes) -> None:
         identity = read_identity(state)
         if identity is None:
             self._pending, self._opened_state = (StateRejected, "nothing of the state can be read"), state
-            self._numbered = False
+            self._has_numbers = False
             return
         window, self._next_event, self._known_at = self._sessions.window, identity.next_event, identity.known
-        self._order = Order(window, identity.run, identity.next)
+        self._order = RowOrder(window, identity.run, identity.next)
         try:
             rest = read_rest(state)
-            placed = (identity.run, identity.next, rest.ended, rest.held, rest.unused, rest.strays)
-            self._order = Order(window, *placed)
+            order_state = (identity.run, identity.next, rest.ended, rest.held_rows, rest.unused, rest.strays)
+            self._order = RowOrder(window, *order_state)
             if rest.failure:
                 self._pending = (WearerFailed, rest.failure)
             elif rest.session is not None:
                 self._session = self._sessions.unpack(rest.session)
         except (StateError, SnapshotError) as error:
-            self._pending = (StateRejected, str(error)[:LONGEST_DETAIL])
+            self._pending = (StateRejected, str(error)[:MAX_DETAIL_LENGTH])
         except MemoryError:
             raise
         except Exception as error:  # of a part of the app's own
@@ -118,59 +118,59 @@ class Keyed:
             self._opened_state = state
 
     def _is_next_packet(self, sent: Sent) -> bool:
-        """Return whether this is a valid packet in its turn with nothing held behind it, as nearly all are."""
-        order, what = self._order, sent.what
+        """Return whether this is a valid packet in its turn while no row is held, which holds for nearly all rows."""
+        order, payload = self._order, sent.what
         return (
             type(sent.number) is int
-            and sent.number == order.next
+            and sent.number == order.next_number
             and type(sent.run) is int
             and sent.run == order.run
-            and not order.held
-            and not order.strays.consecutive
+            and not order.held_rows
+            and not order.strays.consecutive_rows
             and not order.ended
-            and sent.number <= MOST
+            and sent.number <= MAX_COUNT
             and type(sent.wearer) is str
             and sent.wearer == self._wearer
-            and type(what) is Packet
-            and is_valid(what)
+            and type(payload) is Packet
+            and is_valid(payload)
         )
 
     def _use_in_order(self, item: object, emitted: list[NumberedEvent]) -> None:
-        """Use a row that is not simply the next packet."""
+        """Use any row: check it, put it in order, and use the rows whose turn has come."""
         rejection = self._reject_unnumbered(item)
         if rejection is not None:
-            if self._numbered:
+            if self._has_numbers:
                 self._emit(emitted, rejection)
             return
         if isinstance(item, Sent):
-            run, number, what = item.run, item.number, check_payload(item.what)
+            run, number, payload = item.run, item.number, check_payload(item.what)
         elif isinstance(item, Unreadable) and item.number is not None:
-            run, number, what = (
+            run, number, payload = (
                 item.run,
                 item.number,
-                RejectedItem(SentRejection.UNREADABLE, item.what[:LONGEST_DETAIL]),
+                RejectedItem(SentRejection.UNREADABLE, item.what[:MAX_DETAIL_LENGTH]),
             )
         else:
             return
-        if not self._numbered:
-            self._numbered, self._next_event = True, first_number(run, number)
+        if not self._has_numbers:
+            self._has_numbers, self._next_event = True, first_event_number(run, number)
             self._emit_pending(emitted)
-        for of_run, at, passed in self._order.take(run, number, what):
-            if isinstance(passed, Missing):
-                self._emit(emitted, self._event(NumbersMissing, run=of_run, first=at, count=passed.count))
-            elif isinstance(passed, RejectedItem):
-                why = {"reason": passed.reason, "count": passed.count, "detail": passed.detail}
-                self._emit(emitted, self._event(SentRejected, run=of_run, number=at, **why))
+        for row_run, row_number, row in self._order.take(run, number, payload):
+            if isinstance(row, MissingNumbers):
+                self._emit(emitted, self._event(NumbersMissing, run=row_run, first=row_number, count=row.count))
+            elif isinstance(row, RejectedItem):
+                fields = {"reason": row.reason, "count": row.count, "detail": row.detail}
+                self._emit(emitted, self._event(SentRejected, run=row_run, number=row_number, **fields))
             else:
-                self._use(passed, emitted)
+                self._use(row, emitted)
 
     def _reject_unnumbered(self, item: object) -> SentRejected | None:
-        """Return the rejection of a row without a place in the order; None if it has a place."""
+        """Return the rejection of a row without a valid run and number or of another wearer; None for other rows."""
         if isinstance(item, Unreadable):
             if _is_count(item.number) and _is_count(item.run) and isinstance(item.what, str):
                 return None
             detail = item.what if isinstance(item.what, str) else "a row that cannot be read"
-            return self._event(SentRejected, reason=SentRejection.UNREADABLE, detail=detail[:LONGEST_DETAIL])
+            return self._event(SentRejected, reason=SentRejection.UNREADABLE, detail=detail[:MAX_DETAIL_LENGTH])
         if not isinstance(item, Sent):
             detail = f"a {type(item).__name__}, not a Sent"
         elif not isinstance(item.wearer, str) or item.wearer != self._wearer:
@@ -179,20 +179,20 @@ class Keyed:
             detail = "run and number are whole numbers from 0 to 2**53 - 1"
         else:
             return None
-        return self._event(SentRejected, reason=SentRejection.NOT_SENT, detail=detail[:LONGEST_DETAIL])
+        return self._event(SentRejected, reason=SentRejection.NOT_SENT, detail=detail[:MAX_DETAIL_LENGTH])
 
-    def _use(self, what: Packet | Tick | End, emitted: list[NumberedEvent]) -> None:
-        """Feed a row that is in its turn to the session."""
+    def _use(self, payload: Packet | Tick | End, emitted: list[NumberedEvent]) -> None:
+        """Feed the payload of a row that is in its turn to the session."""
         session = self._session
         try:
-            if session is None and type(what) is not End:
+            if session is None and type(payload) is not End:
                 session = self._session = self._start_session(emitted)
             if session is None:
                 return
-            if type(what) is Packet:
-                events = session.feed(what)
+            if type(payload) is Packet:
+                events = session.feed(payload)
             else:
-                events = session.advance(what.t) if isinstance(what, Tick) else session.finish()
+                events = session.advance(payload.t) if isinstance(payload, Tick) else session.finish()
         except MemoryError:
             raise
         except Exception as error:  # raised by a part of the app's own: it must not stop the other wearers
@@ -201,7 +201,7 @@ class Keyed:
             return
         for event in events:
             self._emit(emitted, event)
-        if type(what) is End:
+        if type(payload) is End:
             self._drop_session()
 
     def _start_session(self, emitted: list[NumberedEvent]) -> Session:
@@ -217,7 +217,7 @@ class Keyed:
         self._known_at, self._session = self._now(), None
 
     def _now(self) -> float:
-        """Return the newest time that is known, s; 0 before any."""
+        """Return the newest known time, s, packets' clock; 0 before the first."""
         now = None if self._session is None else self._session.now
         return self._known_at if now is None else max(self._known_at, now)
 
@@ -237,21 +237,22 @@ class Keyed:
             self._emit(emitted, kind(t=now, known_at=now, detail=detail))
 
 
-def first_number(run: int, number: int) -> int:
-    """Return the number of the first event after a state of which nothing can be read.
+def first_event_number(run: int, number: int) -> int:
+    """Return the number of the first event after an unreadable state.
 
-    `run` and `number` are those of the next row. The result is larger than all numbers used (protocol/fleet.md)."""
+    `run` and `number` are those of the next row. The result is larger than all numbers used before (protocol/fleet.md).
+    """
     return 64 * (run + number + 1)
 
 
 def _is_count(value: object) -> bool:
-    return type(value) is int and 0 <= value <= MOST
+    return type(value) is int and 0 <= value <= MAX_COUNT
 
 
 def _describe(error: Exception) -> str:
-    """Return the text of an exception; the text of an app's own exception may itself raise."""
+    """Return class and text of an exception; the class alone when its `__str__` raises."""
     try:
         text = str(error)
     except Exception:
         text = ""
-    return f"{type(error).__name__}: {text}"[:LONGEST_DETAIL] if text else type(error).__name__[:LONGEST_DETAIL]
+    return f"{type(error).__name__}: {text}"[:MAX_DETAIL_LENGTH] if text else type(error).__name__[:MAX_DETAIL_LENGTH]

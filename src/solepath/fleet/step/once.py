@@ -1,8 +1,8 @@
-"""Deduplication for readers of what an engine delivers at least once.
+"""Deduplication for readers of events that an engine delivers at least once.
 
-An engine that was killed goes on from its last kept state and emits again what it emitted after that: the same events
-under the same identities (wearer, number). A wearer's numbers have no holes, so the received ones are described by one
-number for each wearer, and a few ranges that are still missing."""
+An engine that was killed continues from its last saved state and emits later events again, with the same identities
+(wearer, number). A wearer's numbers have no gaps, so for each wearer one number and a few missing ranges describe all
+received numbers."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from attrs import define, field
 from ...saving.codec import Json, SnapshotError, load, save
 
 ONCE_VERSION = 1
-RANGES = 16
-"""Largest number of ranges of one wearer that may be missing at a time."""
+MAX_RANGES = 16
+"""Largest number of missing ranges that are remembered for one wearer."""
 
 
 @define
 class _ReceivedNumbers:
-    """Numbers received of one wearer: all below `end` except those in `missing`.
+    """The numbers received of one wearer: all below `end` except those in `missing`.
 
     `missing` holds ranges [first, end) in rising order."""
 
@@ -33,38 +33,38 @@ class _ReceivedNumbers:
             self.end += 1
             return True
         if number > self.end:
-            self.missing = [*self.missing, (self.end, number)][-RANGES:]
+            self.missing = [*self.missing, (self.end, number)][-MAX_RANGES:]
             self.end = number + 1
             return True
-        for at, (first, end) in enumerate(self.missing):
+        for index, (first, end) in enumerate(self.missing):
             if first <= number < end:
-                rest = [(first, number), (number + 1, end)]
-                kept = [*self.missing[:at], *[part for part in rest if part[0] < part[1]], *self.missing[at + 1 :]]
-                self.missing = kept[-RANGES:]
+                remaining = [(first, number), (number + 1, end)]
+                ranges = [*self.missing[:index], *[r for r in remaining if r[0] < r[1]], *self.missing[index + 1 :]]
+                self.missing = ranges[-MAX_RANGES:]
                 return True
         return False
 
     @property
     def is_consistent(self) -> bool:
         """True if the ranges rise, are not empty, do not touch, and end before `end`."""
-        bounds = [bound for part in self.missing for bound in part]
+        bounds = [bound for span in self.missing for bound in span]
         rising = all(low < high for low, high in pairwise([-1, *bounds, self.end]))
-        return rising and len(self.missing) <= RANGES
+        return rising and len(self.missing) <= MAX_RANGES
 
 
 @define
 class Once:
-    """Distinguishes the first delivery of an identity from every later one: `if once.first(wearer, number): ...`.
+    """The record of received identities; it detects repeated deliveries: `if once.first(wearer, number): ...`.
 
-    Numbers may come in any order; a missing one is accepted once when it comes. Up to 16 ranges of one wearer may be
-    missing at a time; of more the lowest is given up and counts as received. `limit` is the number of wearers whose
-    numbers are remembered; of more, the one that was silent longest is forgotten, so that its repeated events are
-    accepted again. There should be room for all that send between two commits of the engine. Takes about 200 bytes for
-    each wearer.
+    Numbers may come in any order; a missing number is accepted once when it comes. At most 16 missing ranges of one
+    wearer are remembered; beyond that the lowest range counts as received. `limit` is the largest number of wearers
+    that are remembered; beyond it the wearer that was silent longest is forgotten, and its repeated events are accepted
+    again. Choose `limit` above the number of wearers who send between two commits of the engine. A wearer takes about
+    200 bytes.
 
-    It is a plain record: save `snapshot()` together with the result of the events and with the reader's position, in
-    one transaction or one file that is renamed. Use one for each partition, which goes with that partition to its next
-    reader. A sink that itself rejects a second (wearer, number), as a table with that key does, needs none."""
+    Save `snapshot()` together with the result of the events and with the reader's position, in one transaction or one
+    file that is renamed. Use one Once for each partition, and hand it over with the partition. A sink that rejects a
+    second (wearer, number), as a table with that primary key does, needs no Once."""
 
     limit: int = 100_000
     _received: dict[str, _ReceivedNumbers] = field(factory=dict, init=False)
@@ -82,14 +82,14 @@ class Once:
         if number < 0:
             raise ValueError(f"numbers count from 0, and this one is {number}")
         received = self._received.pop(wearer, None) or _ReceivedNumbers()
-        self._received[wearer] = received  # at the end: the most recent one
+        self._received[wearer] = received  # at the end, as the most recent wearer
         if len(self._received) > self.limit:
             del self._received[next(iter(self._received))]
         return received.first(number)
 
     @classmethod
     def after(cls, newest: Mapping[str, int], limit: int = 100_000) -> Once:
-        """Return one that has received all up to `newest`, each wearer's highest number, as from a table of events."""
+        """Return a Once that has received all numbers up to the wearer's highest number in `newest`."""
         once = cls(limit)
         for wearer, number in newest.items():
             once.first(wearer, number)
@@ -97,12 +97,12 @@ class Once:
         return once
 
     def snapshot(self) -> dict[str, Json]:
-        """Return its whole state as plain data for JSON."""
+        """Return the whole state as plain data for JSON."""
         return {"solepath.once": ONCE_VERSION, "state": save(self)}
 
     @classmethod
     def restore(cls, saved: Any) -> Once:
-        """Return one that continues from `saved`; raise SnapshotError for no snapshot of this version."""
+        """Return a Once that continues from the snapshot `saved`; raise SnapshotError for other data."""
         if not isinstance(saved, dict) or saved.get("solepath.once") != ONCE_VERSION or "state" not in saved:
             raise SnapshotError("not a snapshot of received events, of this version")
         once = load(cls, saved["state"])

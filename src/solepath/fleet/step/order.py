@@ -1,9 +1,9 @@
-"""Rows that a phone sent, checked and put in order by run and number, whatever order they come in.
+"""Checking of the rows that a phone sent, and ordering by run and number.
 
 A row in its turn passes at once. A row ahead of its turn is held until the missing rows have come, or until more than
-`window` rows or HELD bytes are held: then the missing rows are given up. A row that was used before is dropped without
-a report. A reader can leave a run: when only rows of a smaller run, or of one that was left, come, and more than
-`window` of them, then the phone's clock was corrected or one number was wrong, and the reader switches to that run."""
+`window` rows or MAX_HELD_BYTES are held: then the missing rows are given up. A row that was used before is dropped
+without a report. More than `window` consecutive rows of a smaller run, or of a run that was left, mean that the phone's
+clock was corrected or that a run's number was wrong: then the reader leaves its run and switches to theirs."""
 
 from __future__ import annotations
 
@@ -14,110 +14,110 @@ from attrs import define, field, frozen
 
 from ...events.fleet import SentRejection
 from ...types import Packet, Site
-from .sent import LATEST, LONGEST_DATA, LONGEST_DETAIL, LONGEST_NAME, MOST, End, Tick
-from .unused import NumberSpan, Strays, UnusedNumbers
+from .sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_DETAIL_LENGTH, MAX_NAME_LENGTH, MAX_TIME, End, Tick
+from .unused import NumberSpan, StrayRows, UnusedNumbers
 
-HELD = 65_536
-"""Largest total of held bytes: packets, names of their channels and addresses of their devices."""
+MAX_HELD_BYTES = 65_536
+"""Largest total size of held packets, with the names of their channels and the addresses of their devices, bytes."""
 
 
 @frozen
 class RejectedItem:
-    """Stands in the place of a row that cannot be used."""
+    """The substitute for a row that cannot be used."""
 
     reason: SentRejection
     detail: str = ""
     count: int = 1
-    """Number of such rows of its run, this one included; not all of them are reported."""
+    """Number of unusable rows of the run so far, this one included; not all of them are reported."""
 
 
 @frozen
-class Missing:
-    """A count of numbers that were given up, from this place on."""
+class MissingNumbers:
+    """The count of consecutive numbers that were given up."""
 
     count: int
 
 
 Payload = Packet | Tick | End | RejectedItem
-Passed = list[tuple[int, int, Payload | Missing]]
-"""(run, number, payload), in order."""
+PassedRows = list[tuple[int, int, Payload | MissingNumbers]]
+"""Rows (run, number, payload) in order; MissingNumbers stands at the first missing number."""
 
 
 @define
-class Order:
-    """Order of one wearer's rows and the next expected number."""
+class RowOrder:
+    """The order of one wearer's rows and the next expected number."""
 
     window: int
     run: int = -1
-    """Current run; -1 before anything has passed."""
-    next: int = 0
+    """Current run; -1 before a row has passed."""
+    next_number: int = 0
     ended: bool = False
     """True if the End of this run has passed."""
-    held: dict[tuple[int, int], Payload] = field(factory=dict)
+    held_rows: dict[tuple[int, int], Payload] = field(factory=dict)
     unused: UnusedNumbers = field(factory=UnusedNumbers)
-    strays: Strays = field(factory=Strays)
+    strays: StrayRows = field(factory=StrayRows)
     _waiting: list[tuple[int, int]] = field(init=False)
-    """Keys of `held` in order."""
+    """Keys of `held_rows` in order."""
     _size: int = field(init=False)
-    """Size of `held`, bytes."""
+    """Size of `held_rows`, bytes."""
 
     def __attrs_post_init__(self) -> None:
-        self._waiting = sorted(self.held)
-        self._size = sum(map(_size, self.held.values()))
+        self._waiting = sorted(self.held_rows)
+        self._size = sum(map(_size, self.held_rows.values()))
 
-    def take(self, run: int, number: int, what: Payload) -> Passed:
-        """Add one row and return the rows that pass now; `run` and `number` are from 0 to MOST."""
+    def take(self, run: int, number: int, payload: Payload) -> PassedRows:
+        """Add one row and return the rows that pass now; `run` and `number` are from 0 to MAX_COUNT."""
         if run == self.run:
-            if number < self.next:
+            if number < self.next_number:
                 return self._reject(run, number, SentRejection.LATE) if self.unused.was_given_up(run, number) else []
             if self.ended:
                 return self._reject(run, number, SentRejection.AFTER_END)
         elif run < self.run or self.unused.was_left(run):
-            return self._take_other_run(run, number, what)
-        if (run, number) not in self.held:
-            self.strays.consecutive = self.strays.number = 0
-            self.held[run, number] = what
+            return self._take_other_run(run, number, payload)
+        if (run, number) not in self.held_rows:
+            self.strays.consecutive_rows = self.strays.number = 0
+            self.held_rows[run, number] = payload
             insort(self._waiting, (run, number))
-            self._size += _size(what)
+            self._size += _size(payload)
         return self._release()
 
-    def _take_other_run(self, run: int, number: int, what: Payload) -> Passed:
-        """Add a row of a run that was left, or of a smaller one that was never used."""
+    def _take_other_run(self, run: int, number: int, payload: Payload) -> PassedRows:
+        """Add a row of a run that was left, or of a smaller run that was never used."""
         unused, strays = self.unused, self.strays
         if unused.was_used(run, number):
             return []
-        if not unused.may_go_on(run, number):
+        if not unused.may_continue(run, number):
             return self._reject(run, number, SentRejection.LATE)
         if strays.count_consecutive(run, number) > self.window:
-            return self._switch_run(run, number, what)
+            return self._switch_run(run, number, payload)
         passed = self._reject(run, number, SentRejection.LATE)
-        strays.consecutive, strays.number = strays.count_consecutive(run, number), max(number, strays.number)
+        strays.consecutive_rows, strays.number = strays.count_consecutive(run, number), max(number, strays.number)
         return passed
 
-    def _switch_run(self, run: int, number: int, what: Payload) -> Passed:
-        """Switch to the run of this row; the held rows pass first, since they are waited for no longer."""
-        first = self.unused.reenter(run)
-        passed = self._release(waits=False)
-        self._enter(run, first)
-        self.strays = Strays()
-        self._pass(number, what, passed)
+    def _switch_run(self, run: int, number: int, payload: Payload) -> PassedRows:
+        """Switch to the run of this row; the held rows pass first, without waiting for missing rows."""
+        first_number = self.unused.reenter(run)
+        passed = self._release(may_wait=False)
+        self._enter(run, first_number)
+        self.strays = StrayRows()
+        self._pass(number, payload, passed)
         return passed
 
-    def _reject(self, run: int, number: int, reason: SentRejection) -> Passed:
-        """Count a row that cannot be used; return its rejection if it is one that is reported."""
+    def _reject(self, run: int, number: int, reason: SentRejection) -> PassedRows:
+        """Count a row that cannot be used; return its rejection if this count is reported (StrayRows.add)."""
         return [(run, number, RejectedItem(reason, count=self.strays.count))] if self.strays.add(run) else []
 
-    def _release(self, waits: bool = True) -> Passed:
-        """Return the held rows that are in their turn or were waited for too long."""
-        passed: Passed = []
+    def _release(self, may_wait: bool = True) -> PassedRows:
+        """Return the held rows that are in their turn, and give up missing rows when too many are held."""
+        passed: PassedRows = []
         while self._waiting:
             run, number = self._waiting[0]
             if run == self.run and self.ended:
                 self._pop()
                 passed += self._reject(run, number, SentRejection.AFTER_END)
                 continue
-            in_turn = number == self.next if run == self.run else number == 0
-            if waits and not in_turn and len(self._waiting) <= self.window and self._size <= HELD:
+            is_in_turn = number == self.next_number if run == self.run else number == 0
+            if may_wait and not is_in_turn and len(self._waiting) <= self.window and self._size <= MAX_HELD_BYTES:
                 break
             if run != self.run:
                 self._enter(run, 0)
@@ -125,27 +125,27 @@ class Order:
         return passed
 
     def _pop(self) -> Payload:
-        what = self.held.pop(self._waiting.pop(0))
-        self._size -= _size(what)
-        return what
+        payload = self.held_rows.pop(self._waiting.pop(0))
+        self._size -= _size(payload)
+        return payload
 
     def _enter(self, run: int, number: int) -> None:
-        """Enter another run at this number; the number of rows in the run before is unknown."""
+        """Enter another run at this number; the rest of the previous run counts as unused."""
         if self.run >= 0:
-            self.unused.add(NumberSpan(self.run, self.next, MOST + 1))
-        self.run, self.next, self.ended = run, number, False
+            self.unused.add(NumberSpan(self.run, self.next_number, MAX_COUNT + 1))
+        self.run, self.next_number, self.ended = run, number, False
 
-    def _pass(self, number: int, what: Payload, passed: Passed) -> None:
+    def _pass(self, number: int, payload: Payload, passed: PassedRows) -> None:
         """Pass one row of the current run; give up the missing rows before it."""
-        if number > self.next:
-            self.unused.add(NumberSpan(self.run, self.next, number))
-            passed.append((self.run, self.next, Missing(number - self.next)))
-        self.next, self.ended = number + 1, isinstance(what, End)
-        passed.append((self.run, number, what))
+        if number > self.next_number:
+            self.unused.add(NumberSpan(self.run, self.next_number, number))
+            passed.append((self.run, self.next_number, MissingNumbers(number - self.next_number)))
+        self.next_number, self.ended = number + 1, isinstance(payload, End)
+        passed.append((self.run, number, payload))
 
 
-def _size(what: Payload) -> int:
-    return len(what.data) + len(what.channel) + len(what.device) if isinstance(what, Packet) else 0
+def _size(payload: Payload) -> int:
+    return len(payload.data) + len(payload.channel) + len(payload.device) if isinstance(payload, Packet) else 0
 
 
 def is_valid(packet: Packet) -> bool:
@@ -156,25 +156,25 @@ def is_valid(packet: Packet) -> bool:
         and type(packet.channel) is str
         and type(packet.data) is bytes
         and type(packet.device) is str
-        and len(packet.data) <= LONGEST_DATA
-        and len(packet.channel) <= LONGEST_NAME
-        and len(packet.device) <= LONGEST_NAME
+        and len(packet.data) <= MAX_DATA_LENGTH
+        and len(packet.channel) <= MAX_NAME_LENGTH
+        and len(packet.device) <= MAX_NAME_LENGTH
     )
 
 
-def check_payload(what: object) -> Payload:
-    """Return a payload that a session takes and a state can hold, or its rejection."""
-    if isinstance(what, Packet):
-        return what if type(what) is Packet and is_valid(what) else _convert_packet(what)
-    if isinstance(what, Tick):
-        t = _number(what.t)
+def check_payload(payload: object) -> Payload:
+    """Return a payload that a session accepts and a state can hold, or its rejection."""
+    if isinstance(payload, Packet):
+        return payload if type(payload) is Packet and is_valid(payload) else _convert_packet(payload)
+    if isinstance(payload, Tick):
+        t = _number(payload.t)
         if t is None:
             return RejectedItem(SentRejection.MALFORMED, "a Tick without a time")
-        return Tick(t) if -LATEST <= t <= LATEST else RejectedItem(SentRejection.NOT_FINITE, f"a Tick at {t:g} s")
+        return Tick(t) if -MAX_TIME <= t <= MAX_TIME else RejectedItem(SentRejection.NOT_FINITE, f"a Tick at {t:g} s")
     return (
         End()
-        if isinstance(what, End)
-        else RejectedItem(SentRejection.MALFORMED, f"a {type(what).__name__}"[:LONGEST_DETAIL])
+        if isinstance(payload, End)
+        else RejectedItem(SentRejection.MALFORMED, f"a {type(payload).__name__}"[:MAX_DETAIL_LENGTH])
     )
 
 
@@ -187,13 +187,13 @@ def _convert_packet(packet: Packet) -> Payload:
         return RejectedItem(SentRejection.MALFORMED, "a packet holds a time, a Site and bytes")
     if not isinstance(packet.channel, str) or not isinstance(packet.device, str):
         return RejectedItem(SentRejection.MALFORMED, "a packet names its channel and its device")
-    for name, size, most in (
-        ("data", len(data), LONGEST_DATA),
-        ("channel", len(packet.channel), LONGEST_NAME),
-        ("device", len(packet.device), LONGEST_NAME),
+    for name, size, limit in (
+        ("data", len(data), MAX_DATA_LENGTH),
+        ("channel", len(packet.channel), MAX_NAME_LENGTH),
+        ("device", len(packet.device), MAX_NAME_LENGTH),
     ):
-        if size > most:
-            return RejectedItem(SentRejection.OVERSIZED, f"{name} of {size}; {most} are the most")
+        if size > limit:
+            return RejectedItem(SentRejection.OVERSIZED, f"{name} of {size}; {limit} are the most")
     return Packet(t, packet.site, str(packet.channel), bytes(data), str(packet.device))
 
 

@@ -10,16 +10,16 @@ from ...events import Event
 from ...events.fleet import FleetEvent
 from ...types import Packet
 
-MOST = 2**53 - 1
+MAX_COUNT = 2**53 - 1
 """Largest run and number: the JSON of every language reads it exactly."""
-LONGEST_DATA = 4096
-"""Longest data of a packet, bytes; Bluetooth carries 512 at most."""
-LONGEST_NAME = 256
-"""Longest name of a channel, address of a device and, in rows, name of a wearer, characters."""
-LONGEST_DETAIL = 200
+MAX_DATA_LENGTH = 4096
+"""Longest data of a packet, bytes; a Bluetooth notification has 512 at most."""
+MAX_NAME_LENGTH = 256
+"""Longest name of a channel, address of a device and name of a wearer, characters; the latter is checked in rows."""
+MAX_DETAIL_LENGTH = 200
 """Longest text that describes an error, characters."""
-LATEST = 1e11
-"""Largest absolute value of a time, s; a value beyond it is no time."""
+MAX_TIME = 1e11
+"""Largest absolute value of a valid time, s."""
 
 
 @frozen
@@ -31,17 +31,15 @@ class Tick:
 
 @frozen
 class End:
-    """The wearer takes the sensors off.
-
-    The session emits what it held back. A new run starts a new session."""
+    """The end of a session, since the wearer takes the sensors off; a new run starts a new session."""
 
 
 @frozen
 class Sent:
     """An item that the phone of `wearer` sends: a packet as it arrived there, a Tick that time has passed, or the End.
 
-    `number` counts 0, 1, 2, ... without holes within a `run`. A phone that cannot continue its count starts a new run,
-    at 0, under a larger number (the time in ms, or the last run + 1 if that is more); the session goes on."""
+    `number` counts 0, 1, 2, ... without gaps within a `run`. A phone that cannot continue its count starts again at 0
+    in a larger run (the time in ms, or the last run + 1 if that is more); the session continues."""
 
     wearer: str
     number: int
@@ -56,10 +54,10 @@ class Sent:
 
 @frozen
 class Unreadable:
-    """A row that is no Sent, and the reason.
+    """A row that cannot be read as a Sent; `what` is the reason.
 
-    `run` and `number` are given if they can be read: then nothing is waited for in its place. `wearer` is "" if that
-    cannot be read either."""
+    `run` and `number` are those of the row, if readable: then it does not count as missing. `wearer` is "" if
+    unreadable."""
 
     wearer: str
     what: str
@@ -71,7 +69,7 @@ class Unreadable:
 class NumberedEvent:
     """An event of a wearer; (wearer, number) is its identity, and a repeated identity is a repeated delivery.
 
-    Numbers start at 0 and have no holes, except after a StateRejected (protocol/fleet.md)."""
+    Numbers start at 0 and have no gaps, except after a StateRejected (protocol/fleet.md)."""
 
     wearer: str
     number: int

@@ -1,4 +1,4 @@
-"""Construction of the sessions of a fleet: the same recipe for every wearer, and each wearer's calibration."""
+"""Construction of the sessions of a fleet, with one recipe for all wearers and each wearer's calibration."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from ...session import Session
 
 @frozen
 class Sessions:
-    """Makes new sessions and reads saved ones; it holds no wearer's data."""
+    """The maker of new and restored sessions; it holds no wearer's data."""
 
     recipe: Recipe = field(converter=own)
-    """Own copy of the recipe: nothing changes it, so no session has to check for changes."""
+    """A private copy of the recipe, which never changes, so no session has to check for changes."""
     calibrations: Mapping[str, Calibration]
     floorplan: IndexedPlan | None
     profiles: tuple[Driver, ...]
@@ -45,8 +45,8 @@ class Sessions:
 
     def unpack(self, data: bytes) -> Session:
         """Return the session of packed bytes; raise SnapshotError when it cannot continue here."""
-        own: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
-        session = Session.unpack(data, self.recipe, **own)
+        app_code: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
+        session = Session.unpack(data, self.recipe, **app_code)
         try:
             session.feed(())
         except ValueError as error:  # finished
@@ -55,5 +55,5 @@ class Sessions:
 
     def restore_session(self, snapshot: Any) -> Session:
         """Return the session of a JSON snapshot; raise SnapshotError when it cannot continue here."""
-        own: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
-        return self.unpack(Session.restore(snapshot, **own).pack())
+        app_code: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
+        return self.unpack(Session.restore(snapshot, **app_code).pack())

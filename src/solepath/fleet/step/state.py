@@ -1,7 +1,8 @@
 """The state of one wearer between two calls, as bytes (protocol/fleet.md, "The state").
 
-The first bytes, on which the identities of events and the order of packets depend, are the same in every version and
-have a checksum of their own: even if the bytes after them are damaged or unknown, no identity is used twice."""
+The first bytes (StateHead) hold the numbers for the identities of events and the order of packets. Their layout is the
+same in every version and they have their own checksum: no identity is used twice, even if the other bytes are damaged
+or of an unknown version."""
 
 from __future__ import annotations
 
@@ -17,18 +18,18 @@ from attrs import define, field, frozen
 from ...events.fleet import SentRejection
 from ...types import Packet, Site
 from .order import Payload, RejectedItem
-from .sent import MOST, End, Tick
-from .unused import NumberSpan, Strays, UnusedNumbers
+from .sent import MAX_COUNT, End, Tick
+from .unused import NumberSpan, StrayRows, UnusedNumbers
 
 MAGIC, VERSION = b"spfl", 1
-MOST_EVENTS = 2**62
-"""Limit above the number of events of any wearer."""
+MAX_EVENTS = 2**62
+"""Largest number of an event in a state: more than any wearer can have."""
 
-_FIRST = Struct("<4sBqQQd")
-_CHECK = Struct("<I")
-_FLOAT = Struct("<d")
+_HEAD_FORMAT = Struct("<4sBqQQd")
+_CHECKSUM = Struct("<I")
+_FLOAT_FORMAT = Struct("<d")
 _ENDED, _SESSION = 1, 2
-_PACKET, _TICK, _END, _REJECTED = range(4)
+_PACKET_CODE, _TICK_CODE, _END_CODE, _REJECTED_CODE = range(4)
 
 
 class StateError(ValueError):
@@ -36,7 +37,7 @@ class StateError(ValueError):
 
 
 @frozen
-class Identity:
+class StateHead:
     """The first part of a state, which every version can read."""
 
     run: int
@@ -44,144 +45,148 @@ class Identity:
     next_event: int
     """Number of the next event."""
     known: float
-    """Newest time that is known, s."""
+    """Newest known time, s, packets' clock."""
 
 
 @frozen
-class OtherState:
+class StateRest:
     """The rest of a state.
 
-    `failure` is the exception of a part of the app's own when the session was to be saved; "" for none. `session` is
-    None before the first packet and after the end."""
+    `failure` is the text of the exception that an app's part raised when the session was saved; "" for none. `session`
+    is the packed session, None before the first packet and after the end."""
 
     ended: bool = False
     unused: UnusedNumbers = field(factory=UnusedNumbers)
-    strays: Strays = field(factory=Strays)
-    held: dict[tuple[int, int], Payload] = field(factory=dict)
+    strays: StrayRows = field(factory=StrayRows)
+    held_rows: dict[tuple[int, int], Payload] = field(factory=dict)
     failure: str = ""
     session: bytes | None = None
 
 
-def write_state(identity: Identity, rest: OtherState) -> bytes:
+def write_state(identity: StateHead, rest: StateRest) -> bytes:
     """Return the bytes of a state."""
-    first = _FIRST.pack(MAGIC, VERSION, identity.run, identity.next, identity.next_event, identity.known)
+    first = _HEAD_FORMAT.pack(MAGIC, VERSION, identity.run, identity.next, identity.next_event, identity.known)
     unused, strays = rest.unused, rest.strays
     other = b"".join(
         [
             bytes([rest.ended * _ENDED + (rest.session is not None) * _SESSION]),
-            _write_counts(len(unused.spans)),
-            *[_write_counts(span.run, span.first, span.end) for span in unused.spans],
-            _write_counts(len(unused.forgotten)),
-            *[_write_counts(*runs) for runs in unused.forgotten],
-            _write_counts(strays.run, strays.count, strays.consecutive, strays.number),
-            _write_counts(len(rest.held)),
-            *[_write_counts(*place) + _write_payload(rest.held[place]) for place in sorted(rest.held)],
-            _write_pieces(_encoded(rest.failure)),
+            _encode_counts(len(unused.spans)),
+            *[_encode_counts(span.run, span.first, span.end) for span in unused.spans],
+            _encode_counts(len(unused.forgotten)),
+            *[_encode_counts(*runs) for runs in unused.forgotten],
+            _encode_counts(strays.run, strays.count, strays.consecutive_rows, strays.number),
+            _encode_counts(len(rest.held_rows)),
+            *[_encode_counts(*place) + _encode_payload(rest.held_rows[place]) for place in sorted(rest.held_rows)],
+            _encode_pieces(_encode_text(rest.failure)),
         ]
     )
-    return b"".join([first, _CHECK.pack(crc32(first)), other, _CHECK.pack(crc32(other)), rest.session or b""])
+    return b"".join([first, _CHECKSUM.pack(crc32(first)), other, _CHECKSUM.pack(crc32(other)), rest.session or b""])
 
 
-def read_identity(state: bytes) -> Identity | None:
-    """Return the first part of a state of any version; None when it is damaged or of something else."""
-    end = _FIRST.size
-    if len(state) < end + _CHECK.size or state[:4] != MAGIC or crc32(state[:end]) != _CHECK.unpack_from(state, end)[0]:
+def read_identity(state: bytes) -> StateHead | None:
+    """Return the first part of a state of any version; None when it is damaged or no state."""
+    end = _HEAD_FORMAT.size
+    if (
+        len(state) < end + _CHECKSUM.size
+        or state[:4] != MAGIC
+        or crc32(state[:end]) != _CHECKSUM.unpack_from(state, end)[0]
+    ):
         return None
-    _, _, run, number, next_event, known = _FIRST.unpack_from(state)
-    if not (-1 <= run <= MOST and number <= MOST + 1 and next_event <= MOST_EVENTS and isfinite(known)):
+    _, _, run, number, next_event, known = _HEAD_FORMAT.unpack_from(state)
+    if not (-1 <= run <= MAX_COUNT and number <= MAX_COUNT + 1 and next_event <= MAX_EVENTS and isfinite(known)):
         return None
-    return Identity(run, number, next_event, known)
+    return StateHead(run, number, next_event, known)
 
 
-def read_rest(state: bytes) -> OtherState:
+def read_rest(state: bytes) -> StateRest:
     """Return the rest of a state whose first bytes are sound; raise StateError when it cannot be read."""
     reader = READERS.get(state[4])
     if reader is None:
         raise StateError(f"a state of version {state[4]}; this release reads {', '.join(map(str, READERS))}")
     try:
-        return reader(_StateReader(state, _FIRST.size + _CHECK.size))
+        return reader(_StateReader(state, _HEAD_FORMAT.size + _CHECKSUM.size))
     except (ValueError, IndexError, StructError, OverflowError) as error:
         raise StateError(str(error) if isinstance(error, StateError) else "the state was damaged") from None
 
 
-def _read_1(data: _StateReader) -> OtherState:
-    start = data.at
+def _read_version_1(data: _StateReader) -> StateRest:
+    start = data.position
     flags = data.take(1)[0]
-    spans = [NumberSpan(data.count(), data.count(), data.count()) for _ in range(data.count())]
-    forgotten = [(data.count(), data.count()) for _ in range(data.count())]
-    strays = Strays(data.count(), data.count(), data.count(), data.count())
-    held = [((data.count(), data.count()), _read_payload(data)) for _ in range(data.count())]
-    failure = data.text()
-    checked = data.state[start : data.at]
-    if data.take(4) != _CHECK.pack(crc32(checked)):
+    spans = [NumberSpan(data.read_count(), data.read_count(), data.read_count()) for _ in range(data.read_count())]
+    forgotten = [(data.read_count(), data.read_count()) for _ in range(data.read_count())]
+    strays = StrayRows(data.read_count(), data.read_count(), data.read_count(), data.read_count())
+    held_rows = [((data.read_count(), data.read_count()), _read_payload(data)) for _ in range(data.read_count())]
+    failure = data.read_text()
+    checked = data.state[start : data.position]
+    if data.take(4) != _CHECKSUM.pack(crc32(checked)):
         raise StateError("the state was damaged: its checksum is another")
-    _, _, run, number, _, _ = _FIRST.unpack_from(data.state)
-    places = [(run, number - 1), *[place for place, _ in held]]
-    if not all(low < high for low, high in pairwise(places)) or any(max(place) > MOST for place in places[1:]):
+    _, _, run, number, _, _ = _HEAD_FORMAT.unpack_from(data.state)
+    places = [(run, number - 1), *[place for place, _ in held_rows]]
+    if not all(low < high for low, high in pairwise(places)) or any(max(place) > MAX_COUNT for place in places[1:]):
         raise StateError("the state holds what cannot be held")
-    session = data.state[data.at :] if flags & _SESSION else None
-    return OtherState(bool(flags & _ENDED), UnusedNumbers(spans, forgotten), strays, dict(held), failure, session)
+    session = data.state[data.position :] if flags & _SESSION else None
+    return StateRest(bool(flags & _ENDED), UnusedNumbers(spans, forgotten), strays, dict(held_rows), failure, session)
 
 
-def _write_payload(what: Payload) -> bytes:
-    match what:
+def _encode_payload(payload: Payload) -> bytes:
+    match payload:
         case Packet(t, site, channel, data, device):
-            texts = [_encoded(text) for text in (site.value, channel, device)]
-            return bytes([_PACKET]) + _FLOAT.pack(t) + _write_pieces(*texts, data)
+            texts = [_encode_text(text) for text in (site.value, channel, device)]
+            return bytes([_PACKET_CODE]) + _FLOAT_FORMAT.pack(t) + _encode_pieces(*texts, data)
         case Tick(t):
-            return bytes([_TICK]) + _FLOAT.pack(t)
+            return bytes([_TICK_CODE]) + _FLOAT_FORMAT.pack(t)
         case End():
-            return bytes([_END])
+            return bytes([_END_CODE])
         case RejectedItem(reason, detail):
-            return bytes([_REJECTED]) + _write_pieces(_encoded(reason.value), _encoded(detail))
+            return bytes([_REJECTED_CODE]) + _encode_pieces(_encode_text(reason.value), _encode_text(detail))
 
 
-def _write_counts(*numbers: int) -> bytes:
-    """Return numbers with seven bits in each byte, the lowest first; the eighth bit says that more follow."""
-    done = bytearray()
+def _encode_counts(*numbers: int) -> bytes:
+    """Return numbers with seven bits in each byte, the lowest first; the eighth bit is set if more bytes follow."""
+    encoded = bytearray()
     for number in numbers:
         while number > 127:
-            done.append(number & 127 | 128)
+            encoded.append(number & 127 | 128)
             number >>= 7
-        done.append(number)
-    return bytes(done)
+        encoded.append(number)
+    return bytes(encoded)
 
 
-def _write_pieces(*pieces: bytes) -> bytes:
+def _encode_pieces(*pieces: bytes) -> bytes:
     """Return each piece preceded by its length."""
-    return b"".join([_write_counts(len(piece)) + piece for piece in pieces])
+    return b"".join([_encode_counts(len(piece)) + piece for piece in pieces])
 
 
-def _encoded(text: str) -> bytes:
+def _encode_text(text: str) -> bytes:
     return text.encode("utf-8", "surrogatepass")
 
 
 def _read_payload(data: _StateReader) -> Payload:
     kind = data.take(1)[0]
-    if kind == _PACKET:
-        t, site, channel, device = data.float(), Site(data.text()), data.text(), data.text()
-        return Packet(t, site, channel, data.take(data.count()), device)
-    if kind == _TICK:
-        return Tick(data.float())
-    if kind == _END:
+    if kind == _PACKET_CODE:
+        t, site, channel, device = data.read_float(), Site(data.read_text()), data.read_text(), data.read_text()
+        return Packet(t, site, channel, data.take(data.read_count()), device)
+    if kind == _TICK_CODE:
+        return Tick(data.read_float())
+    if kind == _END_CODE:
         return End()
-    if kind == _REJECTED:
-        return RejectedItem(SentRejection(data.text()), data.text())
+    if kind == _REJECTED_CODE:
+        return RejectedItem(SentRejection(data.read_text()), data.read_text())
     raise StateError("the state was damaged")
 
 
 @define
 class _StateReader:
     state: bytes
-    at: int
+    position: int
 
     def take(self, count: int) -> bytes:
-        if self.at + count > len(self.state):
+        if self.position + count > len(self.state):
             raise StateError("the state was cut off")
-        self.at += count
-        return self.state[self.at - count : self.at]
+        self.position += count
+        return self.state[self.position - count : self.position]
 
-    def count(self) -> int:
+    def read_count(self) -> int:
         number = 0
         for shift in range(0, 63, 7):
             byte = self.take(1)[0]
@@ -190,15 +195,13 @@ class _StateReader:
                 return number
         raise StateError("the state was damaged")
 
-    def float(self) -> float:
-        number: float = _FLOAT.unpack(self.take(8))[0]
+    def read_float(self) -> float:
+        number: float = _FLOAT_FORMAT.unpack(self.take(8))[0]
         return number
 
-    def text(self) -> str:
-        return self.take(self.count()).decode("utf-8", "surrogatepass")
+    def read_text(self) -> str:
+        return self.take(self.read_count()).decode("utf-8", "surrogatepass")
 
 
-READERS: Mapping[int, Callable[[_StateReader], OtherState]] = {1: _read_1}
-"""Readers by version: each converts its layout to the newest.
-
-The state of a session has a version of its own (session/state.py)."""
+READERS: Mapping[int, Callable[[_StateReader], StateRest]] = {1: _read_version_1}
+"""Readers of StateRest by version of the layout; the packed session has its own version (session/state.py)."""

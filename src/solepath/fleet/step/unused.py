@@ -1,22 +1,22 @@
-"""Bounded memory of an order: numbers that were never used, runs that were left, and rows that came late."""
+"""Bounded memory of RowOrder: numbers that were never used, runs that were left, and rows that came late."""
 
 from __future__ import annotations
 
 from attrs import define, field, frozen
 
-from .sent import MOST
+from .sent import MAX_COUNT
 
-SPANS = 16
+MAX_SPANS = 16
 """Largest number of spans of unused numbers."""
-FORGOTTEN = 4
-"""Largest number of ranges of runs of which no span is remembered any more."""
+MAX_FORGOTTEN_RANGES = 4
+"""Largest number of ranges of runs without a remembered span."""
 
 
 @frozen
 class NumberSpan:
-    """Numbers from `first` to before `end` that were never used.
+    """The unused numbers of a run from `first` to `end` - 1.
 
-    An `end` beyond MOST means everything that was still to come of a run when it was left."""
+    An `end` above MAX_COUNT means the whole rest of a run that was left."""
 
     run: int
     first: int
@@ -24,30 +24,31 @@ class NumberSpan:
 
     @property
     def is_open(self) -> bool:
-        return self.end > MOST
+        return self.end > MAX_COUNT
 
 
 @define
 class UnusedNumbers:
-    """Spans of numbers and runs that were not used.
+    """The spans of numbers that were not used.
 
-    The last span of a run that was left is open: from its first number on nothing of the run was used."""
+    A run that was left has an open span: no number of the run from `first` on was used."""
 
     spans: list[NumberSpan] = field(factory=list)
-    """The spans that were given up last, oldest first."""
+    """The newest spans, oldest first."""
     forgotten: list[tuple[int, int]] = field(factory=list)
-    """Ranges (first run, last run) of runs that were left and are not remembered. Of too many ranges the two that are
-    closest are joined, together with the runs between them."""
+    """Ranges (first run, last run) of runs that were left and have no remembered span.
+
+    When there are too many ranges, the two with the smallest gap become one, together with the runs between them."""
 
     def add(self, span: NumberSpan) -> None:
-        if len(self.spans) >= SPANS:
+        if len(self.spans) >= MAX_SPANS:
             oldest = self.spans.pop(0)
             if oldest.is_open:
                 self._forget(oldest.run)
         self.spans.append(span)
 
     def reenter(self, run: int) -> int:
-        """Enter a run, for the first time or again; return the number from which on nothing of it was used."""
+        """Return the first unused number of a run that is entered, for the first time or again."""
         for span in self.spans:
             if span.run == run and span.is_open:
                 self.spans.remove(span)
@@ -58,16 +59,16 @@ class UnusedNumbers:
         return self._is_forgotten(run) or any([span.run == run for span in self.spans])
 
     def was_used(self, run: int, number: int) -> bool:
-        """Return whether the number was used, as far as is known."""
+        """Return whether the number was used, as far as it is remembered."""
         spans = [span for span in self.spans if span.run == run]
         return bool(spans) and not any([span.first <= number < span.end for span in spans])
 
     def was_given_up(self, run: int, number: int) -> bool:
-        """Return whether the number was given up, as far as is known."""
+        """Return whether the number was given up, as far as it is remembered."""
         return any([span.run == run and span.first <= number < span.end for span in self.spans])
 
-    def may_go_on(self, run: int, number: int) -> bool:
-        """Return whether certainly nothing from this number on was used of a run, not the current one."""
+    def may_continue(self, run: int, number: int) -> bool:
+        """Return whether no number of this run from `number` on was used for certain; it is not the current run."""
         spans = [span for span in self.spans if span.run == run]
         if spans:
             return any([span.is_open and span.first <= number for span in spans])
@@ -78,34 +79,34 @@ class UnusedNumbers:
 
     def _forget(self, run: int) -> None:
         ranges = sorted([*self.forgotten, (run, run)])
-        if len(ranges) > FORGOTTEN:
-            at = min(range(FORGOTTEN), key=lambda place: ranges[place + 1][0] - ranges[place][1])
-            (first, end), (_, other) = ranges[at : at + 2]
-            ranges[at : at + 2] = [(first, max(end, other))]
+        if len(ranges) > MAX_FORGOTTEN_RANGES:
+            index = min(range(MAX_FORGOTTEN_RANGES), key=lambda place: ranges[place + 1][0] - ranges[place][1])
+            (first, end), (_, other_end) = ranges[index : index + 2]
+            ranges[index : index + 2] = [(first, max(end, other_end))]
         self.forgotten = ranges
 
 
 @define
-class Strays:
-    """Rows that came and could not be used, of the last run that had any."""
+class StrayRows:
+    """The rows that could not be used, of the last run that had such rows."""
 
     run: int = 0
     count: int = 0
-    """Number of these rows; 0 means none, of any run."""
-    consecutive: int = 0
-    """Number of these rows that came in rising order since a row was last used, in a run that may go on."""
+    """Number of these rows; 0 when there were none in any run."""
+    consecutive_rows: int = 0
+    """Number of these rows that came in rising order since a row was last used, in a run that may continue."""
     number: int = 0
     """Number of the last consecutive row."""
 
     def add(self, run: int) -> bool:
-        """Count one more; return whether it is reported: the first, second, fourth, eighth and so on are."""
+        """Count one more row; return whether it is reported, as the first, second, fourth, eighth and so on are."""
         if run != self.run:
-            self.run, self.count, self.consecutive, self.number = run, 0, 0, 0
+            self.run, self.count, self.consecutive_rows, self.number = run, 0, 0, 0
         self.count += 1
         return self.count & (self.count - 1) == 0
 
     def count_consecutive(self, run: int, number: int) -> int:
         """Return the number of rows that came in rising order, this one included."""
-        if run != self.run or not self.consecutive:
+        if run != self.run or not self.consecutive_rows:
             return 1
-        return self.consecutive + (number > self.number)
+        return self.consecutive_rows + (number > self.number)

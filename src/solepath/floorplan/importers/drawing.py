@@ -1,8 +1,8 @@
-"""Spaces, as building maps draw them, and their conversion to a plan with walls.
+"""Spaces that a building map draws, and their conversion to a plan with walls.
 
-Walls are the outlines of closed spaces, and those of open spaces except towards another open or free one, each
-without its doors. Stairs and lifts are joined over the levels where they overlap. The readers of IMDF and
-OpenStreetMap add to a Drawing; the plan does not depend on their order."""
+The outline of a closed space becomes walls. The outline of an open space becomes walls except along another open or
+free space. Doors are cut out of the walls. Stairs and elevators are joined over the levels where they overlap. The
+readers of IMDF and OpenStreetMap add to a Drawing; the plan does not depend on the order in which they add."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from itertools import groupby
 from math import atan2, hypot
 
 from ...types.attrs import define, field
-from ..checks import MOST_LEVELS, MOST_WALLS
-from ..doors import BESIDE, Line, Openings, cut
-from ..outlines import Ring, edges, holds, middle, tidy, with_holes
+from ..checks import MAX_LEVELS, MAX_WALLS
+from ..doors import MAX_DOOR_OFFSET, Line, Openings, cut_openings
+from ..outlines import Ring, contains, edges, find_inner_point, join_holes, normalize_ring
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Point, Wall
 from ..segments import distance
 from .earth import to_mm
 
-_TOGETHER = 2e-3
-"""Largest distance between walls on one line, and largest gap that joins them, m."""
+_MERGE_DISTANCE = 2e-3
+"""Largest distance between walls that count as lying on one line, and largest gap over which they are joined, m."""
 
-SHARED = 0.05
+SHARED_BORDER_DISTANCE = 0.05
 """Largest distance between borders of two spaces that count as one border, m."""
 
 
 class Border(Enum):
     """The kind of a space's outline."""
 
-    WALL = "wall"  # a wall all round, but for its doors
-    OPEN = "open"  # a wall, but not towards another open or free space
+    WALL = "wall"  # a wall all round except at doors
+    OPEN = "open"  # a wall, except along another open or free space
     FREE = "free"  # no wall
     SOLID = "solid"  # a wall, and nobody can be inside
 
@@ -45,10 +45,11 @@ class Space:
 
 @define
 class ConnectorPart:
-    """The part of stairs or a lift on one level.
+    """The part of stairs or an elevator on one level.
 
-    Parts of one `group` are always the same stairs or lift; others are if they overlap on neighbouring levels. `place`
-    is where a person steps on; None stands for the middle."""
+    Parts with the same `group` belong to the same connector; other parts do if they overlap on neighbouring levels.
+    `place` is where a person steps on, m, plan frame; None stands for the middle. `rise` is the height of one tread of
+    the stairs, m; None when unknown."""
 
     kind: ConnectorKind
     name: str
@@ -61,7 +62,7 @@ class ConnectorPart:
     @property
     def ring(self) -> Ring:
         """The outline and the holes as one ring."""
-        return with_holes(self.rings)
+        return join_holes(self.rings)
 
 
 @define
@@ -76,7 +77,9 @@ class Storey:
 
 @define
 class Drawing:
-    """Everything that was drawn."""
+    """Everything that a file draws; points are in m, plan frame.
+
+    `lines` are walls (level, start, end) besides outlines. `doors` are (level, start, end, name)."""
 
     name: str = ""
     storeys: dict[str, Storey] = field(factory=dict)
@@ -87,17 +90,17 @@ class Drawing:
     remarks: list[str] = field(factory=list)
 
     def plan(self, anchor: Anchor, storey: float) -> FloorPlan:
-        """Return the plan; `storey` is the height from one level to the next, m: these formats have no elevations.
+        """Return the plan; `storey` is the assumed height from one level to the next, m.
 
-        Raises FloorPlanError when there is more than a building has."""
-        if len(self.storeys) > MOST_LEVELS:
-            raise FloorPlanError(f"has more than {MOST_LEVELS} levels")
+        Raises FloorPlanError when there are more levels, walls, doors or connectors than a plan may have."""
+        if len(self.storeys) > MAX_LEVELS:
+            raise FloorPlanError(f"has more than {MAX_LEVELS} levels")
         rings = [ring for space in self.spaces for ring in space.rings] + [r for part in self.parts for r in part.rings]
         drawn = sum(map(len, rings)) + len(self.lines)
-        if drawn > MOST_WALLS:
-            raise FloorPlanError(f"has more than {MOST_WALLS} walls")
-        if len(self.doors) > MOST_WALLS or len(self.parts) > MOST_LEVELS:
-            raise FloorPlanError(f"has more than {MOST_WALLS} doors or {MOST_LEVELS} stairs and lifts")
+        if drawn > MAX_WALLS:
+            raise FloorPlanError(f"has more than {MAX_WALLS} walls")
+        if len(self.doors) > MAX_WALLS or len(self.parts) > MAX_LEVELS:
+            raise FloorPlanError(f"has more than {MAX_WALLS} doors or {MAX_LEVELS} stairs and lifts")
         ids = sorted(self.storeys, key=lambda level: (self.storeys[level].order, level))
         levels = [
             Level(level, self.storeys[level].name, self.storeys[level].ordinal, self.storeys[level].order * storey,
@@ -108,81 +111,85 @@ class Drawing:
         return FloorPlan(self.name, tuple(levels), connectors, anchor, heights_known=False, remarks=tuple(self.remarks))
 
     def _doors(self, level: str) -> tuple[Door, ...]:
-        found = {Door(min(a, b), max(a, b), name) for at, a, b, name in self.doors if at == level}
-        return tuple(sorted(found, key=lambda door: (door.start, door.end, door.name)))
+        doors = {Door(min(a, b), max(a, b), name) for door_level, a, b, name in self.doors if door_level == level}
+        return tuple(sorted(doors, key=lambda door: (door.start, door.end, door.name)))
 
     def _rooms(self, level: str) -> tuple[Ring, ...]:
-        here = [one for one in self.spaces if one.level == level and one.border is not Border.SOLID]
-        return tuple(sorted([tidy(with_holes(one.rings)) for one in here]))
+        spaces = [space for space in self.spaces if space.level == level and space.border is not Border.SOLID]
+        return tuple(sorted([normalize_ring(join_holes(space.rings)) for space in spaces]))
 
     def _walls(self, level: str) -> tuple[Wall, ...]:
-        doors: list[Line] = [(start, end) for at, start, end, _ in self.doors if at == level]
-        here = [(one.rings, one.border) for one in self.spaces if one.level == level]
-        here += [(one.rings, _border_of(one, doors)) for one in self.parts if one.level == level and one.rings]
-        walls = {_wall(start, end) for at, start, end in self.lines if at == level and start != end}
-        for rings, border in here:
+        doors: list[Line] = [(start, end) for line_level, start, end, _ in self.doors if line_level == level]
+        outlines = [(space.rings, space.border) for space in self.spaces if space.level == level]
+        outlines += [(part.rings, _border_of(part, doors)) for part in self.parts if part.level == level and part.rings]
+        walls = {
+            _make_wall(start, end) for line_level, start, end in self.lines if line_level == level and start != end
+        }
+        for rings, border in outlines:
             if border in (Border.WALL, Border.SOLID):
-                walls.update(_lines(rings))
-        loose = [(_lines(rings), border) for rings, border in here if border in (Border.OPEN, Border.FREE)]
-        owned = [(wall.start, wall.end, i) for i, (lines, _) in enumerate(loose) for wall in sorted(lines, key=_ends)]
-        borders = Openings([(start, end) for start, end, _ in owned], [owner for _, _, owner in owned])
-        for i, (lines, border) in enumerate(loose):
+                walls.update(_lines_of(rings))
+        unwalled = [(_lines_of(rings), border) for rings, border in outlines if border in (Border.OPEN, Border.FREE)]
+        owned_lines = [
+            (wall.start, wall.end, i) for i, (lines, _) in enumerate(unwalled) for wall in sorted(lines, key=_ends_of)
+        ]
+        borders = Openings([(start, end) for start, end, _ in owned_lines], [owner for _, _, owner in owned_lines])
+        for i, (lines, border) in enumerate(unwalled):
             if border is Border.OPEN:
-                walls.update(cut(sorted(lines, key=_ends), borders, SHARED, excluded=i))
-        kept = cut(merged(walls), Openings(doors), BESIDE)
-        return tuple(sorted({_wall(wall.start, wall.end) for wall in kept}, key=_ends))
+                walls.update(cut_openings(sorted(lines, key=_ends_of), borders, SHARED_BORDER_DISTANCE, excluded=i))
+        pieces = cut_openings(merged(walls), Openings(doors), MAX_DOOR_OFFSET)
+        return tuple(sorted({_make_wall(wall.start, wall.end) for wall in pieces}, key=_ends_of))
 
 
-def _wall(start: Point, end: Point) -> Wall:
+def _make_wall(start: Point, end: Point) -> Wall:
     return Wall(min(start, end), max(start, end))
 
 
-def _ends(wall: Wall) -> tuple[Point, Point]:
+def _ends_of(wall: Wall) -> tuple[Point, Point]:
     return wall.start, wall.end
 
 
 def merged(walls: set[Wall]) -> list[Wall]:
-    """Return the walls with those joined that lie on one line and touch: most are drawn twice, from either room."""
-    found: list[Wall] = []
-    for wall in sorted(walls, key=_on_line):
-        if found:
-            (ax, ay), (bx, by) = last = found[-1].start, found[-1].end
-            far = max(wall.end, last[1])
-            if (distance(ax, ay, bx, by, *wall.start) <= _TOGETHER
-                    and distance(*last[0], *far, *wall.end) <= _TOGETHER
-                    and distance(*last[0], *far, *last[1]) <= _TOGETHER):  # fmt: skip
-                found[-1] = Wall(last[0], far)
+    """Return the walls after joining those that lie on one line and touch: most walls are drawn once for each room."""
+    joined_walls: list[Wall] = []
+    for wall in sorted(walls, key=_line_sort_key):
+        if joined_walls:
+            (ax, ay), (bx, by) = last_ends = joined_walls[-1].start, joined_walls[-1].end
+            far_end = max(wall.end, last_ends[1])
+            if (distance(ax, ay, bx, by, *wall.start) <= _MERGE_DISTANCE
+                    and distance(*last_ends[0], *far_end, *wall.end) <= _MERGE_DISTANCE
+                    and distance(*last_ends[0], *far_end, *last_ends[1]) <= _MERGE_DISTANCE):  # fmt: skip
+                joined_walls[-1] = Wall(last_ends[0], far_end)
                 continue
-        found.append(wall)
-    return found
+        joined_walls.append(wall)
+    return joined_walls
 
 
-def _on_line(wall: Wall) -> tuple[float, float, Point, Point]:
-    """Return a sort key that groups walls on one line: direction, distance of the line from the origin, start."""
+def _line_sort_key(wall: Wall) -> tuple[float, float, Point, Point]:
+    """Return a sort key that groups walls on one line: direction, rad, distance from the origin, m, and the ends."""
     (ax, ay), (bx, by) = wall.start, wall.end
-    long = hypot(bx - ax, by - ay)
-    ux, uy = (bx - ax) / long, (by - ay) / long
+    length = hypot(bx - ax, by - ay)
+    ux, uy = (bx - ax) / length, (by - ay) / length
     return round(atan2(uy, ux), 4), round(ux * ay - uy * ax, 3), wall.start, wall.end
 
 
-def _lines(rings: tuple[Ring, ...]) -> set[Wall]:
-    return {_wall((ax, ay), (bx, by)) for ring in rings for ax, ay, bx, by in edges(ring) if (ax, ay) != (bx, by)}
+def _lines_of(rings: tuple[Ring, ...]) -> set[Wall]:
+    return {_make_wall((ax, ay), (bx, by)) for ring in rings for ax, ay, bx, by in edges(ring) if (ax, ay) != (bx, by)}
 
 
 def _border_of(part: ConnectorPart, doors: list[Line]) -> Border:
-    """Return WALL for stairs and cabins with a door, else OPEN: closed walls would make them unreachable."""
+    """Return WALL for stairs and cabins with a door, else OPEN, since walls without a door make them unreachable."""
     lines = [line for ring in part.rings for line in edges(ring)]
     for start, end in doors:
         x, y = 0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])
-        if any(distance(*line, x, y) <= BESIDE for line in lines):
+        if any(distance(*line, x, y) <= MAX_DOOR_OFFSET for line in lines):
             return Border.WALL
     return Border.OPEN
 
 
 def _join_parts(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
-    """Join parts into connectors.
+    """Return the connectors made of these parts.
 
-    Joined are those of one group, and those that overlap on levels whose order is one apart or less, or that are
+    Parts of one group are joined. Parts that overlap are joined if their levels are at most one storey apart or
     adjacent in the list of levels."""
     ordered = sorted(
         parts,
@@ -193,7 +200,7 @@ def _join_parts(parts: list[ConnectorPart], numbers: dict[str, int], storeys: di
             part.name,
         ),
     )
-    middles = [middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0) for part in ordered]
+    middles = [find_inner_point(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0) for part in ordered]
     leader = list(range(len(ordered)))
 
     def find_leader(i: int) -> int:
@@ -207,30 +214,32 @@ def _join_parts(parts: list[ConnectorPart], numbers: dict[str, int], storeys: di
             if lower.kind is not upper.kind or find_leader(i) == find_leader(j):
                 continue
             if lower.group == upper.group or (
-                _neighbours(lower.level, upper.level, numbers, storeys)
-                and (_within(middles[i], upper) or _within(middles[j], lower))
+                _are_neighbours(lower.level, upper.level, numbers, storeys)
+                and (_is_within(middles[i], upper) or _is_within(middles[j], lower))
             ):
                 leader[max(find_leader(i), find_leader(j))] = min(find_leader(i), find_leader(j))
-    together = sorted(range(len(ordered)), key=lambda i: (find_leader(i), i))
-    found = [_connector([ordered[i] for i in some], numbers) for _, some in groupby(together, key=find_leader)]
-    return sorted(found, key=lambda one: (one.kind.value, one.name, one.stops[0].place))
+    grouped = sorted(range(len(ordered)), key=lambda i: (find_leader(i), i))
+    connectors = [
+        _make_connector([ordered[i] for i in indices], numbers) for _, indices in groupby(grouped, key=find_leader)
+    ]
+    return sorted(connectors, key=lambda connector: (connector.kind.value, connector.name, connector.stops[0].place))
 
 
-def _within(place: Point, part: ConnectorPart) -> bool:
-    return len(part.ring) >= 3 and holds(edges(part.ring), *place)
+def _is_within(place: Point, part: ConnectorPart) -> bool:
+    return len(part.ring) >= 3 and contains(edges(part.ring), *place)
 
 
-def _neighbours(low: str, high: str, numbers: dict[str, int], storeys: dict[str, Storey]) -> bool:
+def _are_neighbours(low: str, high: str, numbers: dict[str, int], storeys: dict[str, Storey]) -> bool:
     rise = storeys[high].order - storeys[low].order
     return rise > 0.0 and (rise <= 1.0 or numbers[high] - numbers[low] == 1)
 
 
-def _connector(parts: list[ConnectorPart], numbers: dict[str, int]) -> Connector:
+def _make_connector(parts: list[ConnectorPart], numbers: dict[str, int]) -> Connector:
     stops: dict[str, ConnectorStop] = {}
     for part in parts:
-        outline = tidy(part.ring) if len(part.ring) >= 3 else ()
-        at = part.place if part.place is not None else middle(outline)
-        stop = ConnectorStop(part.level, to_mm(at), outline)
+        outline = normalize_ring(part.ring) if len(part.ring) >= 3 else ()
+        place = part.place if part.place is not None else find_inner_point(outline)
+        stop = ConnectorStop(part.level, to_mm(place), outline)
         if part.level not in stops or not stops[part.level].outline:
             stops[part.level] = stop
     name = next((part.name for part in parts if part.name), "")

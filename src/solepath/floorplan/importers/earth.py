@@ -1,8 +1,8 @@
 """Conversion from degrees to the plan's metres and back, in the tangent plane of WGS84 at the anchor.
 
-East and north of the anchor are those of the local tangent plane (ENU) of points on the ellipsoid, turned by the
-anchor's bearing. Lengths in the plane are short by d^2 / 6 R^2 of themselves at a distance d from the anchor, less than
-0.001 mm at 500 m and 0.1 mm at 2.5 km; the arithmetic is good to 1e-8 m."""
+Points on the ellipsoid are projected onto the local tangent plane (east, north, up) and turned by the anchor's bearing.
+At a distance d from the anchor, lengths in the plane are too short by the share d^2 / 6 R^2 (R: radius of the Earth),
+less than 0.001 mm at 500 m and 0.1 mm at 2.5 km. The rounding error is below 1e-8 m."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _F = 1.0 / 298.257223563
 _E2 = _F * (2.0 - _F)
 """Constants of WGS84: semi-major axis, m, flattening, and square of the first eccentricity."""
 
-FARTHEST = 20_000.0
+MAX_ANCHOR_DISTANCE = 20_000.0
 """Largest distance from the anchor that can belong to the building, m."""
 
 
@@ -32,28 +32,28 @@ class Tangent:
         self._prime, self._meridian = _A / w, _A * (1.0 - _E2) / w**3
 
     def plan(self, latitude: float, longitude: float) -> Point:
-        """Return the point of the plan at these degrees; raise FloorPlanError for no place near the anchor."""
+        """Return the point of the plan, m, at these degrees; raise FloorPlanError when it is not near the anchor."""
         if not (isfinite(longitude) and abs(latitude) <= 90.0 and abs(longitude) <= 360.0):
             raise FloorPlanError(f"there is no latitude {latitude:g}, longitude {longitude:g}")
         east, north, down = self._local(radians(latitude), radians(longitude))
-        if east * east + north * north + down * down > FARTHEST**2:
+        if east * east + north * north + down * down > MAX_ANCHOR_DISTANCE**2:
             raise FloorPlanError(f"latitude {latitude:g}, longitude {longitude:g} is far from the rest of the plan")
         s, c = self._turn
         return c * east - s * north, s * east + c * north
 
     def place(self, position: Point) -> Point:
-        """Return the point of the plan at (longitude, latitude), to the millimetre, as good as a file's degrees."""
+        """Return the point of the plan, m, rounded to 1 mm, at (longitude, latitude) in degrees."""
         return to_mm(self.plan(position[1], position[0]))
 
     def degrees(self, point: Point) -> tuple[float, float]:
-        """Return (latitude, longitude) of a point of the plan."""
+        """Return (latitude, longitude), degrees, of a point of the plan, m."""
         s, c = self._turn
         east, north = c * point[0] + s * point[1], c * point[1] - s * point[0]
         latitude, longitude = self._latitude, self._longitude
-        for _ in range(6):  # each iteration leaves about 1e-4 of the error at 500 m
-            found_east, found_north, _ = self._local(latitude, longitude)
-            latitude += (north - found_north) / self._meridian
-            longitude += (east - found_east) / (self._prime * self._up[1])
+        for _ in range(6):  # at 500 m each iteration leaves about 1e-4 of the previous error
+            east_now, north_now, _ = self._local(latitude, longitude)
+            latitude += (north - north_now) / self._meridian
+            longitude += (east - east_now) / (self._prime * self._up[1])
         return degrees(latitude), degrees(longitude)
 
     def _local(self, latitude: float, longitude: float) -> tuple[float, float, float]:
@@ -67,15 +67,14 @@ class Tangent:
 def _fixed(latitude: float, longitude: float) -> tuple[float, float, float]:
     """Return Earth-centred, Earth-fixed coordinates of a point on the ellipsoid, m."""
     prime = _A / sqrt(1.0 - _E2 * sin(latitude) ** 2)
-    out = prime * cos(latitude)
-    return out * cos(longitude), out * sin(longitude), prime * (1.0 - _E2) * sin(latitude)
+    axis_distance = prime * cos(latitude)
+    return axis_distance * cos(longitude), axis_distance * sin(longitude), prime * (1.0 - _E2) * sin(latitude)
 
 
 def south_west(places: list[tuple[float, float]]) -> Anchor:
-    """Return an anchor for places (latitude, longitude) without one, with +y to the north.
+    """Return the south-west corner of places (latitude, longitude), degrees, as an anchor with +y to the north.
 
-    It is their south-west corner, to 1e-7 degrees (1 cm). Raises FloorPlanError when there are none, or when they
-    cannot be degrees."""
+    It is rounded to 1e-7 degrees (1 cm). Raises FloorPlanError without places, and when they cannot be degrees."""
     if not places:
         raise FloorPlanError("nothing is drawn in it")
     latitude, longitude = min(p[0] for p in places), min(p[1] for p in places)
@@ -85,5 +84,5 @@ def south_west(places: list[tuple[float, float]]) -> Anchor:
 
 
 def to_mm(point: Point) -> Point:
-    """Return the point rounded to mm, so that the same place has the same numbers in every format."""
+    """Return the point, m, rounded to 1 mm, so that the same place has the same numbers in every format."""
     return round(point[0], 3) + 0.0, round(point[1], 3) + 0.0

@@ -9,10 +9,10 @@ from typing import Any
 
 from ...types.attrs import evolve
 from ..doors import with_doors_cut
-from ..outlines import Ring, middle, with_holes, without_repeats
+from ..outlines import Ring, find_inner_point, join_holes, without_repeats
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Wall
 from .earth import Tangent
-from .features import Feature, Place, features, find_anchor, parse_number
+from .features import Feature, ToPlan, find_anchor, parse_number, read_features
 
 FORMAT = "solepath-floorplan"
 VERSION = 1
@@ -21,39 +21,39 @@ _KINDS = ("level", "wall", "door", "room", "stairs", "lift")
 
 
 def read_collection(collection: dict[str, Any], storey: float) -> FloorPlan:
-    """Return the plan in a FeatureCollection of the profile; raise FloorPlanError when it does not fit.
+    """Return the plan in a FeatureCollection of the profile; raise FloorPlanError when it is invalid.
 
-    `storey` is the height from level to level where it has no elevations, m."""
+    `storey` is the assumed height from one level to the next, m, for a file without elevations."""
     if collection.get("version") != VERSION or isinstance(collection.get("version"), bool):
         raise FloorPlanError(f"is of version {collection.get('version')!r}; this release reads {VERSION}")
-    known = list(features(collection, "feature", in_properties=True))
-    for one in known:
-        if one.kind not in _KINDS:
-            one.fail(f"there is no feature {one.kind[:30]!r}, only {', '.join(_KINDS)}")
-    reader = _GeoJsonReader(known, *_frame(collection, known))
+    read = list(read_features(collection, "feature", in_properties=True))
+    for feature in read:
+        if feature.kind not in _KINDS:
+            feature.fail(f"there is no feature {feature.kind[:30]!r}, only {', '.join(_KINDS)}")
+    reader = _GeoJsonReader(read, *_frame(collection, read))
     name = collection.get("name", "")
     if not isinstance(name, str):
         raise FloorPlanError("its name is no text")
     return reader.plan(name, storey, collection.get("elevations", "known"))
 
 
-def _frame(collection: dict[str, Any], known: list[Feature]) -> tuple[Anchor | None, Place]:
+def _frame(collection: dict[str, Any], read: list[Feature]) -> tuple[Anchor | None, ToPlan]:
     """Return the anchor, and the function from the file's coordinates to the plan's."""
-    frame, given = collection.get("frame"), collection.get("anchor")
-    anchor = None if given is None else _anchor(given)
+    frame, raw_anchor = collection.get("frame"), collection.get("anchor")
+    anchor = None if raw_anchor is None else _anchor(raw_anchor)
     if frame == "local":
         return anchor, lambda position: position
     if frame != "wgs84":
         raise FloorPlanError(f"its frame is {frame!r}; it can be 'local' or 'wgs84'")
     if anchor is None:
-        anchor = find_anchor(known)
+        anchor = find_anchor(read)
     return anchor, Tangent(anchor).place
 
 
-def _anchor(given: object) -> Anchor:
-    if not isinstance(given, dict):
+def _anchor(raw_anchor: object) -> Anchor:
+    if not isinstance(raw_anchor, dict):
         raise FloorPlanError("its anchor is no object")
-    values = [parse_number(given.get(key, 0.0 if key == "bearing" else None), f"the anchor's {key}")
+    values = [parse_number(raw_anchor.get(key, 0.0 if key == "bearing" else None), f"the anchor's {key}")
               for key in ("latitude", "longitude", "bearing")]  # fmt: skip
     anchor = Anchor(*values)
     if not (abs(anchor.latitude) <= 89.0 and abs(anchor.longitude) <= 180.0 and abs(anchor.bearing) <= 10.0):
@@ -63,10 +63,10 @@ def _anchor(given: object) -> Anchor:
 
 
 class _GeoJsonReader:
-    """Converts the features of one file into records."""
+    """The conversion of the features of one file into records."""
 
-    def __init__(self, known: list[Feature], anchor: Anchor | None, place: Place) -> None:
-        self._known, self._anchor, self._place = known, anchor, place
+    def __init__(self, read: list[Feature], anchor: Anchor | None, place: ToPlan) -> None:
+        self._known, self._anchor, self._place = read, anchor, place
         self._remarks: list[str] = []
         self._walls: dict[str, list[Wall]] = {}
         self._doors: dict[str, list[Door]] = {}
@@ -77,94 +77,99 @@ class _GeoJsonReader:
         if elevations not in ("known", "assumed"):
             raise FloorPlanError(f"its elevations are {elevations!r}; they can be 'known' or 'assumed'")
         levels = self._levels(storey)
-        for one in self._known:
-            if one.kind != "level":
-                self._read_feature(one)
-        drawn = [
+        for feature in self._known:
+            if feature.kind != "level":
+                self._read_feature(feature)
+        levels_with_shapes = [
             with_doors_cut(evolve(level, walls=tuple(self._walls[level.id]), doors=tuple(self._doors[level.id]),
                                   rooms=tuple(self._rooms[level.id])))
             for level in levels
         ]  # fmt: skip
         heights = {level.id: level.elevation for level in levels}
         connectors = tuple(self._connector(stops, heights) for stops in self._stops.values())
-        heights_known = elevations == "known" and any(one.kind == "level" and one.figure("elevation") is not None
-                                             for one in self._known)  # fmt: skip
-        return FloorPlan(name, tuple(drawn), connectors, self._anchor, heights_known, tuple(self._remarks))
+        heights_known = elevations == "known" and any(
+            feature.kind == "level" and feature.number("elevation") is not None for feature in self._known
+        )
+        return FloorPlan(name, tuple(levels_with_shapes), connectors, self._anchor, heights_known, tuple(self._remarks))
 
     def _levels(self, storey: float) -> list[Level]:
-        levels = [one for one in self._known if one.kind == "level"]
-        high = [one.figure("elevation") for one in levels]
-        found = []
-        for one, elevation in zip(levels, high, strict=True):
-            ordinal = one.ordinal()
+        levels = [feature for feature in self._known if feature.kind == "level"]
+        elevations = [feature.number("elevation") for feature in levels]
+        levels_found = []
+        for feature, elevation in zip(levels, elevations, strict=True):
+            ordinal = feature.ordinal()
             if elevation is None:
-                if any(other is not None for other in high):
-                    one.fail("its elevation is missing, while other levels have one")
+                if any(other is not None for other in elevations):
+                    feature.fail("its elevation is missing, while other levels have one")
                 elevation = ordinal * storey
-            found.append(Level(one.id, one.text("name", one.id), ordinal, elevation, ()))
-            self._walls[one.id], self._doors[one.id], self._rooms[one.id] = [], [], []
-        return sorted(found, key=lambda level: level.elevation)
+            levels_found.append(Level(feature.id, feature.text("name", feature.id), ordinal, elevation, ()))
+            self._walls[feature.id], self._doors[feature.id], self._rooms[feature.id] = [], [], []
+        return sorted(levels_found, key=lambda level: level.elevation)
 
-    def _read_feature(self, one: Feature) -> None:
-        level = one.text("level")
+    def _read_feature(self, feature: Feature) -> None:
+        level = feature.text("level")
         if level not in self._walls:
-            one.fail(f"is on level {level!r}, which the plan does not have")
-        if one.kind == "wall":
-            self._walls[level] += self._straight(one)
-        elif one.kind == "door":
-            if one.geometry != "LineString" or len(one.lines[0][0]) != 2 or one.lines[0][0][0] == one.lines[0][0][1]:
-                one.fail("a door is a LineString of two points")
-            start, end = one.place_line(one.lines[0][0], self._place)
-            self._doors[level].append(Door(start, end, one.text("name", "")))
-        elif one.kind == "room":
-            if one.geometry != "Polygon":
-                one.fail("a room is a Polygon")
-            self._rooms[level].append(self._outline(one, level))
+            feature.fail(f"is on level {level!r}, which the plan does not have")
+        if feature.kind == "wall":
+            self._walls[level] += self._straight(feature)
+        elif feature.kind == "door":
+            if (
+                feature.geometry != "LineString"
+                or len(feature.lines[0][0]) != 2
+                or feature.lines[0][0][0] == feature.lines[0][0][1]
+            ):
+                feature.fail("a door is a LineString of two points")
+            start, end = feature.convert_line(feature.lines[0][0], self._place)
+            self._doors[level].append(Door(start, end, feature.text("name", "")))
+        elif feature.kind == "room":
+            if feature.geometry != "Polygon":
+                feature.fail("a room is a Polygon")
+            self._rooms[level].append(self._outline(feature, level))
         else:
-            self._stop(one, level)
+            self._stop(feature, level)
 
     def _straight(self, one: Feature) -> list[Wall]:
         if one.geometry not in ("LineString", "MultiLineString", "Polygon"):
             one.fail("a wall is a LineString, a MultiLineString or a Polygon")
         found = []
         for line in one.lines[0]:
-            points = without_repeats(one.place_line(line, self._place))
+            points = without_repeats(one.convert_line(line, self._place))
             found += [Wall(a, b) for a, b in zip(points, points[1:], strict=False)]
         if not found:
             one.fail("has no length")
         return found
 
-    def _outline(self, one: Feature, level: str) -> Ring:
-        on = f"{one.name} on level {level!r}"
-        (rings,) = one.polygons(self._place, lambda what: self._remarks.append(f"{on}: {what}"))
-        return with_holes(rings)
+    def _outline(self, feature: Feature, level: str) -> Ring:
+        feature_name = f"{feature.name} on level {level!r}"
+        (rings,) = feature.polygons(self._place, lambda what: self._remarks.append(f"{feature_name}: {what}"))
+        return join_holes(rings)
 
-    def _stop(self, one: Feature, level: str) -> None:
-        if one.geometry == "Point":
-            stop = ConnectorStop(level, one.place_line(one.points, self._place)[0])
-        elif one.geometry == "Polygon":
-            outline = self._outline(one, level)
-            given = one.properties.get("place")
-            if given is None:
-                stop = ConnectorStop(level, middle(outline), outline)
-            elif isinstance(given, list) and len(given) == 2:
-                x, y = (parse_number(value, f"{one.name}: its place") for value in given)
-                stop = ConnectorStop(level, one.place_line([(x, y)], self._place)[0], outline)
+    def _stop(self, feature: Feature, level: str) -> None:
+        if feature.geometry == "Point":
+            stop = ConnectorStop(level, feature.convert_line(feature.points, self._place)[0])
+        elif feature.geometry == "Polygon":
+            outline = self._outline(feature, level)
+            place_given = feature.properties.get("place")
+            if place_given is None:
+                stop = ConnectorStop(level, find_inner_point(outline), outline)
+            elif isinstance(place_given, list) and len(place_given) == 2:
+                x, y = (parse_number(value, f"{feature.name}: its place") for value in place_given)
+                stop = ConnectorStop(level, feature.convert_line([(x, y)], self._place)[0], outline)
             else:
-                one.fail("its place is no position")
+                feature.fail("its place is no position")
         else:
-            one.fail(f"{one.kind} are a Point or a Polygon on each level where they stop")
-        key = (one.kind, one.text("connector", one.text("name", "")))
+            feature.fail(f"{feature.kind} are a Point or a Polygon on each level where they stop")
+        key = (feature.kind, feature.text("connector", feature.text("name", "")))
         others = self._stops.setdefault(key, [])
         if any(other.level == level for _, other in others):
-            one.fail(f"is a second stop of {one.kind} {key[1]!r} at level {level!r}")
-        others.append((one, stop))
+            feature.fail(f"is a second stop of {feature.kind} {key[1]!r} at level {level!r}")
+        others.append((feature, stop))
 
     def _connector(self, stops: list[tuple[Feature, ConnectorStop]], heights: dict[str, float]) -> Connector:
         first = stops[0][0]
         ordered = sorted((stop for _, stop in stops), key=lambda stop: heights[stop.level])
-        flights = [one.whole("flights") for one, _ in stops if one.figure("flights") is not None]
-        rises = [one.figure("rise") for one, _ in stops if one.figure("rise") is not None]
+        flights = [feature.whole_number("flights") for feature, _ in stops if feature.number("flights") is not None]
+        rises = [feature.number("rise") for feature, _ in stops if feature.number("rise") is not None]
         if len(set(flights)) > 1 or len(set(rises)) > 1:
             first.fail("its stops tell different flights or rises")
         kind = ConnectorKind.STAIRS if first.kind == "stairs" else ConnectorKind.LIFT
@@ -173,9 +178,9 @@ class _GeoJsonReader:
 
 
 def write_floorplan(path: Path | str, plan: FloorPlan) -> None:
-    """Write the plan to a file in its own frame; read again it is equal, once its doors are cut out of its walls.
+    """Write the plan to a file in the plan frame; reading it returns an equal plan, if doors are cut out of the walls.
 
-    Raises OSError when it cannot be written, ValueError for numbers that JSON does not have."""
+    Raises OSError when the file cannot be written, ValueError for numbers that JSON does not have."""
     Path(path).write_text(text_of(plan), encoding="utf-8")
 
 
@@ -187,32 +192,39 @@ def text_of(plan: FloorPlan) -> str:
         head["anchor"] = {"latitude": plan.anchor.latitude, "longitude": plan.anchor.longitude,
                           "bearing": plan.anchor.bearing}  # fmt: skip
     head_text = json.dumps(head, allow_nan=False)
-    lines = ",\n".join(json.dumps(one, allow_nan=False) for one in _written(plan))
+    lines = ",\n".join(json.dumps(feature, allow_nan=False) for feature in _written(plan))
     return f'{head_text[:-1]}, "features": [\n{lines}\n]}}\n'
 
 
 def _written(plan: FloorPlan) -> Iterable[dict[str, Any]]:
     for level in plan.levels:
-        about = {"name": level.name, "ordinal": level.ordinal, "elevation": level.elevation}
-        yield {**_feature("level", None, about), "id": level.id}
+        properties = {"name": level.name, "ordinal": level.ordinal, "elevation": level.elevation}
+        yield {**_feature("level", None, properties), "id": level.id}
     for level in plan.levels:
-        here = {"level": level.id}
+        on_level = {"level": level.id}
         for wall in level.walls:
-            yield _feature("wall", _geometry("LineString", [wall.start, wall.end]), here)
+            yield _feature("wall", _geometry("LineString", [wall.start, wall.end]), on_level)
         for door in level.doors:
-            yield _feature("door", _geometry("LineString", [door.start, door.end]), {**here, "name": door.name})
+            yield _feature("door", _geometry("LineString", [door.start, door.end]), {**on_level, "name": door.name})
         for room in level.rooms:
-            yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), here)
-    for i, one in enumerate(plan.connectors):
-        more: dict[str, Any] = {"name": one.name, "connector": str(i), "flights": one.flights, "rise": one.rise}
-        more = {key: value for key, value in more.items() if value is not None}
-        for stop in one.stops:
-            about = {"level": stop.level, **more}
+            yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), on_level)
+    for i, connector in enumerate(plan.connectors):
+        optional: dict[str, Any] = {
+            "name": connector.name,
+            "connector": str(i),
+            "flights": connector.flights,
+            "rise": connector.rise,
+        }
+        optional = {key: value for key, value in optional.items() if value is not None}
+        for stop in connector.stops:
+            properties = {"level": stop.level, **optional}
             if stop.outline:
                 closed = [*stop.outline, stop.outline[0]]
-                yield _feature(one.kind.value, _geometry("Polygon", [closed]), {**about, "place": stop.place})
+                yield _feature(
+                    connector.kind.value, _geometry("Polygon", [closed]), {**properties, "place": stop.place}
+                )
             else:
-                yield _feature(one.kind.value, _geometry("Point", stop.place), about)
+                yield _feature(connector.kind.value, _geometry("Point", stop.place), properties)
 
 
 def _geometry(kind: str, coordinates: object) -> dict[str, Any]:

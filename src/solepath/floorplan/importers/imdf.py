@@ -1,8 +1,8 @@
-"""Reader of the Indoor Mapping Data Format 1.0.0 (OGC 20-094).
+"""Reader of the Indoor Mapping Data Format (IMDF) 1.0.0 (OGC 20-094).
 
-It is an archive, or a folder, of GeoJSON files, one for each kind of feature; protocol/floorplan.md describes their
-conversion. IMDF draws units, not walls, and has no heights: walls are outlines (drawing.py), and levels lie one storey
-apart."""
+An IMDF plan is an archive, or a folder, of GeoJSON files, one for each kind of feature. protocol/floorplan.md describes
+their conversion. IMDF has units (rooms and other spaces) but no walls and no heights: the outlines of units become
+walls (drawing.py), and levels lie one storey apart."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..outlines import Ring, edges, without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent
-from .features import Feature, features, find_anchor, parse_json, parse_positions
+from .features import Feature, find_anchor, parse_json, parse_positions, read_features
 
 FILES = ("manifest.json", "venue.geojson", "building.geojson", "level.geojson", "unit.geojson", "opening.geojson",
          "fixture.geojson")  # fmt: skip
@@ -27,20 +27,20 @@ _CONNECTORS = {
 }
 
 _SOLID = {"brick", "column", "concrete", "drywall", "glass", "opentobelow", "structure"}
-"""Categories of units that are walls, pillars or nothing to stand on."""
+"""Categories of units that are walls, pillars or have no floor."""
 
 _OPEN = {"fieldofplay", "footbridge", "lobby", "movingwalkway", "parking", "platform", "ramp", "road", "terrace",
          "unenclosedarea", "vegetation", "walkway"}  # fmt: skip
-"""Categories of units that have no wall towards each other."""
+"""Categories of units that have no wall between each other."""
 
 _OBSTACLES = {"obstruction", "wall"}
 """Categories of fixtures that nobody can walk through; desks and the like may be moved."""
 
 
 def read_archive(files: Mapping[str, bytes], storey: float) -> FloorPlan:
-    """Return the plan in the files of an archive, by name; raise FloorPlanError when it does not fit.
+    """Return the plan in the files of an archive, by name; raise FloorPlanError when it is invalid.
 
-    `storey` is the height from one ordinal to the next, m."""
+    `storey` is the assumed height from one ordinal to the next, m."""
     if "manifest.json" not in files:
         raise FloorPlanError("has no manifest.json, which every IMDF archive has")
     with _name_file("manifest.json"):
@@ -65,7 +65,7 @@ def _name_file(name: str) -> Iterator[None]:
 
 
 class _ImdfReader:
-    """Draws the features of one archive."""
+    """The conversion of the features of one archive into a Drawing."""
 
     def __init__(self, files: Mapping[str, bytes], language: str) -> None:
         self._language = language
@@ -74,7 +74,7 @@ class _ImdfReader:
         self._openings = self._read_features(files, "opening")
         self._fixtures = self._read_features(files, "fixture")
         buildings = self._read_features(files, "building") + self._read_features(files, "venue")
-        self._drawing = Drawing(next((name for one in buildings if (name := self._label(one, "name"))), ""))
+        self._drawing = Drawing(next((name for feature in buildings if (name := self._label(feature, "name"))), ""))
         self._anchor = find_anchor(self._levels + self._units)
         self._place = Tangent(self._anchor).place
         self._names: dict[str, str] = {}
@@ -83,15 +83,17 @@ class _ImdfReader:
         if f"{kind}.geojson" not in files:
             return []
         with _name_file(f"{kind}.geojson"):
-            found = list(features(parse_json(files[f"{kind}.geojson"]), "feature_type", in_properties=False))
-            for one in found:
-                if one.kind != kind:
-                    one.fail(f"is a {one.kind[:30]!r} among the {kind}s")
-        return found
+            features_read = list(
+                read_features(parse_json(files[f"{kind}.geojson"]), "feature_type", in_properties=False)
+            )
+            for feature in features_read:
+                if feature.kind != kind:
+                    feature.fail(f"is a {feature.kind[:30]!r} among the {kind}s")
+        return features_read
 
-    def _label(self, one: Feature, key: str) -> str:
-        """Return a LABELS value in the archive's language, in English, or in any other."""
-        labels = one.properties.get(key)
+    def _label(self, feature: Feature, key: str) -> str:
+        """Return a LABELS value in the archive's language, else in English, else in any other language; "" for none."""
+        labels = feature.properties.get(key)
         if not isinstance(labels, dict):
             return ""
         texts = {tag: text for tag, text in labels.items() if isinstance(text, str)}
@@ -100,67 +102,67 @@ class _ImdfReader:
 
     def plan(self, storey: float) -> FloorPlan:
         self._storeys()
-        for one in self._units:
-            self._unit(one)
-        for one in self._fixtures:
-            if one.text("category", "") in _OBSTACLES:
-                self._space(one, self._level(one), Border.SOLID)
-        for one in self._openings:
-            self._opening(one)
+        for feature in self._units:
+            self._unit(feature)
+        for feature in self._fixtures:
+            if feature.text("category", "") in _OBSTACLES:
+                self._space(feature, self._level(feature), Border.SOLID)
+        for feature in self._openings:
+            self._opening(feature)
         return self._drawing.plan(self._anchor, storey)
 
     def _storeys(self) -> None:
-        """Add the levels, each by its short name if no other level has it, else by its id."""
-        shorts = [self._label(one, "short_name") for one in self._levels]
-        for one, short in zip(self._levels, shorts, strict=True):
-            ordinal = one.ordinal()
-            name = short if short and shorts.count(short) == 1 else one.id
+        """Add the levels; each is named by its short name if no other level has it, else by its id."""
+        short_names = [self._label(feature, "short_name") for feature in self._levels]
+        for feature, short_name in zip(self._levels, short_names, strict=True):
+            ordinal = feature.ordinal()
+            name = short_name if short_name and short_names.count(short_name) == 1 else feature.id
             if name in self._drawing.storeys:
-                one.fail(f"its id is the short name of another level, {name!r}")
-            self._names[one.id] = name
-            self._drawing.storeys[name] = Storey(self._label(one, "name") or name, ordinal, float(ordinal))
-            if one.properties.get("outdoor") is not True:
-                for rings in self._rings(one):
+                feature.fail(f"its id is the short name of another level, {name!r}")
+            self._names[feature.id] = name
+            self._drawing.storeys[name] = Storey(self._label(feature, "name") or name, ordinal, float(ordinal))
+            if feature.properties.get("outdoor") is not True:
+                for rings in self._rings(feature):
                     for line in rings:
                         self._drawing.lines += [(name, (ax, ay), (bx, by)) for ax, ay, bx, by in edges(line)]
 
-    def _level(self, one: Feature) -> str:
-        level = one.properties.get("level_id")
+    def _level(self, feature: Feature) -> str:
+        level = feature.properties.get("level_id")
         if not isinstance(level, str) or level not in self._names:
-            one.fail(f"is on level {str(level)[:60]!r}, which the archive does not have")
+            feature.fail(f"is on level {str(level)[:60]!r}, which the archive does not have")
         return self._names[level]
 
-    def _unit(self, one: Feature) -> None:
-        level, category = self._level(one), one.text("category", "unspecified")
+    def _unit(self, feature: Feature) -> None:
+        level, category = self._level(feature), feature.text("category", "unspecified")
         kind = _CONNECTORS.get(category)
         if kind is None:
             border = Border.SOLID if category in _SOLID else Border.OPEN if category in _OPEN else Border.WALL
-            self._space(one, level, border)
+            self._space(feature, level, border)
             return
-        for i, rings in enumerate(self._rings(one)):
-            point = None if i else self._display_point(one)
-            name, group = self._label(one, "name"), f"{one.id or one.name}.{i}"
+        for i, rings in enumerate(self._rings(feature)):
+            point = None if i else self._display_point(feature)
+            name, group = self._label(feature, "name"), f"{feature.id or feature.name}.{i}"
             self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, group))
 
-    def _display_point(self, one: Feature) -> Point | None:
-        value = one.properties.get("display_point")
+    def _display_point(self, feature: Feature) -> Point | None:
+        value = feature.properties.get("display_point")
         if not isinstance(value, dict) or value.get("type") != "Point":
             return None
-        return one.place_line([parse_positions(value.get("coordinates"), one)], self._place)[0]
+        return feature.convert_line([parse_positions(value.get("coordinates"), feature)], self._place)[0]
 
-    def _space(self, one: Feature, level: str, border: Border) -> None:
-        self._drawing.spaces += [Space(level, rings, border) for rings in self._rings(one)]
+    def _space(self, feature: Feature, level: str, border: Border) -> None:
+        self._drawing.spaces += [Space(level, rings, border) for rings in self._rings(feature)]
 
-    def _opening(self, one: Feature) -> None:
-        level = self._level(one)
-        if one.geometry != "LineString":
-            one.fail("an opening is a LineString")
-        points = without_repeats(one.place_line(one.lines[0][0], self._place))
-        name = self._label(one, "name")
+    def _opening(self, feature: Feature) -> None:
+        level = self._level(feature)
+        if feature.geometry != "LineString":
+            feature.fail("an opening is a LineString")
+        points = without_repeats(feature.convert_line(feature.lines[0][0], self._place))
+        name = self._label(feature, "name")
         self._drawing.doors += [(level, a, b, name) for a, b in zip(points, points[1:], strict=False)]
 
-    def _rings(self, one: Feature) -> list[tuple[Ring, ...]]:
+    def _rings(self, feature: Feature) -> list[tuple[Ring, ...]]:
         """Return the outline and the holes of each polygon."""
-        if one.geometry not in ("Polygon", "MultiPolygon"):
-            one.fail(f"is no Polygon but a {one.geometry}")
-        return one.polygons(self._place, lambda what: self._drawing.remarks.append(f"{one.name}: {what}"))
+        if feature.geometry not in ("Polygon", "MultiPolygon"):
+            feature.fail(f"is no Polygon but a {feature.geometry}")
+        return feature.polygons(self._place, lambda what: self._drawing.remarks.append(f"{feature.name}: {what}"))

@@ -1,7 +1,7 @@
 """Parser of OpenStreetMap XML from untrusted bytes: nodes, ways and relations with their tags.
 
-It reads with expat, straight into records: no tree is built. It rejects a document type, the only way to declare
-entities."""
+It reads with expat into records, without a tree. It rejects a document type declaration, since entities can be declared
+only there."""
 
 from __future__ import annotations
 
@@ -12,14 +12,15 @@ from xml.parsers import expat
 from ...types.attrs import define, field
 from ..plan import FloorPlanError
 
-MOST_ELEMENTS = 500_000
+MAX_ELEMENTS = 500_000
 
 
 @define
 class Element:
-    """A node (with its degrees), a way (with its `refs` to nodes) or a relation.
+    """A node, a way or a relation.
 
-    `members` of a relation are (kind, ref, role)."""
+    `latitude` and `longitude` of a node are in degrees. `refs` of a way are the ids of its nodes. `members` of a
+    relation are (kind, ref, role)."""
 
     kind: str
     id: str
@@ -44,8 +45,8 @@ class OsmFile:
     relations: dict[str, Element] = field(factory=dict)
 
 
-def elements(data: bytes) -> OsmFile:
-    """Return everything in an OSM XML file that is not marked as deleted; raise FloorPlanError when it is not one."""
+def parse_elements(data: bytes) -> OsmFile:
+    """Return all elements of an OSM XML file that are not marked as deleted; raise FloorPlanError for other data."""
     parser = expat.ParserCreate()
     reader = _OsmFileReader()
     parser.StartElementHandler = reader.start
@@ -69,31 +70,31 @@ def _reject_doctype(*_: object) -> NoReturn:
 class _OsmFileReader:
     def __init__(self) -> None:
         self.found = OsmFile()
-        self._open: Element | None = None
+        self._current: Element | None = None
         self._depth = 0
         self._count = 0
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         self._depth += 1
         self._count += 1
-        if self._count > 4 * MOST_ELEMENTS:
-            raise FloorPlanError(f"has more than {4 * MOST_ELEMENTS} elements")
+        if self._count > 4 * MAX_ELEMENTS:
+            raise FloorPlanError(f"has more than {4 * MAX_ELEMENTS} elements")
         if self._depth == 1:
             if tag != "osm":
                 raise FloorPlanError(f"is XML, but not of OpenStreetMap: its root is {tag[:40]!r}")
         elif self._depth == 2:
-            self._open = _element(tag, attributes) if tag in ("node", "way", "relation") else None
-        elif self._depth == 3 and self._open is not None:
-            _add_child(self._open, tag, attributes)
+            self._current = _element(tag, attributes) if tag in ("node", "way", "relation") else None
+        elif self._depth == 3 and self._current is not None:
+            _add_child(self._current, tag, attributes)
 
     def end(self, tag: str) -> None:
         self._depth -= 1
-        if self._depth == 1 and self._open is not None:
-            where = {"node": self.found.nodes, "way": self.found.ways, "relation": self.found.relations}[tag]
-            if self._open.id in where:
-                raise FloorPlanError(f"two {tag}s have the id {self._open.id[:40]!r}")
-            where[self._open.id] = self._open
-            self._open = None
+        if self._depth == 1 and self._current is not None:
+            elements = {"node": self.found.nodes, "way": self.found.ways, "relation": self.found.relations}[tag]
+            if self._current.id in elements:
+                raise FloorPlanError(f"two {tag}s have the id {self._current.id[:40]!r}")
+            elements[self._current.id] = self._current
+            self._current = None
 
 
 def _element(tag: str, attributes: dict[str, str]) -> Element | None:
@@ -101,52 +102,55 @@ def _element(tag: str, attributes: dict[str, str]) -> Element | None:
         return None
     if "id" not in attributes:
         raise FloorPlanError(f"a {tag} has no id")
-    one = Element(tag, attributes["id"])
+    element = Element(tag, attributes["id"])
     if tag == "node":
-        one.latitude, one.longitude = _degrees(one, attributes, "lat", 90.0), _degrees(one, attributes, "lon", 180.0)
-    return one
+        element.latitude, element.longitude = (
+            _degrees(element, attributes, "lat", 90.0),
+            _degrees(element, attributes, "lon", 180.0),
+        )
+    return element
 
 
-def _degrees(one: Element, attributes: dict[str, str], key: str, most: float) -> float:
+def _degrees(element: Element, attributes: dict[str, str], key: str, most: float) -> float:
     try:
         value = float(attributes.get(key, "nothing"))
     except ValueError:
         value = float("nan")
     if not (isfinite(value) and abs(value) <= most):
-        raise FloorPlanError(f"{one.name}: its {key} is {attributes.get(key, 'missing')[:40]!r}, not degrees")
+        raise FloorPlanError(f"{element.name}: its {key} is {attributes.get(key, 'missing')[:40]!r}, not degrees")
     return value
 
 
-def _add_child(one: Element, tag: str, attributes: dict[str, str]) -> None:
+def _add_child(element: Element, tag: str, attributes: dict[str, str]) -> None:
     if tag == "tag":
-        one.tags[attributes.get("k", "")] = attributes.get("v", "")
-    elif tag == "nd" and one.kind == "way":
-        one.refs.append(attributes.get("ref", ""))
-    elif tag == "member" and one.kind == "relation":
-        one.members.append((attributes.get("type", ""), attributes.get("ref", ""), attributes.get("role", "")))
+        element.tags[attributes.get("k", "")] = attributes.get("v", "")
+    elif tag == "nd" and element.kind == "way":
+        element.refs.append(attributes.get("ref", ""))
+    elif tag == "member" and element.kind == "relation":
+        element.members.append((attributes.get("type", ""), attributes.get("ref", ""), attributes.get("role", "")))
 
 
 Refs = list[str]
 
-MOST_MEMBERS = 2000
+MAX_MEMBERS = 2000
 
 
-def shapes_of(one: Element, file: OsmFile) -> tuple[list[list[Refs]], list[Refs]]:
+def find_shapes(element: Element, file: OsmFile) -> tuple[list[list[Refs]], list[Refs]]:
     """Return the closed shapes of a way or a relation, and its lines that do not close.
 
-    A shape is an outline and then its holes, rings that do not repeat their first node. Raises FloorPlanError when a
-    part of it is not in the file."""
-    if one.kind == "way":
-        return _split_closed([_find_refs(one, file)])
+    A shape is an outline followed by its holes, rings that do not repeat their first node. Raises FloorPlanError when a
+    way or node of the element is not in the file."""
+    if element.kind == "way":
+        return _split_closed([_find_refs(element, file)])
     outer: list[Refs] = []
     inner: list[Refs] = []
-    if len(one.members) > MOST_MEMBERS:
-        raise FloorPlanError(f"{one.name}: has more than {MOST_MEMBERS} members")
-    for kind, ref, role in one.members:
+    if len(element.members) > MAX_MEMBERS:
+        raise FloorPlanError(f"{element.name}: has more than {MAX_MEMBERS} members")
+    for kind, ref, role in element.members:
         if kind != "way":
             continue
         if ref not in file.ways:
-            raise FloorPlanError(f"{one.name}: its way {ref[:40]!r} is not in the file")
+            raise FloorPlanError(f"{element.name}: its way {ref[:40]!r} is not in the file")
         (inner if role == "inner" else outer).append(_find_refs(file.ways[ref], file))
     shapes, lines = _split_closed(_join_chains(outer))
     holes, open_holes = _split_closed(_join_chains(inner))
@@ -171,19 +175,19 @@ def _split_closed(chains: list[Refs]) -> tuple[list[list[Refs]], list[Refs]]:
 
 
 def _join_chains(ways: list[Refs]) -> list[Refs]:
-    """Return ways joined end to end, as far as possible."""
+    """Return chains of nodes, made by joining ways that share an end."""
     remaining = [refs for refs in ways if len(refs) >= 2]
-    done: list[Refs] = []
+    chains: list[Refs] = []
     while remaining:
         chain = remaining.pop(0)
-        grown = True
-        while grown and chain[0] != chain[-1]:
-            grown = False
+        has_grown = True
+        while has_grown and chain[0] != chain[-1]:
+            has_grown = False
             for i, refs in enumerate(remaining):
                 if chain[-1] in (refs[0], refs[-1]):
                     chain = chain + (refs[1:] if refs[0] == chain[-1] else refs[-2::-1])
                     del remaining[i]
-                    grown = True
+                    has_grown = True
                     break
-        done.append(chain)
-    return done
+        chains.append(chain)
+    return chains

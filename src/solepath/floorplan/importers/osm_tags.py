@@ -5,16 +5,16 @@ from __future__ import annotations
 import re
 from math import floor
 
-from ..checks import MOST_LEVELS
+from ..checks import MAX_LEVELS
 from ..plan import ConnectorKind, FloorPlanError
 from .drawing import Border
 from .osm_file import Element
 
 BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "column": Border.SOLID,
            "wall": Border.SOLID}  # fmt: skip
-"""Border by the value of indoor=* (Key:indoor).
+"""Border for each value of indoor=* (OpenStreetMap wiki, Key:indoor).
 
-A conventional room with walls, a walled walkway between rooms, an area without walls, a pillar, a wall."""
+The values mean: a room with walls, a walled walkway between rooms, an area without walls, a pillar, a wall."""
 
 _NUMBER = r"-?\d{1,4}(?:\.\d{1,3})?"
 _RANGE = re.compile(rf"\s*({_NUMBER})\s*(?:-\s*({_NUMBER})\s*)?", re.ASCII)
@@ -24,32 +24,32 @@ _LENGTH = re.compile(r"\s*(\d{1,6}(?:[.,]\d{1,6})?)\s*(m|cm)?\s*", re.ASCII)
 def parse_levels(text: str) -> list[float]:
     """Return the levels in a value of `level` or `repeat_on`, each once, ascending.
 
-    Examples: "0", "-1", "0.5", "0;1", "0-3", "-3--1", "-1;2-4"; of a range its ends and the whole numbers between.
-    Raises FloorPlanError when it has none."""
-    found: set[float] = set()
-    for one in text.split(";"):
-        match = _RANGE.fullmatch(one)
+    Examples: "0", "-1", "0.5", "0;1", "0-3", "-3--1", "-1;2-4". A range gives its ends and the whole numbers between
+    them. Raises FloorPlanError when the text is no list of levels."""
+    levels: set[float] = set()
+    for part in text.split(";"):
+        match = _RANGE.fullmatch(part)
         if match is None:
             raise FloorPlanError(f"{text[:40]!r} tells no levels")
         low = float(match[1])
         high = float(match[2]) if match[2] is not None else low
         low, high = min(low, high), max(low, high)
-        if high - low > MOST_LEVELS:
-            raise FloorPlanError(f"{text[:40]!r} tells more than {MOST_LEVELS} levels")
-        found |= {low + 0.0, high + 0.0, *(float(k) for k in range(floor(low) + 1, floor(high) + 1))}
-    return sorted(found)
+        if high - low > MAX_LEVELS:
+            raise FloorPlanError(f"{text[:40]!r} tells more than {MAX_LEVELS} levels")
+        levels |= {low + 0.0, high + 0.0, *(float(k) for k in range(floor(low) + 1, floor(high) + 1))}
+    return sorted(levels)
 
 
-def levels(one: Element) -> list[float]:
+def levels_of(element: Element) -> list[float]:
     """Return the levels that an element is on, by `level` and `repeat_on`."""
-    found: set[float] = set()
+    levels: set[float] = set()
     for key in ("level", "repeat_on"):
-        if key in one.tags:
+        if key in element.tags:
             try:
-                found.update(parse_levels(one.tags[key]))
+                levels.update(parse_levels(element.tags[key]))
             except FloorPlanError as error:
-                raise FloorPlanError(f"{one.name}: its {key} {error}") from None
-    return sorted(found)
+                raise FloorPlanError(f"{element.name}: its {key} {error}") from None
+    return sorted(levels)
 
 
 def level_id(level: float) -> str:
@@ -57,9 +57,9 @@ def level_id(level: float) -> str:
     return f"{level:g}"
 
 
-def connector_kind(one: Element) -> ConnectorKind | None:
-    """Return whether the element is a lift or stairs, None for neither; escalators are stairs."""
-    tags = one.tags
+def connector_kind(element: Element) -> ConnectorKind | None:
+    """Return whether the element is an elevator or stairs, None for neither; escalators are stairs."""
+    tags = element.tags
     if tags.get("highway") == "elevator" or tags.get("room") == "elevator" or tags.get("elevator") == "yes":
         return ConnectorKind.LIFT
     if tags.get("highway") == "steps" or tags.get("room") == "stairs" or tags.get("stairs") == "yes":
@@ -67,25 +67,25 @@ def connector_kind(one: Element) -> ConnectorKind | None:
     return None
 
 
-def is_door(one: Element) -> bool:
-    """Return whether it is a door, an entrance, or a gap to walk through."""
-    tags = one.tags
+def is_door(element: Element) -> bool:
+    """Return whether the element is a door, an entrance, or a gap to walk through."""
+    tags = element.tags
     return tags.get("indoor") == "door" or any(tags.get(key, "no") != "no" for key in ("door", "entrance"))
 
 
-def is_indoor(one: Element) -> bool:
-    """Return whether it draws something inside a building."""
-    known = one.tags.get("indoor") in (*BORDERS, "level") or connector_kind(one) is not None or is_door(one)
-    return known and ("level" in one.tags or "repeat_on" in one.tags)
+def is_indoor(element: Element) -> bool:
+    """Return whether the element draws something inside a building, on known levels."""
+    draws = element.tags.get("indoor") in (*BORDERS, "level") or connector_kind(element) is not None or is_door(element)
+    return draws and ("level" in element.tags or "repeat_on" in element.tags)
 
 
-def label(one: Element) -> str:
-    """Return its name or number, "" when it has none."""
-    return one.tags.get("name") or one.tags.get("ref") or ""
+def label_of(element: Element) -> str:
+    """Return the name or number of the element, "" when it has none."""
+    return element.tags.get("name") or element.tags.get("ref") or ""
 
 
 def parse_length(text: str | None) -> float | None:
-    """Return a length in m ("0.9", "1.2 m", "90 cm"); None when the text is none."""
+    """Return the length in a text ("0.9", "1.2 m", "90 cm"), m; None for any other text."""
     match = _LENGTH.fullmatch(text) if text is not None else None
     if match is None:
         return None

@@ -1,6 +1,6 @@
-"""Floor plan files; their format is recognised by their content.
+"""Reader of floor plan files, which recognises the format by the content.
 
-The readers of the formats, and the libraries that they need, are loaded with the first file: most apps read none."""
+The readers of the formats and their libraries are loaded with the first file, since most apps read none."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from pathlib import Path
 from ..checks import unusable
 from ..plan import FloorPlan, FloorPlanError
 
-LARGEST = 32_000_000
-"""Largest file, and largest unpacked total of an archive, bytes; a large airport has a tenth of that."""
+MAX_FILE_SIZE = 32_000_000
+"""Largest size of a file and of all unpacked files of an archive, bytes; a large airport has a tenth of that."""
 
-STOREY = 3.0
+DEFAULT_STOREY_HEIGHT = 3.0
 """Assumed height from one level to the next, m, for a file without elevations."""
 
 
-def read_floorplan(path: Path | str, storey: float = STOREY) -> FloorPlan:
+def read_floorplan(path: Path | str, storey: float = DEFAULT_STOREY_HEIGHT) -> FloorPlan:
     """Return the plan in a file.
 
     The file is GeoJSON of protocol/floorplan.md, an IMDF archive (a zip file or a folder), or OpenStreetMap XML with
-    Simple Indoor Tagging. `storey` is the height from one level to the next, m, where the file has no elevations; such
-    a plan's `heights_known` is False. Raises FloorPlanError, one line, when it cannot be read or used."""
+    Simple Indoor Tagging. `storey` is the assumed height from one level to the next, m, for a file without elevations;
+    then `heights_known` of the plan is False. Raises FloorPlanError, with one line, when it cannot be read or used."""
     try:
         return _check(_read(Path(path), storey))
     except FloorPlanError as error:
@@ -31,7 +31,7 @@ def read_floorplan(path: Path | str, storey: float = STOREY) -> FloorPlan:
         raise FloorPlanError(f"{path}: {error.strerror or error}") from None
 
 
-def plan_of_bytes(data: bytes, storey: float = STOREY) -> FloorPlan:
+def plan_of_bytes(data: bytes, storey: float = DEFAULT_STOREY_HEIGHT) -> FloorPlan:
     """Return the plan in a file's bytes; raise FloorPlanError when there is none that can be used."""
     return _check(_plan(data, storey))
 
@@ -56,9 +56,9 @@ def _read(path: Path, storey: float) -> FloorPlan:
 
 def _read_bounded(path: Path) -> bytes:
     with path.open("rb") as file:
-        data = file.read(LARGEST + 1)
-    if len(data) > LARGEST:
-        raise FloorPlanError(f"is larger than {LARGEST // 1_000_000} MB, too large for a floor plan")
+        data = file.read(MAX_FILE_SIZE + 1)
+    if len(data) > MAX_FILE_SIZE:
+        raise FloorPlanError(f"is larger than {MAX_FILE_SIZE // 1_000_000} MB, too large for a floor plan")
     return data
 
 
@@ -69,7 +69,7 @@ def _plan(data: bytes, storey: float) -> FloorPlan:
     if not 1.0 <= storey <= 50.0:
         raise FloorPlanError(f"a storey of {storey:g} m cannot be")
     if data.startswith(b"PK"):
-        return imdf.read_archive(_unpacked(data), storey)
+        return imdf.read_archive(_unpack(data), storey)
     first_byte = data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
     if first_byte == b"<" or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return osm.read_osm(data, storey)
@@ -86,8 +86,8 @@ def _plan(data: bytes, storey: float) -> FloorPlan:
     raise FloorPlanError("is JSON, but not a floor plan")
 
 
-def _unpacked(data: bytes) -> dict[str, bytes]:
-    """Return the files that are read, from any folder of the archive, and no more of them than LARGEST."""
+def _unpack(data: bytes) -> dict[str, bytes]:
+    """Return the needed files, from any folder of the archive; raise FloorPlanError beyond MAX_FILE_SIZE unpacked."""
     import zipfile
     import zlib
 
@@ -98,20 +98,22 @@ def _unpacked(data: bytes) -> dict[str, bytes]:
             names = set(archive.namelist())
             manifests = [name for name in sorted(names) if name.rsplit("/", 1)[-1] == "manifest.json"]
             folder = min(manifests, key=len, default="manifest.json").removesuffix("manifest.json")
-            found: dict[str, bytes] = {}
-            bytes_left = LARGEST
+            files: dict[str, bytes] = {}
+            bytes_left = MAX_FILE_SIZE
             for name in imdf.FILES:
                 if folder + name not in names:
                     continue
-                about = archive.getinfo(folder + name)
-                if about.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                info = archive.getinfo(folder + name)
+                if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
                     raise FloorPlanError(f"{name}: is packed in a way that IMDF does not know")
-                with archive.open(about) as file:
-                    found[name] = file.read(bytes_left + 1)
-                bytes_left -= len(found[name])
+                with archive.open(info) as file:
+                    files[name] = file.read(bytes_left + 1)
+                bytes_left -= len(files[name])
                 if bytes_left < 0:
-                    raise FloorPlanError(f"unpacked it is larger than {LARGEST // 1_000_000} MB, too large for a plan")
-            return found
+                    raise FloorPlanError(
+                        f"unpacked it is larger than {MAX_FILE_SIZE // 1_000_000} MB, too large for a plan"
+                    )
+            return files
     except FloorPlanError:
         raise
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, ValueError, OSError) as error:
