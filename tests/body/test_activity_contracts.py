@@ -13,7 +13,7 @@ from views import fed
 from solepath import Session
 from solepath.body.activity.activities import Activities, ActivitiesSettings
 from solepath.body.activity.features import COUNT, GYRO
-from solepath.body.activity.motion import MOTIONS, from_json, shipped, to_json
+from solepath.body.activity.motion import MOTIONS, from_json, load_released_model, to_json
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -100,21 +100,21 @@ def test_a_clock_that_restarts_is_followed() -> None:
 def test_the_probabilities_of_the_network_add_up_to_one(features: list[float]) -> None:
     from math import exp, isclose
 
-    model = shipped()
+    model = load_released_model()
     likely = model.log_probabilities(features)
     assert len(likely) == len(MOTIONS) and isclose(sum(exp(one) for one in likely), 1.0, rel_tol=1e-9)
     assert model.strangeness(features) >= 0.0
 
 
 def test_a_foot_without_a_gyroscope_is_judged_by_its_accelerometer_alone() -> None:
-    model, acc = shipped(), [0.1] * GYRO
+    model, acc = load_released_model(), [0.1] * GYRO
     unknown = model.log_probabilities([*acc, 0.0, *[0.3] * (COUNT - GYRO - 1)])
     assert unknown == model.alone.log_probabilities(acc)
     assert unknown != model.log_probabilities([*acc, 1.0, *[0.3] * (COUNT - GYRO - 1)])
 
 
 def test_a_model_goes_through_its_file_and_a_snapshot() -> None:
-    model = shipped()
+    model = load_released_model()
     assert from_json(json.loads(json.dumps(to_json(model)))) == model
     part = Activities(ActivitiesSettings(model))
     assert machine.load(Activities, machine.save(part)) == part
