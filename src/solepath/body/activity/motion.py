@@ -93,7 +93,7 @@ class MotionModel:
         return (self.whole if features[GYRO] else self.alone).log_probabilities(features)
 
     def strangeness(self, features: Sequence[float]) -> float:
-        """Return the mean squared deviation from the nearest motion: 1 is usual; 4 is two deviations in each feature."""
+        """Return the mean squared deviation from the nearest motion; 1 is usual, 4 is two deviations everywhere."""
         inputs = features[:GYRO]
         distances = [
             dist(tuple(map(truediv, inputs, spread)), middle)

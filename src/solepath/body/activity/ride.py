@@ -146,10 +146,8 @@ class ElevatorEvidence:
             walked = levels
         if excess is None:
             return walked, 0.0
-        near, far = (
-            _density(excess[0], excess[1] + 1.0),
-            _density(excess[0], excess[1] + MOVING_OUTLIER * MOVING_OUTLIER),
-        )
+        near = _density(excess[0], excess[1] + 1.0)
+        far = _density(excess[0], excess[1] + MOVING_OUTLIER * MOVING_OUTLIER)
         return walked, log((1.0 - MOVING_OUTLIER_SHARE) * near + MOVING_OUTLIER_SHARE * far + LEAST_DENSITY)
 
     def estimate_acceleration(self, levels: RestLevels) -> tuple[float, float] | None:
