@@ -12,7 +12,7 @@ from attrs import evolve
 from solepath import recipes
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.fuse.corridor import Corridor
-from solepath.body.fuse.error_filter import HEADING, RATE, STATES, TrackErrorFilter, X, Y
+from solepath.body.fuse.error_filter import HEADING, RATE, STATES_PER_FOOT, TrackErrorFilter, X, Y
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
 from solepath.emulate.routes.route import Route
@@ -137,19 +137,19 @@ def _agreement() -> TrackErrorFilter:
 
 def test_a_measured_difference_is_shared_and_never_moves_both_feet_alike() -> None:
     error_filter = _agreement()
-    found = error_filter.correct([(STATES + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
+    found = error_filter.correct([(STATES_PER_FOOT + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
     assert found is not None
     for one in (HEADING, RATE):
-        assert found[one] * found[STATES + one] < 0.0
-        assert abs(found[one] + found[STATES + one]) < 0.2 * abs(found[one] - found[STATES + one])
+        assert found[one] * found[STATES_PER_FOOT + one] < 0.0
+        assert abs(found[one] + found[STATES_PER_FOOT + one]) < 0.2 * abs(found[one] - found[STATES_PER_FOOT + one])
 
 
 def test_a_foot_whose_stride_was_spoilt_gives_way() -> None:
     error_filter = _agreement()
     error_filter.inflate(0, 2.0)
-    found = error_filter.correct([(STATES + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
+    found = error_filter.correct([(STATES_PER_FOOT + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
     assert found is not None
-    assert found[X] < -0.8 and abs(found[STATES + X]) < 0.1
+    assert found[X] < -0.8 and abs(found[STATES_PER_FOOT + X]) < 0.1
 
 
 def test_the_covariance_stays_one() -> None:
@@ -160,7 +160,7 @@ def test_the_covariance_stays_one() -> None:
         error_filter.propagate(
             k % 2, 0.5, 0.5, end, (1.3 * cos(angle), -1.3 * sin(angle)), (1e-4, 0.0, 1e-4), k % 37 == 0
         )
-        error_filter.correct([(STATES + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
+        error_filter.correct([(STATES_PER_FOOT + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
         p = error_filter.covariance
         assert min(p[i][i] for i in range(9)) >= 0.0
         assert all(abs(p[i][j] - p[j][i]) <= 1e-9 * (1.0 + p[i][i] + p[j][j]) for i in range(9) for j in range(i))
