@@ -17,7 +17,7 @@ from walks import LEFT, RIGHT, SHORT, of, samples
 from solepath import Recipe, Session, recipes
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
-from solepath.body.worn.sides import Average
+from solepath.body.worn.sides import RunningAverage
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
@@ -198,7 +198,7 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
     sides = session._state.wearer.find_attribute("sides")
     assert sides.left.declared and sides.right.declared
     assert not sides.left.turned.rows and not sides.right.turned.rows, "what their feet do need not be remembered"
-    sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)
+    sides.left.roll = sides.right.roll = RunningAverage(count=24, mean=0.2)
     assert not sides._agree()
 
 
@@ -259,11 +259,11 @@ def test_a_session_saved_at_any_moment_continues_with_the_same_events_and_positi
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=60), st.floats(-5.0, 5.0))
 def test_an_average_is_a_number_between_the_lowest_and_the_highest(values: list[float], limit: float) -> None:
-    average = Average()
+    average = RunningAverage()
     for value in values:
         average.add(value)
     assert min(values) - 1e-9 <= average.mean <= max(values) + 1e-9
     assert average.variance >= 0.0
     assert not average.exceeds(max(values), 1)
     assert not average.exceeds(limit, len(values) + 1)
-    assert machine.load(Average, machine.save(average)) == average
+    assert machine.load(RunningAverage, machine.save(average)) == average
