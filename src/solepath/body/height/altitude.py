@@ -82,7 +82,7 @@ class HeightEstimate:
         self.covariance[0] = min(self.covariance[0] + variance, UNKNOWN_VARIANCE)
 
     def read(self, source: int, t: float, height: float, noise: float, wander: float) -> None:
-        """Correct the estimate with a reading: `height`, m, is the barometer's height minus the height of the foot's track.
+        """Correct the estimate with `height`, m: the height by the barometer minus the height of the track.
 
         `noise` is the variance of the reading, m^2, and `wander` the growth of the offset's variance, m^2/s."""
         x, p, i = self.values, self.covariance, 1 + source
@@ -178,7 +178,7 @@ class Altitude(Part):
         return self._add_input((t, source, height, self.noise))
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Add the variance of a stride to the correction, or replace a ride by the same ride with its likeliest height."""
+        """Add the variance of a stride to the correction, or replace a ride by one with its likeliest height."""
         if isinstance(event, StrideTaken):
             return self._add_stride(event)
         if isinstance(event, LiftRidden):

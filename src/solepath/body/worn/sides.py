@@ -54,7 +54,7 @@ MIN_STRIDE_LENGTH = 0.4
 """Length of the shortest stride that counts, m."""
 MAX_HEADING_CHANGE = 0.35
 """Largest heading change of a stride that counts, rad."""
-CENTRE_OF_PRESSURE_INTERVAL = 0.05
+CENTRE_INTERVAL = 0.05
 """Shortest interval between two values of the centre of pressure, s."""
 MAX_CENTRES = 40
 """Largest number of values of the centre of pressure that are kept."""
@@ -237,8 +237,8 @@ def _forward_axis(left: Vec3, up: Vec3) -> Vec3 | None:
 
 
 def _add_centre(side: SwapEvidence, t: float, centre: tuple[float, float] | None) -> None:
-    """Add the centre of pressure of an insole without an inertial sensor, at most every `CENTRE_OF_PRESSURE_INTERVAL`."""
-    if side.centre_at is not None and 0.0 <= t - side.centre_at < CENTRE_OF_PRESSURE_INTERVAL:
+    """Add the centre of pressure of an insole without an inertial sensor, at most every `CENTRE_INTERVAL`."""
+    if side.centre_at is not None and 0.0 <= t - side.centre_at < CENTRE_INTERVAL:
         return
     side.centre_at = t
     if centre is None:
