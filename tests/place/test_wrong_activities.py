@@ -25,7 +25,7 @@ from floors import (
 )
 
 from solepath import Activity, LiftRidden, TurnMade
-from solepath.body.place.rows import rounded
+from solepath.body.place.rows import round_rows
 from solepath.floorplan.index import IndexedPlan
 
 NEAR = 3.5
@@ -153,7 +153,7 @@ def test_a_ride_over_a_storey_of_another_height_than_guessed_ends_on_the_next_le
 
 def test_rows_are_kept_to_three_digits_and_no_less_when_they_are_kept_again() -> None:
     rows = [(10.0 + k, 2.0 * k, cos(0.1 * k), sin(0.1 * k), 1.0 / (1 + k), k % 3, k % 2, 0) for k in range(40)]
-    again = rounded(rows)
+    again = round_rows(rows)
     for before, after in zip(rows, again, strict=True):
         assert after[:5] == pytest.approx(before[:5], rel=1e-3, abs=1e-3) and after[5:] == before[5:]
-    assert rounded(again) == again and rounded([]) == []
+    assert round_rows(again) == again and round_rows([]) == []
