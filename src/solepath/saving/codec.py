@@ -1,6 +1,6 @@
 """Saving and restoring as JSON: a record becomes an object of its fields (schema.py defines the types of fields).
 
-Tuples, lists and deques become lists, a deque with a maxlen {"maxlen": maxlen, "is": list}, an open record {"kind": name
+Tuples, lists and deques become lists, a deque with a maxlen {"maxlen": n, "is": list}, an open record {"kind": name
 of the class, "is": fields}, an enum member its value, and bytes a base64 string. Loaded values are checked against the
 annotations. A "saver" turns a value into JSON, a "loader" reads it; a "codec" here is the pair of both."""
 

@@ -164,15 +164,15 @@ class Activities(ActivityPart):
         sides = (self.left, self.right)
         features = [side.features(index, t + 0.5 * BLOCK) for side in sides]
         pressure_height = self.pressure_height
-        pressure_scores = pressure_height.score_slope(index, BLOCK) if pressure_height.blocks else NO_EVIDENCE
+        climbs = pressure_height.score_slope(index, BLOCK) if pressure_height.blocks else NO_EVIDENCE
         self.hypotheses.update(
             BlockEvidence(
                 t=t,
-                motion_scores=motion_votes(model, features),
+                motions=motion_votes(model, features),
                 forces=tuple([block_force(side.block(index), side.resolution) for side in sides]),
-                pressure_scores=pressure_scores,
-                height_before=pressure_height.height(index - 3, index - 1),
-                height_after=pressure_height.height(index, index + REACH),
+                climbs=climbs,
+                before=pressure_height.height(index - 3, index - 1),
+                after=pressure_height.height(index, index + REACH),
             ),
             model.chain,
         )

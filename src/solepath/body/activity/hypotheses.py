@@ -85,15 +85,15 @@ class BlockEvidence:
     """The evidence of the block that starts at `t`, s."""
 
     t: float
-    motion_scores: tuple[float, ...]
+    motions: tuple[float, ...]
     """Log-likelihoods of STAND, WALK, RUN, UP, DOWN and UNKNOWN by the motion of the feet (motion.py)."""
     forces: tuple[BlockForce | None, ...]
     """Force on the left and on the right foot."""
-    pressure_scores: tuple[float, ...]
+    climbs: tuple[float, ...]
     """Log-likelihood of each state by the air pressure."""
-    height_before: float | None
+    before: float | None
     """Height just before the block by the air pressure, m above any reference."""
-    height_after: float | None
+    after: float | None
     """Height just after the block by the air pressure, m above the same reference."""
 
 
@@ -198,9 +198,9 @@ def _score(token: Token) -> float:
 def _settled_by(path: Sequence[ActivitySegment], now: float) -> float:
     """Return the time up to which all segments are settled because of their age, s."""
     old = now - MAX_OPEN_TIME
-    for before, after in pairwise(path):
-        if before.activity in ELEVATOR_ACTIVITIES and now - after.t >= RIDE_SETTLING_TIME:
-            old = max(old, after.t)
+    for segment, successor in pairwise(path):
+        if segment.activity in ELEVATOR_ACTIVITIES and now - successor.t >= RIDE_SETTLING_TIME:
+            old = max(old, successor.t)
     return old
 
 
@@ -240,7 +240,7 @@ def _score_course(
     else:
         levels, log_likelihood = elevator.add_walking(levels)
     return (
-        score + start_score + block.motion_scores[motion] + log_likelihood + block.pressure_scores[state],
+        score + start_score + block.motions[motion] + log_likelihood + block.climbs[state],
         state,
         token,
         levels,
@@ -263,14 +263,14 @@ def _extend_course(
     if path:
         last = path[-1]
         if token.state in RIDE_STATES and state not in RIDE_STATES:
-            ended = ActivitySegment(last.t, last.activity, last.detected_at, t, ride.height_gain(block.height_after))
+            ended = ActivitySegment(last.t, last.activity, last.detected_at, t, ride.height_gain(block.after))
             path = (*path[:-1], ended)
             ride = ride.end()
         t = max(t + chain.shift[token.state][state], last.t + TIE)
     if state in RIDE_STATES:
         has_first_pulse = state in PULSE_SIGNS and bool(path)
         return (*path, ActivitySegment(t, activity, block.t)), ride.start(
-            has_first_pulse, block.height_before, levels, acceleration, BLOCK
+            has_first_pulse, block.before, levels, acceleration, BLOCK
         )
     path = (*path, ActivitySegment(t, activity))
     if state == STAND:
