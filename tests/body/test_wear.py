@@ -201,7 +201,7 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
         "what their feet do need not be remembered"
     )
     sides.left.roll = sides.right.roll = RunningAverage(count=24, mean=0.2)
-    assert not sides._agree()
+    assert not sides._both_look_swapped()
 
 
 def test_layouts_of_the_other_foot_on_both_sides_are_reported_after_a_stride() -> None:
