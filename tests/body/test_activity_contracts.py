@@ -13,7 +13,7 @@ from views import fed
 from solepath import Session
 from solepath.body.activity.activities import Activities, ActivitiesSettings
 from solepath.body.activity.features import COUNT, GYRO
-from solepath.body.activity.motion import MOTIONS, from_json, shipped, to_json
+from solepath.body.activity.motion import MOTIONS, from_json, load_released_model, to_json
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -36,7 +36,7 @@ moments = st.tuples(
 )
 
 
-class Wearing:
+class WornPart:
     """The part with both feet's trackers, as a session holds them."""
 
     def __init__(self) -> None:
@@ -64,34 +64,34 @@ def walk() -> tuple[Sample, ...]:
 @given(st.lists(moments, max_size=60))
 @settings(max_examples=25)
 def test_whatever_the_samples_are_events_come_in_their_time_and_the_state_can_be_saved(rows: list[tuple]) -> None:  # type: ignore[type-arg]
-    wearing, t = Wearing(), 0.0
-    for dt, foot, acc, gyro, pressure, again in rows:
-        for _ in range(again):
+    worn, t = WornPart(), 0.0
+    for dt, foot, acc, gyro, pressure, repetitions in rows:
+        for _ in range(repetitions):
             t += dt
             sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc, gyro=gyro, air_pressure=pressure)
-            for event in wearing.feed(sample):
+            for event in worn.feed(sample):
                 assert event.known_at >= event.t
-    wearing.restore()
-    assert all(event.known_at >= event.t for event in wearing.part.finish(t))
+    worn.restore()
+    assert all(event.known_at >= event.t for event in worn.part.finish(t))
 
 
 def test_after_a_long_gap_nobody_knows_what_was_done_in_it() -> None:
-    wearing = Wearing()
+    worn = WornPart()
     events: list[Event] = []
-    for away in (0.0, 60.0):
+    for t_offset in (0.0, 60.0):
         for sample in walk():
-            events += wearing.feed(Sample(t=sample.t + away, site=sample.site, acc=sample.acc, gyro=sample.gyro))
+            events += worn.feed(Sample(t=sample.t + t_offset, site=sample.site, acc=sample.acc, gyro=sample.gyro))
     assert "UNKNOWN" in [event.activity.name for event in events if isinstance(event, ActivityChanged)]
 
 
 def test_a_clock_that_restarts_is_followed() -> None:
-    wearing = Wearing()
+    worn = WornPart()
     for sample in walk():
-        wearing.feed(Sample(t=sample.t + 1000.0, site=sample.site, acc=sample.acc, gyro=sample.gyro))
-    for foot, tracker in wearing.feet.items():
+        worn.feed(Sample(t=sample.t + 1000.0, site=sample.site, acc=sample.acc, gyro=sample.gyro))
+    for foot, tracker in worn.feet.items():
         tracker.reset()
-        wearing.part.reset(SITE_OF_FOOT[foot])
-    events = [event for sample in walk() for event in wearing.feed(sample)]
+        worn.part.reset(SITE_OF_FOOT[foot])
+    events = [event for sample in walk() for event in worn.feed(sample)]
     assert events and all(event.t < 100.0 for event in events)
 
 
@@ -100,21 +100,21 @@ def test_a_clock_that_restarts_is_followed() -> None:
 def test_the_probabilities_of_the_network_add_up_to_one(features: list[float]) -> None:
     from math import exp, isclose
 
-    model = shipped()
+    model = load_released_model()
     likely = model.log_probabilities(features)
     assert len(likely) == len(MOTIONS) and isclose(sum(exp(one) for one in likely), 1.0, rel_tol=1e-9)
     assert model.strangeness(features) >= 0.0
 
 
 def test_a_foot_without_a_gyroscope_is_judged_by_its_accelerometer_alone() -> None:
-    model, acc = shipped(), [0.1] * GYRO
+    model, acc = load_released_model(), [0.1] * GYRO
     unknown = model.log_probabilities([*acc, 0.0, *[0.3] * (COUNT - GYRO - 1)])
     assert unknown == model.alone.log_probabilities(acc)
     assert unknown != model.log_probabilities([*acc, 1.0, *[0.3] * (COUNT - GYRO - 1)])
 
 
 def test_a_model_goes_through_its_file_and_a_snapshot() -> None:
-    model = shipped()
+    model = load_released_model()
     assert from_json(json.loads(json.dumps(to_json(model)))) == model
     part = Activities(ActivitiesSettings(model))
     assert machine.load(Activities, machine.save(part)) == part

@@ -15,7 +15,7 @@ from solepath.foot.tracker import FootTracker
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 
 RATE = 50.0
-OFF = {Foot.LEFT: 0.4, Foot.RIGHT: -0.3}
+ACC_ERROR = {Foot.LEFT: 0.4, Foot.RIGHT: -0.3}
 """Error that each foot's accelerometer adds to 1 g, m/s^2."""
 
 
@@ -37,7 +37,7 @@ def standing_events(
         for foot, tracker in feet.items():
             shake = (6.0 * sin(31.0 * t) if shuffling else 0.0) + 0.02 * sin(1000.0 * t)
             turn = 1.5 * sin(31.0 * t) if shuffling else 0.0
-            up = 9.80665 + OFF[foot] + lift(t) + shake
+            up = 9.80665 + ACC_ERROR[foot] + lift(t) + shake
             sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.02, 0.0, up), gyro=(0.001, turn, 0.0))
             events += fed(part, tracker, sample, tracker.feed(sample))
     return events + part.finish(until)
@@ -77,16 +77,16 @@ def test_a_ride_is_found_whose_first_pulse_was_lost_in_shuffling_feet() -> None:
 
 
 def test_doors_take_their_time_so_two_rides_are_not_one() -> None:
-    found = rides(
+    rides_found = rides(
         standing_events(
             lambda t: pulse(t, 10.0, 0.6) - pulse(t, 15.0, 0.6) + pulse(t, 27.0, 0.6) - pulse(t, 32.0, 0.6), 60.0
         )
     )
-    assert [ride.up for ride in found] == [True, True]
+    assert [ride.up for ride in rides_found] == [True, True]
 
 
 def test_standing_that_may_still_be_a_ride_is_not_final_at_once() -> None:
     events = standing_events(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6), 40.0)
-    lifted = [event for event in events if isinstance(event, ActivityChanged)]
-    riding = [event for event in lifted if event.activity is Activity.ELEVATOR_UP]
+    changes = [event for event in events if isinstance(event, ActivityChanged)]
+    riding = [event for event in changes if event.activity is Activity.ELEVATOR_UP]
     assert not riding[0].final and riding[-1].final and riding[0].known_at < 14.0

@@ -25,7 +25,7 @@ HOUSE = (
 CELLAR = (
     Route().stand(3.0).walk(6.0, 1.2).stairs(12, up=False).walk(6.0).turn(radians(90)).lift(3.4).walk(5.0).stand(3.0)
 )
-ACTIVITIES = 0.9
+CORRECT_SHARE = 0.9
 """Share of the time that must be right.
 
 A ride is dated from its first jerk until its doors open, and a wearer who halts has one foot still while the other
@@ -40,12 +40,12 @@ def walker(route: Route) -> Walker:
 
 @cache
 def samples(route: Route, rate: float) -> tuple[Sample, ...]:
-    found = [one for foot in Foot for one in walker(route).samples(foot, rate, LSM6DSOX)]
-    return tuple(sorted(found, key=lambda one: one.t))
+    samples_found = [sample for foot in Foot for sample in walker(route).samples(foot, rate, LSM6DSOX)]
+    return tuple(sorted(samples_found, key=lambda sample: sample.t))
 
 
 @cache
-def tagged() -> EmulatedWalk:
+def sensortag_walk() -> EmulatedWalk:
     """Return a walk with two of the older SensorTags, at 20 Hz, with barometers."""
     return emulate(HOUSE, devices={Site.LEFT_FOOT: CC2541(rate=20.0), Site.RIGHT_FOOT: CC2541(rate=20.0)}, seed=5)
 
@@ -60,7 +60,7 @@ def run(items: tuple[Sample, ...] | tuple[Packet, ...]) -> tuple[list[Event], Ti
     return events, timeline
 
 
-def right(timeline: Timeline, route: Route) -> float:
+def correct_share(timeline: Timeline, route: Route) -> float:
     """Return the share of the time for which the timeline has the truth, without the last two seconds."""
     truth = walker(route).truth()
     times = [0.1 * k for k in range(int(10.0 * (truth.duration - 2.0)))]
@@ -70,22 +70,22 @@ def right(timeline: Timeline, route: Route) -> float:
 @pytest.mark.parametrize(("route", "rate"), [(HOUSE, 100.0), (HOUSE, 20.0), (CELLAR, 50.0)])
 def test_standing_walking_running_stairs_and_lifts_are_reported(route: Route, rate: float) -> None:
     _, timeline = run(samples(route, rate))
-    assert right(timeline, route) >= ACTIVITIES
+    assert correct_share(timeline, route) >= CORRECT_SHARE
 
 
 def test_one_foot_is_enough() -> None:
-    left = tuple(one for one in samples(HOUSE, 100.0) if one.site is Site.LEFT_FOOT)
+    left = tuple(sample for sample in samples(HOUSE, 100.0) if sample.site is Site.LEFT_FOOT)
     _, timeline = run(left)
-    assert right(timeline, HOUSE) >= ACTIVITIES - 0.05
+    assert correct_share(timeline, HOUSE) >= CORRECT_SHARE - 0.05
 
 
 def test_feet_without_gyroscopes_still_show_standing_moving_and_lifts() -> None:
-    events, timeline = run(tuple(attrs.evolve(one, gyro=None) for one in samples(HOUSE, 100.0)))
+    events, timeline = run(tuple(attrs.evolve(sample, gyro=None) for sample in samples(HOUSE, 100.0)))
     truth = walker(HOUSE).truth()
     still = (Activity.STANDING, Activity.ELEVATOR_DOWN)
     times = [0.1 * k for k in range(int(10.0 * (truth.duration - 2.0)))]
-    alike = sum((timeline.at(t) in still) == (truth.activity(t) in still) for t in times) / len(times)
-    assert alike >= ACTIVITIES
+    equal_share = sum((timeline.at(t) in still) == (truth.activity(t) in still) for t in times) / len(times)
+    assert equal_share >= CORRECT_SHARE
     assert [event.up for event in events if isinstance(event, LiftRidden)] == [False]
 
 
@@ -99,7 +99,7 @@ def test_a_ride_is_reported_with_its_times_and_its_height() -> None:
 
 
 def test_a_barometer_measures_the_ride() -> None:
-    events, _ = run(tagged().packets)
+    events, _ = run(sensortag_walk().packets)
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]
     assert not ride.up
     assert ride.height is not None and abs(ride.height + 6.8) < 1.0

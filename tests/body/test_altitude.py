@@ -36,17 +36,17 @@ def pressure(height: float) -> float:
     return STANDARD_PRESSURE * exp(-height / SCALE_HEIGHT)
 
 
-def breathing(walk: SampledWalk, off: float = 0.0) -> list[Sample]:
-    """Return the samples with a good barometer at the foot, read once a second; `off`: its error, m per second."""
+def breathing(walk: SampledWalk, drift: float = 0.0) -> list[Sample]:
+    """Return the samples with a good barometer at the foot, read once a second; `drift`: its error, m per second."""
     read: dict[Site, float] = {}
-    found = []
+    heights_found = []
     for sample in walk.samples:
         if sample.t - read.get(sample.site, -9.0) >= 1.0:
             read[sample.site] = sample.t
             z = float(walk.truth.pose(foot_of(sample), sample.t).position.flat[2])
-            sample = evolve(sample, air_pressure=pressure(z + off * sample.t + 0.1 * sin(77.0 * sample.t)))
-        found.append(sample)
-    return found
+            sample = evolve(sample, air_pressure=pressure(z + drift * sample.t + 0.1 * sin(77.0 * sample.t)))
+        heights_found.append(sample)
+    return heights_found
 
 
 def foot_of(sample: Sample) -> Foot:
@@ -56,12 +56,12 @@ def foot_of(sample: Sample) -> Foot:
 def heights(items: list[Sample], recipe: Recipe = recipes.DEFAULT) -> tuple[list[float], list[LiftRidden]]:
     """Return the height of the wearer with every sample, m, and the rides that were reported."""
     session = Session(recipe)
-    found, rides = [], []
+    heights_found, rides = [], []
     for sample in items:
         rides += [event for event in session.feed(sample) if isinstance(event, LiftRidden)]
-        found.append(height(session))
+        heights_found.append(height(session))
     rides += [event for event in session.finish() if isinstance(event, LiftRidden)]
-    return [*found, height(session)], rides
+    return [*heights_found, height(session)], rides
 
 
 def height(session: Session) -> float:
@@ -73,14 +73,14 @@ def test_after_a_lift_the_wearer_is_as_much_higher_as_it_rode() -> None:
 
 
 def test_with_a_barometer_the_height_after_a_lift_is_within_30_cm() -> None:
-    found, (ride,) = heights(breathing(lift(), off=0.01))
+    heights_found, (ride,) = heights(breathing(lift(), drift=0.01))
     assert ride.height == pytest.approx(RIDE, abs=0.3)
-    assert found[-1] == pytest.approx(RIDE, abs=0.3)
+    assert heights_found[-1] == pytest.approx(RIDE, abs=0.3)
 
 
 def test_without_this_part_a_lift_leaves_the_height_as_it_was() -> None:
-    found, (ride,) = heights(list(lift().samples), BLIND)
-    assert abs(found[-1]) < 0.3 and ride.height is not None
+    heights_found, (ride,) = heights(list(lift().samples), BLIND)
+    assert abs(heights_found[-1]) < 0.3 and ride.height is not None
 
 
 @cache
@@ -191,7 +191,7 @@ def test_inputs_are_kept_to_a_hundredth_of_a_second_and_a_tenth_of_a_millimetre(
 
 
 def test_a_session_in_a_lift_goes_on_from_its_snapshot() -> None:
-    items = breathing(lift(), off=0.01)
+    items = breathing(lift(), drift=0.01)
     half = len(items) // 2
     session = Session()
     session.feed(items[:half])
@@ -210,5 +210,5 @@ def test_any_air_is_survived() -> None:
         t = 1e3 * k if k % 2 else -1e9 * k
         rides = (ride(1e308, 1e-9), ride(None, 0.0))
         outputs += fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), rides)
-    heights = [one for one in outputs if isinstance(one, HeightShift)]
-    assert heights and all([abs(v) < 1e7 for one in heights for v in (one.above, one.variance)])
+    heights = [shift for shift in outputs if isinstance(shift, HeightShift)]
+    assert heights and all([abs(v) < 1e7 for shift in heights for v in (shift.above, shift.variance)])

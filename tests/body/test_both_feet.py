@@ -12,7 +12,7 @@ from attrs import evolve
 from solepath import recipes
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.fuse.corridor import Corridor
-from solepath.body.fuse.error_filter import HEADING, RATE, STATES, TrackErrorFilter, X, Y
+from solepath.body.fuse.error_filter import HEADING, RATE, STATES_PER_FOOT, TrackErrorFilter, X, Y
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
 from solepath.emulate.routes.route import Route
@@ -137,19 +137,19 @@ def _agreement() -> TrackErrorFilter:
 
 def test_a_measured_difference_is_shared_and_never_moves_both_feet_alike() -> None:
     error_filter = _agreement()
-    found = error_filter.correct([(STATES + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
-    assert found is not None
+    errors = error_filter.correct([(STATES_PER_FOOT + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
+    assert errors is not None
     for one in (HEADING, RATE):
-        assert found[one] * found[STATES + one] < 0.0
-        assert abs(found[one] + found[STATES + one]) < 0.2 * abs(found[one] - found[STATES + one])
+        assert errors[one] * errors[STATES_PER_FOOT + one] < 0.0
+        assert abs(errors[one] + errors[STATES_PER_FOOT + one]) < 0.2 * abs(errors[one] - errors[STATES_PER_FOOT + one])
 
 
 def test_a_foot_whose_stride_was_spoilt_gives_way() -> None:
     error_filter = _agreement()
     error_filter.inflate(0, 2.0)
-    found = error_filter.correct([(STATES + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
-    assert found is not None
-    assert found[X] < -0.8 and abs(found[STATES + X]) < 0.1
+    errors = error_filter.correct([(STATES_PER_FOOT + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
+    assert errors is not None
+    assert errors[X] < -0.8 and abs(errors[STATES_PER_FOOT + X]) < 0.1
 
 
 def test_the_covariance_stays_one() -> None:
@@ -160,21 +160,21 @@ def test_the_covariance_stays_one() -> None:
         error_filter.propagate(
             k % 2, 0.5, 0.5, end, (1.3 * cos(angle), -1.3 * sin(angle)), (1e-4, 0.0, 1e-4), k % 37 == 0
         )
-        error_filter.correct([(STATES + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
+        error_filter.correct([(STATES_PER_FOOT + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
         p = error_filter.covariance
         assert min(p[i][i] for i in range(9)) >= 0.0
         assert all(abs(p[i][j] - p[j][i]) <= 1e-9 * (1.0 + p[i][i] + p[j][j]) for i in range(9) for j in range(i))
     assert machine.load(TrackErrorFilter, machine.save(error_filter)) == error_filter
 
 
-def _held(corridor: Corridor, bend: float, strides: int = 120) -> list[tuple[float, float]]:
+def _corridor_corrections(corridor: Corridor, bend: float, strides: int = 120) -> list[tuple[float, float]]:
     """A way of one bend, rad/m, walked at 1.3 m/s with two strides every 1.3 m."""
-    held = []
+    corrections = []
     for k in range(strides):
         start, end = (_along(bend, s) for s in (0.65 * k, 0.65 * k + 1.3))
         one = corridor.add_stride(k % 2, 0.5 * k, start, end, 1.3 * bend)
-        held += [] if one is None else [one]
-    return held
+        corrections += [] if one is None else [one]
+    return corrections
 
 
 def _along(bend: float, s: float) -> tuple[float, float, float]:
@@ -183,23 +183,23 @@ def _along(bend: float, s: float) -> tuple[float, float, float]:
 
 @pytest.mark.parametrize("radius", [-200.0, -60.0, 30.0, 100.0, 200.0])
 def test_a_bend_that_no_gyroscope_drifts_by_is_not_straightened(radius: float) -> None:
-    assert sum(abs(yaw) for yaw, _ in _held(Corridor(), 1.0 / radius)) < radians(2.0)
+    assert sum(abs(yaw) for yaw, _ in _corridor_corrections(Corridor(), 1.0 / radius)) < radians(2.0)
 
 
 @pytest.mark.parametrize("drift", [-0.001, 0.001])
 def test_a_straight_way_that_seems_to_bend_is_turned_back(drift: float) -> None:
-    held = _held(Corridor(), drift / 1.3)
-    assert len(held) > 5
-    assert all(yaw * drift < 0.0 for yaw, _ in held[:3])
+    corrections = _corridor_corrections(Corridor(), drift / 1.3)
+    assert len(corrections) > 5
+    assert all(yaw * drift < 0.0 for yaw, _ in corrections[:3])
 
 
 def test_a_straight_walk_is_not_changed() -> None:
-    assert all(abs(yaw) < 1e-6 for yaw, _ in _held(Corridor(), 1e-9))
+    assert all(abs(yaw) < 1e-6 for yaw, _ in _corridor_corrections(Corridor(), 1e-9))
 
 
 def test_a_corner_starts_a_new_run() -> None:
     corridor = Corridor()
-    _held(corridor, 1e-9, 40)
+    _corridor_corrections(corridor, 1e-9, 40)
     assert corridor.heading is not None
     assert corridor.add_stride(0, 20.5, (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.5 * pi) is None
     assert corridor.heading is None

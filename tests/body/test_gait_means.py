@@ -25,7 +25,7 @@ from solepath import (
     ToeOff,
 )
 from solepath.body.gait.cycles import GaitCycles
-from solepath.body.gait.means import MEMORY, GaitMeans, RunningMean, add
+from solepath.body.gait.means import MEMORY_STRIDES, GaitMeans, RunningMean, add
 from solepath.events import Event
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
@@ -49,8 +49,8 @@ class Walked:
         """Add a sample at `t` s with these events, and return the gait cycles."""
         sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0))
         self.newest[foot] = max(t, self.newest.get(foot, t))
-        found = fed(self.strides, self.feet[foot], sample, events, self.newest.get(OTHER[foot]))
-        return [event for event in found if isinstance(event, GaitCycleMeasured)]
+        cycles = fed(self.strides, self.feet[foot], sample, events, self.newest.get(OTHER[foot]))
+        return [event for event in cycles if isinstance(event, GaitCycleMeasured)]
 
 
 def walked(*feet: Foot) -> Walked:
@@ -58,10 +58,10 @@ def walked(*feet: Foot) -> Walked:
 
 
 def taken(foot: Foot, toe_off: float, struck: float, start: Vec3, end: Vec3) -> StrideTaken:
-    way = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
+    move = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
     return StrideTaken(
         t=struck + 0.1, known_at=struck + 0.1, foot=foot, number=1, t_start=toe_off - 0.3, t_end=struck + 0.1,
-        displacement=way, position=end, length=abs(way[0]), heading_change=0.0, height_change=way[2],
+        displacement=move, position=end, length=abs(move[0]), heading_change=0.0, height_change=move[2],
         covariance=(0.0,) * 6, t_toe_off=toe_off, t_heel_strike=struck, features=StrideFeatures(0.1, 4.0, 1.0),
     )  # fmt: skip
 
@@ -70,26 +70,26 @@ def walk_on(
     on: Walked, count: int, *, step: float = 0.5, late: float = 0.0, length: float | None = None, start: float = 0.0
 ) -> list[GaitCycleMeasured]:
     """Walk on with both feet: the right one comes down `step` after the left one, and `late` s more."""
-    found: list[GaitCycleMeasured] = []
+    cycles: list[GaitCycleMeasured] = []
     for k in range(count):
         foot = L if k % 2 == 0 else R
         struck = start + k * step + (late if foot is R else 0.0)
         cleared = struck - 0.8 * step
-        found += on.add_sample(foot, cleared, ToeOff(t=cleared, known_at=cleared, foot=foot))
-        found += on.add_sample(foot, struck, HeelStrike(t=struck, known_at=struck, foot=foot))
+        cycles += on.add_sample(foot, cleared, ToeOff(t=cleared, known_at=cleared, foot=foot))
+        cycles += on.add_sample(foot, struck, HeelStrike(t=struck, known_at=struck, foot=foot))
         flat: list[Event] = [FootFlat(t=struck + 0.1, known_at=struck + 0.1, foot=foot)]
         if length is not None and k > 1:
             at = (0.5 * k * length, 0.1 if foot is L else -0.05, 0.0)
             flat.append(taken(foot, cleared, struck, (at[0] - length, at[1], 0.0), at))
         for other in on.feet:
-            found += on.add_sample(other, struck + 0.1, *(flat if other is foot else ()))
-    return found
+            cycles += on.add_sample(other, struck + 0.1, *(flat if other is foot else ()))
+    return cycles
 
 
 def test_a_cycle_goes_from_contact_to_contact_and_the_other_foot_divides_it() -> None:
-    found = walk_on(walked(L, R), 8)
-    assert [(stride.foot, stride.t_start, stride.t) for stride in found[:2]] == [(L, 0.0, 1.0), (R, 0.5, 1.5)]
-    for stride in found:
+    cycles = walk_on(walked(L, R), 8)
+    assert [(stride.foot, stride.t_start, stride.t) for stride in cycles[:2]] == [(L, 0.0, 1.0), (R, 0.5, 1.5)]
+    for stride in cycles:
         assert (stride.stride_time, stride.cadence) == (1.0, 120.0)
         assert stride.stance_time == pytest.approx(0.6) and stride.swing_time == pytest.approx(0.4)
         assert stride.step_time == pytest.approx(0.5) and stride.phase == pytest.approx(0.5)
@@ -105,8 +105,8 @@ def test_no_foot_is_cleared_by_less_than_nothing() -> None:
     on.add_sample(L, 0.0, HeelStrike(t=0.0, known_at=0.0, foot=L))
     on.add_sample(L, 0.6, ToeOff(t=0.6, known_at=0.6, foot=L))
     on.add_sample(L, 1.0, HeelStrike(t=1.0, known_at=1.0, foot=L))
-    found = on.add_sample(L, 1.1, FootFlat(t=1.1, known_at=1.1, foot=L), step)
-    assert [stride.clearance for stride in found] == [0.0]
+    cycles = on.add_sample(L, 1.1, FootFlat(t=1.1, known_at=1.1, foot=L), step)
+    assert [stride.clearance for stride in cycles] == [0.0]
 
 
 def test_a_stand_of_more_than_two_seconds_is_no_stride() -> None:
@@ -121,8 +121,8 @@ def test_a_heel_that_comes_down_again_without_the_toe_leaving_is_no_contact() ->
     on = walked(L)
     cues = [(ToeOff, 0.0), (HeelStrike, 0.4), (FootFlat, 0.5), (HeelOff, 0.8), (HeelStrike, 0.9), (FootFlat, 0.95),
                (HeelOff, 1.0), (ToeOff, 1.1), (HeelStrike, 1.5), (FootFlat, 1.6)]  # fmt: skip
-    found = [s for kind, t in cues for s in on.add_sample(L, t, kind(t=t, known_at=t, foot=L))]
-    assert [(stride.t_start, stride.t) for stride in found] == [(0.4, 1.5)]
+    cycles = [s for kind, t in cues for s in on.add_sample(L, t, kind(t=t, known_at=t, foot=L))]
+    assert [(stride.t_start, stride.t) for stride in cycles] == [(0.4, 1.5)]
 
 
 def test_a_stride_waits_for_the_other_foots_samples_but_not_for_ever() -> None:
@@ -156,10 +156,10 @@ def test_a_long_gap_spoils_a_steady_stride_and_a_short_one_does_not() -> None:
 
 def test_the_last_stride_before_a_stop_does_not_count() -> None:
     on = walked(L, R)
-    found = walk_on(on, 12)
+    cycles = walk_on(on, 12)
     left = on.strides.means.of(False)
     assert left is not None and left.feet[L].stride_time is not None
-    assert left.feet[L].stride_time.strides == len([s for s in found if s.foot is L]) - 2
+    assert left.feet[L].stride_time.strides == len([s for s in cycles if s.foot is L]) - 2
 
 
 KINDS = st.sampled_from([HeelStrike, FootFlat, HeelOff, ToeOff, StrideTaken, SampleGap])
@@ -173,22 +173,22 @@ def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
     does: list[tuple[Foot, type, float, float, bool]],
 ) -> None:
     on = walked(L, R)
-    t, off = 0.0, 0.0
-    found: list[Event] = []
+    t, last_toe_off = 0.0, 0.0
+    cycles: list[Event] = []
     for foot, kind, passed, place, inferred in does:
         t += passed
         if kind is StrideTaken:
-            event: Event = taken(foot, off, t, (0.0, 0.0, 0.0), (place, 0.5 * place, 0.1))
+            event: Event = taken(foot, last_toe_off, t, (0.0, 0.0, 0.0), (place, 0.5 * place, 0.1))
         elif kind is SampleGap:
             event = SampleGap(t=t, known_at=t, site=SITE_OF_FOOT[foot], duration=passed)
         else:
             event = kind(t=t, known_at=t, foot=foot, inferred=inferred)
-        off = t if kind is ToeOff else off
-        found += on.add_sample(foot, t, event)
+        last_toe_off = t if kind is ToeOff else last_toe_off
+        cycles += on.add_sample(foot, t, event)
         copy = machine.load(GaitCycles, json.loads(json.dumps(machine.save(on.strides), allow_nan=False)))
         assert copy == on.strides
-    found += on.strides.finish(t)
-    for stride in found:
+    cycles += on.strides.finish(t)
+    for stride in cycles:
         assert isinstance(stride, GaitCycleMeasured)
         assert stride.t_start <= stride.t_toe_off <= stride.t <= stride.known_at
         for one in attrs.fields(GaitCycleMeasured):
@@ -198,11 +198,11 @@ def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
     assert parameters is None or (parameters.cadence or 0.0) > 0.0
 
 
-@given(st.lists(st.floats(-10.0, 10.0), min_size=2, max_size=MEMORY))
+@given(st.lists(st.floats(-10.0, 10.0), min_size=2, max_size=MEMORY_STRIDES))
 def test_up_to_two_minutes_of_walking_mean_and_deviation_are_plain_ones(values: list[float]) -> None:
     running = RunningMean()
     for value in values:
-        add([(running, value)], MEMORY)
+        add([(running, value)], MEMORY_STRIDES)
     assert running.figure.strides == len(values)
     assert running.figure.mean == pytest.approx(mean(values), abs=1e-9)
     assert running.figure.sd == pytest.approx(stdev(values), abs=1e-6)
@@ -211,14 +211,14 @@ def test_up_to_two_minutes_of_walking_mean_and_deviation_are_plain_ones(values: 
 def test_after_that_what_is_old_fades() -> None:
     running = RunningMean()
     for value in [1.0] * 500 + [2.0] * 500:
-        add([(running, value)], MEMORY)
+        add([(running, value)], MEMORY_STRIDES)
     assert running.figure.mean == pytest.approx(2.0, abs=0.02)
-    assert running.count == MEMORY
+    assert running.count == MEMORY_STRIDES
 
 
 def test_one_stride_has_no_deviation() -> None:
     running = RunningMean()
-    add([(running, 1.0)], MEMORY)
+    add([(running, 1.0)], MEMORY_STRIDES)
     assert running.figure.sd is running.figure.cv is None
 
 
@@ -245,12 +245,12 @@ def test_a_difference_between_the_feet_is_no_variability() -> None:
 
 
 def test_walking_and_running_are_added_up_apart() -> None:
-    found = walk_on(walked(L, R), 12)
+    cycles = walk_on(walked(L, R), 12)
     means = GaitMeans()
-    for stride in found:
+    for stride in cycles:
         means.add(stride)
     assert means.of(True) is None and means.of(False) is not None
-    for stride in found:
+    for stride in cycles:
         ran = attrs.evolve(stride, t=stride.t + 10.0, t_start=stride.t_start + 10.0, stance_time=0.3, steady=True)
         means.add(ran)
     both = means.of(True), means.of(False)

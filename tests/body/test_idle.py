@@ -14,12 +14,12 @@ from solepath.body.worn.wear import Wear
 from solepath.emulate import Route, Walker
 from solepath.foot.view import FootView
 
-Wakener = Callable[[Session], None]
-WALKED = [*Walker(Route().stand(2.0).walk(6.0, 1.3).stop(1.0)).samples(Foot.LEFT, 100.0)]
+Waker = Callable[[Session], None]
+WALK_SAMPLES = [*Walker(Route().stand(2.0).walk(6.0, 1.3).stop(1.0)).samples(Foot.LEFT, 100.0)]
 
 
 @define
-class Wakes(Part):
+class WakingPart(Part):
     """A part that is idle until a clock is unsettled or restarts; then it counts samples without events."""
 
     needs_samples: ClassVar[bool] = True
@@ -41,7 +41,7 @@ class Wakes(Part):
 
 
 @define
-class Deaf(Part):
+class EventPart(Part):
     """A part that declares no need of samples."""
 
     fed: int = field(default=0, init=False)
@@ -55,35 +55,35 @@ def with_part(part: Part) -> Session:
     return Session(evolve(recipes.DEFAULT, name="mine", parts=(*recipes.DEFAULT.parts, part)))
 
 
-def last(session: Session) -> Part:
+def last_part(session: Session) -> Part:
     return session._state.wearer.parts[-1]
 
 
-def unsettled(session: Session) -> None:
+def unsettle_clock(session: Session) -> None:
     session._state.wearer.unsettle(Site.LEFT_FOOT, 3.0)
 
 
-def bound(session: Session) -> None:
+def bind_device(session: Session) -> None:
     session.bind(Site.LEFT_FOOT, "another")
 
 
-@pytest.mark.parametrize("wakes", [unsettled, bound])
-def test_a_part_that_is_idle_no_longer_is_fed_from_then_on_in_a_restored_session_too(wakes: Wakener) -> None:
-    session = with_part(Wakes())
-    session.feed(WALKED[:400])
-    assert last(session) == Wakes()
-    wakes(session)
-    again = Session.restore(session.snapshot(), parts=[Wakes])
-    for one in (session, again):
-        one.feed(WALKED[400:600])
-    assert last(session) == last(again) != Wakes()
-    assert last(session).eventless > 150
+@pytest.mark.parametrize("wake", [unsettle_clock, bind_device])
+def test_a_part_that_is_idle_no_longer_is_fed_from_then_on_in_a_restored_session_too(wake: Waker) -> None:
+    session = with_part(WakingPart())
+    session.feed(WALK_SAMPLES[:400])
+    assert last_part(session) == WakingPart()
+    wake(session)
+    restored = Session.restore(session.snapshot(), parts=[WakingPart])
+    for each_session in (session, restored):
+        each_session.feed(WALK_SAMPLES[400:600])
+    assert last_part(session) == last_part(restored) != WakingPart()
+    assert last_part(session).eventless > 150
 
 
 def test_a_part_that_declares_no_need_of_samples_gets_none_of_a_barometer_either() -> None:
-    session = with_part(Deaf())
-    session.feed([evolve(sample, air_pressure=101325.0) for sample in WALKED])
-    assert last(session) == Deaf()
+    session = with_part(EventPart())
+    session.feed([evolve(sample, air_pressure=101325.0) for sample in WALK_SAMPLES])
+    assert last_part(session) == EventPart()
 
 
 def test_the_centre_of_pressure_of_a_foot_without_accelerometer_is_sampled_beside_its_rates() -> None:

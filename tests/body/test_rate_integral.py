@@ -7,40 +7,40 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath.body.worn.rate_integral import RateIntegral
-from solepath.body.worn.sides import LONGEST_GAP, MOST_INSTANTS
+from solepath.body.worn.sides import MAX_GAP, MAX_INSTANTS
 from solepath.types import Vec3
 
 RATES = st.tuples(*[st.floats(-30.0, 30.0)] * 3)
 
 
-@given(st.floats(0.0, 1e6), st.lists(st.tuples(st.floats(0.015, LONGEST_GAP), RATES), min_size=1, max_size=60))
+@given(st.floats(0.0, 1e6), st.lists(st.tuples(st.floats(0.015, MAX_GAP), RATES), min_size=1, max_size=60))
 @settings(max_examples=40)
 def test_the_turn_of_a_foot_is_the_integral_of_its_rate(start: float, rates: list[tuple[float, Vec3]]) -> None:
-    turned = RateIntegral()
-    turned.restart(start)
+    integral = RateIntegral()
+    integral.restart(start)
     t, times, turns = start, [start], [(0.0, 0.0, 0.0)]
     for dt, gyro in rates:
         t += dt
-        turned.add(t, dt, gyro, 100)
+        integral.add(t, dt, gyro, 100)
         times.append(t)
         turns.append(tuple(a + dt * rate for a, rate in zip(turns[-1], gyro, strict=True)))  # type: ignore[arg-type]
-    assert turned.times() == pytest.approx(times, abs=1e-4)
-    near = next((k for k, one in enumerate(turns) if max(map(abs, one)) > 3.9), len(turns))
-    for kept, true in zip(turned.between(0, near), turns, strict=False):
-        assert kept == pytest.approx(true, abs=3e-4)
+    assert integral.times() == pytest.approx(times, abs=1e-4)
+    near = next((k for k, turn in enumerate(turns) if max(map(abs, turn)) > 3.9), len(turns))
+    for stored, true in zip(integral.turns_between(0, near), turns, strict=False):
+        assert stored == pytest.approx(true, abs=3e-4)
 
 
 def test_of_a_foot_that_never_lands_only_the_newest_instants_are_kept() -> None:
-    turned = RateIntegral()
-    turned.restart(0.0)
+    integral = RateIntegral()
+    integral.restart(0.0)
     for k in range(1, 1000):
-        turned.add(0.02 * k, 0.02, (9.0, -9.0, 0.0), MOST_INSTANTS)
-        assert len(turned.rows) <= MOST_INSTANTS
-    times = turned.times()
+        integral.add(0.02 * k, 0.02, (9.0, -9.0, 0.0), MAX_INSTANTS)
+        assert len(integral.rows) <= MAX_INSTANTS
+    times = integral.times()
     assert times[-1] == 0.02 * 999 and times[-1] - times[0] > 1.3
-    *_, last = turned.between(len(times) - 11, len(times))
+    *_, last = integral.turns_between(len(times) - 11, len(times))
     assert last == pytest.approx((1.8, -1.8, 0.0), abs=3e-4)
-    turned.keep_newest()
-    assert turned.times() == [0.02 * 999]
-    turned.clear()
-    assert turned.times() == [] and turned.t is None
+    integral.keep_newest()
+    assert integral.times() == [0.02 * 999]
+    integral.clear()
+    assert integral.times() == [] and integral.t is None

@@ -17,7 +17,7 @@ from walks import LEFT, RIGHT, SHORT, of, samples
 from solepath import Recipe, Session, recipes
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
-from solepath.body.worn.sides import Average
+from solepath.body.worn.sides import RunningAverage
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
@@ -71,9 +71,9 @@ def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
 
     assert steps(left, MEAN) == steps(walk(), MEAN)
     # where feet hold each other's heading its steps are as long
-    alone, both = steps(left, recipes.DEFAULT), steps(walk(), recipes.DEFAULT)
-    assert [step.t_end for step in alone] == [step.t_end for step in both]
-    lengths = [step.length for step in both]
+    alone, both_feet = steps(left, recipes.DEFAULT), steps(walk(), recipes.DEFAULT)
+    assert [step.t_end for step in alone] == [step.t_end for step in both_feet]
+    lengths = [step.length for step in both_feet]
     assert [step.length for step in alone] == pytest.approx(lengths, abs=0.01)
 
 
@@ -101,16 +101,16 @@ def place(walk: tuple[Sample, ...], recipe: Recipe = recipes.DEFAULT) -> tuple[f
     return x, y, sqrt(xx), sqrt(yy)
 
 
-def both(route: Route) -> tuple[Sample, ...]:
+def both_feet(route: Route) -> tuple[Sample, ...]:
     return samples(route, cells=0, rate=50.0)
 
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
-    alone = tuple(silent(both(FAR), foot, 12.0))
+    alone = tuple(silent(both_feet(FAR), foot, 12.0))
     for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
         x, y, across, along = place(alone, recipe)
-        whole = place(both(FAR), recipe)
+        whole = place(both_feet(FAR), recipe)
         assert x == pytest.approx(40.0, abs=0.8)
         assert abs(y) < 3.0 * along, "its heading is its own, but no worse than it says"
         assert across > least * whole[2] and along > least * whole[3], "one foot is known less well than two"
@@ -118,29 +118,29 @@ def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
-    away = tuple(silent(both(FAR), foot, 8.0, 20.0))
+    absent_samples = tuple(silent(both_feet(FAR), foot, 8.0, 20.0))
     for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
-        x, _, across, _ = place(away, recipe)
+        x, _, across, _ = place(absent_samples, recipe)
         assert x == pytest.approx(40.0, abs=0.8)
-        assert across > least * place(both(FAR), recipe)[2]
+        assert across > least * place(both_feet(FAR), recipe)[2]
 
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_foot_that_was_away_while_the_wearer_turned_is_turned_too(foot: Site) -> None:
-    x, y, _, _ = place(tuple(silent(both(ROUND), foot, 11.0, 20.0)))
-    u, v, _, _ = place(both(ROUND))
+    x, y, _, _ = place(tuple(silent(both_feet(ROUND), foot, 11.0, 20.0)))
+    u, v, _, _ = place(both_feet(ROUND))
     assert hypot(x - u, y - v) < 1.6
 
 
 def test_a_foot_without_a_gyroscope_has_no_track_and_does_not_hold_the_wearer_back() -> None:
-    bare = tuple(evolve(s, gyro=None) if s.site is LEFT else s for s in both(FAR))
-    assert place(bare) == place(tuple(s for s in both(FAR) if s.site is RIGHT))
+    bare = tuple(evolve(s, gyro=None) if s.site is LEFT else s for s in both_feet(FAR))
+    assert place(bare) == place(tuple(s for s in both_feet(FAR) if s.site is RIGHT))
 
 
 def test_the_position_does_not_jump_when_a_foot_falls_silent_or_comes_back() -> None:
     session = Session()
     before = None
-    for sample in silent(both(FAR), LEFT, 8.0, 20.0):
+    for sample in silent(both_feet(FAR), LEFT, 8.0, 20.0):
         session.feed(sample)
         if session.position is not None:
             here = session.position.position
@@ -150,7 +150,7 @@ def test_the_position_does_not_jump_when_a_foot_falls_silent_or_comes_back() -> 
 
 @pytest.mark.parametrize("whole", [True, False])
 def test_while_both_feet_give_samples_the_position_is_their_mean_to_the_last_digit(whole: bool) -> None:
-    feet = both(SHORT)
+    feet = both_feet(SHORT)
     # or first all samples of the one foot and then all of the other: neither was away
     items = feet if whole else tuple(s for foot in (LEFT, RIGHT) for s in feet if s.site is foot)
     session = Session(MEAN)
@@ -186,9 +186,9 @@ def test_feet_that_are_worn_as_they_should_be_are_not_taken_for_exchanged(seed: 
 def test_twenty_walks_of_many_speeds_differ_from_their_exchanged_selves(seed: int) -> None:
     turn = radians(90.0 if seed % 2 else -120.0)
     route = Route().stand(1.5).walk(18.0, 0.8 + 0.04 * seed).turn(turn, radius=1.5).walk(8.0).stop(1.0)
-    both = samples(route, cells=24, seed=seed)
-    assert reported(FeetSwapped, both) == []
-    assert len(reported(FeetSwapped, exchanged(both))) == 1
+    both_feet = samples(route, cells=24, seed=seed)
+    assert reported(FeetSwapped, both_feet) == []
+    assert len(reported(FeetSwapped, exchanged(both_feet))) == 1
 
 
 def test_devices_that_report_the_right_feet_are_trusted() -> None:
@@ -197,9 +197,11 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
     assert of(FeetSwapped, events) == []
     sides = session._state.wearer.find_attribute("sides")
     assert sides.left.declared and sides.right.declared
-    assert not sides.left.turned.rows and not sides.right.turned.rows, "what their feet do need not be remembered"
-    sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)
-    assert not sides._agree()
+    assert not sides.left.turn_integral.rows and not sides.right.turn_integral.rows, (
+        "what their feet do need not be remembered"
+    )
+    sides.left.roll = sides.right.roll = RunningAverage(count=24, mean=0.2)
+    assert not sides._both_look_swapped()
 
 
 def test_layouts_of_the_other_foot_on_both_sides_are_reported_after_a_stride() -> None:
@@ -219,13 +221,13 @@ def pressure_alone(numbered_alike: bool) -> tuple[tuple[Sample, ...], Calibratio
     """
     walker = Walker(WALK, seed=1)
     there = {foot: layout(24, Foot.LEFT if numbered_alike else foot) for foot in Foot}
-    both = [
+    both_feet = [
         evolve(sample, acc=None, gyro=None)
         for foot in Foot
         for sample in walker.samples(foot, 50.0, layout=evolve(there[foot], foot=foot))
     ]
     known = {foot: InsoleCalibration(evolve(there[foot], foot=foot)) for foot in Foot}
-    return tuple(sorted(both, key=_time)), Calibration(known)
+    return tuple(sorted(both_feet, key=_time)), Calibration(known)
 
 
 def _time(sample: Sample) -> float:
@@ -233,15 +235,15 @@ def _time(sample: Sample) -> float:
 
 
 def test_without_inertial_sensors_the_centre_of_pressure_shows_exchanged_feet() -> None:
-    both, known = pressure_alone(numbered_alike=True)
-    assert reported(FeetSwapped, both, Session(calibration=known)) == []
-    assert len(reported(FeetSwapped, exchanged(both), Session(calibration=known))) == 1
+    both_feet, known = pressure_alone(numbered_alike=True)
+    assert reported(FeetSwapped, both_feet, Session(calibration=known)) == []
+    assert len(reported(FeetSwapped, exchanged(both_feet), Session(calibration=known))) == 1
 
 
 def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing_is_reported() -> None:
-    both, known = pressure_alone(numbered_alike=False)
-    assert reported(FeetSwapped, both, Session(calibration=known)) == []
-    assert reported(FeetSwapped, exchanged(both), Session(calibration=known)) == []
+    both_feet, known = pressure_alone(numbered_alike=False)
+    assert reported(FeetSwapped, both_feet, Session(calibration=known)) == []
+    assert reported(FeetSwapped, exchanged(both_feet), Session(calibration=known)) == []
 
 
 @given(st.integers(0, 10_000))
@@ -259,11 +261,11 @@ def test_a_session_saved_at_any_moment_continues_with_the_same_events_and_positi
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=60), st.floats(-5.0, 5.0))
 def test_an_average_is_a_number_between_the_lowest_and_the_highest(values: list[float], limit: float) -> None:
-    average = Average()
+    average = RunningAverage()
     for value in values:
         average.add(value)
     assert min(values) - 1e-9 <= average.mean <= max(values) + 1e-9
     assert average.variance >= 0.0
     assert not average.exceeds(max(values), 1)
     assert not average.exceeds(limit, len(values) + 1)
-    assert machine.load(Average, machine.save(average)) == average
+    assert machine.load(RunningAverage, machine.save(average)) == average

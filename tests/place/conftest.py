@@ -9,5 +9,5 @@ from floors import METHODS, Method
 @pytest.fixture(params=METHODS)
 def part(request: pytest.FixtureRequest) -> Method:
     """Return each method of finding a wearer on a plan, new."""
-    found: Method = request.param()
-    return found
+    method: Method = request.param()
+    return method

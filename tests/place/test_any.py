@@ -43,7 +43,7 @@ NUMBERS = st.one_of(
     st.floats(-60.0, 60.0), st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([0.0, 1e-300, 1e300, -1e9])
 )
 TIMES = st.one_of(st.floats(0.0, 100.0), st.sampled_from([0.0, -1e9, 1e12]))
-HAPPENINGS = st.one_of(
+EVENTS = st.one_of(
     st.builds(
         lambda t, foot, degraded: stepped(t, foot, 1, (0.0, 0.0, 0.0), degraded),
         TIMES,
@@ -66,8 +66,8 @@ HAPPENINGS = st.one_of(
         NUMBERS,
     ),
 )
-TELLINGS = st.lists(
-    st.tuples(st.lists(HAPPENINGS, max_size=4), TIMES, st.tuples(NUMBERS, NUMBERS, NUMBERS)), min_size=1, max_size=25
+UPDATES = st.lists(
+    st.tuples(st.lists(EVENTS, max_size=4), TIMES, st.tuples(NUMBERS, NUMBERS, NUMBERS)), min_size=1, max_size=25
 )
 STARTS = st.one_of(
     st.none(),
@@ -83,12 +83,12 @@ STARTS = st.one_of(
 
 @pytest.mark.parametrize("method", METHODS)
 @settings(max_examples=40)
-@given(start=STARTS, tellings=TELLINGS)
-def test_any_events_and_any_track_give_sound_events_and_no_exception(method, start, tellings) -> None:  # type: ignore[no-untyped-def]
+@given(start=STARTS, updates=UPDATES)
+def test_any_events_and_any_track_give_sound_events_and_no_exception(method, start, updates) -> None:  # type: ignore[no-untyped-def]
     part = method(PlaceSettings(most=60))
     if start is not None:
         part.set_out(start)
-    for events, t, position in tellings:
+    for events, t, position in updates:
         here = Position(t, position, (0.0,) * 6)  # type: ignore[arg-type]
         received = part.follow(OFFICE, events, here)
         assert not received or part.place == (received[-1] if isinstance(received[-1], Placed) else None)
@@ -112,86 +112,88 @@ def packed_size(part: object) -> int:
 
 def test_the_state_is_small_and_does_not_grow(part: Method) -> None:
     sizes = []
-    one = Pedestrian(21, "1", LIFTS["lift south"])
-    one.ride("0")
+    pedestrian = Pedestrian(21, "1", LIFTS["lift south"])
+    pedestrian.ride("0")
     for _ in range(3):
-        one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH), (6.2, HIGH), (6.2, LOW), beside(one.place))
-    found = []
-    for received in one.received:
+        pedestrian.walk(
+            beside(pedestrian.place), (RIGHT, LOW), (RIGHT, HIGH), (6.2, HIGH), (6.2, LOW), beside(pedestrian.place)
+        )
+    decided_sizes = []
+    for received in pedestrian.received:
         part.follow(OFFICE, received.events, received.here)
         sizes.append(packed_size(part))
         if part.place is not None and len(part.place.candidates) == 1:
-            found.append(sizes[-1])
+            decided_sizes.append(sizes[-1])
     assert max(sizes) < 10_000, "while it is undecided"
-    assert sum(found) / len(found) < 8_000 and max(found[-100:]) < 10_000, "once it is decided"
+    assert sum(decided_sizes) / len(decided_sizes) < 8_000 and max(decided_sizes[-100:]) < 10_000, "once it is decided"
 
 
 @pytest.mark.parametrize(
-    ("start", "why"),
+    ("start", "reason"),
     [
         (Start("3", (10.0, LOW)), "start: the plan has no level '3', only 0, 1"),
         (Start("0", (-4.0, 3.0)), "start: (-4, 3) is nowhere on level 0"),
     ],
 )
 def test_a_start_outside_of_the_plan_is_reported_once_and_the_wearer_is_found_later(
-    part: Method, start: Start, why: str
+    part: Method, start: Start, reason: str
 ) -> None:
-    one = Pedestrian(22, "1", LIFTS["lift south"])
-    one.step(0.1, 0.0)
-    one.step(-0.1, 0.0)
-    one.ride("0")
-    one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH))
+    pedestrian = Pedestrian(22, "1", LIFTS["lift south"])
+    pedestrian.step(0.1, 0.0)
+    pedestrian.step(-0.1, 0.0)
+    pedestrian.ride("0")
+    pedestrian.walk(beside(pedestrian.place), (RIGHT, LOW), (RIGHT, HIGH))
     part.set_out(start)
-    events = follow(part, one.received)
-    assert len(lost(events)) == 1 and lost(events)[0].startswith(why)
+    events = follow(part, pedestrian.received)
+    assert len(lost(events)) == 1 and lost(events)[0].startswith(reason)
     assert part.place is not None and part.place.level == "0"
 
 
 def test_a_track_through_walls_is_not_bent_to_the_plan_for_long_but_loses_the_place(part: Method) -> None:
-    one = Pedestrian(23, "0", (12.0, LOW)).known_to(part)
-    one.walk((20.0, LOW), (20.0, 40.0))  # across the block, where nobody can go, and out of the house
-    events = follow(part, one.received)
+    pedestrian = Pedestrian(23, "0", (12.0, LOW)).known_to(part)
+    pedestrian.walk((20.0, LOW), (20.0, 40.0))  # across the block, where nobody can go, and out of the house
+    events = follow(part, pedestrian.received)
     assert part.place is None
     assert len(lost(events)) == 1
     assert "the track goes where the plan has no way near (" in lost(events)[0]
-    one.received, one.level, one.place = [], "1", LIFTS["lift south"]
-    one.ride("0")
-    one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH))
-    follow(part, one.received)
+    pedestrian.received, pedestrian.level, pedestrian.place = [], "1", LIFTS["lift south"]
+    pedestrian.ride("0")
+    pedestrian.walk(beside(pedestrian.place), (RIGHT, LOW), (RIGHT, HIGH))
+    follow(part, pedestrian.received)
     assert part.place is not None, "the next lift finds the wearer again"
 
 
 def test_a_wearer_who_leaves_by_the_door_is_no_longer_on_the_plan(part: Method) -> None:
-    one = Pedestrian(24, "0", (20.0, LOW)).known_to(part)
-    one.walk((60.0, LOW))
-    events = follow(part, one.received)
+    pedestrian = Pedestrian(24, "0", (20.0, LOW)).known_to(part)
+    pedestrian.walk((60.0, LOW))
+    events = follow(part, pedestrian.received)
     assert part.place is None and len(lost(events)) == 1
     assert "the track leaves the plan near (4" in lost(events)[0] and "on level 0" in lost(events)[0]
 
 
 def test_a_track_that_jumps_loses_the_place(part: Method) -> None:
-    one = Pedestrian(25, "0", (12.0, LOW)).known_to(part)
-    one.walk((16.0, LOW))
-    one.step(500.0, 0.0)
-    assert lost(follow(part, one.received)) == ["the track leaps by more than 100 m"]
+    pedestrian = Pedestrian(25, "0", (12.0, LOW)).known_to(part)
+    pedestrian.walk((16.0, LOW))
+    pedestrian.step(500.0, 0.0)
+    assert lost(follow(part, pedestrian.received)) == ["the track leaps by more than 100 m"]
 
 
 def test_without_start_stairs_and_lifts_the_place_is_reported_as_lost(part: Method) -> None:
     bare = IndexedPlan(evolve(office(), connectors=()))
-    one = Pedestrian(26, "0", (12.0, LOW))
-    one.walk((30.0, LOW))
-    one.ride("1")
+    pedestrian = Pedestrian(26, "0", (12.0, LOW))
+    pedestrian.walk((30.0, LOW))
+    pedestrian.ride("1")
     what = "no start was given and the plan has neither stairs nor lifts: the place cannot be known"
-    assert lost(follow(part, one.received, bare)) == [what] and part.place is None
+    assert lost(follow(part, pedestrian.received, bare)) == [what] and part.place is None
 
 
 def test_stairs_that_the_plan_does_not_have_change_no_level(part: Method) -> None:
     lifts_only = IndexedPlan(evolve(office(), connectors=office().connectors[:3]))
-    one = Pedestrian(27, "0", (20.0, LOW)).known_to(part)
-    one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
-    one.climb("1", "stairs south")
-    one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
-    events = follow(part, one.received, lifts_only)
+    pedestrian = Pedestrian(27, "0", (20.0, LOW)).known_to(part)
+    pedestrian.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
+    pedestrian.climb("1", "stairs south")
+    pedestrian.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
+    events = follow(part, pedestrian.received, lifts_only)
     assert {event.level for event in events if isinstance(event, Placed)} == {"0"}
 
 

@@ -21,14 +21,14 @@ from solepath.types import SITE_OF_FOOT
 PLAN = IndexedPlan(BUILDING)
 
 
-def wandered(recipe: str, seed: int) -> PlaceScore:
+def score_walk(recipe: str, seed: int) -> PlaceScore:
     """Return the score of SensorTags at 20 Hz for the recipe made for them, else of small insoles at 100 Hz."""
-    way = wandering(seed)
+    planned_walk = wandering(seed)
     tag = CC2541(rate=20.0, mounting=IN_SOLE)
     devices = {SITE_OF_FOOT[foot]: tag if recipe == "footstep-tracker" else Insole(cells=8) for foot in Foot}
-    walk = emulate(way.route, devices=devices, seed=seed)
+    walk = emulate(planned_walk.route, devices=devices, seed=seed)
     session = Session(recipes.by_name(recipe), floorplan=PLAN)
-    return emulated_place.score(way, walk.walker, walk.truth, session.feed(walk.packets) + session.finish())
+    return emulated_place.score(planned_walk, walk.walker, walk.truth, session.feed(walk.packets) + session.finish())
 
 
 @pytest.mark.soak
@@ -39,14 +39,23 @@ def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: 
     Stairs that are taken for the other direction make some of footstep-tracker's walks end on the wrong one of two
     floors that are alike.
     """
-    scores = [wandered(recipe, seed) for seed in range(1, walks + 1)]
-    off = [sum(score.off) / len(score.off) for score in scores if score.off]
+    scores = [score_walk(recipe, seed) for seed in range(1, walks + 1)]
+    distances = [sum(score.distances) / len(score.distances) for score in scores if score.distances]
     for seed, score in enumerate(scores, 1):
-        print(seed, score.steps, score.decided, score.dropped, score.wrong, sum(score.off) / max(1, len(score.off)))
+        print(
+            seed,
+            score.steps,
+            score.decided,
+            score.dropped,
+            score.wrong,
+            sum(score.distances) / max(1, len(score.distances)),
+        )
     dropped = sum(score.dropped > 0 for score in scores)
-    near = sum(one <= 1.0 for one in off)
-    print(f"{recipe}: {dropped} of {walks} dropped; from the second turn on {median(off):.2f} m in the median walk,")
-    print(f"{sum(off) / len(off):.2f} m on average, at most 1 m in {near}")
+    near = sum(one <= 1.0 for one in distances)
+    print(
+        f"{recipe}: {dropped} of {walks} dropped; from the second turn on {median(distances):.2f} m in the median walk,"
+    )
+    print(f"{sum(distances) / len(distances):.2f} m on average, at most 1 m in {near}")
     assert sum(score.steps > 0 for score in scores) == walks
-    assert median(off) <= 1.0 and near >= 0.75 * walks
+    assert median(distances) <= 1.0 and near >= 0.75 * walks
     assert dropped <= most

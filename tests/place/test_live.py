@@ -12,19 +12,19 @@ from solepath.floorplan.importers.geojson import write_floorplan
 
 
 def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> None:
-    plan, out = tmp_path / "office.geojson", tmp_path / "out"
+    plan, out_directory = tmp_path / "office.geojson", tmp_path / "out"
     write_floorplan(plan, office())
     with emulator("--distance", 20) as (_, where):
-        options = ["--floorplan", plan, "--start", "0,9,6.2,0", "--out", out, "--duration", 9]
-        done = run("live", "--via", where, *options)
-    assert "place: level 0, (" in done.stdout
-    assert "place: found after 1 step" in done.stdout and "at the end: level 0, (" in done.stdout
-    rows = list(csv.DictReader((out / "places.csv").open(encoding="utf-8")))
+        options = ["--floorplan", plan, "--start", "0,9,6.2,0", "--out", out_directory, "--duration", 9]
+        result = run("live", "--via", where, *options)
+    assert "place: level 0, (" in result.stdout
+    assert "place: found after 1 step" in result.stdout and "at the end: level 0, (" in result.stdout
+    rows = list(csv.DictReader((out_directory / "places.csv").open(encoding="utf-8")))
     assert len(rows) > 3 and {row["level"] for row in rows} == {"0"}
 
 
 def test_live_rejects_a_start_outside_of_the_plan_before_it_connects(tmp_path: Path) -> None:
     plan = tmp_path / "office.geojson"
     write_floorplan(plan, office())
-    done = run("live", "--floorplan", plan, "--start", "7,1,1", "--via", "tcp:127.0.0.1:1", expect=2)
-    assert "the plan has no level '7'" in done.stderr
+    result = run("live", "--floorplan", plan, "--start", "7,1,1", "--via", "tcp:127.0.0.1:1", expect=2)
+    assert "the plan has no level '7'" in result.stderr

@@ -34,7 +34,7 @@ from solepath.floorplan.plan import FloorPlan, Level, Start
 
 SURE = 0.99
 """Weight at which a candidate counts as found."""
-NEAR = 3.5
+NEAR_DISTANCE = 3.5
 """Largest distance of the true candidate from the wearer, m: candidates are means over some metres."""
 
 
@@ -54,30 +54,32 @@ class Followed:
         return sum(self.errors) / len(self.errors)
 
 
-def followed(part: Method, received: list[FloorEvents]) -> Followed:
+def follow_and_score(part: Method, received: list[FloorEvents]) -> Followed:
     result = Followed()
-    for k, one in enumerate(received):
-        result.events += part.follow(OFFICE, one.events, one.here)
+    for k, update in enumerate(received):
+        result.events += part.follow(OFFICE, update.events, update.here)
         place = part.place
-        if one.place is None or one.level is None:
+        if update.place is None or update.level is None:
             continue
         if place is None:
             result.dropped += 1
             continue
-        here = [candidate for candidate in place.candidates if candidate.level == one.level]
-        off = [dist(candidate.position[:2], one.place) for candidate in here]
-        result.dropped += min(off, default=99.0) > NEAR
+        here = [candidate for candidate in place.candidates if candidate.level == update.level]
+        off = [dist(candidate.position[:2], update.place) for candidate in here]
+        result.dropped += min(off, default=99.0) > NEAR_DISTANCE
         sure = place.candidates[0].weight >= SURE
         if sure and result.found is None:
             result.found = k
         if sure:
-            result.errors.append(dist(place.position[:2], one.place) if place.level == one.level else float("inf"))
+            result.errors.append(
+                dist(place.position[:2], update.place) if place.level == update.level else float("inf")
+            )
     return result
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metre(part: Method, seed: int) -> None:
-    result = followed(part, tour(seed).received)
+    result = follow_and_score(part, tour(seed).received)
     assert result.dropped == 0
     assert result.errors and result.mean <= 1.0
     assert len(lost(result.events)) == 1 and "no start" in lost(result.events)[0]
@@ -86,7 +88,7 @@ def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metr
 @pytest.mark.soak
 @pytest.mark.parametrize("method", METHODS)
 def test_the_true_candidate_is_never_dropped_in_fifty_walks_and_the_mean_error_is_below_a_metre(method: Method) -> None:
-    results = [followed(method(), tour(seed).received) for seed in range(1, 51)]
+    results = [follow_and_score(method(), tour(seed).received) for seed in range(1, 51)]
     assert [result.dropped for result in results] == [0] * 50
     found = [result for result in results if result.errors]
     assert len(found) >= 48
@@ -95,7 +97,7 @@ def test_the_true_candidate_is_never_dropped_in_fifty_walks_and_the_mean_error_i
 
 def test_all_possible_places_are_reported_with_weights_that_add_up_to_one(part: Method) -> None:
     received = tour(4).received
-    first = placed(followed(part, received[:3]).events)[-1]
+    first = placed(follow_and_score(part, received[:3]).events)[-1]
     assert {candidate.origin for candidate in first.candidates} == set(LIFTS)
     weights = [candidate.weight for candidate in first.candidates]
     assert sum(weights) == pytest.approx(1.0) and weights == sorted(weights, reverse=True)
@@ -105,16 +107,16 @@ def test_all_possible_places_are_reported_with_weights_that_add_up_to_one(part: 
 
 @pytest.mark.parametrize("known", [True, False])
 def test_a_known_start_finds_the_wearer_with_or_without_the_heading(part: Method, known: bool) -> None:
-    one = Pedestrian(7, "0", (12.0, LOW))
-    start = Start("0", one.place, -one.turned if known else None)
-    one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
+    pedestrian = Pedestrian(7, "0", (12.0, LOW))
+    start = Start("0", pedestrian.place, -pedestrian.turned if known else None)
+    pedestrian.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
     part.set_out(start)
-    result = followed(part, one.received)
+    result = follow_and_score(part, pedestrian.received)
     assert result.dropped == 0 and lost(result.events) == []
     assert result.errors[-1] <= 1.0
     heading = placed(result.events)[-1].candidates[0].heading
     assert heading is not None
-    off = heading + one.turned
+    off = heading + pedestrian.turned
     assert abs(degrees(atan2(sin(off), cos(off)))) < 5.0
     if known:
         assert result.found == 0 and result.mean <= 1.0
@@ -122,13 +124,13 @@ def test_a_known_start_finds_the_wearer_with_or_without_the_heading(part: Method
 
 @pytest.mark.parametrize("flights", [True, False])
 def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_not_the_tracks(part: Method, flights: bool) -> None:
-    one = Pedestrian(8, "0", (LEFT, 12.0)).known_to(part)
-    one.walk((LEFT, LOW), beside(STAIRS["stairs south"]), STAIRS["stairs south"])
-    one.climb("1", "stairs south", flights)
-    x, y, z = one.track
-    one.track = (x, y, z + 0.4)  # as a track's height drifts
-    one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW), (RIGHT, 15.0))
-    result = followed(part, one.received)
+    pedestrian = Pedestrian(8, "0", (LEFT, 12.0)).known_to(part)
+    pedestrian.walk((LEFT, LOW), beside(STAIRS["stairs south"]), STAIRS["stairs south"])
+    pedestrian.climb("1", "stairs south", flights)
+    x, y, z = pedestrian.track
+    pedestrian.track = (x, y, z + 0.4)  # as a track's height drifts
+    pedestrian.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW), (RIGHT, 15.0))
+    result = follow_and_score(part, pedestrian.received)
     assert result.dropped == 0 and result.mean <= 1.0
     last = placed(result.events)[-1]
     assert last.level == "1" and last.position[2] == STOREY
@@ -138,96 +140,98 @@ def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_not_the_trac
 
 
 def test_a_landing_half_way_up_is_no_level(part: Method) -> None:
-    one = Pedestrian(9, "0", (20.0, LOW)).known_to(part)
-    one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
-    one.emit(activity_changed(one.t, one.t, Activity.STAIRS_UP))
+    pedestrian = Pedestrian(9, "0", (20.0, LOW)).known_to(part)
+    pedestrian.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
+    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, Activity.STAIRS_UP))
     for _ in range(10):
-        one.step(0.0, 0.28, 0.18)
-    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
+        pedestrian.step(0.0, 0.28, 0.18)
+    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, Activity.WALKING))
     for _ in range(2):
-        one.step(0.4, 0.0)
-    assert placed(followed(part, one.received).events)[-1].level == "0"
-    one.received = []
-    one.emit(activity_changed(one.t, one.t, Activity.STAIRS_UP))
+        pedestrian.step(0.4, 0.0)
+    assert placed(follow_and_score(part, pedestrian.received).events)[-1].level == "0"
+    pedestrian.received = []
+    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, Activity.STAIRS_UP))
     for _ in range(10):
-        one.step(0.0, -0.28, 0.18)
-    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
-    one.step(0.0, -0.5)
-    assert placed(followed(part, one.received).events)[-1].level == "1"
+        pedestrian.step(0.0, -0.28, 0.18)
+    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, Activity.WALKING))
+    pedestrian.step(0.0, -0.5)
+    assert placed(follow_and_score(part, pedestrian.received).events)[-1].level == "1"
 
 
 def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(part: Method) -> None:
-    one = Pedestrian(10, "0", (9.0, LOW)).known_to(part)
-    one.walk((24.0, LOW))
-    one.emit(activity_changed(one.t - 1.0, one.t, Activity.STAIRS_UP))
-    one.walk((26.0, LOW))
-    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
-    one.walk((RIGHT, LOW), (RIGHT, HIGH))
-    result = followed(part, one.received)
+    pedestrian = Pedestrian(10, "0", (9.0, LOW)).known_to(part)
+    pedestrian.walk((24.0, LOW))
+    pedestrian.emit(activity_changed(pedestrian.t - 1.0, pedestrian.t, Activity.STAIRS_UP))
+    pedestrian.walk((26.0, LOW))
+    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, Activity.WALKING))
+    pedestrian.walk((RIGHT, LOW), (RIGHT, HIGH))
+    result = follow_and_score(part, pedestrian.received)
     assert result.dropped == 0 and result.mean <= 1.0
     assert {event.level for event in placed(result.events)} == {"0"}
 
 
 def test_who_stands_in_a_lift_that_has_stopped_is_on_the_level_that_it_went_to(part: Method) -> None:
-    one = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
-    one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
-    one.ride("1", STOREY)
-    last = placed(followed(part, one.received).events)[-1]
-    assert last.level == "1" and last.t == one.t and dist(last.position[:2], one.place) <= 1.0
+    pedestrian = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
+    pedestrian.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
+    pedestrian.ride("1", STOREY)
+    last = placed(follow_and_score(part, pedestrian.received).events)[-1]
+    assert last.level == "1" and last.t == pedestrian.t and dist(last.position[:2], pedestrian.place) <= 1.0
 
 
 def test_a_lift_that_only_the_activity_reports_changes_the_level_too(part: Method) -> None:
-    one = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
-    one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
-    one.emit(activity_changed(one.t + 2.0, one.t + 4.0, Activity.ELEVATOR_UP))
-    one.t += 14.0
-    one.emit(activity_changed(one.t, one.t + 1.0, Activity.STANDING))
-    one.t += 2.0
-    one.level = "1"
-    one.walk(beside(LIFTS["lift south"]), (LEFT, LOW), (LEFT, 14.0))
-    last = placed(followed(part, one.received).events)[-1]
-    assert last.level == "1" and dist(last.position[:2], one.place) <= 1.0
+    pedestrian = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
+    pedestrian.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
+    pedestrian.emit(activity_changed(pedestrian.t + 2.0, pedestrian.t + 4.0, Activity.ELEVATOR_UP))
+    pedestrian.t += 14.0
+    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t + 1.0, Activity.STANDING))
+    pedestrian.t += 2.0
+    pedestrian.level = "1"
+    pedestrian.walk(beside(LIFTS["lift south"]), (LEFT, LOW), (LEFT, 14.0))
+    last = placed(follow_and_score(part, pedestrian.received).events)[-1]
+    assert last.level == "1" and dist(last.position[:2], pedestrian.place) <= 1.0
 
 
 def test_a_ride_far_from_the_estimated_place_restarts_the_search(part: Method) -> None:
-    one = Pedestrian(12, "0", (14.0, HIGH))
+    pedestrian = Pedestrian(12, "0", (14.0, HIGH))
     part.set_out(Start("0", (20.0, HIGH), None))  # wrong by 6 m, and far from every lift
-    one.walk((18.0, HIGH))
-    one.place, one.level = LIFTS["lift east"], "1"
-    one.ride("0")
-    one.walk(*round_to(beside(LIFTS["lift east"]), (14.0, LOW), False), (LEFT, LOW), (LEFT, 14.0))
-    result = followed(part, one.received)
+    pedestrian.walk((18.0, HIGH))
+    pedestrian.place, pedestrian.level = LIFTS["lift east"], "1"
+    pedestrian.ride("0")
+    pedestrian.walk(*round_to(beside(LIFTS["lift east"]), (14.0, LOW), False), (LEFT, LOW), (LEFT, 14.0))
+    result = follow_and_score(part, pedestrian.received)
     last = placed(result.events)[-1]
-    true = [c for c in last.candidates if c.level == "0" and dist(c.position[:2], one.place) <= 1.5]
+    true = [c for c in last.candidates if c.level == "0" and dist(c.position[:2], pedestrian.place) <= 1.5]
     assert len(last.candidates) <= 3, "the office looks nearly the same from the other side"
     assert true and true[0].weight > 0.1 and true[0].origin == "lift east"
 
 
 def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(part: Method) -> None:
-    one = Pedestrian(13, "0", (12.0, LOW)).known_to(part)
-    one.walk((20.0, LOW))
-    before = placed(followed(part, one.received).events)[-1].spread
-    one.received, one.t = [], one.t + 6.0
-    one.step(6.0, 0.0, degraded=True)
-    after = placed(followed(part, one.received).events)[-1].spread
+    pedestrian = Pedestrian(13, "0", (12.0, LOW)).known_to(part)
+    pedestrian.walk((20.0, LOW))
+    before = placed(follow_and_score(part, pedestrian.received).events)[-1].spread
+    pedestrian.received, pedestrian.t = [], pedestrian.t + 6.0
+    pedestrian.step(6.0, 0.0, degraded=True)
+    after = placed(follow_and_score(part, pedestrian.received).events)[-1].spread
     assert after > before + 0.3
-    one.received = []
-    one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
-    result = followed(part, one.received)
+    pedestrian.received = []
+    pedestrian.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
+    result = follow_and_score(part, pedestrian.received)
     assert result.dropped == 0 and result.errors[-1] <= 1.0
 
 
 def test_a_lift_ride_that_was_reported_is_not_reported_again_by_the_activity() -> None:
     part = Particles()
-    one = Pedestrian(15, "1", LIFTS["lift south"]).known_to(part)
-    one.step(0.0, 0.1)
-    one.emit(activity_changed(one.t + 1.0, one.t + 3.0, Activity.ELEVATOR_DOWN))
-    one.t += 12.0
-    one.level = "0"
-    one.emit(LiftRidden(t=one.t, known_at=one.t, t_start=one.t - 11.0, up=False, height=None))
-    one.emit(activity_changed(one.t, one.t + 1.0, Activity.STANDING))
-    one.walk(beside(one.place), (24.0, LOW))
-    result = followed(part, one.received)
+    pedestrian = Pedestrian(15, "1", LIFTS["lift south"]).known_to(part)
+    pedestrian.step(0.0, 0.1)
+    pedestrian.emit(activity_changed(pedestrian.t + 1.0, pedestrian.t + 3.0, Activity.ELEVATOR_DOWN))
+    pedestrian.t += 12.0
+    pedestrian.level = "0"
+    pedestrian.emit(
+        LiftRidden(t=pedestrian.t, known_at=pedestrian.t, t_start=pedestrian.t - 11.0, up=False, height=None)
+    )
+    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t + 1.0, Activity.STANDING))
+    pedestrian.walk(beside(pedestrian.place), (24.0, LOW))
+    result = follow_and_score(part, pedestrian.received)
     assert placed(result.events)[-1].level == "0" and result.mean < 1.0
 
 
@@ -235,9 +239,9 @@ def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(part: Met
     room = ((1e6, 1e6), (1e6 + 60.0, 1e6), (1e6 + 60.0, 1e6 + 60.0), (1e6, 1e6 + 60.0))
     hall = IndexedPlan(FloorPlan("hall", (Level("0", "ground", 0, 0.0, (), (), (room,)),)))
     part.set_out(Start("0", (1e6 + 20.0, 1e6 + 20.0), 0.0))
-    one = Pedestrian(11, "0", (20.0, 20.0))
-    one.walk((30.0, 20.0))
-    events = [event for received in one.received for event in part.follow(hall, received.events, received.here)]
+    pedestrian = Pedestrian(11, "0", (20.0, 20.0))
+    pedestrian.walk((30.0, 20.0))
+    events = [event for received in pedestrian.received for event in part.follow(hall, received.events, received.here)]
     assert len(placed(events)) == len(events) > 5
     x, y, _ = placed(events)[-1].position
     assert dist((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)
@@ -246,10 +250,10 @@ def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(part: Met
 def test_the_track_turned_by_any_angle_leads_to_the_same_place() -> None:
     ends = []
     for turn in (0.0, 90.0, 217.0):
-        one = Pedestrian(16, "0", (12.0, LOW))
-        one.turned = radians(turn)
+        pedestrian = Pedestrian(16, "0", (12.0, LOW))
+        pedestrian.turned = radians(turn)
         part = Particles()
-        part.set_out(Start("0", one.place, -one.turned))
-        one.walk((RIGHT, LOW), (RIGHT, 14.0))
-        ends.append(placed(followed(part, one.received).events)[-1].position)
-    assert max(dist(end[:2], one.place) for end in ends) <= 1.0
+        part.set_out(Start("0", pedestrian.place, -pedestrian.turned))
+        pedestrian.walk((RIGHT, LOW), (RIGHT, 14.0))
+        ends.append(placed(follow_and_score(part, pedestrian.received).events)[-1].position)
+    assert max(dist(end[:2], pedestrian.place) for end in ends) <= 1.0

@@ -1,8 +1,8 @@
-"""The contract of body parts: everything that a wearer has beside the two feet.
+"""The contract of body parts: the parts of a recipe that do not belong to one foot.
 
-A recipe holds its parts in a tuple. The output of a foot or of a link reaches the parts in that order. The output of a
-part reaches the parts after it, also at the end of a session. Parts never write into a foot: a correction is a value
-that a part returns (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it."""
+A recipe has its parts in a tuple. The output of a foot or of a link reaches the parts in that order. The output of a
+part reaches the parts after it, also at the end of a session. Parts never write into a foot. A part returns a
+correction as a value (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..types.attrs import frozen
 
 @frozen
 class Shift:
-    """A correction of one foot, which is flat: heading plus `yaw` rad, position plus `by` m, world frame."""
+    """A correction of a flat foot: `yaw`, rad, is added to its heading, `by`, m, world frame, to its position."""
 
     foot: Foot
     yaw: float
@@ -30,9 +30,9 @@ class Shift:
 
 @frozen
 class HeightShift:
-    """A correction of the wearer's height: `above` m over the feet's tracks, variance in m^2.
+    """A correction of the wearer's height that holds until the next one: `above`, m, is added to the feet's heights.
 
-    It holds until the next one."""
+    `variance` is in m^2."""
 
     above: float
     variance: float
@@ -40,9 +40,7 @@ class HeightShift:
 
 @frozen
 class Replacement:
-    """A correction that puts the event `by` in the place of `event`.
-
-    An earlier part has returned `event` for the same sample."""
+    """A correction that replaces `event`, which an earlier part has returned for the same sample, with `by`."""
 
     event: Event
     by: Event
@@ -50,7 +48,7 @@ class Replacement:
 
 @frozen
 class ClockUnsettled:
-    """Notice that a site's sample times up to `until`, s, cannot be compared with another site's; None: all can."""
+    """A notice that sample times of a site up to `until`, s, cannot be compared with another site's; None: all can."""
 
     site: Site
     until: float | None
@@ -58,9 +56,9 @@ class ClockUnsettled:
 
 @frozen
 class LayoutReported:
-    """Notice that the device at a site has reported its cell layout, and with it the foot it is made for.
+    """A notice that the device at a site has reported its cell layout, which also tells left from right insoles.
 
-    A layout of a calibration is not reported this way."""
+    A layout that comes from a calibration is not reported this way."""
 
     site: Site
     layout: Layout
@@ -68,7 +66,7 @@ class LayoutReported:
 
 @frozen
 class Position:
-    """Position of the wearer at `t` s, world frame, m, with covariance xx, xy, xz, yy, yz, zz in m^2."""
+    """The position of the wearer at `t`, s, world frame, m, with covariance xx, xy, xz, yy, yz, zz, m^2."""
 
     t: float
     position: Vec3
@@ -76,7 +74,7 @@ class Position:
 
 
 PartOutput = Happening | Shift | HeightShift | Replacement
-"""Everything that a part may return: events, also those of an app, and corrections."""
+"""Everything that a part may return: corrections and events, including events of an app."""
 PartInput = Event | ClockUnsettled | LayoutReported
 """Everything that a part may receive: events, and notices of the links."""
 MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
@@ -84,33 +82,33 @@ MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
 
 
 class Part(Protocol):
-    """A part of the body that does nothing: derive a plain record (`@define`) from it and override its methods.
+    """A body part that does nothing: derive a plain record (`@define`) from it and override its methods.
 
-    For each sample of a foot a part first gets the foot's view, if it declares `needs_samples`, and then every event of
-    that sample: those of the foot and those of the parts before. Times are in s. No method may raise, whatever the
-    input is, use more memory the longer it is fed, or read a clock or random numbers."""
+    For each sample of a foot, a part first gets the foot's view, if it declares `needs_samples`, and then every event
+    of that sample, from the foot and from the parts before. Times are in s. No method may raise an exception for any
+    input, use memory that grows with time, or read a clock or random numbers."""
 
     __slots__ = ()
 
     needs_samples: ClassVar[bool] = False
-    """Flag of a part that needs samples: `feed` is called."""
+    """Flag: the part needs the samples of the feet, so `feed` is called."""
     idle: bool = False
-    """Flag of a part whose `feed` would do nothing now with a sample that has neither events nor air pressure. `feed`
-    is not called with such a sample. The flag is always true, or a field that changes in `receive`, `reset` and
-    `feed`."""
+    """Flag: `feed` is not called for samples without events and air pressure, because it would do nothing with them.
+
+    It is either always true, or a field that changes only in `receive`, `reset` and `feed`."""
     sites: ClassVar[tuple[Site, ...]] = ()
-    """Sites above the ankle whose samples the part needs: `feed_limb` is called."""
+    """Sites of limbs whose samples the part needs, so `feed_limb` is called."""
     needs_position: ClassVar[bool] = False
-    """Flag of a part that needs the wearer's position (WearerMoved) after a stride, turn, ride or flight."""
+    """Flag: the part needs the wearer's position (WearerMoved) after each event of `MOVEMENTS`."""
 
     def calibrated(self, calibration: Calibration) -> Self:
-        """Return the part to be used for a wearer with this calibration; called once, before anything else."""
+        """Return the part for a wearer with this calibration; called once, before any other method."""
         return self
 
     def ready(self) -> None:
-        """Load the files that the part needs; called for a new wearer and for one restored from a saved state.
+        """Load the files that the part needs; called for a new wearer and for a wearer restored from a saved state.
 
-        `feed` and `receive` import nothing and open no file."""
+        `feed` and `receive` must import nothing and open no file."""
         return
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
@@ -126,11 +124,11 @@ class Part(Protocol):
         return ()
 
     def finish(self, now: float) -> Sequence[PartOutput]:
-        """Return the outputs that were held back: no more data comes, and it is `now`, s."""
+        """Return the outputs that were held back, because the data ends at `now`, s."""
         return ()
 
     def reset(self, site: Site) -> None:
-        """Reset what depends on a site's clock or device: the clock restarts, or another device is worn there."""
+        """Reset what depends on the clock or the device of a site, because one of them has changed."""
         return
 
 
@@ -141,7 +139,7 @@ class TrackPart(Part):
 
     @abstractmethod
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """Return the wearer's position from the poses of the feet that gave samples; None before any sample."""
+        """Return the wearer's position from the poses of the feet that have samples; None before any sample."""
 
 
 class ActivityPart(Part):
@@ -150,4 +148,4 @@ class ActivityPart(Part):
     __slots__ = ()
 
     activity: Activity
-    """The newest activity that was reported, final or not; UNKNOWN before any."""
+    """Newest activity that was reported, final or not; UNKNOWN before any."""

@@ -1,7 +1,8 @@
 """Saving and restoring as JSON: a record becomes an object of its fields (schema.py defines the types of fields).
 
-Tuples, lists and deques become lists; a deque with a maxlen {"maxlen": most, "is": list}, an open record {"kind": name
-of its class, "is": its fields}, an enum its value, bytes base64. Loaded values are checked against the annotations."""
+Tuples, lists and deques become lists, a deque with a maxlen {"maxlen": n, "is": list}, an open record {"kind": name
+of the class, "is": fields}, an enum member its value, and bytes a base64 string. Loaded values are checked against the
+annotations. A "saver" turns a value into JSON, a "loader" reads it; a "codec" here is the pair of both."""
 
 from __future__ import annotations
 
@@ -28,26 +29,26 @@ _Loader = Callable[[Any, Classes], Any]
 
 
 class SnapshotError(ValueError):
-    """Raised for a value that is no snapshot, is of another version, or does not fit this release's records."""
+    """Raised for a value that is not a snapshot, has another version, or does not fit this release's records."""
 
 
 def no_class(name: str) -> None:
-    """Return None for every name, so that open records cannot be loaded."""
+    """Return None for every name; as `classes` of `load`, this forbids open records of unknown classes."""
 
 
 def save(record: object) -> Json:
-    """Return a JSON-able copy of `record`.
+    """Return a copy of `record` that can be written as JSON.
 
-    Raises TypeError when a field is of a kind that cannot be saved, SnapshotError when it holds a value that cannot;
-    both name its class and the field."""
+    Raises TypeError for a field whose type cannot be saved and SnapshotError for a value that cannot be saved; both
+    name the class and the field."""
     return _codec(record_of(type(record)))[0](record)
 
 
 def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
     """Return the record of class `cls` that `save` turned into `value`.
 
-    `classes` looks up the classes of open records. Raises SnapshotError when the value does not fit, TypeError when
-    `cls` is no record."""
+    `classes` looks up the classes of open records. Raises SnapshotError when the value does not fit, and
+    TypeError when `cls` is not a record."""
     loader = _codec(record_of(cls))[1]
     try:
         loaded: T = loader(value, classes)
@@ -61,7 +62,7 @@ def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
 def checksum(value: Json) -> int:
     """Return the CRC-32 of a saved value, independent of the order of its keys.
 
-    Minus zero counts as zero, since some encoders lose its sign."""
+    -0.0 counts as 0.0, because some JSON encoders lose its sign."""
     text = json.dumps(value, sort_keys=True, separators=(",", ":"))
     return crc32(_MINUS_ZERO.sub("0.0", text).encode())
 
@@ -88,7 +89,7 @@ def _codec(node: Node) -> tuple[_Saver, _Loader]:
         case RowNode(kind, of):
             return _deque_codec(*_codec(of)) if kind is deque else _row_codec(kind, *_codec(of))
         case DictNode(key, of):
-            return _table_codec(*_codec(key), *_codec(of))
+            return _dict_codec(*_codec(key), *_codec(of))
         case OpenNode():
             return _open_codec(node)
         case RecordNode():
@@ -129,7 +130,7 @@ def _is_float(node: Node) -> bool:
 
 
 def _save_floats(count: int | None, values: Any) -> Json:
-    """Save many floats at once, since a call for each takes three times as long; `count` is the required number."""
+    """Save many floats at once, which takes a third of the time of single calls; `count` is the required number."""
     numbers: list[Json] = [*map(float, values)]
     if count is not None and len(numbers) != count:
         raise SnapshotError(f"{len(numbers)} items of {count}")
@@ -139,68 +140,68 @@ def _save_floats(count: int | None, values: Any) -> Json:
 
 
 def _load_floats(kind: type, count: int | None, values: Any, _: object) -> Any:
-    if count is not None and len(_list(values)) != count:
+    if count is not None and len(_check_list(values)) != count:
         raise SnapshotError(f"expected {count} items, found {len(values)}")
-    if {*map(type, _list(values))} - {float, int}:
+    if {*map(type, _check_list(values))} - {float, int}:
         raise SnapshotError(f"expected numbers, found {values!r:.80}")
     return kind(map(float, values))
 
 
-def _list(value: Any) -> list[Any]:
+def _check_list(value: Any) -> list[Any]:
     if not isinstance(value, list):
         raise SnapshotError(f"expected a list, found {type(value).__name__}")
     return value
 
 
-def _maybe_codec(save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
+def _maybe_codec(save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
     return (
-        lambda value: None if value is None else save_one(value),
-        lambda value, classes: None if value is None else load_one(value, classes),
+        lambda value: None if value is None else save_item(value),
+        lambda value, classes: None if value is None else load_item(value, classes),
     )
 
 
 def _tuple_codec(codecs: list[tuple[_Saver, _Loader]]) -> tuple[_Saver, _Loader]:
-    savers, loaders = [save_one for save_one, _ in codecs], [load_one for _, load_one in codecs]
+    savers, loaders = [save_item for save_item, _ in codecs], [load_item for _, load_item in codecs]
 
     def load_tuple(value: Any, classes: Classes) -> tuple[Any, ...]:
-        if len(_list(value)) != len(loaders):
+        if len(_check_list(value)) != len(loaders):
             raise SnapshotError(f"expected {len(loaders)} items, found {len(value)}")
-        return tuple([load_one(item, classes) for load_one, item in zip(loaders, value, strict=True)])
+        return tuple([load_item(item, classes) for load_item, item in zip(loaders, value, strict=True)])
 
-    return (lambda value: [save_one(item) for save_one, item in zip(savers, value, strict=True)]), load_tuple
+    return (lambda value: [save_item(item) for save_item, item in zip(savers, value, strict=True)]), load_tuple
 
 
-def _row_codec(kind: type, save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
+def _row_codec(kind: type, save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
     return (
-        lambda value: [save_one(item) for item in value],
-        lambda value, classes: kind([load_one(item, classes) for item in _list(value)]),
+        lambda value: [save_item(item) for item in value],
+        lambda value, classes: kind([load_item(item, classes) for item in _check_list(value)]),
     )
 
 
-def _deque_codec(save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
-    """Return a codec that saves a list or, for a deque with a maxlen, which no annotation has, a dict with both."""
+def _deque_codec(save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
+    """Return a codec that saves a list, or for a deque with a maxlen, which annotations cannot declare, a dict."""
 
     def save_deque(value: Any) -> Json:
-        items: list[Json] = [save_one(item) for item in value]
-        most = getattr(value, "maxlen", None)
-        return items if most is None else {"maxlen": most, "is": items}
+        items: list[Json] = [save_item(item) for item in value]
+        max_length = getattr(value, "maxlen", None)
+        return items if max_length is None else {"maxlen": max_length, "is": items}
 
     def load_deque(value: Any, classes: Classes) -> deque[Any]:
-        most = None
+        max_length = None
         if isinstance(value, dict):
-            most, items = value["maxlen"], _list(value["is"])
-            if type(most) is not int or most < len(items) or value.keys() != {"maxlen", "is"}:
+            max_length, items = value["maxlen"], _check_list(value["is"])
+            if type(max_length) is not int or max_length < len(items) or value.keys() != {"maxlen", "is"}:
                 raise SnapshotError(f"not a deque: {value!r:.80}")
             value = items
-        return deque([load_one(item, classes) for item in _list(value)], most)
+        return deque([load_item(item, classes) for item in _check_list(value)], max_length)
 
     return save_deque, load_deque
 
 
-def _table_codec(save_key: Any, load_key: _Loader, save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
+def _dict_codec(save_key: Any, load_key: _Loader, save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
     return (
-        lambda value: {save_key(key): save_one(item) for key, item in value.items()},
-        lambda value, classes: {load_key(key, classes): load_one(item, classes) for key, item in value.items()},
+        lambda value: {save_key(key): save_item(item) for key, item in value.items()},
+        lambda value, classes: {load_key(key, classes): load_item(item, classes) for key, item in value.items()},
     )
 
 
@@ -248,7 +249,7 @@ def _open_codec(node: OpenNode) -> tuple[_Saver, _Loader]:
 
 
 def check_open(node: OpenNode, cls: type) -> None:
-    """Raise TypeError when an object of that class may not be saved in this open node."""
+    """Raise TypeError when a record of class `cls` may not be saved in this open node."""
     if node.known.get(cls.__name__) is cls:
         return
     if not node.others:
@@ -260,10 +261,10 @@ def check_open(node: OpenNode, cls: type) -> None:
 
 
 def class_in(node: OpenNode, kind: Any, classes: Classes) -> type:
-    """Return the class of that name; raise SnapshotError when it is unknown."""
-    found = node.known.get(kind)
-    if found is None and node.others and isinstance(kind, str):
-        found = classes(kind)
-    if found is None:
+    """Return the class with the name `kind`; raise SnapshotError when it is unknown."""
+    cls = node.known.get(kind)
+    if cls is None and node.others and isinstance(kind, str):
+        cls = classes(kind)
+    if cls is None:
         raise SnapshotError(f"a snapshot of a part {kind!r:.80} that is not known here")
-    return found
+    return cls

@@ -14,9 +14,10 @@ A loop over fields would take eight times as long. The generated code is straigh
         M.append(x3 is not None)
         kinds_0.write(o.corrector, F, N, M, B)
 
-F takes floats, N ints, enums (the index in their class), lengths and kinds, M flags, B bytes; f, n, m, b return the
-next of each. `t` is the same record made again: fields outside the schema are taken from it, and shared. C looks
-classes up."""
+F, N, M and B are the streams to which `write` appends: F floats; N ints, enums (index of the member), lengths and
+kinds; M flags; B bytes. The functions f, n, m and b return the next value of each stream. `o` is the record. `t` is the
+same record as its holder has made it again: fields outside the schema are copied from it by reference. C returns a
+class by its name."""
 
 from __future__ import annotations
 
@@ -29,170 +30,174 @@ from .schema import is_frozen
 
 
 class CodeGenerator:
-    """Collects the lines that write a record and those within it, and a function for each that reads it.
+    """Collects the lines of code that write a record and its inner records, and a function that reads each.
 
-    `called` holds the functions that they call, by name. `kinds` makes the object that writes and reads open records.
-    """
+    `functions` has the functions that the generated code calls, by name. `open_codec` returns the object that writes
+    and reads open records."""
 
-    def __init__(self, called: dict[str, Callable[..., Any]], kinds: Callable[[OpenNode], Any]) -> None:
-        self.space: dict[str, Any] = {
-            "new": object.__new__, "put": object.__setattr__, "deque": deque, **called
+    def __init__(self, functions: dict[str, Callable[..., Any]], open_codec: Callable[[OpenNode], Any]) -> None:
+        self.namespace: dict[str, Any] = {
+            "new": object.__new__, "put": object.__setattr__, "deque": deque, **functions
         }  # fmt: skip
-        self.kinds = kinds
+        self.open_codec = open_codec
         self.source: list[str] = []
         self.lines: list[str] = []
-        self.pending: dict[str, list[str]] = {"F": [], "N": [], "M": []}
-        """Numbers that the next line of their stream writes."""
-        self.named = 0
+        self.pending_numbers: dict[str, list[str]] = {"F": [], "N": [], "M": []}
+        """Expressions of the numbers that the next line of each stream writes."""
+        self.name_count = 0
         self.readers: dict[RecordNode, str] = {}
 
-    def made(self, record: RecordNode) -> tuple[Callable[..., None], Callable[..., Any]]:
-        """Return the functions that write and read the record."""
+    def generate(self, record: RecordNode) -> tuple[Callable[..., None], Callable[..., Any]]:
+        """Generate and return the functions that write and read the record."""
         self.write(record, "o")
         self.flush()
         self.source += ["def write(o, F, N, M, B):", *["    " + line for line in self.lines or ["pass"]]]
-        reader = self.reader(record)
-        exec("\n".join(self.source), self.space)
-        return self.space["write"], self.space[reader]
+        reader = self.add_reader(record)
+        exec("\n".join(self.source), self.namespace)
+        return self.namespace["write"], self.namespace[reader]
 
-    def named_value(self, what: str, value: Any) -> str:
-        """Return a name of the generated code for an object."""
-        name = f"{what}_{len(self.space)}"
-        self.space[name] = value
+    def name_object(self, prefix: str, value: Any) -> str:
+        """Return a new name by which the generated code refers to the object `value`."""
+        name = f"{prefix}_{len(self.namespace)}"
+        self.namespace[name] = value
         return name
 
-    def name(self) -> str:
-        self.named += 1
-        return f"x{self.named - 1}"
+    def new_name(self) -> str:
+        self.name_count += 1
+        return f"x{self.name_count - 1}"
 
-    def held(self, what: str) -> str:
-        """Return a name for the value of an expression, assigning it if needed."""
-        if what.isidentifier():
-            return what
-        held = self.name()
-        self.lines.append(f"{held} = {what}")
-        return held
+    def assign_name(self, value: str) -> str:
+        """Return a variable that has the value of the expression `value`, with an assignment if needed."""
+        if value.isidentifier():
+            return value
+        variable = self.new_name()
+        self.lines.append(f"{variable} = {value}")
+        return variable
 
     def flush(self, streams: str = "FNM") -> None:
-        """Write the pending numbers now, before later ones of their stream."""
-        for stream, parts in self.pending.items():
+        """Add lines that write the pending numbers of these streams."""
+        for stream, parts in self.pending_numbers.items():
             if parts and stream in streams:
                 joined = ", ".join(parts)
                 self.lines.append(f"{stream}.append({joined})" if len(parts) == 1 else f"{stream} += ({joined})")
                 parts.clear()
 
-    def put(self, stream: str, line: str) -> None:
-        """Add a line that writes to one stream."""
+    def add_line(self, stream: str, line: str) -> None:
+        """Add a line that writes to one stream, after its pending numbers."""
         self.flush(stream)
         self.lines.append(line)
 
-    def block(self, opening: str, *written: tuple[Node, str]) -> None:
-        """Add a block that writes these values."""
+    def add_block(self, opening: str, *written: tuple[Node, str]) -> None:
+        """Add a block with the line `opening` that writes these values."""
         self.flush()
         outer, self.lines = self.lines, []
-        for node, what in written:
-            self.write(node, what)
+        for node, value in written:
+            self.write(node, value)
         self.flush()
         outer += [opening, *["    " + line for line in self.lines or ["pass"]]]
         self.lines = outer
 
-    def write(self, node: Node, what: str) -> None:
-        """Add the lines that write a value."""
+    def write(self, node: Node, value: str) -> None:
+        """Add the lines that write the expression `value`."""
         match node:
             case ScalarNode(kind) if _stream(node):
-                self.pending[_stream(node)].append(what)
+                self.pending_numbers[_stream(node)].append(value)
             case ScalarNode(kind):
-                held = self.held(what + ".encode()" if kind is str else what)
-                self.pending["N"].append(f"len({held})")
-                self.put("B", f"B.append({held})")
+                variable = self.assign_name(value + ".encode()" if kind is str else value)
+                self.pending_numbers["N"].append(f"len({variable})")
+                self.add_line("B", f"B.append({variable})")
             case EnumNode(cls):
                 places = {member: k for k, member in enumerate(cls)}
-                self.pending["N"].append(f"{self.named_value('places', places)}[{what}]")
+                self.pending_numbers["N"].append(f"{self.name_object('places', places)}[{value}]")
             case MaybeNode(of):
-                held = self.held(what)
-                self.pending["M"].append(f"{held} is not None")
-                self.block(f"if {held} is not None:", (of, held))
+                variable = self.assign_name(value)
+                self.pending_numbers["M"].append(f"{variable} is not None")
+                self.add_block(f"if {variable} is not None:", (of, variable))
             case TupleNode(items):
-                names = [self.name() for _ in items]
-                self.lines.append(f"[{', '.join(names)}] = {what}")
-                for item, held in zip(items, names, strict=True):
-                    self.write(item, held)
+                names = [self.new_name() for _ in items]
+                self.lines.append(f"[{', '.join(names)}] = {value}")
+                for item, variable in zip(items, names, strict=True):
+                    self.write(item, variable)
             case RowNode(kind, of):
-                self.row(kind, of, self.held(what))
+                self.write_row(kind, of, self.assign_name(value))
             case DictNode(key, of):
-                held, k, v = self.held(what), self.name(), self.name()
-                self.pending["N"].append(f"len({held})")
-                self.block(f"for {k}, {v} in {held}.items():", (key, k), (of, v))
+                variable, k, v = self.assign_name(value), self.new_name(), self.new_name()
+                self.pending_numbers["N"].append(f"len({variable})")
+                self.add_block(f"for {k}, {v} in {variable}.items():", (key, k), (of, v))
             case OpenNode():
                 self.flush()
-                self.lines.append(f"{self.named_value('kinds', self.kinds(node))}.write({what}, F, N, M, B)")
+                self.lines.append(f"{self.name_object('kinds', self.open_codec(node))}.write({value}, F, N, M, B)")
             case RecordNode(_, _, fields):
-                held = self.held(what)
+                variable = self.assign_name(value)
                 for name, of in fields.items():
-                    self.write(of, f"{held}.{name}")
+                    self.write(of, f"{variable}.{name}")
 
-    def row(self, kind: type, of: Node, held: str) -> None:
+    def write_row(self, kind: type, of: Node, variable: str) -> None:
         if kind is deque:
-            self.write(MaybeNode(ScalarNode(int)), f"{held}.maxlen")
-        self.pending["N"].append(f"len({held})")
+            self.write(MaybeNode(ScalarNode(int)), f"{variable}.maxlen")
+        self.pending_numbers["N"].append(f"len({variable})")
         if _stream(of):
-            self.put(_stream(of), f"{_stream(of)} += {held}")
+            self.add_line(_stream(of), f"{_stream(of)} += {variable}")
         elif isinstance(of, TupleNode) and {*map(_stream, of.items)} in ({"F"}, {"N"}):
-            stream, item = _stream(of.items[0]), self.name()
-            self.put(stream, f"for {item} in all_of({held}, {len(of.items)}): {stream} += {item}")
+            stream, item = _stream(of.items[0]), self.new_name()
+            self.add_line(stream, f"for {item} in check_widths({variable}, {len(of.items)}): {stream} += {item}")
         else:
-            item = self.name()
-            self.block(f"for {item} in {held}:", (of, item))
+            item = self.new_name()
+            self.add_block(f"for {item} in {variable}:", (of, item))
 
-    def reader(self, record: RecordNode) -> str:
-        """Return the name of the function that reads the record."""
+    def add_reader(self, record: RecordNode) -> str:
+        """Return the name of the function that reads the record, and add its code if needed."""
         if record in self.readers:
             return self.readers[record]
         function = self.readers[record] = f"read_{len(self.readers)}"
         form = "put(o, {!r}, {})" if is_frozen(record.cls) else "o.{} = {}"
-        lines = [f"def {function}(t, f, n, m, b, F, C):", f"o = new({self.named_value('cls', record.cls)})"]
+        lines = [f"def {function}(t, f, n, m, b, F, C):", f"o = new({self.name_object('cls', record.cls)})"]
         for name, default in record.defaults.items():
-            lines.append(form.format(name, f"t.{name}" if record.made else self.named_value("default", default)))
-        lines += [form.format(name, self.expression(of, f"t.{name}")) for name, of in record.fields.items()]
+            lines.append(form.format(name, f"t.{name}" if record.made else self.name_object("default", default)))
+        lines += [form.format(name, self.read_expression(of, f"t.{name}")) for name, of in record.fields.items()]
         self.source += "\n    ".join([*lines, "return o"]).splitlines()
         return function
 
-    def expression(self, node: Node, t: str) -> str:
-        """Return the expression that reads a value; `t` stands in its place if it is made again."""
+    def read_expression(self, node: Node, t: str) -> str:
+        """Return the expression that reads a value; `t` is that of the value which its holder has made again."""
         match node:
             case ScalarNode(kind):
                 return {float: "f()", int: "n()", bool: "m()", bytes: "b(n())", str: "b(n()).decode()"}[kind]
             case EnumNode(cls):
-                return f"word({self.named_value('words', list(cls))}, n())"
+                return f"get_word({self.name_object('words', list(cls))}, n())"
             case MaybeNode(of):
-                is_there = f"there(m(), {t})" if _is_made(of) else "m()"
-                return f"({self.expression(of, t)} if {is_there} else None)"
+                presence = f"check_presence(m(), {t})" if _is_made(of) else "m()"
+                return f"({self.read_expression(of, t)} if {presence} else None)"
             case TupleNode(items):
-                return "(" + "".join([self.expression(item, f"{t}[{k}]") + ", " for k, item in enumerate(items)]) + ")"
+                return (
+                    "("
+                    + "".join([self.read_expression(item, f"{t}[{k}]") + ", " for k, item in enumerate(items)])
+                    + ")"
+                )
             case DictNode(key, of):
-                inner = self.expression(of, f"{t}[k]")
-                return f"{{(k := {self.expression(key, t)}): {inner} for _ in some(n())}}"
+                inner = self.read_expression(of, f"{t}[k]")
+                return f"{{(k := {self.read_expression(key, t)}): {inner} for _ in check_count(n())}}"
             case RowNode(kind, of):
                 most = "(n() if m() else None)" if kind is deque else ""
-                each = f"each(n(), {t})" if _is_made(of) else "some(n())"
+                each = f"check_parts(n(), {t})" if _is_made(of) else "check_count(n())"
                 if _stream(of) == "F":
                     row = "take(F, n())"
                 elif isinstance(of, TupleNode) and {*map(_stream, of.items)} == {"F"}:
                     row = f"rows(F, n(), {len(of.items)})"
                 else:
-                    row = f"[{self.expression(of, 'i')} for i in {each}]"
+                    row = f"[{self.read_expression(of, 'i')} for i in {each}]"
                 if kind is deque:
                     return f"deque(maxlen={most}, iterable={row})"
                 return f"tuple({row})" if kind is tuple else row
             case OpenNode():
                 made = t if node.made else "None"
-                return f"{self.named_value('kinds', self.kinds(node))}.read({made}, f, n, m, b, F, C)"
+                return f"{self.name_object('kinds', self.open_codec(node))}.read({made}, f, n, m, b, F, C)"
             case RecordNode():
-                return f"{self.reader(node)}({t if node.made else 'None'}, f, n, m, b, F, C)"
+                return f"{self.add_reader(node)}({t if node.made else 'None'}, f, n, m, b, F, C)"
 
 
 def _stream(node: Node) -> str:
-    """Return the stream of a number; "" for anything else."""
+    """Return the stream of a number or flag; "" for any other value."""
     return {float: "F", int: "N", bool: "M"}.get(node.kind, "") if isinstance(node, ScalarNode) else ""
 
 

@@ -1,4 +1,4 @@
-"""Nodes of a schema: one class for every kind of value that a field may hold (schema.py)."""
+"""Nodes of a schema: a class for each kind of value that a field may have (schema.py)."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class TupleNode:
 
 @frozen(eq=False)
 class RowNode:
-    """A tuple, list or deque of any length."""
+    """A tuple, list or deque (`kind`) of any length, whose items have the node `of`."""
 
     kind: type
     of: Node
@@ -46,7 +46,7 @@ class RowNode:
 
 @frozen(eq=False)
 class DictNode:
-    """A dict of keys and values of two kinds."""
+    """A dict; keys have the node `key`, values the node `of`."""
 
     key: Node
     of: Node
@@ -59,9 +59,9 @@ class OpenNode:
     known: dict[str, type]
     """Classes by name."""
     others: bool
-    """True if records of other classes are allowed too."""
+    """Flag: records of other classes are allowed too."""
     made: bool
-    """Like `RecordNode.made`; a record of an unknown class without state is whole all the same."""
+    """Flag as in `RecordNode`; a record of another class without state is still saved with all fields."""
 
 
 @frozen(eq=False)
@@ -70,11 +70,11 @@ class RecordNode:
 
     cls: type
     made: bool
-    """True if its holder makes it again with its settings, so that `fields` holds its state alone."""
+    """Flag: the holder makes the record again with the same settings, so `fields` has only the state."""
     fields: dict[str, Node]
     """Nodes of the saved fields, in the order of the class."""
     defaults: dict[str, Any]
-    """Defaults of the fields that are not saved; unused for a record that is made again."""
+    """Defaults of the fields that are not saved; not used for a record that is made again."""
 
 
 Node = ScalarNode | EnumNode | MaybeNode | TupleNode | RowNode | DictNode | OpenNode | RecordNode

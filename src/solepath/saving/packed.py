@@ -16,8 +16,8 @@ from .nodes import OpenNode, RecordNode
 from .schema import describe, record_in, schema_checksum
 
 Lists = tuple[list[float], list[int], list[bool], list[bytes]]
-FEW = 1 << 20
-"""Largest length of a list of records; no state comes near it."""
+MAX_LIST_LENGTH = 1 << 20
+"""Largest length of a list of records that is read; no state has nearly as many."""
 
 
 class Streams:
@@ -29,96 +29,95 @@ class Streams:
 
     def take(self, count: int) -> bytes:
         """Return the next `count` bytes."""
-        taken = self.data[self.at : self.at + count] if count >= 0 else b""
-        if len(taken) != count:
+        values = self.data[self.at : self.at + count] if count >= 0 else b""
+        if len(values) != count:
             raise SnapshotError("it was cut short")
         self.at += count
-        return taken
+        return values
 
     def end(self) -> None:
-        """Raise SnapshotError unless everything was read."""
+        """Raise SnapshotError unless all values were read."""
         if [*islice(self.floats, 1), *islice(self.ints, 1), *islice(self.flags, 1)] or self.at != len(self.data):
             raise SnapshotError("more is packed than a session holds")
 
 
 def write(record: RecordNode, value: Any, lists: Lists) -> None:
-    """Append the values of a record; raise TypeError, ValueError and the like for values that it cannot hold."""
-    _form(record).write(value, *lists)
+    """Append the values of a record; raise TypeError or ValueError, for example, for values that do not fit."""
+    _functions_of(record).write(value, *lists)
 
 
 def read(record: RecordNode, streams: Streams, classes: Classes, made: Any = None) -> Any:
-    """Return the record that was written; `made` is the same record as its holder makes it, if it is made again."""
+    """Return the record that was written; `made` is the record as its holder has made it again, if so."""
     s = streams
     next_of = [stream.__next__ for stream in (s.floats, s.ints, s.flags)]
-    return _form(record).read(made, *next_of, s.take, s.floats, classes)
+    return _functions_of(record).read(made, *next_of, s.take, s.floats, classes)
 
 
 @frozen
-class _Form:
+class _RecordFunctions:
     write: Callable[..., None]
     read: Callable[..., Any]
 
 
 @lru_cache(maxsize=512)
-def _form(record: RecordNode) -> _Form:
-    """Return the functions of a record."""
-    called: dict[str, Callable[..., Any]]
-    called = {
-        "all_of": _check_widths,
+def _functions_of(record: RecordNode) -> _RecordFunctions:
+    """Return the generated functions of a record."""
+    functions: dict[str, Callable[..., Any]]
+    functions = {
+        "check_widths": _check_widths,
         "take": _take,
         "rows": _rows,
-        "some": _check_count,
-        "word": _get_word,
-        "there": _check_presence,
-        "each": _check_parts,
+        "check_count": _check_count,
+        "get_word": _get_word,
+        "check_presence": _check_presence,
+        "check_parts": _check_parts,
     }
-    return _Form(*CodeGenerator(called, _Kinds).made(record))
+    return _RecordFunctions(*CodeGenerator(functions, _OpenRecordCodec).generate(record))
 
 
-class _Kinds:
-    """Writes and reads open records: the kind, then the record.
+class _OpenRecordCodec:
+    """Writes and reads open records: first the kind (an index in the known names), then the record.
 
-    A class without a known name has the kind after the known ones, followed by its name and the checksum of its schema.
-    """
+    The kind of any other class is the number of known names; the name and the checksum of its schema follow."""
 
     def __init__(self, node: OpenNode) -> None:
         self.node, self.names = node, list(node.known)
-        self.kinds: dict[type, tuple[int, bytes, _Form]] = {}
-        """Classes met so far, each with its number, its identity if it has no number, its writer and reader."""
+        self.functions_of_class: dict[type, tuple[int, bytes, _RecordFunctions]] = {}
+        """Kind, identity (empty for a known class) and functions of each class so far."""
 
-    def _kind(self, cls: type) -> tuple[int, bytes, _Form]:
-        known = self.kinds.get(cls)
-        if known is None:
+    def _find_functions(self, cls: type) -> tuple[int, bytes, _RecordFunctions]:
+        entry = self.functions_of_class.get(cls)
+        if entry is None:
             record = record_in(self.node, cls)
             if cls.__name__ in self.names:
-                known = self.names.index(cls.__name__), b"", _form(record)
+                entry = self.names.index(cls.__name__), b"", _functions_of(record)
             else:
-                known = len(self.names), identify_record(record).encode(), _form(record)
-            self.kinds[cls] = known
-        return known
+                entry = len(self.names), identify_record(record).encode(), _functions_of(record)
+            self.functions_of_class[cls] = entry
+        return entry
 
     def write(self, o: Any, F: Any, N: Any, M: Any, B: Any) -> None:
         cls = type(o)
-        if cls not in self.kinds:
+        if cls not in self.functions_of_class:
             check_open(self.node, cls)
-        k, identity, form = self._kind(cls)
+        k, identity, functions = self._find_functions(cls)
         N.append(k)
         if identity:
             N.append(len(identity))
             B.append(identity)
-        form.write(o, F, N, M, B)
+        functions.write(o, F, N, M, B)
 
     def read(self, t: Any, f: Any, n: Any, m: Any, b: Any, F: Any, C: Classes) -> Any:
-        """Return the record; one that is made again must be of the class that stands there."""
+        """Return the record; a record that is made again must have the class of `t`."""
         k = n()
         identity = b(n()) if k == len(self.names) and self.node.others else b""
         name = identity.decode().partition(" ")[0] if identity else _get_word(self.names, k)
         if self.node.made and name != type(t).__name__:
             raise SnapshotError(f"packed with {name}, and this recipe has {type(t).__name__}")
-        _, expected, form = self._kind(type(t) if self.node.made else class_in(self.node, name, C))
+        _, expected, functions = self._find_functions(type(t) if self.node.made else class_in(self.node, name, C))
         if identity and identity != expected:
             raise SnapshotError(f"packed with a part {name!r} that had other fields")
-        return form.read(t, f, n, m, b, F, C)
+        return functions.read(t, f, n, m, b, F, C)
 
 
 @lru_cache(maxsize=512)
@@ -141,10 +140,10 @@ def _check_presence(is_there: bool, t: Any) -> bool:
 
 
 def _take(floats: Iterator[float], count: int) -> list[float]:
-    taken = list(islice(floats, count))
-    if len(taken) != count:
+    values = list(islice(floats, count))
+    if len(values) != count:
         raise SnapshotError("it was cut short")
-    return taken
+    return values
 
 
 def _rows(floats: Iterator[float], count: int, width: int) -> list[tuple[float, ...]]:
@@ -154,13 +153,13 @@ def _rows(floats: Iterator[float], count: int, width: int) -> list[tuple[float, 
 
 def _check_count(count: int) -> range:
     """Return a range of this length; raise SnapshotError if no list can be that long."""
-    if not 0 <= count <= FEW:
+    if not 0 <= count <= MAX_LIST_LENGTH:
         raise SnapshotError(f"a list of {count}")
     return range(count)
 
 
 def _check_parts(count: int, made: Any) -> Iterable[Any]:
-    """Return the parts in whose places the packed ones are read; raise SnapshotError if their number differs."""
+    """Return the parts that were made again; raise SnapshotError unless there are `count`, as in the packed state."""
     if count != len(made):
         raise SnapshotError(f"packed with {count} parts, and this recipe has {len(made)}")
     return made  # type: ignore[no-any-return]

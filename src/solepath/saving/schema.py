@@ -1,20 +1,22 @@
 """Schema of a record, from the type annotations of its class.
 
-A record is an attrs class, or a plain class with annotations in its body (`ClassVar` is none of its fields). Its fields
-are floats, ints, bools, strings, bytes, enums, other records, None or one of these, tuples, lists, deques, and dicts
-whose keys are strings or enums. Nothing else can be saved: no generators, closures, rebound methods or arrays.
+A record is an attrs class, or a plain class with annotations in its body (a `ClassVar` is no field). A field may be a
+float, int, bool, string, bytes, enum member, another record, an optional of one of these, or a tuple, list, deque or
+dict (with strings or enum members as keys) of these. Nothing else can be saved: generators, closures, rebound methods
+and arrays cannot.
 
-An annotation that is a Protocol is *open*: it stands for a record of any class, saved with the name of its class and
-loaded by a lookup that the caller passes. A union of records is open too, with a lookup of its own.
+An annotation that is a Protocol is *open*: the value is a record of any class. It is saved with the name of its class,
+and the caller of `load` passes a function that returns the class. A union of records is open too, but has only its own
+classes.
 
-Fields that a constructor takes are *settings* and never change; those that it does not take (`init=False`) are *state*.
-A class with state is a *part*. The holder of a part makes it again with the same settings, so the packed form of such a
-part has its state alone, and the state of the parts among its settings. This holds for a part in a setting, and for one
-in a field of state that exists from the start (its default is not None). Everything else is written whole: parts that
-come and go, and records without state, which are data. Two marks declare exceptions to these rules:
+Fields that a constructor takes are *settings* and never change; other fields (`init=False`) are *state*. A class with
+state is a *part*. When a session is unpacked, the *holder* of a part (the record that has it in a field) makes the part
+again with the same settings. The packed form of such a part has only its state, and the state of parts in its settings.
+This applies to a part in a setting, and to a part in a field of state whose default is not None. Everything else is
+written with all fields: parts that may be absent, and records without state. Two marks declare exceptions:
 
-    floorplan: Plan | None = field(default=None, metadata=NOT_SAVED)      its default after loading
-    feet: dict[Foot, Tracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)      the state of its parts alone
+    floorplan: Plan | None = field(default=None, metadata=NOT_SAVED)      has its default after loading
+    feet: dict[Foot, Tracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)      only the state is saved
 """
 
 from __future__ import annotations
@@ -39,37 +41,39 @@ _RECORDS: dict[tuple[type, bool], RecordNode] = {}
 
 
 def record_of(cls: type, made: bool = False) -> RecordNode:
-    """Return the schema of a class; `made` selects its state alone.
+    """Return the schema of a class; with `made`, only that of its state.
 
     Raises TypeError, which names the class and the field, for a type that cannot be saved."""
-    known = _RECORDS.get((cls, made))
-    return _Walk().record(cls, made) if known is None else known
+    cached = _RECORDS.get((cls, made))
+    return _SchemaBuilder().record(cls, made) if cached is None else cached
 
 
 def record_in(node: OpenNode, cls: type) -> RecordNode:
-    """Return the schema of a record of that class in an open node."""
+    """Return the schema of a record of class `cls` in an open node."""
     return record_of(cls, node.made and (cls in node.known.values() or has_state(cls)))
 
 
 def is_record(cls: Any) -> bool:
-    """Return whether the fields of the class can be read from its annotations."""
+    """Return whether `cls` is a record: a class whose annotations declare its fields."""
     if not isinstance(cls, type) or issubclass(cls, Enum | tuple):
         return False
     return attrs.has(cls) or bool(typing.get_type_hints(cls))
 
 
 def is_part(cls: Any) -> bool:
-    """Return whether it has state beside settings; a frozen class never changes, so it has none."""
-    return is_record(cls) and not is_frozen(cls) and any([not one.is_setting for one in _declared(cls)])
+    """Return whether `cls` is a part: a record with state; a frozen class has none."""
+    return (
+        is_record(cls) and not is_frozen(cls) and any([not declared.is_setting for declared in _declared_fields(cls)])
+    )
 
 
 def has_state(hint: Any) -> bool:
-    """Return whether the annotated value is a part, or holds one among its settings."""
+    """Return whether a value with this annotation is a part, or has a part in a setting."""
     if is_open(hint) or is_part(hint):
         return True
     if is_record(hint):
-        return not is_frozen(hint) and any([has_state(one.hint) for one in _declared(hint)])
-    return any([has_state(one) for one in typing.get_args(hint)])
+        return not is_frozen(hint) and any([has_state(declared.hint) for declared in _declared_fields(hint)])
+    return any([has_state(argument) for argument in typing.get_args(hint)])
 
 
 def is_frozen(cls: type) -> bool:
@@ -79,13 +83,13 @@ def is_frozen(cls: type) -> bool:
 
 
 def is_open(cls: Any) -> bool:
-    """Return whether it is a Protocol, which stands for records of any class."""
+    """Return whether `cls` is a Protocol, which as an annotation stands for records of any class."""
     return bool(getattr(cls, "_is_protocol", False))
 
 
 @attrs.frozen
 class _Frozen:
-    """A frozen class, for comparison of its `__setattr__`, which all frozen classes share."""
+    """A frozen class whose `__setattr__`, which all frozen classes share, is compared."""
 
 
 @attrs.frozen
@@ -99,57 +103,57 @@ class _DeclaredField:
     mark: str | None
 
 
-def _declared(cls: type) -> Iterator[_DeclaredField]:
+def _declared_fields(cls: type) -> Iterator[_DeclaredField]:
     hints = typing.get_type_hints(cls)
     if attrs.has(cls):
         for field in attrs.fields(cls):
             yield _DeclaredField(field.name, hints[field.name], field.init, field.default, field.metadata.get("saving"))
         return
-    taken = inspect.signature(cls).parameters
+    parameters = inspect.signature(cls).parameters
     for name, hint in hints.items():
         if typing.get_origin(hint) is not typing.ClassVar and hint is not typing.ClassVar:
-            yield _DeclaredField(name, hint, name in taken, getattr(cls, name, attrs.NOTHING), None)
+            yield _DeclaredField(name, hint, name in parameters, getattr(cls, name, attrs.NOTHING), None)
 
 
-class _Walk:
-    """Converts annotations to nodes."""
+class _SchemaBuilder:
+    """Builds the nodes of a schema from annotations."""
 
     def __init__(self) -> None:
-        self.within: list[type] = []
+        self.open_classes: list[type] = []
 
     def record(self, cls: type, made: bool) -> RecordNode:
-        known = _RECORDS.get((cls, made))
-        if known is not None:
-            return known
+        cached = _RECORDS.get((cls, made))
+        if cached is not None:
+            return cached
         if not is_record(cls):
             raise TypeError(f"a record is an attrs class, and {cls!r} is none")
-        if cls in self.within:
+        if cls in self.open_classes:
             raise TypeError(f"a {cls.__name__} in a {cls.__name__} cannot be saved")
-        self.within.append(cls)
+        self.open_classes.append(cls)
         fields: dict[str, Node] = {}
         defaults: dict[str, Any] = {}
-        for one in _declared(cls):
+        for declared in _declared_fields(cls):
             try:
-                node = None if one.mark == NOT_SAVED["saving"] else self.field(one, made)
+                node = None if declared.mark == NOT_SAVED["saving"] else self.field(declared, made)
             except TypeError as error:
-                raise TypeError(locate_error(error, cls, one.name)) from error
+                raise TypeError(locate_error(error, cls, declared.name)) from error
             if node is None:
-                defaults[one.name] = one.default
+                defaults[declared.name] = declared.default
             else:
-                fields[one.name] = node
-        self.within.pop()
+                fields[declared.name] = node
+        self.open_classes.pop()
         return _RECORDS.setdefault((cls, made), RecordNode(cls, made, fields, defaults))
 
-    def field(self, one: _DeclaredField, made: bool) -> Node | None:
-        """Return the node of a field; None for a setting of a record that is made again, unless it holds parts."""
+    def field(self, declared: _DeclaredField, made: bool) -> Node | None:
+        """Return the node of a field; None for a setting without parts of a record that is made again."""
         if not made:
-            return self.node(one.hint, False)
-        if one.is_setting:
-            return self.node(one.hint, True) if has_state(one.hint) else None
-        kinds = [kind for kind in alternatives(one.hint) if kind is not type(None)]
-        there = one.default is not None and all([is_record(kind) or is_open(kind) for kind in kinds])
-        made = there and any([is_part(kind) or is_open(kind) for kind in kinds])
-        return self.node(one.hint, made or one.mark == MADE_AGAIN["saving"])
+            return self.node(declared.hint, False)
+        if declared.is_setting:
+            return self.node(declared.hint, True) if has_state(declared.hint) else None
+        kinds = [kind for kind in alternatives(declared.hint) if kind is not type(None)]
+        exists_from_start = declared.default is not None and all([is_record(kind) or is_open(kind) for kind in kinds])
+        made = exists_from_start and any([is_part(kind) or is_open(kind) for kind in kinds])
+        return self.node(declared.hint, made or declared.mark == MADE_AGAIN["saving"])
 
     def node(self, hint: Any, made: bool) -> Node:
         origin, arguments = typing.get_origin(hint), typing.get_args(hint)
@@ -164,7 +168,7 @@ class _Walk:
         if origin is tuple and arguments[1:] == (...,):
             return RowNode(tuple, self.node(arguments[0], made))
         if origin is tuple:
-            return TupleNode(tuple([self.node(one, made) for one in arguments]))
+            return TupleNode(tuple([self.node(argument, made) for argument in arguments]))
         if origin in (list, deque):
             return RowNode(origin, self.node(arguments[0], made))
         if origin is dict:
@@ -188,7 +192,7 @@ class _Walk:
 
 
 def alternatives(hint: Any) -> tuple[Any, ...]:
-    """Return the members of a union; of another type the type itself."""
+    """Return the members of a union; for another type, the type itself."""
     return typing.get_args(hint) if typing.get_origin(hint) in (typing.Union, types.UnionType) else (hint,)
 
 
@@ -196,7 +200,7 @@ _CANNOT = "a snapshot cannot hold "
 
 
 def locate_error(error: Exception, cls: type, name: str) -> str:
-    """Return the error's text with the class and the field, once: those of the innermost record."""
+    """Return the error's text with class and field of the innermost record."""
     return str(error) if str(error).startswith(_CANNOT) else f"{_CANNOT}{cls.__name__}.{name}: {error}"
 
 
@@ -206,17 +210,17 @@ def describe(*roots: RecordNode) -> dict[str, Any]:
     numbers: dict[type, int] = {}
 
     def name(cls: type) -> str:
-        """Its own, and its number among those of one name."""
+        """Return the name of the class, with a number if another class has the same name."""
         if cls not in numbers:
             numbers[cls] = 1 + sum([known.__name__ == cls.__name__ for known in numbers])
         return f"{cls.__name__} {numbers[cls]}" if numbers[cls] > 1 else cls.__name__
 
     def record(node: RecordNode) -> str:
-        named = f"state of {name(node.cls)}" if node.made else name(node.cls)
-        if named not in data["records"]:
-            data["records"][named] = {}
-            data["records"][named] = {field: kind(inner) for field, inner in node.fields.items()}
-        return named
+        title = f"state of {name(node.cls)}" if node.made else name(node.cls)
+        if title not in data["records"]:
+            data["records"][title] = {}
+            data["records"][title] = {field: kind(inner) for field, inner in node.fields.items()}
+        return title
 
     def kind(node: Node) -> Any:
         match node:
@@ -243,5 +247,5 @@ def describe(*roots: RecordNode) -> dict[str, Any]:
 
 
 def schema_checksum(data: dict[str, Any]) -> int:
-    """Return the CRC-32 of a schema as plain data."""
+    """Return the CRC-32 of a schema in the form of `describe`."""
     return crc32(json.dumps(data, separators=(",", ":")).encode())

@@ -1,10 +1,10 @@
-"""Numbers as bytes: each in the fewest bytes that restore exactly the same number.
+"""Numbers as bytes: each number in the fewest bytes that restore it exactly.
 
-Four streams hold a state: floats, ints, flags and bytes. Three bits give the class of a float or an int (ZERO to RIGHT
-below); a flag is a bit. All little-endian. An int of more than 53 bits, such as a generator's state, is written in
-decimal digits.
+A state has four streams: floats, ints, flags and bytes. Three bits give the class of a float or an int (ZERO to RIGHT
+below); a flag is one bit. All values are little-endian. An int of more than 53 bits, such as a generator's state,
+is written in decimal digits.
 
-numpy does it: a loop over two thousand numbers would take longer than all the rest."""
+The code uses numpy, because a loop over two thousand numbers would take longer than all other work."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ from typing import Any
 import numpy as np
 
 Units = tuple[float, float]
-"""Load of one count of the left insole's cells, and of the right's, N: loads are multiples of it."""
-COUNTS = Struct("<4I2d")
-"""Numbers of floats, ints and flags, length of the digits of large ints, bytes, and the units."""
+"""Load per count of a cell of the left and of the right insole, N; loads are multiples of it."""
+HEADER = Struct("<4I2d")
+"""Header: numbers of floats, ints and flags, length of the digits of large ints in bytes, and the units."""
 
 ZERO, SINGLE, DOUBLE, AGAIN, WHOLE, DECIMAL, LEFT, RIGHT = range(8)
 """Classes of a number.
 
-0.0; a float32; a float64; the last float64 again; an int16; one over 10,000; one times a unit."""
-LARGE = -(2**63)
-"""Placeholder for an int that a float would not hold."""
-_SHIFTED = (1 << np.arange(0, 24, 3)).astype("f4")
+They are, in this order: 0.0; a float32; a float64; the last float64 again; an int16; an int16 / 10,000; an int16 times
+the left unit; an int16 times the right unit."""
+LARGE_INT = -(2**63)
+"""Placeholder for an int that a float cannot represent exactly."""
+_CLASS_FACTORS = (1 << np.arange(0, 24, 3)).astype("f4")
 
 
 def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: Units) -> bytes:
@@ -32,8 +33,8 @@ def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list
     try:
         # struct takes a third of the time that numpy needs for a list
         numbers = np.frombuffer(pack(f"<{len(floats) + len(ints)}d", *floats, *ints), "<f8")
-    except error as wrong:
-        raise ValueError(str(wrong)) from None
+    except error as struct_error:
+        raise ValueError(str(struct_error)) from None
     if not np.isfinite(numbers).all():
         raise ValueError("a number is not finite")
     large = (np.abs(numbers[len(floats) :]) >= 2.0**53).nonzero()[0]
@@ -41,10 +42,10 @@ def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list
     if len(large):
         digits = b" ".join([b"%d" % ints[i] for i in large])
         numbers = numbers.copy()
-        numbers[len(floats) + large] = LARGE
+        numbers[len(floats) + large] = LARGE_INT
     return b"".join(
         [
-            COUNTS.pack(len(floats), len(ints), len(flags), len(digits), *units),
+            HEADER.pack(len(floats), len(ints), len(flags), len(digits), *units),
             *_write_numbers(numbers, units),
             np.packbits(np.frombuffer(bytes(flags), np.uint8), bitorder="little").tobytes(),
             digits,
@@ -53,8 +54,8 @@ def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list
     )
 
 
-def _scaled(k: int, count: Any, units: Units) -> Any:
-    """Return the number that an int16 of a class stands for."""
+def _decode_counts(k: int, count: Any, units: Units) -> Any:
+    """Return the numbers of class `k` whose int16 are `count`."""
     return count / 1e4 if k == DECIMAL else count * (1.0 if k == WHOLE else units[k - LEFT])
 
 
@@ -63,62 +64,62 @@ def _write_numbers(real: Any, units: Units) -> list[bytes]:
     with np.errstate(all="ignore"):
         single = real.astype("<f4")
         is_single = single.astype("<f8").view("<i8") == bits
-        # a number that is too large becomes any other, which is then not equal
+        # a number that is too large for int16 changes its value, so the comparison fails
         counts = single.astype("<i2")
-        is_whole = counts.astype("<f4").view("<i4") == single.view("<i4")
-        is_whole &= is_single
+        is_int16 = counts.astype("<f4").view("<i4") == single.view("<i4")
+        is_int16 &= is_single
         # sums of flags take half the time of masks
-        classes = DOUBLE - is_single.view(np.uint8) + np.uint8(WHOLE - SINGLE) * is_whole.view(np.uint8)
+        classes = DOUBLE - is_single.view(np.uint8) + np.uint8(WHOLE - SINGLE) * is_int16.view(np.uint8)
         classes *= (bits != 0).view(np.uint8)
-        # one pass for all would take as long again: most numbers have their class already
-        far = (classes == DOUBLE).nonzero()[0]
-        far_real, far_bits = real.take(far), bits.take(far)
-        far_classes, far_counts = np.full(len(far), DOUBLE, np.uint8), np.zeros(len(far), "<i2")
+        # only the remaining numbers are tested further, because testing all would double the time
+        remaining = (classes == DOUBLE).nonzero()[0]
+        remaining_real, remaining_bits = real.take(remaining), bits.take(remaining)
+        remaining_classes, remaining_counts = np.full(len(remaining), DOUBLE, np.uint8), np.zeros(len(remaining), "<i2")
         scales = {DECIMAL: 1e4} | {k: 1.0 / unit for unit, k in {units[1]: RIGHT, units[0]: LEFT}.items() if unit}
         for k, scale in scales.items():
-            count = np.rint(far_real * scale).astype("<i2")
-            exact = _scaled(k, count.astype("<f8"), units).view("<i8") == far_bits
-            np.putmask(far_classes, exact, k)
-            np.putmask(far_counts, exact, count)
-    doubles = (far_classes == DOUBLE).nonzero()[0]
-    double_bits = far_bits.take(doubles)
-    far_classes[doubles[1:][double_bits[1:] == double_bits[:-1]]] = AGAIN
-    classes[far], counts[far] = far_classes, far_counts
+            count = np.rint(remaining_real * scale).astype("<i2")
+            exact = _decode_counts(k, count.astype("<f8"), units).view("<i8") == remaining_bits
+            np.putmask(remaining_classes, exact, k)
+            np.putmask(remaining_counts, exact, count)
+    doubles = (remaining_classes == DOUBLE).nonzero()[0]
+    double_bits = remaining_bits.take(doubles)
+    remaining_classes[doubles[1:][double_bits[1:] == double_bits[:-1]]] = AGAIN
+    classes[remaining], counts[remaining] = remaining_classes, remaining_counts
     return [
         _pack_classes(classes),
         counts.take((classes >= WHOLE).nonzero()[0]).tobytes(),
         single.take((classes == SINGLE).nonzero()[0]).tobytes(),
-        far_real.take((far_classes == DOUBLE).nonzero()[0]).tobytes(),
+        remaining_real.take((remaining_classes == DOUBLE).nonzero()[0]).tobytes(),
     ]
 
 
 def _pack_classes(classes: Any) -> bytes:
-    """Pack eight classes into three bytes, the first in the lowest bits; zeros fill the rest."""
-    # float32 holds 24 bits, and has a fast product
-    eights = np.zeros(-(-len(classes) // 8) * 8, "f4")
-    eights[: len(classes)] = classes
-    packed = (eights.reshape(-1, 8) @ _SHIFTED).astype("<u4")
+    """Pack eight classes into three bytes, the first class in the lowest bits; zeros fill the last bytes."""
+    # float32 represents 24 bits exactly, and its matrix product is fast
+    padded = np.zeros(-(-len(classes) // 8) * 8, "f4")
+    padded[: len(classes)] = classes
+    packed = (padded.reshape(-1, 8) @ _CLASS_FACTORS).astype("<u4")
     packed_bytes: bytes = packed.view(np.uint8).reshape(-1, 4)[:, :3].tobytes()
     return packed_bytes
 
 
 def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], bytes]:
-    """Return the arguments of `to_bytes`, with the bytes joined.
+    """Return the arguments of `to_bytes` from its result, with the bytes joined.
 
-    Raises ValueError (or struct's error) for anything else. The result is never much larger than the input."""
-    count, whole_count, flag_count, digits_length, *units = COUNTS.unpack_from(body)
-    cursor = _Cursor(body, COUNTS.size)
-    numbers = _read_numbers(cursor, cursor.in_bits(count + whole_count, 3), (units[0], units[1]))
+    Raises ValueError (or struct.error) for any other input. The result is never much larger than the input."""
+    count, int_count, flag_count, digits_length, *units = HEADER.unpack_from(body)
+    cursor = _Cursor(body, HEADER.size)
+    numbers = _read_numbers(cursor, cursor.take_bits(count + int_count, 3), (units[0], units[1]))
     with np.errstate(all="ignore"):
-        whole = numbers[count:].astype("<i8")
-    if not np.isfinite(numbers).all() or (whole != numbers[count:]).any():
+        integers = numbers[count:].astype("<i8")
+    if not np.isfinite(numbers).all() or (integers != numbers[count:]).any():
         raise ValueError("a number is not finite, or not whole")
-    flags = cursor.in_bits(flag_count, 1)
+    flags = cursor.take_bits(flag_count, 1)
     digits = cursor.take(digits_length).tobytes()
-    ints: list[int] = whole.tolist()
+    ints: list[int] = integers.tolist()
     if digits:
         large = iter(digits.split(b" "))
-        ints = [int(next(large)) if i == LARGE else i for i in ints]
+        ints = [int(next(large)) if i == LARGE_INT else i for i in ints]
         if next(large, None) is not None:
             raise ValueError("large ints are left over")
     return numbers[:count].tolist(), ints, flags.astype(np.bool_).tolist(), cursor.take(None).tobytes()
@@ -126,22 +127,22 @@ def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], by
 
 def _read_numbers(cursor: _Cursor, classes: Any, units: Units) -> Any:
     real = np.zeros(len(classes), "<f8")
-    counts = cursor.array(np.dtype("<i2"), int(np.count_nonzero(classes >= WHOLE))).astype("<f8")
-    of_counts = classes[classes >= WHOLE]
+    counts = cursor.take_array(np.dtype("<i2"), int(np.count_nonzero(classes >= WHOLE))).astype("<f8")
+    count_classes = classes[classes >= WHOLE]
     with np.errstate(all="ignore"):
         for k in (WHOLE, DECIMAL, LEFT, RIGHT):
-            real[classes == k] = _scaled(k, counts[of_counts == k], units)
-        real[classes == SINGLE] = cursor.array(np.dtype("<f4"), int(np.count_nonzero(classes == SINGLE)))
+            real[classes == k] = _decode_counts(k, counts[count_classes == k], units)
+        real[classes == SINGLE] = cursor.take_array(np.dtype("<f4"), int(np.count_nonzero(classes == SINGLE)))
     is_double = classes == DOUBLE
-    doubles = cursor.array(np.dtype("<f8"), int(np.count_nonzero(is_double)))
-    again = classes == AGAIN
-    is_double |= again
-    real[is_double] = doubles[(np.cumsum(~again[is_double]) - 1)]
+    doubles = cursor.take_array(np.dtype("<f8"), int(np.count_nonzero(is_double)))
+    is_again = classes == AGAIN
+    is_double |= is_again
+    real[is_double] = doubles[(np.cumsum(~is_again[is_double]) - 1)]
     return real
 
 
 class _Cursor:
-    """Takes one part after the other; never more than there is."""
+    """Reads consecutive parts of a body; raises ValueError at its end."""
 
     def __init__(self, body: memoryview, at: int) -> None:
         self.body, self.at = body, at
@@ -154,10 +155,10 @@ class _Cursor:
         self.at = end
         return taken
 
-    def array(self, dtype: Any, count: int) -> Any:
+    def take_array(self, dtype: Any, count: int) -> Any:
         return np.frombuffer(self.take(count * dtype.itemsize), dtype)
 
-    def in_bits(self, count: int, width: int) -> Any:
+    def take_bits(self, count: int, width: int) -> Any:
         bits = np.unpackbits(np.frombuffer(self.take(-(-count // 8) * width), np.uint8), bitorder="little")
         numbers = bits.reshape(-1, width) @ (1 << np.arange(width, dtype=np.uint8))
         return numbers[:count]

@@ -1,13 +1,14 @@
-"""Activities of the wearer: standing, walking, running, stairs and lifts, for any recipe.
+"""Activities of the wearer: standing, walking, running, stairs and elevators, for any recipe.
 
 The samples of each foot are cut into blocks of half a second (features.py), and every block gives a likelihood of each
-motion (motion.py). The votes of the feet, the force that a lift adds on a standing foot (ride.py) and the slope of the
-air pressure, where there is a barometer (pressure_height.py), are the evidence of a chain of sixteen states that is
-followed by Viterbi's algorithm (hypotheses.py).
+motion (motion.py). Three kinds of evidence feed a Markov chain of sixteen states (chain.py): the motion likelihoods of
+both feet, the force that an elevator adds on a standing foot (ride.py), and the slope of the air pressure when there is
+a barometer (pressure_height.py). Viterbi's algorithm finds the likeliest sequence of activities (hypotheses.py).
 
-Latency: a block is judged when two more have come, 1 to 1.5 s after it. The likeliest course is reported at once, not
-final. The part on which all likely courses agree is reported again as final, mostly seconds later. Standing that may
-still turn out to be a ride whose start was not detected stays open for up to a minute, a ride's end for 12 s."""
+Latency: a block is judged when two more blocks have come, 1 to 1.5 s after it. The likeliest sequence is reported at
+once as not final. The segments on which all likely sequences agree are reported again as final, mostly seconds later.
+Standing may turn out to be a ride whose start was not detected, so it stays open for up to a minute; the end of a ride
+stays open for 12 s."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ from .features import BLOCK, REACH
 from .flights import Flights
 from .foot_blocks import FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
-from .motion import MotionModel, shipped
+from .motion import MotionModel, load_released_model
 from .pressure_height import NO_EVIDENCE, PressureHeight
 from .votes import block_force, motion_votes
 
@@ -34,18 +35,19 @@ LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
 
 SILENT_BLOCKS = 3
-"""Number of blocks after which a silent foot is not waited for."""
-MOST_EMPTY_BLOCKS = 60
-"""Largest number of consecutive empty blocks that are judged one by one."""
-TIME_TOLERANCE = 1.0
-"""Largest change in the start of a provisional activity that is not reported again, s."""
-MOST_WAITING = 8
-"""Largest number of strides that wait for their activity."""
+"""Number of blocks without samples after which a foot is no longer waited for."""
+MAX_EMPTY_BLOCKS = 60
+"""Largest number of consecutive empty blocks that are judged; the rest of a longer gap is skipped."""
+START_TOLERANCE = 1.0
+"""Largest change in the start of a provisional activity that is not reported as a revision, s."""
+MAX_WAITING_STRIDES = 8
+"""Largest number of strides whose activity is not known yet; older ones are discarded."""
 NO_FEATURES = StrideFeatures(0.0, 0.0, 0.0)
 NO_COVARIANCE = (0.0,) * 6
-"""Covariance of strides that wait: only their times and heights are used."""
+"""Placeholder for the covariance of a stride in `Activities.strides`, of which only times and heights are used."""
 STAIR_DIRECTIONS = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
-RIDES_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
+ELEVATOR_GOES_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
+"""Elevator activities, with a flag: the ride goes up."""
 
 
 @frozen
@@ -53,12 +55,12 @@ class ActivitiesSettings:
     """The settings of `Activities`."""
 
     model: MotionModel | None = None
-    """Motion model; None: the one of this release."""
+    """Motion model; None: the model of this release."""
 
 
 @define
 class Activities(ActivityPart):
-    """Reports the wearer's activity, flights of stairs and lift rides."""
+    """Reports the wearer's activity, flights of stairs and elevator rides."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -67,16 +69,16 @@ class Activities(ActivityPart):
     """The newest activity that was reported, final or not."""
     origin: float | None = field(default=None, init=False)
     """Start of block 0, s."""
-    next: int = field(default=0, init=False)
+    next_block: int = field(default=0, init=False)
     """Number of the block that is judged next."""
     left: FootBlocks = field(factory=FootBlocks, init=False)
     right: FootBlocks = field(factory=FootBlocks, init=False)
-    air: PressureHeight = field(factory=PressureHeight, init=False)
+    pressure_height: PressureHeight = field(factory=PressureHeight, init=False)
     hypotheses: Hypotheses = field(factory=Hypotheses, init=False)
     provisional: list[ActivitySegment] = field(factory=list, init=False)
-    """Segments that were reported and are not final, in the order of time."""
+    """Segments that were reported and are not final, oldest first."""
     withdrawn_at: float | None = field(default=None, init=False)
-    """Time `t` of a newer provisional report that withdrew the activity reported then, s."""
+    """Time `t` of the newest provisional report, s, when it withdrew an activity without a successor."""
     flights: Flights = field(factory=Flights, init=False)
     strides: deque[StrideTaken] = field(factory=deque, init=False)
     """Strides whose activity is not known yet, without their features."""
@@ -84,10 +86,10 @@ class Activities(ActivityPart):
     def ready(self) -> None:
         """Read the motion model of this release, unless the settings have one."""
         if self.settings.model is None:
-            shipped()
+            load_released_model()
 
     def reset(self, site: Site) -> None:
-        """Reset a foot whose clock restarts: what is under way there is discarded."""
+        """Discard the blocks and strides of a foot, and the flight under way, because its clock restarts."""
         if site.foot is None:
             return
         (self.left if site.foot is LEFT else self.right).restart()
@@ -97,7 +99,7 @@ class Activities(ActivityPart):
             self._restart()
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add a sample of a foot, also of its barometer, with its events; return activities, flights and rides."""
+        """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
         sample = view.sample
         acc, t, origin = sample.acc, sample.t, self.origin
         side = self.left if view.foot is LEFT else self.right
@@ -105,52 +107,52 @@ class Activities(ActivityPart):
             if acc is None:
                 return ()
             self.origin = origin = t
-        since = (t - origin + TIE) / BLOCK
+        block_number = (t - origin + TIE) / BLOCK
         events: Sequence[PartOutput] = ()
         if sample.air_pressure is not None and side.index is not None:
-            self.air.add(view.foot, floor(since), sample.air_pressure)
+            self.pressure_height.add(view.foot, floor(block_number), sample.air_pressure)
         if acc is not None:
-            if side.index is None or since >= side.index + 1:
+            if side.index is None or block_number >= side.index + 1:
                 side.close()
-                side.start_block(floor(since), view.gyro_bias, view.acc_grain)
+                side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
                 events = self._judge(t, view.known_at)
             side.add(acc, sample.gyro, view if view.levelled else None)
         if view.events:
             side.add_events(view.events, view.position[2])
             for event in view.events:
                 if isinstance(event, StrideTaken):
-                    self.strides.append(_reduced(event, event.known_at))
-                    if len(self.strides) > MOST_WAITING:
+                    self.strides.append(_reduce(event, event.known_at))
+                    if len(self.strides) > MAX_WAITING_STRIDES:
                         self.strides.popleft()
         return events
 
     def finish(self, now: float) -> Sequence[PartOutput]:
-        """Return the final activities, also those of the last second: no more samples come."""
+        """Return the final activities, including the last second, because no more samples come."""
         events: list[Event] = []
         sides = [side for side in (self.left, self.right) if side.index is not None]
         last = max([side.index for side in sides if side.index is not None], default=-1)
         for side in sides:
             side.close()
-        while self.next <= last and last - self.next < MOST_EMPTY_BLOCKS:
-            self._judge_block(self.next)
-            self.next += 1
+        while self.next_block <= last and last - self.next_block < MAX_EMPTY_BLOCKS:
+            self._judge_block(self.next_block)
+            self.next_block += 1
         self._report(now, events, True)
         return events
 
     def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that give samples."""
-        newest_blocks = [side.index for side in (self.left, self.right) if side.index is not None]
-        newest = max(newest_blocks)
-        complete = min([index for index in newest_blocks if newest - index < SILENT_BLOCKS]) - 1 - REACH
-        if complete < self.next:
+        open_blocks = [side.index for side in (self.left, self.right) if side.index is not None]
+        newest = max(open_blocks)
+        complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1 - REACH
+        if complete < self.next_block:
             return []
         events: list[Event] = []
         empty_blocks = 0
-        while self.next <= complete:
-            empty_blocks = 0 if self._judge_block(self.next) else empty_blocks + 1
-            self.next += 1
-            if empty_blocks > MOST_EMPTY_BLOCKS:
-                self.next = max(self.next, complete - REACH)
+        while self.next_block <= complete:
+            empty_blocks = 0 if self._judge_block(self.next_block) else empty_blocks + 1
+            self.next_block += 1
+            if empty_blocks > MAX_EMPTY_BLOCKS:
+                self.next_block = max(self.next_block, complete - REACH)
         self._report(known_at, events)
         self._count_flights(t, known_at, events)
         return events
@@ -158,75 +160,81 @@ class Activities(ActivityPart):
     def _judge_block(self, index: int) -> bool:
         """Judge one block and return whether it has samples."""
         t = self._time(index)
-        model = self.settings.model or shipped()
+        model = self.settings.model or load_released_model()
         sides = (self.left, self.right)
         features = [side.features(index, t + 0.5 * BLOCK) for side in sides]
-        air = self.air
-        climbs = air.climbs(index, BLOCK) if air.blocks else NO_EVIDENCE
+        pressure_height = self.pressure_height
+        climbs = pressure_height.score_slope(index, BLOCK) if pressure_height.blocks else NO_EVIDENCE
         self.hypotheses.update(
             BlockEvidence(
                 t=t,
                 motions=motion_votes(model, features),
                 forces=tuple([block_force(side.block(index), side.resolution) for side in sides]),
                 climbs=climbs,
-                before=air.height(index - 3, index - 1),
-                after=air.height(index, index + REACH),
+                before=pressure_height.height(index - 3, index - 1),
+                after=pressure_height.height(index, index + REACH),
             ),
             model.chain,
         )
-        return any([one is not None for one in features])
+        return any([foot_features is not None for foot_features in features])
 
     def _time(self, index: int) -> float:
         return (0.0 if self.origin is None else self.origin) + index * BLOCK
 
     def _restart(self) -> None:
         self.origin = None
-        self.next = 0
-        self.air = PressureHeight()
+        self.next_block = 0
+        self.pressure_height = PressureHeight()
         self.hypotheses = Hypotheses()
         self.provisional, self.withdrawn_at = [], None
 
     def _report(self, known_at: float, events: list[Event], ending: bool = False) -> None:
-        """Report the changes of the likeliest course; `ending`: all of it is settled."""
+        """Report the changes of the likeliest sequence; `ending` settles all of it."""
         hypotheses = self.hypotheses
-        for settled, before, likely in hypotheses.settle(self._time(self.next) + (1e6 if ending else 0.0)):
-            if before is not None and before.activity in RIDES_UP:
-                events.append(_lift_event(before, settled.t, known_at))
+        for settled, ended, probability in hypotheses.settle(self._time(self.next_block) + (1e6 if ending else 0.0)):
+            if ended is not None and ended.activity in ELEVATOR_GOES_UP:
+                events.append(_ride_event(ended, settled.t, known_at))
             events.append(
-                self._changed(
-                    settled, known_at, True, self.provisional[0].t if self.provisional else self.withdrawn_at, likely
+                self._activity_event(
+                    settled,
+                    known_at,
+                    True,
+                    self.provisional[0].t if self.provisional else self.withdrawn_at,
+                    probability,
                 )
             )
             self.provisional, self.withdrawn_at = [], None
         best = hypotheses.best
         if best is None:
             return
-        open_ = best.path if hypotheses.settled is None else best.path[1:]
-        same = 0
-        for old, new in zip(self.provisional, open_, strict=False):
-            if old.activity is not new.activity or abs(old.t - new.t) > TIME_TOLERANCE:
+        open_segments = best.path if hypotheses.settled is None else best.path[1:]
+        unchanged = 0
+        for old, new in zip(self.provisional, open_segments, strict=False):
+            if old.activity is not new.activity or abs(old.t - new.t) > START_TOLERANCE:
                 break
-            same += 1
-        dropped, fresh = self.provisional[same:], list(open_[same:])
-        revised = dropped[0].t if dropped else self.withdrawn_at
-        if dropped and not fresh:
-            # only the activity before it takes its place
-            self._withdraw(same, dropped[0].t, known_at, False, events)
-        for segment in fresh:
-            events.append(self._changed(segment, known_at, False, revised, hypotheses.probability(segment)))
+            unchanged += 1
+        withdrawn, new_segments = self.provisional[unchanged:], list(open_segments[unchanged:])
+        revised = withdrawn[0].t if withdrawn else self.withdrawn_at
+        if withdrawn and not new_segments:
+            # no new activity takes the place of the withdrawn one: the activity before it continues
+            self._withdraw(unchanged, withdrawn[0].t, known_at, False, events)
+        for segment in new_segments:
+            events.append(self._activity_event(segment, known_at, False, revised, hypotheses.probability(segment)))
             revised = self.withdrawn_at = None
-        self.provisional = [*self.provisional[:same], *fresh]
+        self.provisional = [*self.provisional[:unchanged], *new_segments]
         if ending and self.withdrawn_at is not None:
-            self._withdraw(same, self.withdrawn_at, known_at, True, events)
+            self._withdraw(unchanged, self.withdrawn_at, known_at, True, events)
 
-    def _withdraw(self, same: int, t: float, known_at: float, final: bool, events: list[Event]) -> None:
-        """Report that the activity reported at `t`, s, is withdrawn, and that the one before it continues."""
+    def _withdraw(self, unchanged: int, t: float, known_at: float, final: bool, events: list[Event]) -> None:
+        """Report that the activity of time `t`, s, is withdrawn and the activity before it continues.
+
+        `unchanged` is the number of provisional segments that stay."""
         settled = Activity.UNKNOWN if self.hypotheses.settled is None else self.hypotheses.settled
-        on = ActivitySegment(t, self.provisional[same - 1].activity if same else settled)
-        events.append(self._changed(on, known_at, final, t, self.hypotheses.probability(on)))
+        continued = ActivitySegment(t, self.provisional[unchanged - 1].activity if unchanged else settled)
+        events.append(self._activity_event(continued, known_at, final, t, self.hypotheses.probability(continued)))
         self.withdrawn_at = None if final else t
 
-    def _changed(
+    def _activity_event(
         self, segment: ActivitySegment, known_at: float, final: bool, revises: float | None, probability: float
     ) -> ActivityChanged:
         self.activity = segment.activity
@@ -240,24 +248,24 @@ class Activities(ActivityPart):
         )
 
     def _count_flights(self, t: float, known_at: float, events: list[Event]) -> None:
-        """Pass the strides up to the newest judged block to the flights, each with the activity in its middle."""
-        until = self._time(self.next)
+        """Pass the strides up to the newest judged block to `flights`, with the activity at the middle of each."""
+        t_judged = self._time(self.next_block)
         best = self.hypotheses.best
         path: Sequence[ActivitySegment] = () if best is None else best.path
-        while self.strides and 0.5 * (self.strides[0].t_start + self.strides[0].t_end) < until:
+        while self.strides and 0.5 * (self.strides[0].t_start + self.strides[0].t_end) < t_judged:
             stride = self.strides.popleft()
             middle = 0.5 * (max(stride.t_start, stride.t_end - 1.6) + stride.t_end)
             activity = Activity.UNKNOWN
             for segment in path:
                 if segment.t <= middle:
                     activity = segment.activity
-            known = _reduced(stride, max(known_at, stride.known_at))
-            events += self.flights.add_stride(known, STAIR_DIRECTIONS.get(activity, 0))
+            reduced = _reduce(stride, max(known_at, stride.known_at))
+            events += self.flights.add_stride(reduced, STAIR_DIRECTIONS.get(activity, 0))
         events += self.flights.advance(t, known_at)
 
 
-def _reduced(stride: StrideTaken, known_at: float) -> StrideTaken:
-    """Return the stride with only the times and heights that flights need."""
+def _reduce(stride: StrideTaken, known_at: float) -> StrideTaken:
+    """Return a copy of the stride with only the times and heights that flights need."""
     return StrideTaken(
         t=stride.t,
         known_at=known_at,
@@ -279,7 +287,9 @@ def _reduced(stride: StrideTaken, known_at: float) -> StrideTaken:
     )
 
 
-def _lift_event(ride: ActivitySegment, t_end: float, known_at: float) -> LiftRidden:
-    start = ride.t if ride.from_ is None else ride.from_
-    end = max(start, t_end if ride.to is None else ride.to)
-    return LiftRidden(t=end, known_at=max(known_at, end), t_start=start, up=RIDES_UP[ride.activity], height=ride.height)
+def _ride_event(ride: ActivitySegment, t_end: float, known_at: float) -> LiftRidden:
+    start = ride.t if ride.detected_at is None else ride.detected_at
+    end = max(start, t_end if ride.ended_at is None else ride.ended_at)
+    return LiftRidden(
+        t=end, known_at=max(known_at, end), t_start=start, up=ELEVATOR_GOES_UP[ride.activity], height=ride.height
+    )

@@ -1,7 +1,8 @@
-"""Features of one foot's samples, half a second at a time, from which activities are recognised.
+"""Features of one foot's blocks (half seconds of samples), from which activities are recognised.
 
-Only lengths of vectors count, so nothing depends on the mounting of the sensor, and shares of samples count instead of
-their number, so little depends on the rate. Accelerometers clip at anything from 2 g: |acc| beyond that has one bin."""
+Sample features use only the lengths of vectors, so they do not depend on the mounting of the sensor. They use shares of
+samples instead of numbers of samples, so they depend little on the sample rate. Some accelerometers clip at 2 g, so all
+|acc| above that share one bin."""
 
 from __future__ import annotations
 
@@ -12,18 +13,16 @@ from .block import ActivityBlock, BlockStride
 BLOCK = 0.5
 """Duration of a block, s."""
 REACH = 2
-"""Number of blocks before and after the judged one; five of them are a window of 2.5 s."""
-BINS = 10
-"""Number of bins of |acc|, 2 m/s^2 each, and of |gyro|, 1 rad/s each; the last one is open."""
-BEYOND, BEYOND_RATE = 2.0 * BINS, BINS * BINS
-"""Lower limits of the open bins: |acc|, m/s^2, and the square of |gyro|, (rad/s)^2."""
-
-THIRDS = 3
-"""Number of parts of a window: the blocks before the judged one, that one, and the blocks after it."""
-
-GYRO = 4 + THIRDS * BINS
+"""Number of blocks before and after the judged one in its window: five blocks, 2.5 s."""
+BIN_COUNT = 10
+"""Number of bins of |acc|, 2 m/s^2 wide, and of |gyro|, 1 rad/s wide; the last bin has no upper limit."""
+ACC_LIMIT, SQUARED_RATE_LIMIT = 2.0 * BIN_COUNT, BIN_COUNT * BIN_COUNT
+"""Lower limits of the last bins: |acc|, m/s^2, and |gyro|^2, (rad/s)^2."""
+WINDOW_PARTS = 3
+"""Number of parts of a window: the blocks before the judged one, the judged one, and the blocks after it."""
+GYRO = 4 + WINDOW_PARTS * BIN_COUNT
 """Index of the first feature that needs a gyroscope."""
-TRACK = GYRO + 5 + THIRDS * BINS
+TRACK = GYRO + 5 + WINDOW_PARTS * BIN_COUNT
 """Index of the first feature that needs a track."""
 STRIDE = TRACK + 6
 """Index of the first feature of a stride."""
@@ -31,71 +30,75 @@ COUNT = STRIDE + 11
 """Number of features."""
 
 
-def features_of(here: ActivityBlock, near: list[ActivityBlock], stride: BlockStride | None) -> list[float]:
-    """Return `COUNT` features of the order of 1 for the block `here`; those not known are 0.
+def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: BlockStride | None) -> list[float]:
+    """Return `COUNT` features, scaled to the order of 1, of the block `judged`; unknown features are 0.
 
-    `near` are the blocks of the window, `here` among them, and `stride` is the stride under way."""
+    `window` has the blocks of the window, including `judged`; `stride` is the stride in its middle."""
     values = [0.0] * COUNT
-    earlier = [block for block in near if block.index < here.index]
-    later = [block for block in near if block.index > here.index]
-    turned = [block for block in near if block.rates]
-    tracked = [block for block in near if block.tracked]
-    whole, forces, squares = 0, 0.0, 0.0
-    least = most = here.variance
-    for block in near:
+    earlier = [block for block in window if block.index < judged.index]
+    later = [block for block in window if block.index > judged.index]
+    with_gyro = [block for block in window if block.gyro_count]
+    tracked = [block for block in window if block.tracked]
+    samples, forces, squares = 0, 0.0, 0.0
+    least = most = judged.variance
+    for block in window:
         n, force, variance = block.count, block.force, block.variance
-        whole += n
+        samples += n
         forces += force * n
         squares += (variance + force * force) * n
         if variance < least:
             least = variance
         elif variance > most:
             most = variance
-    values[0] = _log_variance(here.variance)
+    values[0] = _log_variance(judged.variance)
     values[1] = _log_variance(least)
     values[2] = _log_variance(most)
-    mean = forces / whole
-    values[3] = _log_variance(max(0.0, squares / whole - mean * mean))
-    thirds = (earlier, [here], later)
-    at = 4
-    for third in thirds:
-        if third:
-            values[at : at + BINS] = _shares([b.acc_bins for b in third], [b.count for b in third])
-        at += BINS
-    if turned:
-        rates, squares = 0, 0.0
-        least = most = turned[0].rate
-        for block in turned:
-            n, rate = block.rates, block.rate
-            rates += n
-            squares += rate * n
-            if rate < least:
-                least = rate
-            elif rate > most:
-                most = rate
+    mean = forces / samples
+    values[3] = _log_variance(max(0.0, squares / samples - mean * mean))
+    window_parts = (earlier, [judged], later)
+    start = 4
+    for blocks in window_parts:
+        if blocks:
+            values[start : start + BIN_COUNT] = _shares([b.acc_bins for b in blocks], [b.count for b in blocks])
+        start += BIN_COUNT
+    if with_gyro:
+        gyro_count, squares = 0, 0.0
+        least = most = with_gyro[0].gyro_mean_square
+        for block in with_gyro:
+            n, gyro_mean_square = block.gyro_count, block.gyro_mean_square
+            gyro_count += n
+            squares += gyro_mean_square * n
+            if gyro_mean_square < least:
+                least = gyro_mean_square
+            elif gyro_mean_square > most:
+                most = gyro_mean_square
         values[GYRO] = 1.0
-        values[GYRO + 1] = _log_variance(here.rate if here.rates else turned[0].rate)
+        values[GYRO + 1] = _log_variance(
+            judged.gyro_mean_square if judged.gyro_count else with_gyro[0].gyro_mean_square
+        )
         values[GYRO + 2] = _log_variance(least)
         values[GYRO + 3] = _log_variance(most)
-        values[GYRO + 4] = _log_variance(squares / rates)
-        at = GYRO + 5
-        for third in thirds:
-            if len(turned) < len(near):
-                third = [block for block in third if block.rates]
-            if third:
-                values[at : at + BINS] = _shares([b.gyro_bins for b in third], [b.rates for b in third])
-            at += BINS
+        values[GYRO + 4] = _log_variance(squares / gyro_count)
+        start = GYRO + 5
+        for blocks in window_parts:
+            if len(with_gyro) < len(window):
+                blocks = [block for block in blocks if block.gyro_count]
+            if blocks:
+                values[start : start + BIN_COUNT] = _shares(
+                    [b.gyro_bins for b in blocks], [b.gyro_count for b in blocks]
+                )
+            start += BIN_COUNT
     if tracked:
         values[TRACK] = 1.0
         values[TRACK + 1] = min(max([block.climb for block in tracked]), 3.0)
         values[TRACK + 2] = max(min([block.sink for block in tracked]), -3.0)
         values[TRACK + 3] = 0.5 * min(max([block.speed for block in tracked]), 6.0)
-        values[TRACK + 4] = min(here.climb, 3.0)
-        values[TRACK + 5] = max(here.sink, -3.0)
+        values[TRACK + 4] = min(judged.climb, 3.0)
+        values[TRACK + 5] = max(judged.sink, -3.0)
     if stride is not None:
-        lasted = stride.end - stride.start
+        duration = stride.end - stride.start
         values[STRIDE] = 1.0
-        values[STRIDE + 1] = min(lasted, 2.0)
+        values[STRIDE + 1] = min(duration, 2.0)
         values[STRIDE + 2] = min(stride.length, 2.0)
         values[STRIDE + 3] = 2.0 * min(max(stride.rise, -0.6), 0.6)
         values[STRIDE + 4] = 2.0 * min(max(stride.clearance, 0.0), 0.5)
@@ -104,18 +107,18 @@ def features_of(here: ActivityBlock, near: list[ActivityBlock], stride: BlockStr
         values[STRIDE + 7] = min(max(stride.rise / max(stride.length, 0.2), -1.0), 1.0)
         values[STRIDE + 8] = 2.0 * min(max(stride.top, -0.6), 0.6)
         values[STRIDE + 9] = 2.0 * min(max(stride.bottom, -0.6), 0.6)
-        values[STRIDE + 10] = 2.0 * min(max(stride.strike, -0.6), 0.6)
+        values[STRIDE + 10] = 2.0 * min(max(stride.strike_height, -0.6), 0.6)
     return values
 
 
 def _log_variance(variance: float) -> float:
-    """Return the scaled logarithm of a variance: about -1 at rest and 1 in a run."""
+    """Return the scaled logarithm of a variance: about -1 at rest and 1 when running."""
     return 0.25 * log(1e-4 if variance < 1e-4 else 1e4 if variance > 1e4 else variance)
 
 
 def _shares(bins: list[tuple[int, ...]], counts: list[int]) -> list[float]:
-    """Return the share of each bin among the samples of the blocks of one third of a window."""
-    whole = sum(counts)
+    """Return the share of each bin among the samples of one part of a window, of one or two blocks."""
+    samples = sum(counts)
     if len(bins) == 1:
-        return [n / whole for n in bins[0]]
-    return [a / whole + b / whole for a, b in zip(*bins, strict=True)]
+        return [n / samples for n in bins[0]]
+    return [a / samples + b / samples for a, b in zip(*bins, strict=True)]

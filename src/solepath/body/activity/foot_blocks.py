@@ -1,4 +1,4 @@
-"""The newest half seconds of one foot: sums over samples, and features of its strides."""
+"""The newest blocks (half seconds) of one foot: sums over samples, and its newest strides."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from ...types import Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
 from .block import ActivityBlock, BlockStride
-from .features import BEYOND, BEYOND_RATE, BINS, BLOCK, REACH, features_of
+from .features import ACC_LIMIT, BIN_COUNT, BLOCK, REACH, SQUARED_RATE_LIMIT, features_of
 
-MOST_BLOCKS = 2 * REACH + 1
-"""Number of blocks that are kept."""
-MOST_STRIDES = 3
-"""Number of strides that are kept: as many as a window holds of a runner."""
-LONGEST_STRIDE = 1.6
-"""Longest stride, s; one that lasted longer started with standing."""
+MAX_BLOCKS = 2 * REACH + 1
+"""Number of blocks that are kept: one window."""
+MAX_STRIDES = 3
+"""Number of strides that are kept: a window of a runner holds as many."""
+MAX_STRIDE_TIME = 1.6
+"""Longest time of a stride, s; a longer one started with standing, which is cut off."""
 
 
 class FootTrack(Protocol):
@@ -33,7 +33,7 @@ class FootTrack(Protocol):
 
 @define
 class FootBlocks:
-    """The newest blocks of one foot: `add` every sample, `close` each block, and ask for the `features` of a block."""
+    """The newest blocks of one foot: `add` takes each sample, `close` ends a block, `features` returns its features."""
 
     index: int | None = None
     """Number of the block under way."""
@@ -41,17 +41,18 @@ class FootBlocks:
     """Sum of |acc| over the block under way, m/s^2."""
     squares: float = 0.0
     """Sum of |acc|^2 over the block under way, (m/s^2)^2."""
-    acc_bins: list[int] = field(factory=lambda: [0] * BINS)
+    acc_bins: list[int] = field(factory=lambda: [0] * BIN_COUNT)
     """Number of samples of the block under way in each bin of |acc|; every sample is in a bin."""
     rate_squares: float = 0.0
     """Sum of |gyro|^2 over the block under way, (rad/s)^2."""
-    gyro_bins: list[int] = field(factory=lambda: [0] * BINS)
+    gyro_bins: list[int] = field(factory=lambda: [0] * BIN_COUNT)
     """Number of samples of the block under way in each bin of |gyro|."""
     bias: Vec3 = ZERO
     """Gyroscope bias at the start of the block, rad/s."""
     resolution: float = 0.0
-    """Resolution of the accelerometer, m/s^2 a count; 0 when it is not known."""
+    """Resolution of the accelerometer, m/s^2 per count; 0 when it is not known."""
     tracked: bool = False
+    """Flag: velocity and position were known in the block under way."""
     climb: float = 0.0
     """Largest upward velocity in the block under way, m/s."""
     sink: float = 0.0
@@ -65,32 +66,33 @@ class FootBlocks:
     bottom: float = 0.0
     """Lowest height since the last foot-flat, navigation frame, m."""
     strike_height: float | None = None
-    """Height at the last heel-strike, navigation frame, m; None since the last foot-flat."""
+    """Height at the last heel-strike, navigation frame, m; None when there was none since foot-flat."""
     blocks: deque[ActivityBlock] = field(factory=deque)
-    """The newest blocks, at most `MOST_BLOCKS`, oldest first."""
+    """The newest blocks, at most `MAX_BLOCKS`, oldest first."""
     strides: deque[BlockStride] = field(factory=deque)
+    """The newest strides, at most `MAX_STRIDES`, oldest first."""
 
     def start_block(self, index: int, bias: Vec3, resolution: float) -> None:
-        """Start a block with the gyroscope bias, rad/s, and the accelerometer's resolution, m/s^2 a count.
+        """Start a block with the gyroscope bias, rad/s, and the accelerometer's resolution, m/s^2 per count.
 
-        A resolution of 0 is not known."""
+        A resolution of 0 means that it is not known."""
         self.index = index
         self.force = self.squares = self.rate_squares = 0.0
-        self.acc_bins = [0] * BINS
-        self.gyro_bins = [0] * BINS
+        self.acc_bins = [0] * BIN_COUNT
+        self.gyro_bins = [0] * BIN_COUNT
         self.bias = bias
         self.resolution = resolution
         self.tracked = False
         self.climb = self.sink = self.speed = 0.0
 
     def add(self, acc: Vec3, gyro: Vec3 | None, track: FootTrack | None) -> None:
-        """Add a sample to the block under way; `track` is the foot after it, None when it is not known."""
+        """Add a sample to the block under way; `track` is the foot's motion after it, None when it is not known."""
         x, y, z = acc
         square = x * x + y * y + z * z
         length = sqrt(square)
         self.force += length
         self.squares += square
-        self.acc_bins[int(length * 0.5) if length < BEYOND else BINS - 1] += 1
+        self.acc_bins[int(length * 0.5) if length < ACC_LIMIT else BIN_COUNT - 1] += 1
         if gyro is None:
             return
         x, y, z = gyro
@@ -100,7 +102,7 @@ class FootBlocks:
         z -= bz
         square = x * x + y * y + z * z
         self.rate_squares += square
-        self.gyro_bins[int(sqrt(square)) if square < BEYOND_RATE else BINS - 1] += 1
+        self.gyro_bins[int(sqrt(square)) if square < SQUARED_RATE_LIMIT else BIN_COUNT - 1] += 1
         if track is None:
             return
         self.tracked = True
@@ -119,7 +121,7 @@ class FootBlocks:
             self.bottom = z
 
     def add_events(self, events: Sequence[Event], height: float) -> None:
-        """Add the events of a sample; `height` is that of the foot, m."""
+        """Add the events of a sample; `height` is the foot's, navigation frame, m."""
         for event in events:
             if isinstance(event, StrideTaken):
                 self._add_stride(event)
@@ -152,14 +154,14 @@ class FootBlocks:
                 round(sqrt(self.speed), 4),
             )
         )
-        if len(self.blocks) > MOST_BLOCKS:
+        if len(self.blocks) > MAX_BLOCKS:
             self.blocks.popleft()
 
     def _add_stride(self, stride: StrideTaken) -> None:
-        seen = stride.features
+        features = stride.features
         # use heights as integrated: the network was trained with them
-        rise = stride.height_change if seen.rise is None else seen.rise
-        clearance = seen.clearance + max(stride.height_change, 0.0) - max(rise, 0.0)
+        rise = stride.height_change if features.rise is None else features.rise
+        clearance = features.clearance + max(stride.height_change, 0.0) - max(rise, 0.0)
         self.strides.append(
             BlockStride(
                 stride.t_start,
@@ -167,8 +169,8 @@ class FootBlocks:
                 round(stride.length, 4),
                 round(rise, 4),
                 round(clearance, 4),
-                round(seen.peak_speed, 4),
-                round(seen.swing_pitch, 4),
+                round(features.peak_speed, 4),
+                round(features.swing_pitch, 4),
                 round(self.top - self.flat_height, 4),
                 round(self.bottom - self.flat_height, 4),
                 round(
@@ -176,25 +178,25 @@ class FootBlocks:
                 ),
             )
         )
-        if len(self.strides) > MOST_STRIDES:
+        if len(self.strides) > MAX_STRIDES:
             self.strides.popleft()
 
     def restart(self) -> None:
-        """Discard all blocks and strides: times restart."""
+        """Discard all blocks and strides, because the clock restarts."""
         self.index = None
-        self.acc_bins = [0] * BINS
+        self.acc_bins = [0] * BIN_COUNT
         self.blocks.clear()
         self.strides.clear()
 
     def block(self, index: int) -> ActivityBlock | None:
-        """Return the block of that number; None when it has no samples."""
+        """Return the block number `index`; None when it has no samples."""
         for block in self.blocks:
             if block.index == index:
                 return block
         return None
 
     def features(self, index: int, t: float) -> list[float] | None:
-        """Return the features of a block with `REACH` blocks around it, middle at `t` s; None without samples."""
+        """Return the features of the block number `index`, whose middle is at `t`, s; None when it has no samples."""
         here = self.block(index)
         if here is None:
             return None
@@ -202,13 +204,13 @@ class FootBlocks:
         return features_of(here, near, self._stride_at(t))
 
     def _stride_at(self, t: float) -> BlockStride | None:
-        """Return the stride under way at `t` s, or within a quarter of a second of it."""
+        """Return the stride nearest to `t`, s; None when none is within a quarter of a second."""
         best, nearest = None, 0.5 * BLOCK
         for stride in self.strides:
-            start = max(stride.start, stride.end - LONGEST_STRIDE)
-            away = max(start - t, t - stride.end, 0.0)
-            if away <= nearest:
-                best, nearest = stride, away
+            start = max(stride.start, stride.end - MAX_STRIDE_TIME)
+            distance = max(start - t, t - stride.end, 0.0)
+            if distance <= nearest:
+                best, nearest = stride, distance
         return best
 
 

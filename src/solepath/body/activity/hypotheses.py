@@ -1,8 +1,9 @@
-"""Hypotheses on the wearer's activities: for each state the likeliest course of activities that ends in it.
+"""Hypotheses on the wearer's activities: for each state the likeliest sequence of activities that ends in it.
 
-This is Viterbi's algorithm with the paths kept in tokens (Young, Russell, Thornton 1989, "Token passing"): each state
-holds one token, the best course that ends in it. Where the tokens agree the past is settled; a token that disagrees
-with what is settled is dropped, so that it stays settled. chain.py has the states."""
+This is Viterbi's algorithm with the paths kept in tokens (Young, Russell, Thornton 1989, "Token passing"). Each state
+(chain.py) holds one token: the likeliest path that ends in that state. A segment on which all likely tokens agree is
+settled: it is final. A token that disagrees with a settled segment is dropped, so that no later result contradicts it.
+"""
 
 from __future__ import annotations
 
@@ -13,68 +14,79 @@ from math import exp, inf, log
 from ...types import Activity
 from ...types.attrs import define, field
 from ...types.vector import TIE
-from .chain import ACTIVITIES, CRUISES, FIRST_CHANCES, HALTS, LIFTS, PULSES, RIDES, STAND, Chain
+from .chain import (
+    ACTIVITIES,
+    ELEVATOR_ACTIVITIES,
+    FIRST_CHANCES,
+    HALT_SIGNS,
+    PULSE_SIGNS,
+    RIDE_STATES,
+    STAND,
+    UNFINISHED_STATES,
+    Chain,
+)
 from .features import BLOCK
 from .ride import (
     DWELL_TIME,
-    HALT,
+    HALT_ACCELERATION,
     HALT_DEVIATION,
-    PULSE,
+    PULSE_ACCELERATION,
     PULSE_DEVIATION,
     SHORT_DWELL_COST,
     BlockForce,
-    Levels,
-    LiftEvidence,
-    LiftRide,
+    ElevatorEvidence,
+    ElevatorRide,
     RestLevel,
+    RestLevels,
 )
 
 DROP_LIMIT = 13.0
-"""Difference to the best token's log-likelihood above which a token is dropped."""
+"""Largest difference to the best token's log-likelihood; a token below that is dropped."""
 AGREEMENT_LIMIT = 8.0
-"""Difference to the best token's log-likelihood above which a token need not agree with what is settled."""
-LIFT_SETTLED = 12.0
-"""Time after which the end of a ride is settled, s: the lift does not creep on to its floor."""
-LONGEST_OPEN = 60.0
-"""Time after which an activity that has started is settled, s: few rides are longer."""
-ENDS = RIDES - CRUISES
-"""States in which a ride ends."""
-MOST_SEGMENTS = 8
-"""Largest number of changes of activity that are not settled."""
+"""Largest difference to the best token's log-likelihood of the tokens that must agree before a segment is settled."""
+RIDE_SETTLING_TIME = 12.0
+"""Time after which the end of a ride is settled, s; later, the elevator will not creep on to its floor."""
+MAX_OPEN_TIME = 60.0
+"""Time after which the start of an activity is settled in any case, s; few rides last longer."""
+FINISHED_STATES = RIDE_STATES - UNFINISHED_STATES
+"""States in which a ride has made its last pulse or may do so, and which pay `ElevatorRide.score_stop` to leave."""
+MAX_SEGMENTS = 8
+"""Largest number of segments of a path; when there are more, the oldest is settled."""
 
 
 @define
 class ActivitySegment:
-    """The activity from `t` s on; never changed.
-
-    A ride also has the times between which its pulses were measured, `from_` and `to`, s, and its height, m, if known.
-    """
+    """The activity from `t`, s, until the next segment; a segment never changes."""
 
     t: float
     activity: Activity
-    from_: float | None = None
-    to: float | None = None
+    detected_at: float | None = None
+    """Start of the first block of a ride, s; None for other activities."""
+    ended_at: float | None = None
+    """Start of the first block after a ride, s."""
     height: float | None = None
+    """Height of a ride, m, positive upwards; None when it is not known."""
 
 
 @define
 class Token:
-    """The likeliest course that ends in `state`; `score` is its log-likelihood relative to the best."""
+    """The likeliest path that ends in `state`."""
 
     state: int
     score: float
+    """Log-likelihood relative to the best token, at most 0."""
     path: tuple[ActivitySegment, ...]
-    """The segments that are not settled yet, and the last one that is."""
-    ride: LiftRide
+    """The last settled segment, when there is one, and the segments that are not settled, oldest first."""
+    ride: ElevatorRide
 
 
 @define
 class BlockEvidence:
-    """The evidence of half a second from `t` s on."""
+    """The evidence of the block that starts at `t`, s."""
 
     t: float
     motions: tuple[float, ...]
-    """Log-likelihoods of STAND, WALK, RUN, UP, DOWN and UNKNOWN by the motion of the feet."""
+    """Log-likelihoods of STAND, WALK, RUN, UP, DOWN and UNKNOWN by the motion of the feet (motion.py)."""
     forces: tuple[BlockForce | None, ...]
     """Force on the left and on the right foot."""
     climbs: tuple[float, ...]
@@ -91,90 +103,92 @@ class Hypotheses:
 
     tokens: list[Token] = field(factory=list)
     settled: Activity | None = None
-    """The last activity that is settled."""
+    """The last activity that is settled; None before any."""
 
     @property
     def best(self) -> Token | None:
         """The likeliest token; None before any evidence."""
         return max(self.tokens, key=_score, default=None)
 
-    def update(self, seen: BlockEvidence, chain: Chain) -> None:
-        """Add the evidence of one half second."""
-        scores, stops = [-inf] * len(ACTIVITIES), [0.0] * len(ACTIVITIES)
-        held: list[Token | None] = [None] * len(ACTIVITIES)
+    def update(self, block: BlockEvidence, chain: Chain) -> None:
+        """Extend the paths by one block."""
+        scores, stop_scores = [-inf] * len(ACTIVITIES), [0.0] * len(ACTIVITIES)
+        token_of_state: list[Token | None] = [None] * len(ACTIVITIES)
         for token in self.tokens:
             state = token.state
-            held[state], scores[state] = token, token.score
-            if state in ENDS:
-                stops[state] = token.ride.stop_score()
-        evidence = LiftEvidence(seen.forces)
-        found: list[tuple[float, int, Token, Levels, float]] = []
-        newest = -inf
-        for state, before in enumerate(chain.predecessors):
-            # the best course that continues in the state
+            token_of_state[state], scores[state] = token, token.score
+            if state in FINISHED_STATES:
+                stop_scores[state] = token.ride.score_stop()
+        elevator = ElevatorEvidence(block.forces)
+        candidates: list[tuple[float, int, Token, RestLevels, float]] = []
+        top_score = -inf
+        for state, predecessors in enumerate(chain.predecessors):
+            # find the best path that continues in the state
             best, highest = -1, -inf
             if not self.tokens:
                 best, highest = state, FIRST_TOKENS[state].score
-            elif state in RIDES:
-                for i, chance in before:
+            elif state in RIDE_STATES:
+                for i, chance in predecessors:
                     score = scores[i] + chance
                     if score > highest:
                         best, highest = i, score
             else:
-                for i, chance in before:
-                    score = scores[i] + chance + stops[i]
+                for i, chance in predecessors:
+                    score = scores[i] + chance + stop_scores[i]
                     if score > highest:
                         best, highest = i, score
-            arrived = (held[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None
-            if arrived is not None:
-                one = _scored(arrived, highest, state, seen, evidence)
-                found.append(one)
-                if one[0] > newest:
-                    newest = one[0]
+            predecessor = (token_of_state[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None
+            if predecessor is not None:
+                candidate = _score_course(predecessor, highest, state, block, elevator)
+                candidates.append(candidate)
+                if candidate[0] > top_score:
+                    top_score = candidate[0]
         self.tokens = []
-        for likely, state, token, levels, acceleration in found:
-            score = round(likely - newest, 4)
+        for new_score, state, token, levels, acceleration in candidates:
+            score = round(new_score - top_score, 4)
             if score >= -DROP_LIMIT:
-                path, ride = _extended(token, state, seen, chain, levels, acceleration)
+                path, ride = _extend_course(token, state, block, chain, levels, acceleration)
                 self.tokens.append(Token(state, score, path, ride))
 
     def settle(self, now: float) -> list[tuple[ActivitySegment, ActivitySegment | None, float]]:
-        """Settle what is certain at `now` s; return each segment, the one that it ends, and its probability."""
+        """Settle the segments that are certain at `now` s and return them.
+
+        Each comes with the segment that it ends and with its probability."""
         best = self.best
-        found: list[tuple[ActivitySegment, ActivitySegment | None, float]] = []
+        settled_segments: list[tuple[ActivitySegment, ActivitySegment | None, float]] = []
         if best is None:
-            return found
+            return settled_segments
         old = _settled_by(best.path, now)
         i = 0 if self.settled is None else 1
         while len(best.path) > i:
             segment = best.path[i]
             if not (
                 segment.t <= old
-                or len(best.path) > MOST_SEGMENTS
+                or len(best.path) > MAX_SEGMENTS
                 or all([_agrees(token, i, segment) for token in self.tokens if token.score >= -AGREEMENT_LIMIT])
             ):
                 break
-            found.append((segment, best.path[0] if i else None, self.probability(segment)))
+            settled_segments.append((segment, best.path[0] if i else None, self.probability(segment)))
             self.tokens = [token for token in self.tokens if _agrees(token, i, segment)]
             self.settled = segment.activity
             for token in self.tokens:
                 token.path = token.path[i:]
             i = 1
-        return found
+        return settled_segments
 
     def probability(self, segment: ActivitySegment) -> float:
-        """Return the probability that the wearer did this then, by the tokens that are kept."""
-        those = whole = 0.0
+        """Return the share of the tokens' likelihood whose activity at the segment's start is the segment's."""
+        agreeing = total = 0.0
         for token in self.tokens:
-            likely = exp(token.score)
-            whole += likely
+            likelihood = exp(token.score)
+            total += likelihood
             activity = self.settled
-            for one in token.path:
-                if one.t <= segment.t:
-                    activity = one.activity
+            for path_segment in token.path:
+                if path_segment.t <= segment.t:
+                    activity = path_segment.activity
             if activity is segment.activity:
-                those += likely
-        return those / whole if whole > 0.0 else 1.0
+                agreeing += likelihood
+        return agreeing / total if total > 0.0 else 1.0
 
 
 def _score(token: Token) -> float:
@@ -182,79 +196,92 @@ def _score(token: Token) -> float:
 
 
 def _settled_by(path: Sequence[ActivitySegment], now: float) -> float:
-    """Return the time before which everything is settled because it is old, s."""
-    old = now - LONGEST_OPEN
-    for before, after in pairwise(path):
-        if before.activity in LIFTS and now - after.t >= LIFT_SETTLED:
-            old = max(old, after.t)
+    """Return the time up to which all segments are settled because of their age, s."""
+    old = now - MAX_OPEN_TIME
+    for segment, successor in pairwise(path):
+        if segment.activity in ELEVATOR_ACTIVITIES and now - successor.t >= RIDE_SETTLING_TIME:
+            old = max(old, successor.t)
     return old
 
 
 def _agrees(token: Token, i: int, segment: ActivitySegment) -> bool:
     if len(token.path) <= i:
         return False
-    other = token.path[i]
-    return other.t == segment.t and other.activity is segment.activity
+    counterpart = token.path[i]
+    return counterpart.t == segment.t and counterpart.activity is segment.activity
 
 
-def _scored(
-    token: Token, score: float, state: int, seen: BlockEvidence, evidence: LiftEvidence
-) -> tuple[float, int, Token, Levels, float]:
-    """Return the score of the course of `token` after half a second in the state, with its parts.
+def _score_course(
+    token: Token, score: float, state: int, block: BlockEvidence, elevator: ElevatorEvidence
+) -> tuple[float, int, Token, RestLevels, float]:
+    """Return the score of the path of `token` when the next block is in the state, and the record of that step.
 
-    The others are the state, the token, the levels of its feet at rest, and the acceleration of the lift, m/s^2."""
+    The record is the state, the token, the new rest levels, and the acceleration of the elevator, m/s^2."""
     levels, acceleration, start_score = token.ride.levels, 0.0, 0.0
     motion = state
-    if state in RIDES:
+    if state in RIDE_STATES:
         motion = STAND
         if token.ride.standing_time < DWELL_TIME and (
             not token.path or token.path[-1].activity is not ACTIVITIES[state]
         ):
             start_score = -SHORT_DWELL_COST
-        if state in PULSES:
-            levels, acceleration, likely = evidence.pulse(levels, PULSES[state] * PULSE, PULSE_DEVIATION)
-        elif state in HALTS:
-            levels, acceleration, likely = evidence.pulse(levels, HALTS[state] * HALT, HALT_DEVIATION)
+        if state in PULSE_SIGNS:
+            levels, acceleration, log_likelihood = elevator.add_pulse(
+                levels, PULSE_SIGNS[state] * PULSE_ACCELERATION, PULSE_DEVIATION
+            )
+        elif state in HALT_SIGNS:
+            levels, acceleration, log_likelihood = elevator.add_pulse(
+                levels, HALT_SIGNS[state] * HALT_ACCELERATION, HALT_DEVIATION
+            )
         else:
-            levels, likely = evidence.rest(levels)
+            levels, log_likelihood = elevator.add_rest(levels)
     elif state == STAND:
-        levels, likely = evidence.rest(levels)
+        levels, log_likelihood = elevator.add_rest(levels)
     else:
-        levels, likely = evidence.walk(levels)
-    return score + start_score + seen.motions[motion] + likely + seen.climbs[state], state, token, levels, acceleration
+        levels, log_likelihood = elevator.add_walking(levels)
+    return (
+        score + start_score + block.motions[motion] + log_likelihood + block.climbs[state],
+        state,
+        token,
+        levels,
+        acceleration,
+    )
 
 
-def _extended(
-    token: Token, state: int, seen: BlockEvidence, chain: Chain, levels: Levels, acceleration: float
-) -> tuple[tuple[ActivitySegment, ...], LiftRide]:
-    """Return the course of the token and its ride after half a second in the state."""
+def _extend_course(
+    token: Token, state: int, block: BlockEvidence, chain: Chain, levels: RestLevels, acceleration: float
+) -> tuple[tuple[ActivitySegment, ...], ElevatorRide]:
+    """Return the path of the token and its ride after a block in the state."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
     if path and path[-1].activity is activity:
-        if state in RIDES:
+        if state in RIDE_STATES:
             return path, ride.move(levels, acceleration, BLOCK)
         if state == STAND:
             return path, ride.wait(levels, BLOCK)
-        return path, LiftRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK)
-    t = seen.t
+        return path, ElevatorRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK)
+    t = block.t
     if path:
         last = path[-1]
-        if token.state in RIDES and state not in RIDES:
-            ended = ActivitySegment(last.t, last.activity, last.from_, t, ride.height_gain(seen.after))
+        if token.state in RIDE_STATES and state not in RIDE_STATES:
+            ended = ActivitySegment(last.t, last.activity, last.detected_at, t, ride.height_gain(block.after))
             path = (*path[:-1], ended)
             ride = ride.end()
         t = max(t + chain.shift[token.state][state], last.t + TIE)
-    if state in RIDES:
-        whole = state in PULSES and bool(path)
-        return (*path, ActivitySegment(t, activity, seen.t)), ride.start(
-            whole, seen.before, levels, acceleration, BLOCK
+    if state in RIDE_STATES:
+        has_first_pulse = state in PULSE_SIGNS and bool(path)
+        return (*path, ActivitySegment(t, activity, block.t)), ride.start(
+            has_first_pulse, block.before, levels, acceleration, BLOCK
         )
     path = (*path, ActivitySegment(t, activity))
     if state == STAND:
         return path, ride.wait(levels, BLOCK)
-    return path, LiftRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK)
+    return path, ElevatorRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK)
 
 
 FIRST_TOKENS = tuple(
-    [Token(state, log(chance), (), LiftRide((RestLevel(), RestLevel()))) for state, chance in enumerate(FIRST_CHANCES)]
+    [
+        Token(state, log(chance), (), ElevatorRide((RestLevel(), RestLevel())))
+        for state, chance in enumerate(FIRST_CHANCES)
+    ]
 )
-"""An empty course for each state."""
+"""A token with an empty path for each state."""

@@ -1,15 +1,16 @@
-"""Motion model: from one foot's features to the probability of each motion, by two small networks in plain Python.
+"""Motion model: two small neural networks that turn one foot's features into the probability of each motion.
 
-Each has one hidden layer of tanh and outputs that add up to 1 (softmax); a foot without a gyroscope has a network of
-its own. `solepath.lab.train.activities` trains them and lists the training data; the result is activities.json beside
-this file. It also holds the durations of activities and the shifts of labels, which chain.py uses.
+Each network has one hidden layer of tanh units and softmax outputs. One network uses all features; the other one serves
+feet without a gyroscope. `solepath.lab.train.activities` trains them and lists the training data. The result is
+activities.json in this directory. The file also has the transition chances and label delays that chain.py uses.
 
-`strangeness` is the distance of the features from the training data: each motion has a mean and a deviation for every
-feature, and the strangeness is the mean square of deviations from the nearest.
+`strangeness` is the distance of features from the training data. Each motion has a mean and a standard deviation for
+every accelerometer feature; the strangeness is the mean squared deviation, in standard deviations, from the nearest
+motion.
 
-math.dist is the one loop over floats that runs in C in every Python from 3.11 on, three times as fast as sum(map(mul,
-...)) and exact to the last bit, so sums of products use it: w x = (w w + x x - |w - x|^2) / 2. That is off by 1e-12 at
-the most, and its results are rounded to 1e-4 (hypotheses.py)."""
+Sums of products use math.dist: w x = (w w + x x - |w - x|^2) / 2. It is the only loop over floats that runs in C in
+every Python from 3.11 on, three times as fast as sum(map(mul, ...)), and gives the same bits everywhere. The identity
+is off by 1e-12 at most, and hypotheses.py rounds the scores to 1e-4."""
 
 from __future__ import annotations
 
@@ -25,65 +26,66 @@ from .chain import Chain, Chances, Shifts, chain_of
 from .features import COUNT, GYRO
 
 MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down")
-"""Motions that a foot's own samples distinguish, in the order of the outputs.
+"""Motions that one foot's samples can distinguish, in the order of the network outputs.
 
-Still is standing, and also riding in a lift."""
+"still" is standing and riding in an elevator."""
 
 Row = tuple[float, ...]
 
 
 @frozen
 class Network:
-    """A network of one hidden layer; `hidden` and `output` have a row of weights for each unit."""
+    """A neural network with one hidden layer."""
 
     hidden: tuple[Row, ...]
+    """Weights of the hidden layer, one row for each unit."""
     hidden_bias: Row
     output: tuple[Row, ...]
-    """One row of weights for each of `MOTIONS`."""
+    """Weights of the output layer, one row for each of `MOTIONS`."""
     output_bias: Row
 
     @cached_property
     def hidden_half(self) -> Row:
-        """Bias of each hidden unit plus w w / 2 of its weights w."""
+        """Bias of each hidden unit plus half the squared length of its weights (see the module's docstring)."""
         return _with_half_squares(self.hidden, self.hidden_bias)
 
     @cached_property
     def output_half(self) -> Row:
-        """Bias of each output unit plus w w / 2 of its weights w."""
+        """Bias of each output unit plus half the squared length of its weights."""
         return _with_half_squares(self.output, self.output_bias)
 
     def log_probabilities(self, features: Sequence[float]) -> list[float]:
         """Return the natural logarithm of the probability of each of `MOTIONS`.
 
-        Features without weights do not count."""
-        given = tuple(features[: len(self.hidden[0])])
-        inner = tuple([tanh(value) for value in _weighted_sums(self.hidden, self.hidden_half, given)])
-        outer = _weighted_sums(self.output, self.output_half, inner)
-        highest = max(outer)
-        total = highest + log(sum([exp(value - highest) for value in outer]))
-        return [value - total for value in outer]
+        Features beyond the network's inputs are ignored."""
+        inputs = tuple(features[: len(self.hidden[0])])
+        hidden_values = tuple([tanh(value) for value in _weighted_sums(self.hidden, self.hidden_half, inputs)])
+        output_values = _weighted_sums(self.output, self.output_half, hidden_values)
+        highest = max(output_values)
+        total = highest + log(sum([exp(value - highest) for value in output_values]))
+        return [value - total for value in output_values]
 
 
 @frozen
 class MotionModel:
-    """The parameters that were learnt."""
+    """The learnt parameters: two networks, statistics of the features, chances and delays of the chain."""
 
     trained_on: str
     """Description of the training data, one sentence."""
     whole: Network
-    """Network for all `COUNT` features."""
+    """Network for all `COUNT` features, used with a gyroscope."""
     alone: Network
-    """Network for the first `GYRO` features, of a foot without a gyroscope."""
+    """Network for the first `GYRO` features, used without a gyroscope."""
     usual: tuple[Row, ...]
-    """Mean of the features that need only an accelerometer, for each of `MOTIONS`."""
+    """Means of the first `GYRO` features, one row for each of `MOTIONS`."""
     spread: tuple[Row, ...]
-    """Standard deviation of the same features, for each of `MOTIONS`."""
+    """Standard deviations of the first `GYRO` features, one row for each of `MOTIONS`."""
     chances: Chances
     shifts: Shifts
 
     @cached_property
     def middles(self) -> tuple[Row, ...]:
-        """Means as multiples of the deviations."""
+        """Rows of `usual` divided by the rows of `spread`."""
         return tuple([tuple(map(truediv, *rows)) for rows in zip(self.usual, self.spread, strict=True)])
 
     def log_probabilities(self, features: Sequence[float]) -> list[float]:
@@ -91,24 +93,24 @@ class MotionModel:
         return (self.whole if features[GYRO] else self.alone).log_probabilities(features)
 
     def strangeness(self, features: Sequence[float]) -> float:
-        """Return the strangeness of the features: 1 is usual, 4 is two deviations in every accelerometer feature."""
-        given = features[:GYRO]
-        away = [
-            dist(tuple(map(truediv, given, spread)), middle)
+        """Return the mean squared deviation from the nearest motion; 1 is usual, 4 is two deviations everywhere."""
+        inputs = features[:GYRO]
+        distances = [
+            dist(tuple(map(truediv, inputs, spread)), middle)
             for spread, middle in zip(self.spread, self.middles, strict=True)
         ]
-        nearest = min(away)
+        nearest = min(distances)
         return nearest * nearest / GYRO
 
     @property
     def chain(self) -> Chain:
-        """Chain of activities with the learnt chances and shifts."""
+        """Chain of activities with the learnt chances and delays."""
         return chain_of(self.chances, self.shifts)
 
 
 @cache
-def shipped() -> MotionModel:
-    """Return the model of this release; it is read once, when a part that needs it is first made ready."""
+def load_released_model() -> MotionModel:
+    """Return the model of this release, which is read from activities.json once."""
     import json
     from pkgutil import get_data
 
@@ -116,9 +118,9 @@ def shipped() -> MotionModel:
 
 
 def from_json(data: dict[str, Any]) -> MotionModel:
-    """Return the model in the content of activities.json.
+    """Return the model from the content of activities.json.
 
-    Raises ValueError when it does not fit the features of this release."""
+    Raises ValueError when the model does not fit the features of this release."""
     model = MotionModel(
         trained_on=str(data["trained_on"]),
         whole=_network(data["whole"], COUNT),
@@ -179,10 +181,11 @@ def _with_half_squares(rows: Sequence[Row], bias: Row) -> Row:
     return tuple([b + 0.5 * sum([w * w for w in row]) for row, b in zip(rows, bias, strict=True)])
 
 
-def _weighted_sums(rows: Sequence[Row], half: Row, given: Row) -> list[float]:
-    """Return bias + w x of each row."""
-    length = hypot(*given)
+def _weighted_sums(rows: Sequence[Row], half: Row, inputs: Row) -> list[float]:
+    """Return bias + w x for each row w; `half` has the bias plus w w / 2."""
+    length = hypot(*inputs)
     square = 0.5 * length * length
     return [
-        constant + square - 0.5 * (away := dist(row, given)) * away for row, constant in zip(rows, half, strict=True)
+        constant + square - 0.5 * (distance := dist(row, inputs)) * distance
+        for row, constant in zip(rows, half, strict=True)
     ]

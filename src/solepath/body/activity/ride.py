@@ -1,10 +1,11 @@
-"""Lift rides, detected by the force on standing feet.
+"""Elevator rides, detected by the specific force ("force" in this file, m/s^2) on standing feet.
 
-A lift adds its own acceleration to the specific force of a foot at rest: a pulse of 0.3 to 1.2 m/s^2 as it sets off and
-one in the other direction as it stops, each a second or more long, and nothing between them. The errors of the feet's
-accelerometers are larger than that and differ in every posture, so the evidence is the difference to the force of the
-same foot at rest. A scalar Kalman filter follows that level for each foot, and each hypothesis has its own: a
-hypothesis that the lift has just set off takes another level for that of rest than one that it stands."""
+An elevator adds its own acceleration to the force on a foot at rest: a pulse of 0.3 to 1.2 m/s^2 when it sets off, and
+a pulse in the other direction when it stops. Each pulse lasts a second or more; between them the acceleration is zero.
+The errors of accelerometers are larger than that and differ in every posture. The evidence is therefore the difference
+between the force and the rest level, which is the force on the same foot at rest. A scalar Kalman filter estimates the
+rest level of each foot. Each hypothesis has its own filters, because "the elevator sets off" and "it stands" explain
+the same force by different levels. Accelerations and heights are positive upwards."""
 
 from __future__ import annotations
 
@@ -14,266 +15,285 @@ from operator import is_
 from ...types.attrs import define
 from ...types.vector import GRAVITY
 
-PULSE = 0.6
-"""Usual acceleration of a lift that starts or stops, m/s^2."""
+PULSE_ACCELERATION = 0.6
+"""Usual acceleration of an elevator that starts or stops, m/s^2."""
 PULSE_DEVIATION = 0.35
-"""Standard deviation of that acceleration over a pulse and from lift to lift, m/s^2."""
-HALT = 0.15
-"""Usual acceleration of a lift that has crept on to its floor and stops, m/s^2."""
+"""Standard deviation of `PULSE_ACCELERATION` within a pulse and between elevators, m/s^2."""
+HALT_ACCELERATION = 0.15
+"""Usual acceleration of an elevator that has crept on to its floor and stops, m/s^2."""
 HALT_DEVIATION = 0.08
-"""Standard deviation of that acceleration, m/s^2."""
-FIRST_DEVIATION = 0.4
-"""Standard deviation of |acc| of a sensor at rest from 1 g before anything is known of it, m/s^2."""
-MOVED_DEVIATION = 0.08
-"""Standard deviation of the level after the foot has moved, m/s^2: the posture and the axes' share of errors change."""
+"""Standard deviation of `HALT_ACCELERATION`, m/s^2."""
+FIRST_LEVEL_DEVIATION = 0.4
+"""Standard deviation of |acc| of a sensor at rest from 1 g, when nothing else is known of the sensor, m/s^2."""
+MOVED_LEVEL_DEVIATION = 0.08
+"""Standard deviation of a rest level after the foot has moved, m/s^2; a new posture changes the error."""
 LEVEL_WANDER = 1e-5
-"""Growth of the variance of the level in each half second, (m/s^2)^2."""
+"""Growth of the variance of a rest level in each half second, (m/s^2)^2."""
 SWAY_DEVIATION = 0.03
 """Standard deviation of the mean force over half a second of a standing wearer, m/s^2."""
 OUTLIER_SHARE = 0.03
-"""Share of blocks at rest that deviate by 1 m/s^2: weight is shifted, a heel is lifted."""
+"""Share of blocks at rest that deviate by 1 m/s^2, because the wearer shifts weight or lifts a heel."""
 MOVING_OUTLIER_SHARE = 0.2
 """Share of blocks of moving feet that deviate by `MOVING_OUTLIER`."""
 MOVING_OUTLIER = 8.0
-"""Standard deviation of these blocks, m/s^2; that of the other blocks of moving feet is 1."""
+"""Standard deviation of the blocks of `MOVING_OUTLIER_SHARE`, m/s^2; it is 1 m/s^2 for other moving blocks."""
 DWELL_TIME = 5.0
-"""Least usual time between two rides, s: a lift opens and closes its doors before it sets off again."""
+"""Least usual time between two rides, s: an elevator opens and closes its doors before it sets off again."""
 SHORT_DWELL_COST = 6.0
-"""Minus log-likelihood of a shorter time between two rides."""
+"""Penalty (minus log-likelihood) for less than `DWELL_TIME` between two rides."""
 LEAST_DENSITY = 1e-6
-"""Lowest probability density, s^2/m."""
+"""Lowest probability density of an acceleration, s^2/m."""
 PULSE_HEIGHT_ERROR = 0.1
-"""Error of a ride's height by its pulses, as a share of it."""
+"""Standard deviation of a ride's height that is integrated from its pulses, as a share of the height."""
 AIR_HEIGHT_ERROR = 0.3
-"""Error of a ride's height by the air pressure, m: readings of a second or two at either end."""
-SLOWEST_LIFT = 0.4
-"""Speed of the slowest lift, m/s."""
+"""Standard deviation of a ride's height by air pressure, m, from readings of a second or two at either end."""
+SLOWEST_ELEVATOR_SPEED = 0.4
+"""Speed of the slowest elevator, m/s."""
 
 
 @define
 class BlockForce:
-    """The force on one foot in half a second: mean |acc|, m/s^2, its variance, and whether the foot moved."""
+    """The force on one foot in half a second: mean |acc|, m/s^2, and its variance, (m/s^2)^2."""
 
     force: float
     variance: float
     moved: bool
+    """Flag: the foot moved in the block."""
 
 
 @define
 class RestLevel:
-    """The level of |acc| of one foot at rest, m/s^2, and its variance."""
+    """The estimated |acc| of one foot at rest, m/s^2, and its variance, (m/s^2)^2."""
 
     value: float = GRAVITY
-    variance: float = FIRST_DEVIATION * FIRST_DEVIATION
+    variance: float = FIRST_LEVEL_DEVIATION * FIRST_LEVEL_DEVIATION
 
 
-Levels = tuple[RestLevel, ...]
-"""Levels of the left foot and the right one."""
+RestLevels = tuple[RestLevel, ...]
+"""Rest levels of the left foot and of the right foot, in this order."""
 
 
-class LiftEvidence:
+class ElevatorEvidence:
     """The forces on both feet in half a second, compared with their levels at rest.
 
-    Most courses hold the very same levels, and then the result is computed once. The object lasts no longer than the
-    half second, and is no state."""
+    Most courses share the same `RestLevels` object, so each result is computed once and cached. An instance is used
+    for one block only and is not part of the state."""
 
-    __slots__ = ("_acceleration", "_pulses", "_still", "_walks", "forces")
+    __slots__ = ("_accelerations", "_pulses", "_rests", "_walks", "forces")
 
     def __init__(self, forces: tuple[BlockForce | None, ...]) -> None:
         self.forces = forces
-        # keyed by the identity of levels, which a token holds as long as this object lasts
-        self._acceleration: dict[int, tuple[float, float] | None] = {}
-        self._still: dict[int, tuple[Levels, float]] = {}
-        self._walks: dict[int, tuple[Levels, float]] = {}
-        self._pulses: dict[tuple[int, float], tuple[Levels, float, float]] = {}
+        # keys are ids of levels; they stay valid because tokens hold the levels longer than this object exists
+        self._accelerations: dict[int, tuple[float, float] | None] = {}
+        self._rests: dict[int, tuple[RestLevels, float]] = {}
+        self._walks: dict[int, tuple[RestLevels, float]] = {}
+        self._pulses: dict[tuple[int, float], tuple[RestLevels, float, float]] = {}
 
-    def rest(self, levels: Levels) -> tuple[Levels, float]:
+    def add_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
         """Return the levels after a block without acceleration, and the log-likelihood of the forces."""
-        known = self._still.get(id(levels))
-        if known is None:
-            known = self._still[id(levels)] = self._rest(levels)
-        return known
+        result = self._rests.get(id(levels))
+        if result is None:
+            result = self._rests[id(levels)] = self._compute_rest(levels)
+        return result
 
-    def _rest(self, levels: Levels) -> tuple[Levels, float]:
-        seen = self.acceleration(levels)
-        if seen is None:
+    def _compute_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
+        excess = self.estimate_acceleration(levels)
+        if excess is None:
             return levels, 0.0
-        acceleration, variance = seen
+        acceleration, variance = excess
         regular = (1.0 - OUTLIER_SHARE) * _density(acceleration, variance)
-        odd = OUTLIER_SHARE * _density(acceleration, variance + 1.0)
-        return self._updated_levels(levels, 0.0, 0.0 if regular > odd else 1e9), log(regular + odd + LEAST_DENSITY)
+        stray = OUTLIER_SHARE * _density(acceleration, variance + 1.0)
+        return self._update_levels(levels, 0.0, 0.0 if regular > stray else 1e9), log(regular + stray + LEAST_DENSITY)
 
-    def pulse(self, levels: Levels, mean: float, deviation: float) -> tuple[Levels, float, float]:
+    def add_pulse(self, levels: RestLevels, mean: float, deviation: float) -> tuple[RestLevels, float, float]:
         """Return the levels after a block of a pulse, its acceleration, m/s^2, and the log-likelihood of the forces.
 
-        The acceleration of the pulse has this `mean` and `deviation`, m/s^2."""
-        known = self._pulses.get((id(levels), mean))
-        if known is None:
-            known = self._pulses[id(levels), mean] = self._pulse(levels, mean, deviation)
-        return known
+        `mean` and `deviation` are the prior of the acceleration, m/s^2."""
+        result = self._pulses.get((id(levels), mean))
+        if result is None:
+            result = self._pulses[id(levels), mean] = self._compute_pulse(levels, mean, deviation)
+        return result
 
-    def _pulse(self, levels: Levels, mean: float, deviation: float) -> tuple[Levels, float, float]:
-        seen = self.acceleration(levels)
-        if seen is None:
+    def _compute_pulse(self, levels: RestLevels, mean: float, deviation: float) -> tuple[RestLevels, float, float]:
+        excess = self.estimate_acceleration(levels)
+        if excess is None:
             return levels, mean, 0.0
-        acceleration, variance = seen
-        off = acceleration - mean
-        likely = log(_density(off, variance + deviation * deviation) + LEAST_DENSITY)
+        acceleration, variance = excess
+        residual = acceleration - mean
+        log_likelihood = log(_density(residual, variance + deviation * deviation) + LEAST_DENSITY)
         share = deviation * deviation / (deviation * deviation + variance)
-        taken = mean + share * off
-        return self._updated_levels(levels, taken, share * variance), taken, likely
+        pulse_acceleration = mean + share * residual
+        return self._update_levels(levels, pulse_acceleration, share * variance), pulse_acceleration, log_likelihood
 
-    def walk(self, levels: Levels) -> tuple[Levels, float]:
-        """Return the levels after a block of moving feet, and the log-likelihood of the forces; no lift is detected."""
-        known = self._walks.get(id(levels))
-        if known is None:
-            known = self._walks[id(levels)] = self._walk(levels)
-        return known
+    def add_walking(self, levels: RestLevels) -> tuple[RestLevels, float]:
+        """Return the levels after a block of moving feet, and the log-likelihood of the forces outside an elevator."""
+        result = self._walks.get(id(levels))
+        if result is None:
+            result = self._walks[id(levels)] = self._compute_walking(levels)
+        return result
 
-    def _walk(self, levels: Levels) -> tuple[Levels, float]:
-        seen = self.acceleration(levels)
+    def _compute_walking(self, levels: RestLevels) -> tuple[RestLevels, float]:
+        excess = self.estimate_acceleration(levels)
         walked = tuple(
             [
                 level
-                if one is None or not one.moved or level.variance >= MOVED_DEVIATION * MOVED_DEVIATION
-                else RestLevel(level.value, MOVED_DEVIATION * MOVED_DEVIATION)
-                for level, one in zip(levels, self.forces, strict=True)
+                if block is None or not block.moved or level.variance >= MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION
+                else RestLevel(level.value, MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION)
+                for level, block in zip(levels, self.forces, strict=True)
             ]
         )
         if all(map(is_, walked, levels)):
             walked = levels
-        if seen is None:
+        if excess is None:
             return walked, 0.0
-        near, far = _density(seen[0], seen[1] + 1.0), _density(seen[0], seen[1] + MOVING_OUTLIER * MOVING_OUTLIER)
+        near = _density(excess[0], excess[1] + 1.0)
+        far = _density(excess[0], excess[1] + MOVING_OUTLIER * MOVING_OUTLIER)
         return walked, log((1.0 - MOVING_OUTLIER_SHARE) * near + MOVING_OUTLIER_SHARE * far + LEAST_DENSITY)
 
-    def acceleration(self, levels: Levels) -> tuple[float, float] | None:
-        """Return the acceleration of the feet against their levels, m/s^2, and its variance; None without samples."""
-        if id(levels) not in self._acceleration:
-            self._acceleration[id(levels)] = self._accelerated(levels)
-        return self._acceleration[id(levels)]
+    def estimate_acceleration(self, levels: RestLevels) -> tuple[float, float] | None:
+        """Return the mean force above the rest levels, m/s^2, and its variance, (m/s^2)^2; None without samples."""
+        if id(levels) not in self._accelerations:
+            self._accelerations[id(levels)] = self._compute_acceleration(levels)
+        return self._accelerations[id(levels)]
 
-    def _accelerated(self, levels: Levels) -> tuple[float, float] | None:
+    def _compute_acceleration(self, levels: RestLevels) -> tuple[float, float] | None:
         total = weights = 0.0
-        offs = []
-        for level, one in zip(levels, self.forces, strict=True):
-            if one is not None:
-                off = one.force - level.value
-                weight = 1.0 / (level.variance + one.variance)
-                offs.append((off, 1.0 / weight))
-                total += weight * off
+        residuals = []
+        for level, block in zip(levels, self.forces, strict=True):
+            if block is not None:
+                residual = block.force - level.value
+                weight = 1.0 / (level.variance + block.variance)
+                residuals.append((residual, 1.0 / weight))
+                total += weight * residual
                 weights += weight
         if weights == 0.0:
             return None
         variance = 1.0 / weights
-        if len(offs) == 2:  # a lift moves both feet alike
-            (a, va), (b, vb) = offs
+        if len(residuals) == 2:  # an elevator moves both feet alike
+            (a, va), (b, vb) = residuals
             variance += 0.25 * max(0.0, (a - b) * (a - b) - va - vb)
         return total / weights, variance
 
-    def _updated_levels(self, levels: Levels, acceleration: float, uncertain: float) -> Levels:
-        """Return the levels after half a second with this acceleration of the lift, whose variance is `uncertain`."""
+    def _update_levels(self, levels: RestLevels, acceleration: float, acceleration_variance: float) -> RestLevels:
+        """Return the levels after half a second in which the elevator has this acceleration, m/s^2."""
         updated = []
-        for level, one in zip(levels, self.forces, strict=True):
-            if one is None:
+        for level, block in zip(levels, self.forces, strict=True):
+            if block is None:
                 updated.append(level)
                 continue
             variance = level.variance + LEVEL_WANDER
-            if one.moved:
-                variance = max(variance, MOVED_DEVIATION * MOVED_DEVIATION)
-            gain = variance / (variance + one.variance + uncertain)
-            off = one.force - acceleration - level.value
-            updated.append(RestLevel(round(level.value + gain * off, 7), round((1.0 - gain) * variance, 9)))
+            if block.moved:
+                variance = max(variance, MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION)
+            gain = variance / (variance + block.variance + acceleration_variance)
+            residual = block.force - acceleration - level.value
+            updated.append(RestLevel(round(level.value + gain * residual, 7), round((1.0 - gain) * variance, 9)))
         return tuple(updated)
 
 
 @define
-class LiftRide:
-    """The state of a lift in one hypothesis, upwards positive."""
+class ElevatorRide:
+    """The motion of an elevator in one hypothesis, positive upwards."""
 
-    levels: Levels
+    levels: RestLevels
     velocity: float = 0.0
-    """Velocity of the lift, m/s."""
-    fastest: float = 0.0
-    """Largest speed so far, m/s."""
+    """Velocity of the elevator, m/s."""
+    top_speed: float = 0.0
+    """Largest speed in this ride so far, m/s."""
     height: float = 0.0
-    """Height since the lift set off, m."""
+    """Height gained since the elevator set off, by its acceleration, m."""
     duration: float = 0.0
     """Duration of the ride so far, s."""
-    whole: bool = False
+    has_first_pulse: bool = False
     """Flag: the first pulse was measured."""
-    air: float | None = None
-    """Height when the lift set off, by the air pressure, m above any reference."""
+    start_height: float | None = None
+    """Height when the elevator set off, by the air pressure, m above any reference."""
     standing_time: float = 1e3
     """Time since the last ride ended, s."""
 
     @staticmethod
-    def start(whole: bool, air: float | None, levels: Levels, acceleration: float, block: float) -> LiftRide:
-        """Return a ride after its first `block` s; `whole`: with its first pulse.
+    def start(
+        has_first_pulse: bool, start_height: float | None, levels: RestLevels, acceleration: float, block: float
+    ) -> ElevatorRide:
+        """Return a ride after its first block, which lasts `block` s.
 
-        `air` is the height at the start, m; for the others see `move`."""
+        `start_height` is by air pressure, m; see `move` for `levels` and `acceleration`."""
         velocity = round(0.0 + acceleration * block, 6)
-        return LiftRide(levels, velocity, abs(velocity), round(0.0 + 0.5 * velocity * block, 6), block, whole, air)
-
-    def move(self, levels: Levels, acceleration: float, block: float) -> LiftRide:
-        """Return the ride after `block` s more with this acceleration, m/s^2, and the levels after it."""
-        before = self.velocity
-        velocity = round(before + acceleration * block, 6)
-        fast = abs(velocity)
-        return LiftRide(
+        return ElevatorRide(
             levels,
             velocity,
-            fast if fast > self.fastest else self.fastest,
-            round(self.height + 0.5 * (before + velocity) * block, 6),
+            abs(velocity),
+            round(0.0 + 0.5 * velocity * block, 6),
+            block,
+            has_first_pulse,
+            start_height,
+        )
+
+    def move(self, levels: RestLevels, acceleration: float, block: float) -> ElevatorRide:
+        """Return the ride after `block` s more: the elevator's acceleration was this, m/s^2, and the levels are new."""
+        old_velocity = self.velocity
+        velocity = round(old_velocity + acceleration * block, 6)
+        speed = abs(velocity)
+        return ElevatorRide(
+            levels,
+            velocity,
+            speed if speed > self.top_speed else self.top_speed,
+            round(self.height + 0.5 * (old_velocity + velocity) * block, 6),
             self.duration + block,
-            self.whole,
-            self.air,
+            self.has_first_pulse,
+            self.start_height,
             self.standing_time,
         )
 
-    def wait(self, levels: Levels, block: float) -> LiftRide:
-        """Return the ride after `block` s without one and the levels after it; the last ride's values are kept."""
+    def wait(self, levels: RestLevels, block: float) -> ElevatorRide:
+        """Return the state after `block` s outside a ride, with new levels and the values of the last ride."""
         standing_time = self.standing_time
         if standing_time < DWELL_TIME:
             standing_time += block
         elif levels is self.levels:
             return self
-        return LiftRide(
-            levels, self.velocity, self.fastest, self.height, self.duration, self.whole, self.air, standing_time
+        return ElevatorRide(
+            levels,
+            self.velocity,
+            self.top_speed,
+            self.height,
+            self.duration,
+            self.has_first_pulse,
+            self.start_height,
+            standing_time,
         )
 
-    def end(self) -> LiftRide:
-        """Return the state after the end of the ride, with the same levels."""
-        return LiftRide(self.levels, standing_time=0.0)
+    def end(self) -> ElevatorRide:
+        """Return the state just after a ride ends: nothing but the levels is kept."""
+        return ElevatorRide(self.levels, standing_time=0.0)
 
-    def stop_score(self) -> float:
-        """Return the log-likelihood that a lift that moved like this stands now."""
-        odd = 0.0
-        if self.fastest < SLOWEST_LIFT:
-            odd = 0.5 * ((SLOWEST_LIFT - self.fastest) / 0.1) ** 2
-        if self.whole:
-            odd += min(4.0, 0.5 * (self.velocity / (0.3 * self.fastest + 0.1)) ** 2)
-        return -min(odd, 8.0)
+    def score_stop(self) -> float:
+        """Return the log-likelihood that the elevator stands now, after the motion of this ride."""
+        penalty = 0.0
+        if self.top_speed < SLOWEST_ELEVATOR_SPEED:
+            penalty = 0.5 * ((SLOWEST_ELEVATOR_SPEED - self.top_speed) / 0.1) ** 2
+        if self.has_first_pulse:
+            penalty += min(4.0, 0.5 * (self.velocity / (0.3 * self.top_speed + 0.1)) ** 2)
+        return -min(penalty, 8.0)
 
-    def height_gain(self, air: float | None) -> float | None:
-        """Return the height of the ride, m; None without air pressure and first pulse. `air`: height now, m.
+    def height_gain(self, height: float | None) -> float | None:
+        """Return the height of the ride, m; None when neither the first pulse nor air pressure gives it.
 
-        The height by the pulses, without the drift of a lift that must stand in the end, and the height by the air
-        pressure are weighted by their variances."""
-        by_air = None if air is None or self.air is None else air - self.air
-        if not self.whole:
-            return by_air
+        `height` is that by air pressure now, m. The result is the mean, weighted by variance, of the height by air
+        pressure and the height by the pulses. The latter is corrected so that the final velocity is zero."""
+        by_pressure = None if height is None or self.start_height is None else height - self.start_height
+        if not self.has_first_pulse:
+            return by_pressure
         by_pulses = self.height - 0.5 * self.velocity * self.duration
-        if by_air is None:
+        if by_pressure is None:
             return by_pulses
         share = (
             AIR_HEIGHT_ERROR
             * AIR_HEIGHT_ERROR
-            / (AIR_HEIGHT_ERROR * AIR_HEIGHT_ERROR + (PULSE_HEIGHT_ERROR * by_air) ** 2)
+            / (AIR_HEIGHT_ERROR * AIR_HEIGHT_ERROR + (PULSE_HEIGHT_ERROR * by_pressure) ** 2)
         )
-        return by_air + share * (by_pulses - by_air)
+        return by_pressure + share * (by_pulses - by_pressure)
 
 
-def _density(off: float, variance: float) -> float:
-    """Return the density of a normal distribution."""
-    return exp(-0.5 * min(off * off / variance, 1400.0)) / sqrt(2.0 * pi * variance)
+def _density(residual: float, variance: float) -> float:
+    """Return the density of a normal distribution with mean 0."""
+    return exp(-0.5 * min(residual * residual / variance, 1400.0)) / sqrt(2.0 * pi * variance)

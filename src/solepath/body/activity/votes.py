@@ -1,4 +1,4 @@
-"""Votes of both feet on half a second, and their sum."""
+"""Votes (log-likelihoods) of both feet on the motion in a block of half a second, and their sum."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from .motion import MOTIONS, MotionModel
 from .ride import SWAY_DEVIATION, BlockForce
 
 VOTE_WEIGHT = 0.6
-"""Weight of one vote: neighbouring windows contain the same samples."""
-LEAST_VOTE = -12.0
+"""Weight of one vote; it is below 1 because neighbouring windows share samples."""
+MIN_VOTE = -12.0
 """Lowest vote (natural logarithm)."""
 UNKNOWN_COST = 3.0
-"""Minus log-likelihood of an unknown activity for a foot of usual motion."""
+"""Penalty (minus log-likelihood) of an unknown activity for a foot of usual motion."""
 USUAL_STRANGENESS = 6.0
-"""Largest strangeness of usual motion (motion.py); above it an unknown activity becomes likelier."""
+"""Largest strangeness (motion.py) of usual motion; above it, an unknown activity becomes likelier."""
 MOVING_VARIANCE = 1.0
 """Least variance of |acc| of a foot that moves, (m/s^2)^2."""
-LARGEST_FORCE = 40.0
+MAX_STANDING_FORCE = 40.0
 """Largest mean force of a standing foot, m/s^2."""
 
 
 def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> tuple[float, ...]:
-    """Return the log-likelihoods of `MOTIONS`, and of an unknown one, given the features of each foot or None."""
+    """Return the log-likelihoods of `MOTIONS` and of an unknown activity, from the features of each foot or None."""
     votes = [0.0] * len(MOTIONS)
     unknown = 0.0
     known = False
@@ -32,16 +32,16 @@ def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> 
             continue
         known = True
         for i, likely in enumerate(model.log_probabilities(features)):
-            votes[i] += VOTE_WEIGHT * max(likely, LEAST_VOTE)
+            votes[i] += VOTE_WEIGHT * max(likely, MIN_VOTE)
         unknown += VOTE_WEIGHT * min(0.5 * (model.strangeness(features) - USUAL_STRANGENESS) - UNKNOWN_COST, 0.0)
     return (*votes, unknown) if known else (*[-1.0] * len(MOTIONS), 0.0)
 
 
 def block_force(block: ActivityBlock | None, resolution: float) -> BlockForce | None:
-    """Return the force on a foot in a block, by which lifts are detected; None without a block.
+    """Return the force on a foot in a block, for elevator detection; None without a block or above the limit.
 
-    `resolution` is that of its accelerometer, m/s^2 a count."""
-    if block is None or block.force >= LARGEST_FORCE:
+    `resolution` is the accelerometer's, m/s^2 per count."""
+    if block is None or block.force >= MAX_STANDING_FORCE:
         return None
     variance = SWAY_DEVIATION * SWAY_DEVIATION + 0.05 * min(block.variance, 1e4) + resolution * resolution / 12.0
     return BlockForce(block.force, variance, block.variance > MOVING_VARIANCE)

@@ -1,17 +1,17 @@
 """Position of the wearer from the tracks of two feet that belong to one body.
 
-The world frame starts between the feet, x along the wearer's first heading: the mean of the directions in which the
-feet set out. At each stride the foot that swung is compared with the one that stood (error_filter.py): it stood beside
-the middle of the stride, to the side by the walking width, which is learnt. In a bend of `turn` rad the chord of a
-stride L m long lies L turn / 8 inside the path. Feet that are further apart than legs spread are pulled together in any
-case.
+The world frame starts between the feet. Its x axis is the wearer's first heading, the mean of the first directions of
+both feet. At each stride, the foot that swung is compared with the foot that stood (error_filter.py). The standing foot
+should be beside the middle of the stride, at a lateral distance equal to the walking width, which is estimated. In a
+bend of `turn` rad, the chord of a stride of L m lies L turn / 8 inside the path. Feet that are further apart than legs
+spread are always pulled together.
 
-In the first metres this aligns the two tracks, whatever way the first strides led (walking_direction.py), and changes
-neither. From then on corrections are returned to the feet, each at its own foot-flat (`Shift`): both feet keep the
-heading that they agree on, live and in their later strides. A stride stays as it was reported.
+In the first metres, the comparison aligns the two tracks for any direction of the first strides (walking_direction.py)
+and leaves the feet unchanged. From then on, corrections go to the feet, to each at its own foot-flat (`Shift`). Live
+position and later strides of both feet then have the same heading. A stride that was reported is not changed.
 
-While the feet are held together their mean does not shrink as they drift apart, and neither is better than the other:
-each has received its share by its variance. A foot that falls silent and comes back is treated as by `MeanOfFeet`."""
+The corrections are divided between the feet by their variances, so both feet have equal weight in the mean. A foot that
+loses its signal and returns is treated as in `MeanOfFeet`."""
 
 from __future__ import annotations
 
@@ -25,32 +25,32 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartOutput, Position, Shift
 from .corridor import Corridor
-from .error_filter import HEADING, RATE, STATES, WIDTH, Term, TrackErrorFilter, X, Y
+from .error_filter import HEADING, RATE, STATES_PER_FOOT, WIDTH, Term, TrackErrorFilter, X, Y
 from .position import MeanOfFeet
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
-LARGEST_VALUE = 1e6
+MAX_TRACK_VALUE = 1e6
 """Largest coordinate of a track, m, and largest variance of a stride, m^2, that are used."""
-LONGEST_PHASE = 1.0
-"""Longest stance or swing time that counts as walking, s: the usual drift rate is that of a wearer who walks."""
+MAX_PHASE_TIME = 1.0
+"""Longest stance or swing time over which the drift rate of a walking foot is integrated, s."""
 FOOTPRINT_VARIANCE = 1e-4
-"""Variance of the place of a footprint, m^2."""
+"""Variance of a foot's position at foot-flat that is added to a stride's variance, m^2."""
 ALIGNMENT_ERROR = (0.15, 0.05)
-"""Standard deviations of the place, m, and the heading, rad, of a returned foot that is aligned with the other."""
+"""Standard deviations of position, m, and heading, rad, of a returned foot after its alignment with the other foot."""
 STANDING_WIDTH, WALKING_WIDTH = 0.18, 0.12
-"""First lateral distance of the feet, standing and walking, m."""
+"""Lateral distance of the feet when standing, and first estimate of the walking width, m."""
 LATERAL_ERROR, LONGITUDINAL_ERROR = 0.045, 0.15
-"""Standard deviations of a foot's landing place, m: to the side, and along the middle of the other's stride."""
+"""Standard deviations of the standing foot's position relative to the middle of the other foot's stride, m."""
 TURN_ERROR = 0.12
-"""Increase of both deviations in a turn, m for every metre and radian."""
-SHORTEST_STRIDE, LARGEST_TURN, LARGEST_DEVIATION = 0.5, 0.8, 0.6
-"""Least length, m, largest turn, rad, and largest deviation from the foot's direction, rad, of a stride that counts."""
-GATE = 16.0
-"""Innovation gate: limit of the normalised squared innovation of a measurement."""
-LONGEST_STRIDE = 2.5
-"""Longest stride that is plausible, m; the excess of a longer one inflates the covariance."""
-PLACEMENT_DISTANCE = 5.0
-"""Distance after which the tracks are aligned, and corrections go to the feet, m."""
+"""Increase of both standard deviations in a turn, m per m of stride length and rad of turn."""
+MIN_LENGTH, MAX_TURN, MAX_DIRECTION_DEVIATION = 0.5, 0.8, 0.6
+"""Limits for a stride that is compared: length, m; turn, rad; deviation from the foot's usual direction, rad."""
+GATE_LIMIT = 16.0
+"""Largest squared innovation, divided by its variance, of a measurement that is used."""
+MAX_STRIDE_LENGTH = 2.5
+"""Longest plausible stride, m; the excess of a longer stride inflates the covariance."""
+ALIGNMENT_DISTANCE = 5.0
+"""Distance walked after which the tracks count as aligned and corrections go to the feet, m."""
 
 
 @frozen
@@ -58,7 +58,7 @@ class BothFeetSettings:
     """The settings of `BothFeet`."""
 
     straight_corridors: bool = False
-    """Flag: a path that seems straight is taken as straight (corridor.py)."""
+    """Flag: a path that is nearly straight is assumed to be straight (corridor.py)."""
     feedback: bool = True
     """Flag: corrections are returned to the feet."""
     reach: float = 1.5
@@ -67,29 +67,30 @@ class BothFeetSettings:
 
 @define
 class BothFeet(MeanOfFeet):
-    """The mean of two feet whose headings and places correct each other.
+    """The mean position of two feet whose headings and positions correct each other.
 
-    Latency: none. The information of a stride about the other foot is used at once in `position`; the other foot's
-    track follows at its own next foot-flat. A foot that cannot be shifted keeps its track."""
+    Latency: none. `position` uses at once what a stride says about the other foot. The other foot itself is corrected
+    at its next foot-flat, if its corrector accepts shifts."""
 
     settings: BothFeetSettings = BothFeetSettings()
     errors: TrackErrorFilter = field(factory=TrackErrorFilter, init=False)
+    """Covariance of the errors of both tracks."""
     corridor: Corridor = field(factory=Corridor, init=False)
     started: bool = field(default=False, init=False)
-    """Flag: both feet have given samples."""
+    """Flag: both feet have had samples."""
     distance: float = field(default=0.0, init=False)
-    """Distance walked, m, up to `PLACEMENT_DISTANCE`."""
+    """Distance walked, m; it is counted up to `ALIGNMENT_DISTANCE`."""
     width: float = field(default=0.0, init=False)
     """Walking width, m."""
     strides: list[DirectedStride | None] = field(factory=lambda: [None, None], init=False)
-    """Newest stride of the left and the right foot."""
+    """Newest strides of the left foot and the right foot."""
     divergence: TrackDivergence = field(factory=TrackDivergence, init=False)
     directions: list[WalkingDirection] = field(factory=lambda: [WalkingDirection(), WalkingDirection()], init=False)
     placements: list[tuple[float, Vec3]] = field(factory=lambda: [(0.0, ZERO), (0.0, ZERO)], init=False)
-    """Turn, rad, and offset, m, at which the tracks were aligned; later corrections go to the feet themselves."""
+    """Turn, rad, and offset, m, of each track when alignment ended; later corrections go to the feet themselves."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add one sample of a foot, as `MeanOfFeet` does, and at a stride return the foot's correction."""
+        """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         was_unplaced = self.left.unplaced or self.right.unplaced
         MeanOfFeet.feed(self, view)
         if not self.started:
@@ -116,180 +117,182 @@ class BothFeet(MeanOfFeet):
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """Return the wearer's position, with the mean's covariance at the newest stride; None before any sample."""
-        found = MeanOfFeet.position(self, feet)
+        mean = MeanOfFeet.position(self, feet)
         left, right = self.left, self.right
-        if found is None or not self.started or left.unplaced or right.unplaced or left.absent or right.absent:
-            return found
+        if mean is None or not self.started or left.unplaced or right.unplaced or left.absent or right.absent:
+            return mean
         xx, xy, yy = self.errors.mean_covariance()
-        # the covariance of heights with places that were corrected here is not known: it is left out
-        return Position(found.t, found.position, (xx, xy, 0.0, yy, 0.0, found.covariance[5]))
+        # corrections make the covariance between height and horizontal position unknown: it is set to 0
+        return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, mean.covariance[5]))
 
     def _start(self) -> None:
         self.started = True
         self.width = WALKING_WIDTH
         self.errors.start()
         if not self.left.unplaced and not self.right.unplaced:
-            for placed, k in ((self.left, 0.5), (self.right, -0.5)):
-                x, y, z = placed.offset
-                placed.offset = (x, y + k * STANDING_WIDTH, z)
+            for track, k in ((self.left, 0.5), (self.right, -0.5)):
+                x, y, z = track.offset
+                track.offset = (x, y + k * STANDING_WIDTH, z)
         self._keep_placements()
 
     def _keep_placements(self) -> None:
-        self.placements = [(placed.turn, placed.offset) for placed in (self.left, self.right)]
+        self.placements = [(track.turn, track.offset) for track in (self.left, self.right)]
 
-    def _add_stride(self, taken: StrideTaken, takes_shifts: bool) -> Sequence[PartOutput]:
-        index = 0 if taken.foot is Foot.LEFT else 1
+    def _add_stride(self, event: StrideTaken, takes_shifts: bool) -> Sequence[PartOutput]:
+        index = 0 if event.foot is Foot.LEFT else 1
         this = self.left if index == 0 else self.right
-        numbers = (*taken.position, *taken.displacement, *taken.covariance)
-        if not all([abs(v) < LARGEST_VALUE for v in numbers]) or self.errors.diverged:
+        numbers = (*event.position, *event.displacement, *event.covariance)
+        if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
             self._restart()
             return ()
-        own = taken.position
+        own_place = event.position
         c, s = cos(this.turn), sin(this.turn)
-        x, y, _ = taken.displacement
+        x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
-        t_toe_off = taken.t_start if taken.t_toe_off is None else taken.t_toe_off
-        swing = max(0.0, min(taken.t_end - t_toe_off, LONGEST_PHASE))
-        stance = max(0.0, min(t_toe_off - taken.t_start, LONGEST_PHASE))
-        # apply the usual drift of its heading to heading and place
+        t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
+        swing = max(0.0, min(event.t_end - t_toe_off, MAX_PHASE_TIME))
+        stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
+        # correct heading and position for the estimated heading drift
         rate = self.errors.rates[index]
         middle = rate * (stance + 0.5 * swing)
-        this.correct(own, rate * (stance + swing), -middle * dy, middle * dx)
-        x, y, _ = this.place(own)
-        xx, xy, _, yy, _, _ = taken.covariance
+        this.correct(own_place, rate * (stance + swing), -middle * dy, middle * dx)
+        x, y, _ = this.place(own_place)
+        xx, xy, _, yy, _, _ = event.covariance
         cc, ss, cs = c * c, s * s, c * s
         variance = (
             cc * xx - 2.0 * cs * xy + ss * yy + FOOTPRINT_VARIANCE,
             cs * (xx - yy) + (cc - ss) * xy,
             ss * xx + 2.0 * cs * xy + cc * yy + FOOTPRINT_VARIANCE,
         )
-        excess = max(0.0, taken.length - LONGEST_STRIDE)
-        self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, taken.degraded or excess > 0.0)
+        excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
+        self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, event.degraded or excess > 0.0)
         if excess > 0.0:
             self.errors.inflate(index, excess)
-        self.distance = min(PLACEMENT_DISTANCE, self.distance + 0.5 * taken.length)
-        x, y, _ = taken.displacement
-        straight = hypot(x, y) > SHORTEST_STRIDE and abs(taken.heading_change) < LARGEST_TURN and not taken.degraded
-        self.strides[index] = DirectedStride(taken.t_end, own, atan2(y, x) if straight else None)
-        if self.distance >= PLACEMENT_DISTANCE or not self._realign(index, taken):
-            self._compare_feet(index, taken, dx, dy, stance, swing)
+        self.distance = min(ALIGNMENT_DISTANCE, self.distance + 0.5 * event.length)
+        x, y, _ = event.displacement
+        straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not event.degraded
+        self.strides[index] = DirectedStride(event.t_end, own_place, atan2(y, x) if straight else None)
+        if self.distance >= ALIGNMENT_DISTANCE or not self._realign(index, event):
+            self._compare_feet(index, event, dx, dy, stance, swing)
             if self.settings.straight_corridors:
-                x, y, z = this.place(own)
-                self._hold_corridor(index, taken, (x - dx, y - dy, z), (x, y, z))
-        return self._shift_foot(index, taken.foot, takes_shifts)
+                x, y, z = this.place(own_place)
+                self._follow_corridor(index, event, (x - dx, y - dy, z), (x, y, z))
+        return self._shift_foot(index, event.foot, takes_shifts)
 
-    def _realign(self, index: int, taken: StrideTaken) -> bool:
-        """Align the tracks of both feet again within the first metres if they diverge; return whether that was done."""
-        this, beside = self.strides[index], self.strides[1 - index]
-        if this is None or beside is None or not taken.t_start < beside.t_end < taken.t_end:
+    def _realign(self, index: int, event: StrideTaken) -> bool:
+        """Align the tracks of both feet again if they diverge within the first metres; return whether that was done."""
+        stride, other_stride = self.strides[index], self.strides[1 - index]
+        if stride is None or other_stride is None or not event.t_start < other_stride.t_end < event.t_end:
             return False
-        own, other, side = (self.left, self.right, 1.0) if index == 0 else (self.right, self.left, -1.0)
-        angle = self.divergence.update(this, own.turn, beside, other.turn, side)
+        track, other_track, side = (self.left, self.right, 1.0) if index == 0 else (self.right, self.left, -1.0)
+        angle = self.divergence.update(stride, track.turn, other_stride, other_track.turn, side)
         if angle is None:
             return False
-        align_tracks(own, this, other, beside, angle, 0.5 * taken.length, side * WALKING_WIDTH)
+        align_tracks(track, stride, other_track, other_stride, angle, 0.5 * event.length, side * WALKING_WIDTH)
         self.errors.start()
         self.corridor.end()
         self.distance, self.directions = 0.0, [WalkingDirection(), WalkingDirection()]
         self._keep_placements()
         return True
 
-    def _compare_feet(self, index: int, taken: StrideTaken, dx: float, dy: float, stance: float, swing: float) -> None:
-        """Compare the stride (dx, dy) of this foot, m, with the place where the other foot stood."""
+    def _compare_feet(self, index: int, event: StrideTaken, dx: float, dy: float, stance: float, swing: float) -> None:
+        """Compare the stride (dx, dy), m, of this foot with the position where the other foot stood."""
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
-        turn, length = taken.heading_change, hypot(dx, dy)
-        off = self.directions[index].deviation(atan2(dy, dx), turn) if length > SHORTEST_STRIDE else 0.0
-        beside = self.strides[1 - index]
-        if beside is None or other.absent:
+        turn, length = event.heading_change, hypot(dx, dy)
+        deviation = self.directions[index].add_stride(atan2(dy, dx), turn) if length > MIN_LENGTH else 0.0
+        other_stride = self.strides[1 - index]
+        if other_stride is None or other.absent:
             return
-        this_x, this_y = index * STATES + X, index * STATES + Y
-        other_x, other_y = (1 - index) * STATES + X, (1 - index) * STATES + Y
-        ex, ey, _ = this.place(taken.position)
+        this_x, this_y = index * STATES_PER_FOOT + X, index * STATES_PER_FOOT + Y
+        other_x, other_y = (1 - index) * STATES_PER_FOOT + X, (1 - index) * STATES_PER_FOOT + Y
+        ex, ey, _ = this.place(event.position)
         if (
-            taken.t_start < beside.t_end < taken.t_end
-            and length > SHORTEST_STRIDE
-            and abs(turn) < LARGEST_TURN
-            and abs(off) < LARGEST_DEVIATION
-            and not taken.degraded
+            event.t_start < other_stride.t_end < event.t_end
+            and length > MIN_LENGTH
+            and abs(turn) < MAX_TURN
+            and abs(deviation) < MAX_DIRECTION_DEVIATION
+            and not event.degraded
         ):
-            # n: to the left of the stride's direction u; m: from its middle to the foot that stood
+            # u: direction of the stride; n: to its left; m: from the middle of the stride to the standing foot
             ux, uy = dx / length, dy / length
             nx, ny = -uy, ux
-            qx, qy, _ = other.place(beside.end)
+            qx, qy, _ = other.place(other_stride.end)
             mx, my = qx - (ex - 0.5 * dx), qy - (ey - 0.5 * dy)
-            ahead, left = ux * mx + uy * my, nx * mx + ny * my
+            ahead, leftward = ux * mx + uy * my, nx * mx + ny * my
             side = 1.0 if index == 1 else -1.0
-            more = TURN_ERROR * turn * length
-            heading, rate = index * STATES + HEADING, index * STATES + RATE
-            others = (1 - index) * STATES + HEADING
-            # u and the middle follow the heading in mid-swing, psi - r T_swing / 2, and the turn is wrong by r T
+            spread = TURN_ERROR * turn * length
+            heading, rate = index * STATES_PER_FOOT + HEADING, index * STATES_PER_FOOT + RATE
+            other_heading = (1 - index) * STATES_PER_FOOT + HEADING
+            # u and the middle depend on the heading in mid-swing, psi - r T_swing / 2; the error of the turn is r T
             arm = 0.5 * length - ahead
             terms: list[Term] = [
-                (other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny), (heading, arm), (others, -arm),
+                (other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny), (heading, arm), (other_heading, -arm),
                 (rate, length * (stance + swing) / 8.0 - 0.5 * swing * arm), (WIDTH, -side),
             ]  # fmt: skip
             expected = side * self.width - length * turn / 8.0
-            self._apply(self.errors.correct(terms, expected - left, LATERAL_ERROR**2 + more * more, GATE))
+            self._correct(
+                self.errors.correct(terms, expected - leftward, LATERAL_ERROR**2 + spread * spread, GATE_LIMIT)
+            )
             terms = [
-                (other_x, ux), (other_y, uy), (this_x, -ux), (this_y, -uy), (heading, left), (others, -left),
-                (rate, -0.5 * swing * left),
+                (other_x, ux), (other_y, uy), (this_x, -ux), (this_y, -uy), (heading, leftward),
+                (other_heading, -leftward), (rate, -0.5 * swing * leftward),
             ]  # fmt: skip
-            self._apply(self.errors.correct(terms, -ahead, LONGITUDINAL_ERROR**2 + more * more, GATE))
-            ex, ey, _ = this.place(taken.position)
+            self._correct(self.errors.correct(terms, -ahead, LONGITUDINAL_ERROR**2 + spread * spread, GATE_LIMIT))
+            ex, ey, _ = this.place(event.position)
         qx, qy, _ = other.place(other.newest_place)
-        apart = hypot(qx - ex, qy - ey)
-        if apart > self.settings.reach:
-            # a foot that moved far without a stride has lost its track, and the other must not follow
-            wx, wy, _ = sub(other.newest_place, beside.end)
-            self.errors.inflate(1 - index, max(0.0, hypot(wx, wy) - LONGEST_STRIDE))
-            if beside.t_end < taken.t_start:  # no foot stands that long: its own strides were not found
-                self.errors.inflate(1 - index, taken.length)
-            nx, ny = (qx - ex) / apart, (qy - ey) / apart
+        separation = hypot(qx - ex, qy - ey)
+        if separation > self.settings.reach:
+            # a foot that moved far without a stride has a wrong track, which must not pull the other foot
+            wx, wy, _ = sub(other.newest_place, other_stride.end)
+            self.errors.inflate(1 - index, max(0.0, hypot(wx, wy) - MAX_STRIDE_LENGTH))
+            if other_stride.t_end < event.t_start:  # no foot stands that long: its strides were not detected
+                self.errors.inflate(1 - index, event.length)
+            nx, ny = (qx - ex) / separation, (qy - ey) / separation
             terms = [(other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny)]
-            self._apply(self.errors.correct(terms, self.settings.reach - apart, LONGITUDINAL_ERROR**2, 1e12))
+            self._correct(self.errors.correct(terms, self.settings.reach - separation, LONGITUDINAL_ERROR**2, 1e12))
 
-    def _apply(self, found: list[float] | None) -> None:
-        """Take the errors that were found out of both tracks."""
-        if found is None:
+    def _correct(self, errors: list[float] | None) -> None:
+        """Remove the estimated errors (None: no change) from both tracks."""
+        if errors is None:
             return
-        self.width += found[WIDTH]
+        self.width += errors[WIDTH]
         cx, cy = self.errors.centre
-        for index, placed in ((0, self.left), (1, self.right)):
-            stride, first = self.strides[index], index * STATES
-            at = placed.newest_place if stride is None else stride.end
-            x, y, _ = placed.place(at)
-            yaw = found[first + HEADING]
-            placed.correct(at, yaw, found[first + X] - yaw * (y - cy), found[first + Y] + yaw * (x - cx))
+        for index, track in ((0, self.left), (1, self.right)):
+            stride, first = self.strides[index], index * STATES_PER_FOOT
+            pivot = track.newest_place if stride is None else stride.end
+            x, y, _ = track.place(pivot)
+            yaw = errors[first + HEADING]
+            track.correct(pivot, yaw, errors[first + X] - yaw * (y - cy), errors[first + Y] + yaw * (x - cx))
 
-    def _hold_corridor(self, index: int, taken: StrideTaken, start: Vec3, end: Vec3) -> None:
-        """Correct the heading towards a straight path, as far as the corridor filter allows."""
-        held = self.corridor.add_stride(index, taken.t_end, start, end, taken.heading_change)
-        if held is None:
+    def _follow_corridor(self, index: int, event: StrideTaken, start: Vec3, end: Vec3) -> None:
+        """Correct the heading by the result of the corridor filter."""
+        correction = self.corridor.add_stride(index, event.t_end, start, end, event.heading_change)
+        if correction is None:
             return
-        yaw, rate = held
-        found = [0.0] * (WIDTH + 1)
-        found[HEADING] = found[STATES + HEADING] = yaw
-        self._apply(found)
+        yaw, rate = correction
+        errors = [0.0] * (WIDTH + 1)
+        errors[HEADING] = errors[STATES_PER_FOOT + HEADING] = yaw
+        self._correct(errors)
         self.errors.correct_mean_rate(rate, self.corridor.drift[2])
 
     def _shift_foot(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
-        """Return the correction of the foot that was found since the tracks were aligned."""
+        """Return the correction that has accumulated for the foot since its last one, and reset its placement."""
         this = self.left if index == 0 else self.right
         stride = self.strides[index]
-        if stride is not None and self.distance < PLACEMENT_DISTANCE:
+        if stride is not None and self.distance < ALIGNMENT_DISTANCE:
             self.placements[index] = (this.turn, this.offset)
         elif stride is not None and self.settings.feedback and takes_shifts:
             place, yaw = this.place(stride.end), this.turn
             this.turn, this.offset = self.placements[index]
-            own = this.to_own(place)
-            by = sub(own, stride.end)
-            (x, y, z), (dx, dy, dz) = this.newest_place, by
-            stride.end, this.newest_place = own, (x + dx, y + dy, z + dz)
-            return [Shift(foot, yaw - this.turn, by)]
+            own_place = this.to_own(place)
+            shift = sub(own_place, stride.end)
+            (x, y, z), (dx, dy, dz) = this.newest_place, shift
+            stride.end, this.newest_place = own_place, (x + dx, y + dy, z + dz)
+            return [Shift(foot, yaw - this.turn, shift)]
         return ()
 
     def _restart(self) -> None:
-        """Restart the error filter: nothing useful is known of how the tracks lie to one another."""
+        """Restart the error filter, because the estimated relation of the two tracks is useless."""
         self.errors.start()
         self.strides = [None, None]
         self.corridor.end()

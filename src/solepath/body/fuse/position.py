@@ -1,10 +1,10 @@
 """Position of the wearer: the mean of both feet.
 
-A foot that falls silent would hold the mean back by half of the distance walked, so it is left out; the track continues
-with the other foot from where the mean was, since the feet's tracks may have drifted apart. The displacement and turn
-of an absent foot are not known when it comes back: it stays out until both have taken `STRIDES_TO_ALIGN` strides
-together, and is then turned and set beside the other. A foot whose first sample comes while the other walks is set
-beside it as well. Without absence nothing is turned or set."""
+A foot without samples would hold the mean back by half of the distance walked, so an absent foot is left out. The mean
+then continues with the other foot, without a jump although the two tracks may have drifted apart. The displacement and
+turn of an absent foot are not known when it returns. It stays out until each foot has taken `STRIDES_TO_ALIGN` strides,
+and its track is then rotated and moved beside the other one. A foot whose first sample comes while the other foot walks
+is aligned in the same way. Without absence, no track is rotated or moved."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from ..part import PartOutput, Position, TrackPart
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
 
-ABSENT = 1.0
-"""Time without samples after which a foot is absent, while the other gives samples, s."""
+ABSENCE_TIME = 1.0
+"""Time without samples, s, after which a foot is absent while the other foot has samples."""
 STRIDES_TO_ALIGN = 3
-"""Number of strides of each foot that align a returned foot with the other."""
-LEAST_DISTANCE = 1.0
-"""Least distance of these strides, m."""
+"""Number of strides of each foot by which a returned foot is aligned with the other foot."""
+MIN_ALIGNMENT_DISTANCE = 1.0
+"""Least displacement over these strides, m."""
 
 
 @define
 class PlacedTrack:
-    """The placement of one foot's own track in the common frame: turned by `turn` rad and then moved by `offset` m."""
+    """The placement of one foot's own track in the common frame of both feet: a rotation, then an offset."""
 
     t: float | None = None
     """Time of the newest sample with acc and gyro, s."""
@@ -40,28 +40,29 @@ class PlacedTrack:
     absent_for: float = 0.0
     """Time for which the other foot has given samples since `t`, s."""
     newest_place: Vec3 = ZERO
-    """Place on the foot's own track at `t`, m."""
+    """Position at `t` on the foot's own track, m."""
     turn: float = 0.0
-    """Turn of the track, rad."""
+    """Rotation of the track into the common frame, rad, counter-clockwise positive."""
     offset: Vec3 = ZERO
-    """Offset of the track after the turn, m."""
+    """Offset of the track after the rotation, m, common frame."""
     variance: tuple[float, float] | None = None
-    """Variances of the own track after its newest stride, horizontal (an axis) and vertical, m^2; None before any."""
+    """Variances of the position at the newest stride, horizontal (per axis) and vertical, m^2; None before any."""
     added_variance: tuple[float, float] = (0.0, 0.0)
-    """Variances that the alignment with the other foot has added to `variance`, m^2."""
+    """Variances, horizontal and vertical, that the alignment with the other foot adds to `variance`, m^2."""
     separation: Vec3 | None = None
-    """Left foot minus right foot after this one's newest stride, m. The mean of both feet's values does not contain the
-    stride between them any more."""
+    """Left foot minus right foot after this foot's newest stride, m.
+
+    In the mean of both feet's values, the displacement of a single stride cancels out."""
     unplaced: bool = False
-    """Flag: the foot has come back, and its track is not aligned with the other's yet."""
+    """Flag: the foot has returned, and its track is not aligned with the other foot's yet."""
 
     @property
     def absent(self) -> bool:
-        """Flag: the foot gave no samples for long while the other one did."""
-        return self.absent_for >= ABSENT
+        """Flag: the foot had no samples for `ABSENCE_TIME` while the other foot had."""
+        return self.absent_for >= ABSENCE_TIME
 
     def place(self, own: Vec3) -> Vec3:
-        """Return a place of the foot's own track in the common frame, m."""
+        """Return the position `own` of the foot's own track in the common frame, m."""
         x, y, z = own
         if self.turn:
             c, s = cos(self.turn), sin(self.turn)
@@ -69,9 +70,11 @@ class PlacedTrack:
         dx, dy, dz = self.offset
         return (x + dx, y + dy, z + dz)
 
-    def correct(self, at: Vec3, yaw: float, dx: float, dy: float) -> None:
-        """Turn the track by `yaw` rad about its own place `at`, m, and move it by (dx, dy) m in the common frame."""
-        x, y, _ = at
+    def correct(self, pivot: Vec3, yaw: float, dx: float, dy: float) -> None:
+        """Rotate the track by `yaw`, rad, about the place `pivot` of the own track, m, and move it by (dx, dy), m.
+
+        The move is in the common frame."""
+        x, y, _ = pivot
         ox, oy, oz = self.offset
         c, s = cos(self.turn), sin(self.turn)
         before_x, before_y = c * x - s * y + ox, s * x + c * y + oy
@@ -80,7 +83,7 @@ class PlacedTrack:
         self.offset = (ox + before_x + dx - (c * x - s * y + ox), oy + before_y + dy - (s * x + c * y + oy), oz)
 
     def to_own(self, place: Vec3) -> Vec3:
-        """Return a place of the common frame on the foot's own track, m."""
+        """Return the position `place` of the common frame on the foot's own track, m."""
         x, y, z = place
         dx, dy, dz = self.offset
         c, s = cos(-self.turn), sin(-self.turn)
@@ -89,34 +92,37 @@ class PlacedTrack:
 
 @define
 class MeanOfFeet(TrackPart):
-    """The mean of the feet that give samples, each in the world frame of its own first heading.
+    """The mean position of the feet that have samples, each in the world frame of its own first heading.
 
-    After an alignment of two feet the covariance is that of the foot which was never absent: both then have the same
-    errors."""
+    After an alignment the errors of both feet are equal, so the covariance is that of the foot that was not absent."""
 
     needs_samples: ClassVar[bool] = True
 
     left: PlacedTrack = field(factory=PlacedTrack, init=False)
     right: PlacedTrack = field(factory=PlacedTrack, init=False)
     placed_last: Foot | None = field(default=None, init=False)
-    """The foot that was aligned with the other last."""
+    """The foot that was last aligned with the other foot; None before any."""
     return_strides: list[tuple[bool, Vec3, Vec3]] = field(factory=list, init=False)
-    """Newest strides of both feet while a foot is unplaced. Each one has a flag for the left foot, the unplaced foot's
-    place on its own track, and the other foot's place, m."""
+    """Newest strides of both feet while a foot is unplaced.
+
+    Each has a flag for the left foot, the unplaced foot's position on its own track, and the other foot's position in
+    the common frame, m."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add one sample of a foot, and note which foot is absent or has come back; returns nothing."""
+        """Add one sample of a foot and detect an absent or returned foot; returns no output."""
         t, is_left = view.t, view.foot is LEFT
         if view.sample.acc is None or view.sample.gyro is None:
             return ()
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
-        back = False
+        has_returned = False
         if this.t is None:
             this.started_at = t
-            # at the start the feet stand side by side; a foot that comes while the other walks does not
-            back = other.started_at is not None and t - other.started_at >= ABSENT and other.variance is not None
-        elif t - this.t >= ABSENT:
-            back = this.absent
+            # at the start the feet stand side by side, but not when a foot's first sample comes during a walk
+            has_returned = (
+                other.started_at is not None and t - other.started_at >= ABSENCE_TIME and other.variance is not None
+            )
+        elif t - this.t >= ABSENCE_TIME:
+            has_returned = this.absent
         elif t > this.t and other.t is not None:
             other.absent_for += t - this.t
         newest_place = view.position
@@ -124,56 +130,58 @@ class MeanOfFeet(TrackPart):
             (c, s), (x, y, z) = view.north, newest_place
             newest_place = (c * x - s * y, s * x + c * y, z)
         this.t, this.absent_for, this.newest_place = t, 0.0, newest_place
-        if back:
+        if has_returned:
             self._start_return(this, other)
         covariance = view.after.covariance
-        if covariance is not None:  # there was a stride
+        if covariance is not None:  # a stride has ended
             xx, _, _, yy, _, zz = covariance
             this.variance = (0.5 * (xx + yy), zz)
-            if other.t is not None and other.absent_for < ABSENT:
+            if other.t is not None and other.absent_for < ABSENCE_TIME:
                 self._place_returned(is_left, this)
         return ()
 
     def reset(self, site: Site) -> None:
-        """Reset the times of a foot: its next sample counts as its first."""
+        """Reset the times of a foot, so that its next sample counts as its first."""
         if site.foot is not None:
             placed = self._placed(site.foot)
             placed.t, placed.absent_for = None, 0.0
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """Return the position of the wearer; None before any sample."""
-        known = list(feet.values())
-        if not known:
+        poses = list(feet.values())
+        if not poses:
             return None
-        used = self._used(known)
-        k = 1.0 / len(used)
-        places = [self._place(foot) for foot in used]
+        poses_used = self._select_poses(poses)
+        k = 1.0 / len(poses_used)
+        places = [self._place(foot) for foot in poses_used]
         x, y, z = (sum([place[axis] for place in places]) * k for axis in range(3))
-        if len(used) == 1:
-            dx, dy, dz = self._offset_to_mean(used[0].foot)
+        if len(poses_used) == 1:
+            dx, dy, dz = self._offset_to_mean(poses_used[0].foot)
             x, y, z = x + dx, y + dy, z + dz
         elif self.placed_last is not None:
-            used = [foot for foot in used if foot.foot is not self.placed_last]
-            k = 1.0 / len(used)
-        covariances = [foot.covariance for foot in used]
+            poses_used = [foot for foot in poses_used if foot.foot is not self.placed_last]
+            k = 1.0 / len(poses_used)
+        covariances = [foot.covariance for foot in poses_used]
         xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
-        if len(used) == 1:
-            across, up = self._placed(used[0].foot).added_variance
+        if len(poses_used) == 1:
+            across, up = self._placed(poses_used[0].foot).added_variance
             xx, yy, zz = xx + across, yy + across, zz + up
-        t = max([foot.t for foot in known])
+        t = max([foot.t for foot in poses])
         return Position(t, (x, y, z), (xx, xy, xz, yy, yz, zz))
 
-    def _used(self, known: list[FootPose]) -> list[FootPose]:
-        """Return the feet that have a track, are not absent and are placed; at least one."""
-        moving = [foot for foot in known if foot.moved_at is not None]
+    def _select_poses(self, poses: list[FootPose]) -> list[FootPose]:
+        """Return the poses of the feet that have moved, are not absent and are placed; at least one pose."""
+        moving = [foot for foot in poses if foot.moved_at is not None]
         if len(moving) < 2:
-            return moving or known
+            return moving or poses
         newest = max([foot.moved_at for foot in moving if foot.moved_at is not None])
-        # compare both times: samples of one foot may be fed long after the other's of the same time
+        # check the poses' times too, because samples of one foot may be fed long after the other's of the same time
         present = [
             foot
             for foot in moving
-            if not (self._placed(foot.foot).absent and foot.moved_at is not None and newest - foot.moved_at >= ABSENT)
+            if not (
+                self._placed(foot.foot).absent and foot.moved_at is not None and newest - foot.moved_at >= ABSENCE_TIME
+            )
         ]
         return [foot for foot in present if not self._placed(foot.foot).unplaced] or present or moving
 
@@ -184,7 +192,7 @@ class MeanOfFeet(TrackPart):
         return self._placed(foot.foot).place(foot.position)
 
     def _offset_to_mean(self, foot: Foot) -> Vec3:
-        """Return the offset from this foot to the mean of both, as they were when they last walked together, m."""
+        """Return the offset from this foot to the mean of both feet when both last took strides, m."""
         one, two = self.left.separation, self.right.separation
         if one is None or two is None:
             return ZERO
@@ -192,7 +200,7 @@ class MeanOfFeet(TrackPart):
         return (k * (one[0] + two[0]), k * (one[1] + two[1]), k * (one[2] + two[2]))
 
     def _start_return(self, this: PlacedTrack, other: PlacedTrack) -> None:
-        """Mark the foot as unplaced, and let it continue from the other foot's place should that one fall silent."""
+        """Mark the foot as unplaced at the other foot's position, in case the other foot becomes absent."""
         lx, ly, lz = self._offset_to_mean(LEFT if other is self.left else Foot.RIGHT)
         x, y, z = other.offset
         other.offset = (x + lx, y + ly, z + lz)
@@ -203,15 +211,15 @@ class MeanOfFeet(TrackPart):
         self.return_strides = []
 
     def _place_returned(self, is_left: bool, this: PlacedTrack) -> None:
-        """Add a stride while both feet give samples, and align the unplaced foot when there are enough."""
+        """Add a stride while both feet have samples, and align the unplaced foot when there are enough strides."""
         left, right = self.left, self.right
         if not left.unplaced and not right.unplaced:
             this.separation = sub(left.place(left.newest_place), right.place(right.newest_place))
             return
-        waiting, other = (left, right) if left.unplaced else (right, left)
+        unplaced_track, other = (left, right) if left.unplaced else (right, left)
         self.return_strides = [
             *self.return_strides[-2 * STRIDES_TO_ALIGN - 1 :],
-            (is_left, waiting.newest_place, other.place(other.newest_place)),
+            (is_left, unplaced_track.newest_place, other.place(other.newest_place)),
         ]
         lefts = [(own, others) for was_left, own, others in self.return_strides if was_left]
         rights = [(own, others) for was_left, own, others in self.return_strides if not was_left]
@@ -219,19 +227,19 @@ class MeanOfFeet(TrackPart):
             return
         own_x, own_y, _ = _mean_displacement(lefts[0][0], lefts[-1][0], rights[0][0], rights[-1][0])
         x, y, _ = _mean_displacement(lefts[0][1], lefts[-1][1], rights[0][1], rights[-1][1])
-        if min(hypot(own_x, own_y), hypot(x, y)) < LEAST_DISTANCE:
+        if min(hypot(own_x, own_y), hypot(x, y)) < MIN_ALIGNMENT_DISTANCE:
             return
-        waiting.turn = atan2(own_x * y - own_y * x, own_x * x + own_y * y)
-        stood = _mean([turned(own, waiting.turn) for own, _ in (*lefts, *rights)])
-        waiting.offset = sub(_mean([others for _, others in (*lefts, *rights)]), stood)
-        self._set_added_variance(waiting, other)
-        waiting.unplaced = False
-        self.placed_last = LEFT if waiting is left else Foot.RIGHT
+        unplaced_track.turn = atan2(own_x * y - own_y * x, own_x * x + own_y * y)
+        mean_place = _mean([turned(own, unplaced_track.turn) for own, _ in (*lefts, *rights)])
+        unplaced_track.offset = sub(_mean([others for _, others in (*lefts, *rights)]), mean_place)
+        self._set_added_variance(unplaced_track, other)
+        unplaced_track.unplaced = False
+        self.placed_last = LEFT if unplaced_track is left else Foot.RIGHT
         self.return_strides = []
 
     @staticmethod
     def _set_added_variance(this: PlacedTrack, other: PlacedTrack) -> None:
-        """Set the foot's added variance so that its place is as uncertain as the other foot's."""
+        """Set the foot's added variance so that its position is as uncertain as the other foot's."""
         across, up = other.variance or (0.0, 0.0)
         own_across, own_up = this.variance or (0.0, 0.0)
         more, higher = other.added_variance

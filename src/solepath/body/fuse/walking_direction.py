@@ -1,4 +1,4 @@
-"""Directions in which feet walk: of one foot against its own heading, and of both tracks against one another."""
+"""Walking directions: of one foot relative to its own heading, and of both feet's tracks relative to each other."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from math import cos, sin
 
 from ...types import Vec3
 from ...types.attrs import define, field
-from .corridor import wrapped
+from .corridor import wrap_angle
 from .position import PlacedTrack
 
 STRIDE_WEIGHT = 0.1
-"""Weight of one stride in the walking direction of a foot."""
+"""Weight of one stride in the running mean of a foot's walking direction."""
 LEAST_DIVERGENCE = 0.5
-"""Least angle between two tracks that is corrected, rad; first strides may differ by less when walking straight off."""
+"""Least angle between two tracks that is corrected, rad; first strides of a straight walk may differ by less."""
 REPEAT_TOLERANCE = 0.25
-"""Largest difference at which two angles count as the same, rad."""
+"""Largest difference between two angles that count as equal, rad."""
 
 
 @define
@@ -24,79 +24,81 @@ class DirectedStride:
     t_end: float
     """End of the stride, s."""
     end: Vec3
-    """Place at the end on the foot's own track, m."""
+    """Position at the end, on the foot's own track, m."""
     direction: float | None
-    """Direction on the foot's own track, rad; None for a stride that is short, turns a corner or is not well known."""
+    """Direction on the foot's own track, rad; None for a short, turning or degraded stride."""
 
 
 @define
 class WalkingDirection:
-    """The direction in which a foot walks against its own heading.
+    """The walking direction of a foot relative to its own heading.
 
-    A wearer who walks backwards or sideways has the other foot elsewhere."""
+    It changes when the wearer walks backwards or sideways; the usual position of the other foot does not apply then."""
 
-    turned: float = field(default=0.0, init=False)
+    turn_sum: float = field(default=0.0, init=False)
     """Sum of the foot's turns, rad."""
-    ahead: float | None = field(default=None, init=False)
-    """Direction of the foot's strides minus the sum of its turns, rad."""
+    direction_offset: float | None = field(default=None, init=False)
+    """Mean direction of the foot's strides minus `turn_sum`, rad; None before any stride."""
 
-    def deviation(self, direction: float, turn: float) -> float:
-        """Add one stride and return how far it deviates from the direction before, rad; the foot turned by `turn`."""
-        middle = self.turned + 0.5 * turn
-        self.turned = wrapped(self.turned + turn)
-        if self.ahead is None:
-            self.ahead = wrapped(direction - middle)
-        off = wrapped(direction - middle - self.ahead)
-        self.ahead = wrapped(self.ahead + STRIDE_WEIGHT * off)
-        return off
+    def add_stride(self, direction: float, turn: float) -> float:
+        """Add a stride with this direction and turn, rad, and return its deviation from the mean direction, rad."""
+        middle = self.turn_sum + 0.5 * turn
+        self.turn_sum = wrap_angle(self.turn_sum + turn)
+        if self.direction_offset is None:
+            self.direction_offset = wrap_angle(direction - middle)
+        deviation = wrap_angle(direction - middle - self.direction_offset)
+        self.direction_offset = wrap_angle(self.direction_offset + STRIDE_WEIGHT * deviation)
+        return deviation
 
 
 @define
 class TrackDivergence:
-    """The angle by which the tracks of two feet diverge as they set out.
+    """Detects that the tracks of two feet diverge at the start of a walk.
 
-    A foot's world frame starts along its own first stride. A wearer who first puts one foot aside, or steps back and
-    then walks, has two tracks at any angle to one another, which no small correction can align. Two feet that walk go
-    the same way."""
+    A foot's world frame has its x axis along the foot's own first stride. When that stride leads sideways or backwards,
+    the two tracks have a large angle between them, which small corrections cannot remove. Two walking feet must have
+    the same direction."""
 
-    found: float | None = field(default=None, init=False)
-    """The last angle, rad."""
+    last_angle: float | None = field(default=None, init=False)
+    """The newest angle between the tracks, rad; None before any and after a correction."""
 
     def update(
-        self, this: DirectedStride, turn: float, beside: DirectedStride, others: float, side: float
+        self, stride: DirectedStride, turn: float, other_stride: DirectedStride, other_turn: float, side: float
     ) -> float | None:
-        """Return the angle by which this track leads further round, rad, if it is large and repeated; else None.
+        """Return the angle from the other track to this one, rad, if it is large and repeated; None otherwise.
 
-        `this` is a stride, `beside` the other foot's that ended within it; `turn` and `others` are the turns of their
-        tracks, rad. `side` is 1 for the left foot, -1 for the right one."""
-        if this.direction is None or beside.direction is None:
+        `other_stride` is the other foot's stride that ended during `stride`. `turn` and `other_turn` are the rotations
+        of the tracks, rad. `side` is 1 when `stride` is the left foot's, -1 for the right foot."""
+        if stride.direction is None or other_stride.direction is None:
             return None
-        before, angle = self.found, wrapped(side * (this.direction + turn - beside.direction - others))
-        self.found = angle
-        if before is None or abs(angle) < LEAST_DIVERGENCE or abs(wrapped(angle - before)) > REPEAT_TOLERANCE:
+        previous = self.last_angle
+        angle = wrap_angle(side * (stride.direction + turn - other_stride.direction - other_turn))
+        self.last_angle = angle
+        if previous is None or abs(angle) < LEAST_DIVERGENCE or abs(wrap_angle(angle - previous)) > REPEAT_TOLERANCE:
             return None
-        self.found = None
+        self.last_angle = None
         return side * angle
 
 
 def align_tracks(
-    own: PlacedTrack,
-    this: DirectedStride,
-    other: PlacedTrack,
-    beside: DirectedStride,
+    track: PlacedTrack,
+    stride: DirectedStride,
+    other_track: PlacedTrack,
+    other_stride: DirectedStride,
     angle: float,
-    half: float,
-    aside: float,
+    half_stride: float,
+    lateral_distance: float,
 ) -> None:
-    """Turn each of two tracks by half the `angle`, rad, that this one leads further round, and move both as much.
+    """Rotate each of two tracks by half the `angle`, rad, between them, and move both by equal distances.
 
-    Then the other foot stands beside the middle of the stride, `half` m before its end and `aside` m to the right."""
-    own.correct(this.end, -0.5 * angle, 0.0, 0.0)
-    other.correct(beside.end, 0.5 * angle, 0.0, 0.0)
-    direction = own.turn + (this.direction or 0.0)
+    Afterwards the other foot stands beside the middle of the stride: `half_stride`, m, before its end and
+    `lateral_distance`, m, to the right."""
+    track.correct(stride.end, -0.5 * angle, 0.0, 0.0)
+    other_track.correct(other_stride.end, 0.5 * angle, 0.0, 0.0)
+    direction = track.turn + (stride.direction or 0.0)
     ux, uy = cos(direction), sin(direction)
-    (x, y, _), (bx, by, _) = own.place(this.end), other.place(beside.end)
-    dx = 0.5 * (x - half * ux + aside * uy - bx)
-    dy = 0.5 * (y - half * uy - aside * ux - by)
-    own.correct(this.end, 0.0, -dx, -dy)
-    other.correct(beside.end, 0.0, dx, dy)
+    (x, y, _), (bx, by, _) = track.place(stride.end), other_track.place(other_stride.end)
+    dx = 0.5 * (x - half_stride * ux + lateral_distance * uy - bx)
+    dy = 0.5 * (y - half_stride * uy - lateral_distance * ux - by)
+    track.correct(stride.end, 0.0, -dx, -dy)
+    other_track.correct(other_stride.end, 0.0, dx, dy)

@@ -1,6 +1,6 @@
-"""Gait cycles: measures every gait cycle of both feet from their events, with running means of the steady strides.
+"""Measurement of every gait cycle of both feet from their events, with running means of the steady cycles.
 
-Latency: see GaitCycleMeasured. A sample without events costs nothing."""
+Latency: see GaitCycleMeasured. Samples without events take almost no time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
 from .measuring import measure_cycle
 
-LONGEST_WAIT = 0.5
+MAX_WAIT = 0.5
 """Longest time for which a cycle waits for the other foot's samples, s."""
 
 
@@ -27,7 +27,7 @@ class FootProgress:
     t: float | None = None
     """Time of the newest sample, s; None before any."""
     tracked: bool = False
-    """Flag: the foot has a track."""
+    """Flag: velocity and position of the foot are known."""
 
 
 @define
@@ -54,7 +54,7 @@ class GaitCycles(Part):
         return self.means.parameters
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add a sample of a foot with its events, and return the cycles that are complete."""
+        """Add a sample of a foot with its events and return the cycles that are complete."""
         if self.idle and not view.events:
             return ()
         is_left = view.foot is Foot.LEFT
@@ -73,8 +73,8 @@ class GaitCycles(Part):
             elif isinstance(event, FootFlat):
                 if this.toe_off is not None:
                     this.add_contact(event.t, event.inferred)
-                if this.ended is not None:
-                    this.ended.flat = True
+                if this.ended_cycle is not None:
+                    this.ended_cycle.foot_was_flat = True
             elif isinstance(event, HeelOff):
                 this.close_cycle()
             elif isinstance(event, ToeOff):
@@ -84,20 +84,20 @@ class GaitCycles(Part):
                 this.add_stride(event)
             elif isinstance(event, SampleGap) and event.site is SITE_OF_FOOT[view.foot]:
                 this.add_gap(event.t, event.duration)
-        if this.ended is not None and this.ended.flat:
+        if this.ended_cycle is not None and this.ended_cycle.foot_was_flat:
             this.close_cycle()
         return self._release(view.known_at)
 
     def finish(self, now: float) -> Sequence[PartOutput]:
-        """Return the cycles that still waited: no more samples come."""
+        """Return the cycles that still wait, because no more samples come."""
         for falls in (self.left, self.right):
             falls.close_cycle()
         self.idle = True
-        counts = (len(self.left.waiting), len(self.right.waiting))
-        return [*self._measured(Foot.LEFT, now, counts[0]), *self._measured(Foot.RIGHT, now, counts[1])]
+        counts = (len(self.left.waiting_cycles), len(self.right.waiting_cycles))
+        return [*self._measure(Foot.LEFT, now, counts[0]), *self._measure(Foot.RIGHT, now, counts[1])]
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Note up to which time a site's clock cannot be compared with the other foot's."""
+        """Store the time up to which a foot's clock cannot be compared with the other foot's."""
         if isinstance(event, ClockUnsettled):
             if event.site.foot is Foot.LEFT:
                 self.left_unsettled = event.until
@@ -108,7 +108,7 @@ class GaitCycles(Part):
     def reset(self, site: Site) -> None:
         """Reset a foot whose clock restarts.
 
-        Its cycle under way has no duration, and its times cannot be compared with the other foot's any more."""
+        The cycle under way has no duration, and earlier times cannot be compared with the other foot's."""
         if site.foot is not None:
             self.means.reset(site.foot)
             if site.foot is Foot.LEFT:
@@ -117,38 +117,38 @@ class GaitCycles(Part):
                 self.right, self.right_progress.t = Footfalls(count=self.right.count), None
 
     def _release(self, known_at: float) -> Sequence[PartOutput]:
-        """Return the cycles whose end both feet's samples have passed, or that waited long enough."""
-        if not self.left.waiting and not self.right.waiting:
+        """Return the cycles whose end is before the newest samples of both feet, or that have waited for `MAX_WAIT`."""
+        if not self.left.waiting_cycles and not self.right.waiting_cycles:
             self.idle = True
             return ()
         outputs: list[PartOutput] = []
         left, right = self.left_progress.t, self.right_progress.t
         for foot, falls, own, other in ((Foot.LEFT, self.left, left, right), (Foot.RIGHT, self.right, right, left)):
-            ready = 0
-            for cycle in falls.waiting:
-                past = other is None or other >= cycle.end
-                waited = own is None or own - cycle.end >= LONGEST_WAIT
-                if not past and not waited:
+            ready_count = 0
+            for cycle in falls.waiting_cycles:
+                other_is_past = other is None or other >= cycle.end
+                has_waited = own is None or own - cycle.end >= MAX_WAIT
+                if not other_is_past and not has_waited:
                     break
-                ready += 1
-            if ready:
-                outputs += self._measured(foot, known_at, ready)
-        self.idle = not (self.left.waiting or self.right.waiting)
+                ready_count += 1
+            if ready_count:
+                outputs += self._measure(foot, known_at, ready_count)
+        self.idle = not (self.left.waiting_cycles or self.right.waiting_cycles)
         return outputs
 
-    def _measured(self, foot: Foot, known_at: float, count: int) -> list[PartOutput]:
-        """Return the first `count` of the waiting cycles as events."""
+    def _measure(self, foot: Foot, known_at: float, count: int) -> list[PartOutput]:
+        """Measure the first `count` of the waiting cycles and return their events."""
         is_left = foot is Foot.LEFT
         falls, other = (self.left, self.right) if is_left else (self.right, self.left)
-        cycles, falls.waiting = falls.waiting[:count], falls.waiting[count:]
+        cycles, falls.waiting_cycles = falls.waiting_cycles[:count], falls.waiting_cycles[count:]
         tracked = self.left_progress.tracked if is_left else self.right_progress.tracked
         unsettled = (self.left_unsettled, self.right_unsettled)
         outputs: list[PartOutput] = []
         for cycle in cycles:
             falls.count += 1
             comparable = not any([until is not None and until > cycle.start for until in unsettled])
-            before = self.means.left if is_left else self.means.right
-            stride = measure_cycle(foot, falls.count, cycle, before, other, tracked, comparable, known_at)
-            self.means.add(stride)
-            outputs.append(stride)
+            previous = self.means.left if is_left else self.means.right
+            measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
+            self.means.add(measured)
+            outputs.append(measured)
         return outputs

@@ -1,12 +1,13 @@
-"""Running means of steady strides.
+"""Running means of gait parameters over steady gait cycles, which are called strides in this file.
 
-Up to `MEMORY` strides of a foot (two minutes of walking) the means are plain ones; from then on each new stride has the
-weight of one in `MEMORY`, and old strides fade. Walking and running have separate means.
+Up to `MEMORY_STRIDES` strides of a foot (two minutes of walking), the means are arithmetic means. From then on each new
+stride has the weight 1 / `MEMORY_STRIDES`, and old strides fade. Walking and running have separate means.
 
-Means and standard deviations of both feet together: the mean of the feet's means, and the root of the mean of their
-variances, so that a difference between the feet does not count as variability (Galna et al. 2013, Gait & Posture 37;
-Lord et al. 2013, J. Gerontol. A 68). Variability is that standard deviation, or relative to the mean the coefficient of
-variation (Hausdorff 2005, J. NeuroEng. Rehabil. 2). It needs at least 30 steps to be meaningful (Galna et al.)."""
+The mean of both feet is the mean of the feet's means. The standard deviation of both feet is the root of the mean of
+their variances, so that a difference between the feet does not count as variability (Galna et al. 2013, Gait & Posture
+37; Lord et al. 2013, J. Gerontol. A 68). Variability is this standard deviation; relative to the mean it is the
+coefficient of variation (Hausdorff 2005, J. NeuroEng. Rehabil. 2). It needs at least 30 steps to be meaningful (Galna
+et al.)."""
 
 from __future__ import annotations
 
@@ -17,56 +18,57 @@ from ...events import GaitCycleMeasured
 from ...types import Foot, Word
 from ...types.attrs import define, field, fields, frozen
 
-MEMORY = 120
-"""Number of strides of a foot that a running mean covers."""
+MEMORY_STRIDES = 120
+"""Number of strides of a foot after which older strides fade."""
 
 
 @define
 class RunningMean:
-    """The running mean and variance of one gait parameter; O(1)."""
+    """The running mean and variance of one gait parameter; time and memory are O(1)."""
 
     count: int = 0
-    """Number of values, up to the number remembered."""
+    """Number of values, at most the number after which older values fade."""
     mean: float = 0.0
     variance: float = 0.0
-    """Variance about the mean, by the weights of the values."""
+    """Weighted variance about the mean."""
 
     @property
     def figure(self) -> Figure:
-        """Mean and standard deviation as they are now."""
-        # the variance of a sample of n is n / (n - 1) times that about its own mean
+        """Mean and standard deviation now."""
+        # the unbiased variance of n values is n / (n - 1) times their variance about their mean
         sd = sqrt(self.variance * self.count / (self.count - 1)) if self.count > 1 else None
         return Figure(self.mean, sd, self.count)
 
 
 def add(figures: Iterable[tuple[RunningMean, float]], memory: int) -> None:
-    """Add one value to each running mean; older values fade once there are `memory`."""
+    """Add a value to each running mean; older values fade after `memory` values."""
     for figure, value in figures:
         figure.count = min(figure.count + 1, memory)
         weight = 1.0 / figure.count
-        off = value - figure.mean
-        figure.mean += weight * off
-        figure.variance = (1.0 - weight) * (figure.variance + weight * off * off)
+        deviation = value - figure.mean
+        figure.mean += weight * deviation
+        figure.variance = (1.0 - weight) * (figure.variance + weight * deviation * deviation)
 
 
 @frozen
 class Figure:
-    """Mean and standard deviation (None of a single stride) of one gait parameter, in the parameter's unit."""
+    """The mean and standard deviation of one gait parameter over steady strides, in the parameter's unit."""
 
     mean: float
     sd: float | None
+    """Standard deviation; None for a single stride."""
     strides: int
-    """Number of strides of this figure; of a session at most 120 of a foot."""
+    """Number of strides; in a session at most 120 for each foot."""
 
     @property
     def cv(self) -> float | None:
-        """Coefficient of variation, as a share (0.02 is 2 %); None of a single stride and of a mean of zero."""
+        """Coefficient of variation, as a share (0.02 is 2 %); None for a single stride and for a mean of zero."""
         return None if self.sd is None or self.mean == 0.0 else self.sd / abs(self.mean)
 
 
 @frozen
 class StrideFigures:
-    """The parameters of GaitCycleMeasured over steady strides, of one foot or of both; None: not measured."""
+    """The parameters of GaitCycleMeasured over steady strides of one foot or of both feet; None: not measured."""
 
     stride_time: Figure | None = None
     stance_time: Figure | None = None
@@ -85,7 +87,7 @@ class StrideFigures:
     heel_strike_angle: Figure | None = None
 
     def share(self, name: str) -> float | None:
-        """Return the mean of a time as a share of the mean stride time; None where it is not known."""
+        """Return the mean of the time `name` as a share of the mean stride time; None when it is not known."""
         time: Figure | None = getattr(self, name)
         if time is None or self.stride_time is None:
             return None
@@ -93,19 +95,19 @@ class StrideFigures:
 
     @property
     def double_support(self) -> float | None:
-        """Mean of initial and terminal double support together, s.
+        """Sum of the means of initial and terminal double support, s.
 
-        It is below zero for a runner, whose flight lasts as long."""
+        It is negative for a runner; its size is then the duration of flight."""
         if self.initial_double_support is None or self.terminal_double_support is None:
             return None
         return self.initial_double_support.mean + self.terminal_double_support.mean
 
 
-PARAMETER_NAMES = tuple(one.name for one in fields(StrideFigures))
+PARAMETER_NAMES = tuple(parameter.name for parameter in fields(StrideFigures))
 
 
 class Parameter(Word):
-    """The parameters that have running means: the fields of StrideFigures, and |phase - 0.5|."""
+    """The parameters that have running means: the fields of StrideFigures and OFF_PHASE, which is |phase - 0.5|."""
 
     STRIDE_TIME = "stride_time"
     STANCE_TIME = "stance_time"
@@ -125,36 +127,37 @@ class Parameter(Word):
     OFF_PHASE = "off_phase"
 
 
-MEASURED = tuple([Parameter(name) for name in PARAMETER_NAMES])
+MEAN_PARAMETERS = tuple([Parameter(name) for name in PARAMETER_NAMES])
 
 
 @frozen
 class GaitParameters:
-    """Running means over steady strides (body/gait/measuring.py defines them).
-
-    `running`: of strides that were run. `feet`: figures of each foot that has steady strides; `both`: of both together.
-    """
+    """The running means over steady strides (body/gait/measuring.py has the rule for steady strides)."""
 
     running: bool
+    """Flag: the means are of running, not of walking."""
     feet: dict[Foot, StrideFigures]
+    """Figures of each foot that has steady strides."""
     both: StrideFigures
+    """Figures of both feet together."""
     coordination: float | None
-    """Phase coordination index, as a share (0.03 is 3 %); None without both feet. It is the coefficient of variation of
-    the phase of the foot that swings longer, plus the mean distance of that phase from a half, relative to a half
-    (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04."""
+    """Phase coordination index, as a share (0.03 is 3 %); None without both feet.
+
+    It is computed from the phase of the foot with the longer swing: its coefficient of variation, plus twice its mean
+    absolute difference from 0.5 (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04."""
 
     @property
     def cadence(self) -> float | None:
-        """Cadence, steps a minute: 120 / mean stride time."""
+        """Cadence, steps per minute: 120 / mean stride time."""
         time = self.both.stride_time
         return None if time is None else 120.0 / time.mean
 
     def asymmetry(self, name: str) -> float | None:
         """Return the symmetry index of a parameter, (right - left) / (half of right + left), as a share (0.05 is 5 %).
 
-        It is 0 for equal feet and positive where the right one's is larger (Robinson et al. 1987, J. Manip. Physiol.
-        Ther. 10). For swing times |ln(right / left)| of Plotnik et al. 2005 (Ann. Neurol. 57) has nearly the same size.
-        It is None where one foot's figure is not known, or both are zero."""
+        It is 0 for equal feet and positive when the right foot's mean is larger (Robinson et al. 1987, J. Manip.
+        Physiol. Ther. 10). For swing times, |ln(right / left)| of Plotnik et al. 2005 (Ann. Neurol. 57) has nearly the
+        same size. It is None when one foot's mean is not known or the sum of the means is zero."""
         left, right = (getattr(self.feet.get(foot), name, None) for foot in Foot)
         if left is None or right is None or left.mean + right.mean == 0.0:
             return None
@@ -174,65 +177,65 @@ class ParameterMeans:
         return self.left if foot is Foot.LEFT else self.right
 
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
-        """Add one stride; older ones fade once there are `memory`."""
-        sums = self.left if stride.foot is Foot.LEFT else self.right
+        """Add a stride; older strides fade after `memory` strides."""
+        means = self.left if stride.foot is Foot.LEFT else self.right
         figures: list[tuple[RunningMean, float]] = []
-        for parameter in MEASURED:
+        for parameter in MEAN_PARAMETERS:
             value = getattr(stride, parameter.value)
             if value is not None:
-                figures.append((sums.setdefault(parameter, RunningMean()), value))
+                figures.append((means.setdefault(parameter, RunningMean()), value))
         if stride.phase is not None:
-            figures.append((sums.setdefault(Parameter.OFF_PHASE, RunningMean()), abs(stride.phase - 0.5)))
+            figures.append((means.setdefault(Parameter.OFF_PHASE, RunningMean()), abs(stride.phase - 0.5)))
         add(figures, memory)
 
     @property
     def coordination(self) -> float | None:
-        """Phase coordination index, as in GaitParameters."""
-        known = [sums for sums in (self.left, self.right) if Parameter.PHASE in sums]
+        """Phase coordination index, as defined in GaitParameters."""
+        known = [means for means in (self.left, self.right) if Parameter.PHASE in means]
         if len(known) < 2:
             return None
         reference = max(known, key=_swing)
-        varies = reference[Parameter.PHASE].figure.cv
-        return None if varies is None else varies + 2.0 * reference[Parameter.OFF_PHASE].mean
+        variation = reference[Parameter.PHASE].figure.cv
+        return None if variation is None else variation + 2.0 * reference[Parameter.OFF_PHASE].mean
 
 
-def _figures(sums: dict[Parameter, RunningMean]) -> StrideFigures:
-    known = {parameter.value: mean.figure for parameter, mean in sums.items()}
+def _figures(means: dict[Parameter, RunningMean]) -> StrideFigures:
+    known = {parameter.value: mean.figure for parameter, mean in means.items()}
     known.pop(Parameter.OFF_PHASE.value, None)
     return StrideFigures(**known)
 
 
-def _swing(sums: dict[Parameter, RunningMean]) -> float:
-    return sums[Parameter.SWING_TIME].mean
+def _swing(means: dict[Parameter, RunningMean]) -> float:
+    return means[Parameter.SWING_TIME].mean
 
 
 @define
 class GaitMeans:
     """The running means of the steady strides of both feet.
 
-    A stride is counted once the next one of its foot follows, so that the last one before a stop is not."""
+    A stride is added when the next stride of its foot follows, so that the last stride before a stop is left out."""
 
     left: GaitCycleMeasured | None = field(default=None, init=False)
     """Newest stride of the left foot."""
     right: GaitCycleMeasured | None = field(default=None, init=False)
     """Newest stride of the right foot."""
-    walked: ParameterMeans = field(factory=ParameterMeans, init=False)
-    run: ParameterMeans = field(factory=ParameterMeans, init=False)
+    walking_means: ParameterMeans = field(factory=ParameterMeans, init=False)
+    running_means: ParameterMeans = field(factory=ParameterMeans, init=False)
     running: bool | None = field(default=None, init=False)
-    """Flag: the newest stride that counts was run; None before any."""
+    """Flag: the newest stride in the means was a running stride; None before any."""
 
-    def add(self, stride: GaitCycleMeasured, memory: int = MEMORY) -> None:
-        """Add one stride, of either foot in the order of time; old strides of its foot fade after `memory`."""
+    def add(self, stride: GaitCycleMeasured, memory: int = MEMORY_STRIDES) -> None:
+        """Add a stride of either foot, in order of time; older strides of the foot fade after `memory` strides."""
         if stride.foot is Foot.LEFT:
-            before, self.left = self.left, stride
+            previous, self.left = self.left, stride
         else:
-            before, self.right = self.right, stride
-        if before is not None and before.steady and before.t == stride.t_start:
-            self.running = running = before.running
-            (self.run if running else self.walked).add(before, memory)
+            previous, self.right = self.right, stride
+        if previous is not None and previous.steady and previous.t == stride.t_start:
+            self.running = running = previous.running
+            (self.running_means if running else self.walking_means).add(previous, memory)
 
     def reset(self, foot: Foot) -> None:
-        """Reset a foot: its next stride does not follow its newest one."""
+        """Reset a foot, so that its next stride does not count as following the newest one."""
         if foot is Foot.LEFT:
             self.left = None
         else:
@@ -240,24 +243,27 @@ class GaitMeans:
 
     @property
     def parameters(self) -> GaitParameters | None:
-        """Running means of walking or running, whichever the newest stride that counts was; None before any."""
+        """Running means of walking or running, by the newest stride in the means; None before any."""
         return None if self.running is None else self.of(self.running)
 
     def of(self, running: bool) -> GaitParameters | None:
-        """Return the running means of walking or of running; None where there was none."""
-        sums = self.run if running else self.walked
-        feet = {foot: _figures(sums.of_foot(foot)) for foot in Foot if sums.of_foot(foot)}
+        """Return the running means of running or of walking; None when there were no such strides."""
+        means = self.running_means if running else self.walking_means
+        feet = {foot: _figures(means.of_foot(foot)) for foot in Foot if means.of_foot(foot)}
         if not feet:
             return None
-        both = {name: combined([getattr(one, name) for one in feet.values()]) for name in PARAMETER_NAMES}
-        return GaitParameters(running, feet, StrideFigures(**both), sums.coordination)
+        both = {
+            name: combine_feet([getattr(foot_figures, name) for foot_figures in feet.values()])
+            for name in PARAMETER_NAMES
+        }
+        return GaitParameters(running, feet, StrideFigures(**both), means.coordination)
 
 
-def combined(figures: list[Figure | None]) -> Figure | None:
-    """Return the figure of both feet: mean of the means, root of the mean variance."""
+def combine_feet(figures: list[Figure | None]) -> Figure | None:
+    """Return the figure of both feet: the mean of the means, and the root of the mean variance."""
     known = [figure for figure in figures if figure is not None]
     if not known:
         return None
     deviations = [figure.sd for figure in known if figure.sd is not None]
-    sd = sqrt(sum([one * one for one in deviations]) / len(deviations)) if deviations else None
-    return Figure(sum([one.mean for one in known]) / len(known), sd, sum([one.strides for one in known]))
+    sd = sqrt(sum([deviation * deviation for deviation in deviations]) / len(deviations)) if deviations else None
+    return Figure(sum([figure.mean for figure in known]) / len(known), sd, sum([figure.strides for figure in known]))

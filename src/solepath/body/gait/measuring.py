@@ -1,17 +1,16 @@
 """Measurement of one gait cycle, and the rule for steady strides.
 
-GaitCycleMeasured describes the values and their definitions. Steady strides count in the running means. A stride is
-steady when
+GaitCycleMeasured defines the values. Only steady cycles enter the running means. A gait cycle is steady when
 
-- no sample was saturated in it, none was missing for longer than `LONGEST_GAP`, and none of its events is inferred;
-- it follows another stride without a pause. With the half stride from the first stand that leaves out the first three
-  steps of a walk, after which gait is steady (Mann et al. 1979, J. Bone Joint Surg. Am. 61);
-- it is as long, in s and m, as the one before it, within a factor of `STEADY_FACTOR`: a wearer who hesitates does not
-  walk steadily;
-- it turns by less than `LARGEST_TURN`, and climbs less than `LARGEST_SLOPE` of its length;
-- the foot has a stride in it, where it has a track: stepping on the spot is no walk.
+- no sample in it clipped, no gap in it is longer than `MAX_STEADY_GAP`, and none of its events is inferred;
+- it follows another cycle without a pause. This leaves out the first three steps of a walk, after which gait is steady
+  (Mann et al. 1979, J. Bone Joint Surg. Am. 61): the half stride from standing, and the first cycle;
+- its time and length are those of the cycle before, within a factor of `STEADY_FACTOR`, because a wearer who hesitates
+  does not walk steadily;
+- it turns by less than `MAX_TURN`, and its height changes by less than `MAX_SLOPE` of its length;
+- it has a stride, if the foot's position is known, because stepping on the spot is not walking.
 
-It is counted once the next stride of the foot follows, so that the last one before a stop is not."""
+A steady cycle enters the means when the next cycle of the foot follows, so the last cycle before a stop is left out."""
 
 from __future__ import annotations
 
@@ -20,13 +19,13 @@ from ...types import Foot
 from .footfalls import Footfalls, PendingCycle
 
 STEADY_FACTOR = 1.5
-"""Largest ratio of two consecutive steady strides, in time and in length."""
-LARGEST_TURN = 0.2
-"""Largest turn of a steady stride, rad: straight strides differ by 0.05, and on a circle of 7 m each turns by this."""
-LARGEST_SLOPE = 0.15
-"""Largest slope of a steady stride: a ramp for wheelchairs climbs 1 in 12, stairs 1 in 2."""
-LARGEST_VALUE = 1e4
-"""Largest value of a stride that is reported, m and rad."""
+"""Largest ratio of the times, and of the lengths, of two consecutive steady cycles."""
+MAX_TURN = 0.2
+"""Largest turn of a steady cycle, rad; straight strides vary by 0.05, and a circle of 7 m turns each stride by 0.2."""
+MAX_SLOPE = 0.15
+"""Largest slope (height change / length) of a steady cycle; ramps for wheelchairs have 1 / 12, stairs have 1 / 2."""
+MAX_VALUE = 1e4
+"""Largest size of a reported value of a cycle, m or rad."""
 
 
 def measure_cycle(
@@ -41,21 +40,21 @@ def measure_cycle(
 ) -> GaitCycleMeasured:
     """Return the measurement of one gait cycle of `foot`.
 
-    `previous` is the foot's newest stride, `other` the other foot. `tracked`: the foot has a track. `comparable`: the
-    feet's clocks can be compared over the whole cycle."""
+    `previous` is the foot's previous cycle, and `other` has the other foot's events. `tracked` says that the foot's
+    position is known, `comparable` that the feet's clocks can be compared over the whole cycle."""
     start, toe_off, end, stride = cycle.start, cycle.toe_off, cycle.end, cycle.stride
     time = end - start
-    between = [t for t in other.contacts if start < t < end]
-    other_contact = between[0] if len(between) == 1 else None
+    contacts_between = [t for t in other.contacts if start < t < end]
+    other_contact = contacts_between[0] if len(contacts_between) == 1 else None
     other_toe_off = None
     if other_contact is not None:
-        earlier = [t for t in other.toe_offs if start - 0.5 * time < t < other_contact]
-        other_toe_off = earlier[-1] if earlier else None
-    # the height corrected at the foot-flat may be above all heights of the swing
+        earlier_toe_offs = [t for t in other.toe_offs if start - 0.5 * time < t < other_contact]
+        other_toe_off = earlier_toe_offs[-1] if earlier_toe_offs else None
+    # clearance is negative when the foot-flat height after correction is above all heights of the swing
     length, clearance, off_angle, strike_angle, turning, rise = (
         (None,) * 6
         if stride is None
-        else _plausible(
+        else _keep_plausible(
             stride.length,
             max(0.0, stride.features.clearance),
             stride.features.toe_off_angle,
@@ -99,23 +98,23 @@ def measure_cycle(
 
 
 def is_steady(cycle: PendingCycle, time: float, previous: GaitCycleMeasured | None, tracked: bool) -> bool:
-    """Return whether the cycle is steady by the rule at the top of this file; `time`: its duration, s."""
-    if cycle.unsteady or not cycle.follows or previous is None or previous.t != cycle.start:
+    """Return whether the cycle, whose duration is `time`, s, is steady by the rule at the top of this file."""
+    if cycle.unsteady or not cycle.follows_cycle or previous is None or previous.t != cycle.start:
         return False
     if not _is_similar(time, previous.stride_time):
         return False
     stride = cycle.stride
     if stride is None:
-        return not (tracked and cycle.flat)
-    if abs(stride.heading_change) > LARGEST_TURN or abs(stride.height_change) > LARGEST_SLOPE * stride.length:
+        return not (tracked and cycle.foot_was_flat)
+    if abs(stride.heading_change) > MAX_TURN or abs(stride.height_change) > MAX_SLOPE * stride.length:
         return False
     return previous.stride_length is None or _is_similar(stride.length, previous.stride_length)
 
 
-def _is_similar(one: float, other: float) -> bool:
-    return one < STEADY_FACTOR * other and other < STEADY_FACTOR * one
+def _is_similar(first: float, second: float) -> bool:
+    return first < STEADY_FACTOR * second and second < STEADY_FACTOR * first
 
 
-def _plausible(*values: float | None) -> list[float | None]:
-    """Return the values, with None for those that are missing or too large."""
-    return [value if value is not None and abs(value) < LARGEST_VALUE else None for value in values]
+def _keep_plausible(*values: float | None) -> list[float | None]:
+    """Return the values, with None for a value that is missing or too large."""
+    return [value if value is not None and abs(value) < MAX_VALUE else None for value in values]

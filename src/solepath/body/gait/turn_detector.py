@@ -1,11 +1,12 @@
 """Detection of the wearer's turns from the strides of both feet (Liu et al. 2015, IEEE MASS, section IV.D).
 
-Turning strides are separated from straight ones (body/gait/turning_steps.py). "For a n-step turning process, we then
+Turning strides are separated from straight strides (body/gait/turning_steps.py). "For a n-step turning process, we then
 sum the alpha_i up to get the turning degree alpha for one foot. Then we use the mean of the two feet as the turning
-degree." By theorem 1 the feet may point anywhere, as long as they keep doing so. It works on the strides of any recipe.
+degree." By theorem 1 of the paper, the directions in which the feet point do not matter if they are constant. The
+detector works on the strides of any recipe.
 
-A wearer who turns on the spot hardly swings the feet. A foot that was flat, left the ground undetected and is flat
-again, turned, has pivoted. That is no stride, but part of a turn."""
+A wearer who turns on the spot hardly swings the feet. When a foot has turned between two foot-flats and no toe-off was
+detected, it has pivoted. A pivot is not a stride, but part of a turn."""
 
 from __future__ import annotations
 
@@ -14,90 +15,94 @@ from math import pi
 from ...events import StrideTaken
 from ...types import Foot
 from ...types.attrs import define, field, frozen
-from .turning_steps import NO_TURN, TurningSteps
+from .turning_steps import STRAIGHT_TOLERANCE, TurningSteps
 
-SHORTEST_PAUSE = 2.0
+MIN_PAUSE = 2.0
 """Least time without a foot-flat that ends a turn, s.
 
-The pause is longer, up to `LONGEST_PAUSE`, after a turning stride that took longer together with the time before it."""
-LONGEST_PAUSE = 4.0
+After a turning stride that took longer, including the standing before it, the pause is longer, up to `MAX_PAUSE`."""
+MAX_PAUSE = 4.0
 """Largest time without a foot-flat that ends a turn, s."""
 STRAIGHT_STRIDES = 3
-"""Number of straight strides that end a turn, of both feet where both give samples.
+"""Number of straight strides that end a turn, counted over both feet when both have samples.
 
-One foot may stride twice on the spot while the other turns."""
+One foot may take two strides on the spot while the other foot turns."""
 
 
 @frozen
 class TurnProcess:
-    """A turning process that is over; `left` and `right`: sum of each foot's turns, rad, None of an absent foot."""
+    """A finished turning process: a sequence of turning strides and pivots without a pause."""
 
     t_start: float
     """Start of the first turning stride, s."""
     t_end: float
     """End of the last turning stride, s."""
     left: float | None
+    """Sum of the left foot's turns, rad, counter-clockwise positive; None without samples."""
     right: float | None
+    """Sum of the right foot's turns, rad, counter-clockwise positive; None without samples."""
 
     @property
     def angle(self) -> float:
-        """Mean turn of the feet that gave samples, rad, counter-clockwise positive."""
-        known = [one for one in (self.left, self.right) if one is not None]
-        return sum(known) / len(known)
+        """Mean turn of the feet that have samples, rad, counter-clockwise positive."""
+        angles = [angle for angle in (self.left, self.right) if angle is not None]
+        return sum(angles) / len(angles)
 
 
 @define
 class FootTurn:
     """The turn of one foot in the turning process under way."""
 
-    turning: TurningSteps = field(factory=TurningSteps)
+    stride_filter: TurningSteps = field(factory=TurningSteps)
     stride_end: float | None = None
-    """End of its last stride, s."""
+    """End of the foot's last stride or pivot, s."""
     angle: float = 0.0
     """Sum of the foot's turns, rad."""
-    straight: int = 0
+    straight_strides: int = 0
     """Number of straight strides since the foot's last turning stride."""
 
 
 @define
 class TurnDetector:
-    """Detects whole turns from strides.
+    """Detects turns, each from its first to its last turning stride.
 
-    Latency: a turn is known after `STRAIGHT_STRIDES` straight strides of the feet (two where only one foot gives
-    samples), or after they have stood for `SHORTEST_PAUSE`."""
+    Latency: a turn is known after `STRAIGHT_STRIDES` straight strides of the feet (two strides when only one foot has
+    samples), or after the feet have stood for `MIN_PAUSE`."""
 
     left: FootTurn = field(factory=FootTurn, init=False)
     right: FootTurn = field(factory=FootTurn, init=False)
     t_start: float | None = field(default=None, init=False)
-    """Start of the first turning stride of the process, s; None while the wearer goes straight on."""
+    """Start of the first turning stride of the process, s; None outside a turn."""
     t_end: float = field(default=0.0, init=False)
     """End of the last turning stride, s."""
-    pause: float = field(default=SHORTEST_PAUSE, init=False)
+    pause: float = field(default=MIN_PAUSE, init=False)
     """Time without a foot-flat that ends the turn under way, s."""
     previous_end: float | None = field(default=None, init=False)
     """End of the last turn that was reported, s."""
 
-    def add_stride(self, taken: StrideTaken) -> TurnProcess | None:
-        """Add one stride of either foot, in the order in which they became known; return the turn that it ends."""
-        foot, other = self._feet(taken.foot)
-        angle = foot.turning.turn(taken.heading_change)
-        foot.stride_end = taken.t_end
+    def add_stride(self, event: StrideTaken) -> TurnProcess | None:
+        """Add a stride of either foot, in order of `known_at`, and return the turn that it ends."""
+        foot, other = self._feet(event.foot)
+        angle = foot.stride_filter.turn(event.heading_change)
+        foot.stride_end = event.t_end
         if angle != 0.0:
-            return self._add_turn(foot, other, taken.t_start, taken.t_end, angle)
-        foot.straight += 1
+            return self._add_turn(foot, other, event.t_start, event.t_end, angle)
+        foot.straight_strides += 1
         if self.t_start is None:
             return None
-        if other.stride_end is None or taken.t_end - other.stride_end > self.pause:
-            return self._end_turn() if foot.straight > 1 else None
-        both = other.straight > 0 and foot.straight + other.straight >= STRAIGHT_STRIDES
-        return self._end_turn() if both or foot.straight >= STRAIGHT_STRIDES else None
+        if other.stride_end is None or event.t_end - other.stride_end > self.pause:
+            return self._end_turn() if foot.straight_strides > 1 else None
+        both_straight = (
+            other.straight_strides > 0 and foot.straight_strides + other.straight_strides >= STRAIGHT_STRIDES
+        )
+        return self._end_turn() if both_straight or foot.straight_strides >= STRAIGHT_STRIDES else None
 
     def add_pivot(self, foot: Foot, t_start: float, t_end: float, angle: float) -> TurnProcess | None:
-        """Add a turn of `angle` rad between two foot-flats without a stride, s; return the turn that it ends.
+        """Add a pivot by `angle`, rad, between foot-flats at `t_start` and `t_end`, s; return the turn that it ends.
 
         A small angle is ignored."""
         this, other = self._feet(foot)
-        if abs(angle) <= NO_TURN:
+        if abs(angle) <= STRAIGHT_TOLERANCE:
             return None
         this.stride_end = t_end
         return self._add_turn(this, other, t_start, t_end, angle)
@@ -108,60 +113,60 @@ class TurnDetector:
     def _add_turn(
         self, foot: FootTurn, other: FootTurn, t_start: float, t_end: float, angle: float
     ) -> TurnProcess | None:
-        over = None
+        ended_turn = None
         if self.t_start is not None and t_start - self.t_end > self.pause:
-            over = self._end_turn()
+            ended_turn = self._end_turn()
         if self.t_start is None:
-            # a wearer who stood for long did not turn meanwhile, nor before the last turn was over
-            start = max(t_start, t_end - LONGEST_PAUSE)
+            # the turn started neither long before its first stride ended nor before the previous turn ended
+            start = max(t_start, t_end - MAX_PAUSE)
             self.t_start = self.t_end = (
                 start if self.previous_end is None else max(start, min(self.previous_end, t_end))
             )
             foot.angle = other.angle = 0.0
         foot.angle += angle
-        foot.straight = other.straight = 0
+        foot.straight_strides = other.straight_strides = 0
         self.t_end = max(self.t_end, t_end)
-        self.pause = min(max(SHORTEST_PAUSE, 0.8 * self.pause, t_end - t_start), LONGEST_PAUSE)
-        return over
+        self.pause = min(max(MIN_PAUSE, 0.8 * self.pause, t_end - t_start), MAX_PAUSE)
+        return ended_turn
 
     def advance(self, t: float) -> TurnProcess | None:
-        """Return the turn that is over at `t`, s, because no foot has strode since."""
+        """Return the turn that has ended at `t`, s, because no stride followed for the pause."""
         if self.t_start is None or t - self.t_end <= self.pause:
             return None
         newest = max(-1e12 if foot.stride_end is None else foot.stride_end for foot in (self.left, self.right))
         return self._end_turn() if t - newest > self.pause else None
 
     def finish(self) -> TurnProcess | None:
-        """Return the turn under way: no more strides come."""
+        """Return the turn under way, because no more strides come."""
         return None if self.t_start is None else self._end_turn()
 
     def reset(self, foot: Foot) -> None:
-        """Reset a foot whose clock restarts: a turn under way has no duration and is discarded."""
+        """Reset a foot whose clock restarts; a turn under way has no duration and is discarded."""
         self.t_start = self.previous_end = None
         (self.left if foot is Foot.LEFT else self.right).stride_end = None
 
     def _end_turn(self) -> TurnProcess:
         start = self.t_end if self.t_start is None else self.t_start
-        found = TurnProcess(
-            start, self.t_end, *without_whole_turns(self._angle_of(self.left, start), self._angle_of(self.right, start))
+        process = TurnProcess(
+            start, self.t_end, *remove_whole_turns(self._angle_of(self.left, start), self._angle_of(self.right, start))
         )
         self.t_start, self.previous_end = None, self.t_end
         self.left.angle = self.right.angle = 0.0
-        self.left.straight = self.right.straight = 0
-        return found
+        self.left.straight_strides = self.right.straight_strides = 0
+        return process
 
     @staticmethod
     def _angle_of(foot: FootTurn, start: float) -> float | None:
         return None if foot.stride_end is None or foot.stride_end < start else foot.angle
 
 
-def without_whole_turns(left: float | None, right: float | None) -> tuple[float | None, float | None]:
-    """Return the turns of both feet, rad, with the whole turn removed by which they may differ.
+def remove_whole_turns(left: float | None, right: float | None) -> tuple[float | None, float | None]:
+    """Return the turns of both feet, rad, without the whole turn by which they may differ.
 
-    A stride's turn is known except for whole turns (StrideTaken.heading_change), and a wearer who turns about may swing
-    a foot by more than half a turn: a difference between the feet of more than that is not real."""
+    A stride's turn is known except for multiples of 2 pi (StrideTaken.heading_change), and a wearer who turns about may
+    swing a foot by more than pi. A difference of more than pi between the feet is therefore not real."""
     if left is None or right is None or abs(left - right) <= pi:
         return left, right
-    whole = 2.0 * pi if left < right else -2.0 * pi
-    to_left, to_right = (left + whole, right), (left, right - whole)
-    return to_left if abs(sum(to_left)) <= abs(sum(to_right)) else to_right
+    whole_turn = 2.0 * pi if left < right else -2.0 * pi
+    corrected_left, corrected_right = (left + whole_turn, right), (left, right - whole_turn)
+    return corrected_left if abs(sum(corrected_left)) <= abs(sum(corrected_right)) else corrected_right

@@ -1,38 +1,39 @@
-"""Separation of turning strides from straight ones (Liu et al. 2015, IEEE MASS, section IV.D).
+"""Separation of turning strides from straight strides (Liu et al. 2015, IEEE MASS, section IV.D).
 
 "FootStep-Tracker use low-pass filter to extract the turning steps from the steps of walking straight ahead." The paper
-gives no filter. A foot's turn in a straight stride is not zero: each foot has its own usual turn (by the motion of the
-ankle while the foot is off the ground), and noise. The usual turn is the low-passed turn. A stride that differs from it
-by more than `NO_TURN` is a turning stride and turns by that difference; any other goes straight on."""
+gives no filter. A foot's turn in a straight stride is not zero: it is a usual turn of that foot (by the motion of the
+ankle while the foot is off the ground) plus noise. A low-pass filter of the turns estimates the usual turn. A stride
+whose turn differs from it by more than `STRAIGHT_TOLERANCE` is a turning stride, and the path turns by the difference.
+Any other stride is straight."""
 
 from __future__ import annotations
 
 from ...types.attrs import define, field
 
-NO_TURN = 0.12
-"""Largest deviation of a straight stride, rad.
+STRAIGHT_TOLERANCE = 0.12
+"""Largest deviation of a straight stride from the usual turn, rad.
 
-The standard deviation is 3 degrees on recorded feet, and 11 degrees a stride lead round a circle of 7 m."""
-LARGEST_DEVIATION = 0.35
-"""Largest deviation of a stride that enters the usual turn, rad."""
-WEIGHT = 0.1
+The standard deviation of recorded feet is 3 degrees; a circle of 7 m takes 11 degrees per stride."""
+MAX_FILTERED_DEVIATION = 0.35
+"""Largest deviation of a stride that updates the usual turn, rad."""
+STRIDE_WEIGHT = 0.1
 """Weight of one stride in the low-pass filter."""
-LARGEST_STRAIGHT_TURN = 0.3
-"""Largest usual turn of a straight stride, rad."""
+MAX_STRAIGHT_TURN = 0.3
+"""Largest estimate of the usual turn, rad."""
 
 
 @define
 class TurningSteps:
-    """The low-pass filter of one foot: O(1), no latency."""
+    """The low-pass filter of one foot's turns; time and memory are O(1), and there is no latency."""
 
     straight_turn: float = field(default=0.0, init=False)
-    """Usual turn of a straight stride, rad."""
+    """Usual turn of a straight stride, rad, counter-clockwise positive."""
 
     def turn(self, angle: float) -> float:
-        """Add one stride that turned by `angle`, rad, and return by how much the path turned, rad."""
-        off = angle - self.straight_turn
-        if abs(off) < LARGEST_DEVIATION:
+        """Add a stride that turned by `angle`, rad, and return the turn of the path, rad; 0 for a straight stride."""
+        deviation = angle - self.straight_turn
+        if abs(deviation) < MAX_FILTERED_DEVIATION:
             self.straight_turn = min(
-                max(self.straight_turn + WEIGHT * off, -LARGEST_STRAIGHT_TURN), LARGEST_STRAIGHT_TURN
+                max(self.straight_turn + STRIDE_WEIGHT * deviation, -MAX_STRAIGHT_TURN), MAX_STRAIGHT_TURN
             )
-        return off if abs(off) > NO_TURN else 0.0
+        return deviation if abs(deviation) > STRAIGHT_TOLERANCE else 0.0

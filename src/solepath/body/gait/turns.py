@@ -1,10 +1,10 @@
 """Classification of turns: left, right or about, by a linear classifier on the turns of both feet.
 
-Liu et al. 2015, IEEE MASS, section V.E: "we use the degree of both foot as features of the turn, and use SVM". About
-turns to the left and to the right lie on both sides of all others, which no line in the plane of the two angles
-separates; with their magnitudes as features one does. Features of a turn, in half turns (rad / pi): left, right,
-|left|, |right|, 1. The class is that of the largest of three linear functions of them. The weights come from `python -m
-solepath.lab.train.turns`, which lists the training data. For a foot without samples the other foot's angle is used."""
+Liu et al. 2015, IEEE MASS, section V.E: "we use the degree of both foot as features of the turn, and use SVM". A
+linear classifier on the two angles cannot separate turns about, because they lie beyond both the left and the right
+turns. It can when the sizes of the angles are features too. The features of a turn are left, right, |left|, |right| (in
+rad / pi) and 1. The class is the one whose linear function of the features is largest. The weights come from `python -m
+solepath.lab.train.turns`, which lists the training data. For a foot without samples, the other foot's angle is used."""
 
 from __future__ import annotations
 
@@ -20,11 +20,10 @@ from ...types.vector import heading_turned
 from ..part import Part, PartOutput
 from .turn_detector import TurnDetector, TurnProcess
 
-LEAST_TURN = 0.61
-"""Angle below which a turn is a bend and has no class, rad.
+MIN_CLASSIFIED_TURN = 0.61
+"""Least angle of a turn that has a class, rad; a smaller turn is a bend.
 
-It is half-way between 0 and the 70 degrees of the slightest turns to the side."""
-
+It is half-way between 0 and 70 degrees, the smallest turns to the side."""
 WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
     Turn.LEFT: (2.79, 1.82, -4.51, -5.9, 4.24),
     Turn.RIGHT: (-1.82, -2.79, -5.9, -4.51, 4.24),
@@ -34,25 +33,25 @@ WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
 
 
 def features(left: float, right: float) -> tuple[float, float, float, float, float]:
-    """Return the features of a turn by the angles of both feet, rad."""
+    """Return the features of a turn from the angles of both feet, rad."""
     x, y = left / pi, right / pi
     return (x, y, abs(x), abs(y), 1.0)
 
 
 def classify(left: float | None, right: float | None) -> Turn | None:
-    """Return the class of a turn by the angles of both feet, rad; None for a slight one."""
-    one = right if left is None else left
-    other = left if right is None else right
-    if one is None or other is None or abs(one + other) < 2.0 * LEAST_TURN:
+    """Return the class of a turn from the feet's angles, rad (None: no samples); None for a bend."""
+    known_left = right if left is None else left
+    known_right = left if right is None else right
+    if known_left is None or known_right is None or abs(known_left + known_right) < 2.0 * MIN_CLASSIFIED_TURN:
         return None
-    known = features(one, other)
-    scores = {turn: sum(w * x for w, x in zip(weights, known, strict=True)) for turn, weights in WEIGHTS.items()}
+    values = features(known_left, known_right)
+    scores = {turn: sum(w * x for w, x in zip(weights, values, strict=True)) for turn, weights in WEIGHTS.items()}
     return max(scores, key=lambda turn: scores[turn])
 
 
 @define
 class FlatFoot:
-    """The newest foot-flat of a foot: its time, s, and the attitude at it, navigation frame."""
+    """The newest foot-flat of a foot: time, s, and attitude (sensor frame to navigation frame)."""
 
     t: float
     attitude: Quat
@@ -60,7 +59,7 @@ class FlatFoot:
 
 @define
 class Turns(Part):
-    """Detects and classifies turns from strides and from the pivots between them; latency: see `TurnDetector`."""
+    """Detects and classifies turns from strides and pivots; see `TurnDetector` for the latency."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -71,41 +70,43 @@ class Turns(Part):
     """Flag: no turn is under way."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add one sample of a foot with its events, and return the turns that are over."""
-        found: list[TurnProcess] = []
+        """Add a sample of a foot with its events and return the turns that have ended."""
+        ended_turns: list[TurnProcess] = []
         known_at = view.t
         for event in view.events:
-            turned = None
+            process = None
             if isinstance(event, StrideTaken):
-                turned = self.detector.add_stride(event)
+                process = self.detector.add_stride(event)
             elif isinstance(event, FootFlat) and view.levelled:
-                turned = self._flat(view, event)
-            if turned is not None:
+                process = self._add_foot_flat(view, event)
+            if process is not None:
                 known_at = event.known_at
-                found.append(turned)
-        if not found and self.detector.t_start is not None:
-            turned = self.detector.advance(view.t)
-            if turned is not None:
+                ended_turns.append(process)
+        if not ended_turns and self.detector.t_start is not None:
+            process = self.detector.advance(view.t)
+            if process is not None:
                 known_at = view.known_at
-                found.append(turned)
+                ended_turns.append(process)
         self.idle = self.detector.t_start is None
-        return [turn_event(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * LEAST_TURN]
+        return [
+            turn_event(process, known_at) for process in ended_turns if abs(process.angle) > 0.5 * MIN_CLASSIFIED_TURN
+        ]
 
-    def _flat(self, view: FootView, event: FootFlat) -> TurnProcess | None:
-        """Add a foot-flat: without a stride the foot may have pivoted."""
-        before, now = self.last_flat.get(event.foot), view.after.stood
-        self.last_flat[event.foot] = FlatFoot(event.t, now)
-        stepped = view.after.covariance is not None and any(
-            [isinstance(one, StrideTaken) and one.t == event.t for one in view.events]
+    def _add_foot_flat(self, view: FootView, event: FootFlat) -> TurnProcess | None:
+        """Add a foot-flat, before which the foot may have pivoted without a stride."""
+        previous, attitude = self.last_flat.get(event.foot), view.after.stood
+        self.last_flat[event.foot] = FlatFoot(event.t, attitude)
+        has_stride = view.after.covariance is not None and any(
+            [isinstance(other, StrideTaken) and other.t == event.t for other in view.events]
         )
-        if before is None or stepped or event.t < before.t:
+        if previous is None or has_stride or event.t < previous.t:
             return None
-        return self.detector.add_pivot(event.foot, before.t, event.t, heading_turned(before.attitude, now))
+        return self.detector.add_pivot(event.foot, previous.t, event.t, heading_turned(previous.attitude, attitude))
 
     def finish(self, now: float) -> Sequence[PartOutput]:
-        """Return the turn under way, if any: no more samples come."""
-        turned = self.detector.finish()
-        return [] if turned is None or abs(turned.angle) <= 0.5 * LEAST_TURN else [turn_event(turned, now)]
+        """Return the turn under way, if any, because no more samples come."""
+        process = self.detector.finish()
+        return [] if process is None or abs(process.angle) <= 0.5 * MIN_CLASSIFIED_TURN else [turn_event(process, now)]
 
     def reset(self, site: Site) -> None:
         """Reset a foot whose clock restarts."""
@@ -115,12 +116,12 @@ class Turns(Part):
             self.last_flat.pop(site.foot, None)
 
 
-def turn_event(turned: TurnProcess, known_at: float) -> TurnMade:
-    """Return the event of a turn that was known at `known_at`, s."""
+def turn_event(process: TurnProcess, known_at: float) -> TurnMade:
+    """Return the event of a finished turn."""
     return TurnMade(
-        t=turned.t_end,
-        known_at=max(known_at, turned.t_end),
-        t_start=turned.t_start,
-        angle=turned.angle,
-        turn=classify(turned.left, turned.right),
+        t=process.t_end,
+        known_at=max(known_at, process.t_end),
+        t_start=process.t_start,
+        angle=process.angle,
+        turn=classify(process.left, process.right),
     )

@@ -1,20 +1,21 @@
-"""Height of the wearer: the correction that lifts and air pressure add to the heights of the strides.
+"""Height of the wearer: a correction of the feet's heights for elevator rides, by air pressure.
 
-The tracks of the feet contain the height of stairs and slopes, level by level, but nothing of a lift, in which a foot
-stands still. Therefore a correction is added to their height. A Kalman filter estimates it together with the offset of
-each foot's barometer (weather, wind, doors, its own offset), from half a second or more of readings at a time:
+The tracks of the feet contain the height of stairs and slopes, but not that of an elevator, in which a foot stands
+still. Therefore a correction is added to their heights. A Kalman filter estimates the correction together with the
+offset of each foot's barometer (weather, wind, doors and the device's own offset). Readings are averaged over half a
+second or more:
 
-    height by the air  -  height of the foot's track  =  correction + offset of that barometer + noise
+    height by air pressure  -  height of the foot's track  =  correction + offset of that barometer + noise
 
-    a stride of height h   the correction's variance grows by the variance of h; a level one changes nothing
-    a lift                 the correction jumps by the ride's height, and its variance grows by that height's
-    time                   each offset wanders by `OFFSET_DRIFT`^2 a second
+    after a stride with height change h   the correction's variance grows by the variance of h (not on level ground)
+    after an elevator ride                the correction changes by the ride's height, its variance by that height's
+    with time                             the variance of each offset grows by `OFFSET_DRIFT`^2 per second
 
-On level ground, where no stride gains height, the air pressure cannot move the correction: weather and doors are
-offsets. On stairs the strides give the height of each tread and the air the sum; in a lift only the air, where there is
-a barometer, gives the height. A ride is reported after it has ended; the readings since it started are then used again
-(`KEPT_TIME` s are kept). Later readings still correct its height, for as long as the offsets are known better than
-their wander allows."""
+On level ground the variance of the correction does not grow, so changes of pressure are attributed to the offsets. On
+stairs, strides give the height of each tread and air pressure gives the sum. In an elevator, only air pressure gives
+the height, if there is a barometer. A ride is reported after it has ended; the readings since its start are then
+processed again (`KEPT_TIME`, s, of readings are kept). Readings after a ride improve its height while the offsets are
+known well enough."""
 
 from __future__ import annotations
 
@@ -31,42 +32,42 @@ from ..part import HeightShift, Part, PartInput, PartOutput, Replacement
 from .recent_inputs import HeightInput, RecentInputs
 
 SCALE_HEIGHT = 8578.0
-"""Height over which the pressure of air of 20 degrees falls to 1/e, m: R T / (M g)."""
+"""Height over which the pressure of air at 20 degrees Celsius falls to 1/e, m: R T / (M g)."""
 STANDARD_PRESSURE = 101325.0
 """Standard air pressure, Pa."""
 READING_INTERVAL = 0.5
-"""Shortest interval between readings that are used, s; all readings in between are averaged into one."""
+"""Shortest interval between two readings of the filter, s; all pressures in between are averaged into one reading."""
 KEPT_TIME = 90.0
 """Time for which inputs are kept, s."""
 UNKNOWN_VARIANCE = 1e4
 """Variance of an unknown height, m^2."""
-LARGEST_HEIGHT = 1e5
-"""Largest height of a track that is used, m."""
+MAX_TRACK_HEIGHT = 1e5
+"""Largest height of a track, and of a ride, that is used, m."""
 LEFT, RIGHT, MOVE = 0, 1, 2
-"""Sources of an input: the left barometer, the right one, or a move of the correction."""
+"""Sources of an input: left barometer, right barometer, or a change of the correction by a stride or ride."""
 RIDE_MARGIN = 0.7
 """Time before the start of a ride and after its end in which the wearer does not stand still, s."""
 LEVEL_LIMIT = 0.02
 """Largest height change of a level stride, m."""
-MOST_STRIDES = 64
-"""Number of newest strides that are kept, to recognise rides that were none."""
-SHORTEST_STRIDE = 0.3
-"""Length of the shortest stride that is no shift of weight, m."""
+MAX_STRIDES = 64
+"""Number of newest strides that are kept; a ride with strides in it is not plausible."""
+MIN_STRIDE_LENGTH = 0.3
+"""Length of the shortest stride that is kept, m; a shorter one may be a shift of weight."""
 OFFSET_DRIFT = 0.03
-"""Wander of a barometer's offset, m in one second: 0.35 Pa, indoors. Weather alone makes less than that."""
+"""Random walk of a barometer's offset, m/sqrt(s): 0.35 Pa indoors; weather alone changes it by less."""
 STRIDE_ERROR, DEGRADED_FACTOR = 0.05, 3.0
-"""Error of a stride's height as a share of it, and the factor of that error for a degraded stride.
+"""Standard deviation of a stride's height, as a share of the height, and its factor for a degraded stride.
 
-The error adds to the stride's own variance."""
+The stride's own variance is added to it."""
 RIDE_ERROR = 0.1
-"""Error of a ride's height as a share of it, without air pressure after its end."""
-LOWEST_RIDE, SLOWEST_RIDE, FASTEST_RIDE = 1.8, 0.25, 4.0
-"""Least height of a ride that is trusted without air pressure, m, and its least and largest mean speed, m/s."""
+"""Standard deviation of a reported ride's height, as a share of the height."""
+MIN_RIDE_HEIGHT, MIN_RIDE_SPEED, MAX_RIDE_SPEED = 1.8, 0.25, 4.0
+"""Limits for a ride without air pressure: least height, m, least mean speed and largest mean speed, m/s."""
 
 
 @define
 class HeightEstimate:
-    """The filter's estimate: the correction and two offsets, m, and their covariance, row by row, m^2."""
+    """The filter's estimate of the correction and the two offsets."""
 
     values: list[float] = field(factory=lambda: [0.0, 0.0, 0.0])
     """The correction and the offsets of the left and the right barometer, m."""
@@ -76,81 +77,82 @@ class HeightEstimate:
     """Time of the newest reading of each barometer, s; None: never read."""
 
     def move(self, by: float, variance: float) -> None:
-        """Change the correction by `by` m; `variance` is that of the change, m^2."""
+        """Change the correction by `by`, m; `variance` is that of the change, m^2."""
         self.values[0] += by
         self.covariance[0] = min(self.covariance[0] + variance, UNKNOWN_VARIANCE)
 
     def read(self, source: int, t: float, height: float, noise: float, wander: float) -> None:
-        """Correct the estimate with a barometer's height above its foot's track, m.
+        """Correct the estimate with `height`, m: the height by the barometer minus the height of the track.
 
         `noise` is the variance of the reading, m^2, and `wander` the growth of the offset's variance, m^2/s."""
         x, p, i = self.values, self.covariance, 1 + source
-        before = self.read_at[source]
+        previous = self.read_at[source]
         self.read_at[source] = t
-        if before is None:
-            # nothing is known of its offset: take the one that makes the reading right
+        if previous is None:
+            # the offset is unknown: set it so that the reading fits the correction
             x[i] = height - x[0]
             for j in range(3):
                 if j != i:
                     p[3 * i + j] = p[3 * j + i] = -p[j]
             p[4 * i] = p[0] + noise
             return
-        p[4 * i] = min(p[4 * i] + wander * max(0.0, t - before), UNKNOWN_VARIANCE)
-        off = height - x[0] - x[i]
-        spread = p[0] + 2.0 * p[i] + p[4 * i] + noise
-        if off * off > 25.0 * spread:  # a door, or another pressure at the same height: the offset has jumped
-            p[4 * i] = min(p[4 * i] + off * off, UNKNOWN_VARIANCE)
-            spread = p[0] + 2.0 * p[i] + p[4 * i] + noise
-        held = [p[3 * j] + p[3 * j + i] for j in range(3)]
+        p[4 * i] = min(p[4 * i] + wander * max(0.0, t - previous), UNKNOWN_VARIANCE)
+        innovation = height - x[0] - x[i]
+        innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
+        if innovation * innovation > 25.0 * innovation_variance:  # a door or a gust: the offset has changed suddenly
+            p[4 * i] = min(p[4 * i] + innovation * innovation, UNKNOWN_VARIANCE)
+            innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
+        covariances = [p[3 * j] + p[3 * j + i] for j in range(3)]
         for j in range(3):
-            x[j] += held[j] / spread * off
+            x[j] += covariances[j] / innovation_variance * innovation
         for j in range(3):
             for k in range(3):
-                p[3 * j + k] -= held[j] * held[k] / spread
+                p[3 * j + k] -= covariances[j] * covariances[k] / innovation_variance
         for j in range(3):
             p[4 * j] = max(p[4 * j], 0.0)
 
     def copy(self) -> HeightEstimate:
-        """Return a copy."""
+        """Return a copy of the estimate."""
         return HeightEstimate(list(self.values), list(self.covariance), list(self.read_at))
 
 
 @define
 class PendingReadings:
-    """The readings of one barometer that are not used yet, and the newest that was used."""
+    """The heights of one barometer that wait for the next reading, and the newest reading."""
 
-    since: float | None = None
-    """Time of the newest reading that was used, s."""
+    read_at: float | None = None
+    """Time of the newest reading, s; None before any."""
     total: float = 0.0
     """Sum of the pending heights, m."""
     count: int = 0
     """Number of pending heights."""
-    last: float | None = None
-    """Newest height that was used, m."""
+    previous_height: float | None = None
+    """Height of the newest reading, m; None before any."""
 
 
 @define
 class Altitude(Part):
-    """Estimates the correction of the wearer's height from air pressure, strides and lift rides.
+    """Estimates the correction of the wearer's height from air pressure, strides and elevator rides.
 
-    Latency: none for the air pressure; a ride is known after it."""
+    Latency: none for air pressure; a ride is known after its end."""
 
     needs_samples: ClassVar[bool] = True
     idle = True
 
     now: HeightEstimate = field(factory=HeightEstimate, init=False)
+    """Estimate after all inputs."""
     base: HeightEstimate = field(factory=HeightEstimate, init=False)
     """Estimate before the oldest input that is kept."""
-    kept: RecentInputs = field(factory=RecentInputs, init=False)
-    """Recent inputs: readings of both barometers and moves of the correction."""
+    inputs_kept: RecentInputs = field(factory=RecentInputs, init=False)
+    """Recent inputs: readings of both barometers and changes of the correction."""
     sides: list[PendingReadings] = field(factory=lambda: [PendingReadings(), PendingReadings()], init=False)
     """Pending readings of the left and the right barometer."""
     noise: float = field(default=0.04, init=False)
-    """Variance of a reading that is used, learnt, m^2."""
+    """Variance of a reading, estimated from consecutive readings, m^2."""
     ride_variance: float = field(default=0.0, init=False)
     """Variance of the height of all rides together, m^2."""
     strides: deque[tuple[float, float]] = field(factory=deque, init=False)
-    """Start and end of the newest strides, in whole hundredths of a second."""
+    """Start and end of each of the newest strides, in whole hundredths of a second."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add the reading of a foot's barometer, if the sample has one."""
@@ -158,21 +160,21 @@ class Altitude(Part):
         if pressure is None:
             return ()
         t, z = view.t, view.position[2]
-        if not (2e4 < pressure < 2e5 and abs(z) < LARGEST_HEIGHT):
+        if not (2e4 < pressure < 2e5 and abs(z) < MAX_TRACK_HEIGHT):
             return ()
         source = LEFT if view.foot is Foot.LEFT else RIGHT
         side = self.sides[source]
         side.total += SCALE_HEIGHT * log(STANDARD_PRESSURE / pressure) - z
         side.count += 1
-        if side.since is not None and 0.0 <= t - side.since < READING_INTERVAL:
+        if side.read_at is not None and 0.0 <= t - side.read_at < READING_INTERVAL:
             return ()
         height = side.total / side.count
-        if side.last is not None:
-            # the variance of consecutive differences is 2 noise + drift^2; a ride or a gust counts little
-            square = 0.5 * (height - side.last) ** 2
+        if side.previous_height is not None:
+            # the variance of consecutive differences is 2 noise + drift^2; limit the effect of a ride or a gust
+            square = 0.5 * (height - side.previous_height) ** 2
             self.noise += 0.05 * (min(square, 3.0 * self.noise) - self.noise)
             self.noise = max(self.noise, 1e-4)
-        side.since, side.total, side.count, side.last = t, 0.0, 0, height
+        side.read_at, side.total, side.count, side.previous_height = t, 0.0, 0, height
         return self._add_input((t, source, height, self.noise))
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
@@ -180,81 +182,91 @@ class Altitude(Part):
         if isinstance(event, StrideTaken):
             return self._add_stride(event)
         if isinstance(event, LiftRidden):
-            ridden = self._corrected_ride(event)
-            return [Replacement(event, ridden), self._height()]
+            corrected = self._corrected_ride(event)
+            return [Replacement(event, corrected), self._height_shift()]
         return ()
 
-    def _height(self) -> HeightShift:
+    def _height_shift(self) -> HeightShift:
         return HeightShift(self.now.values[0], self.ride_variance)
 
     def reset(self, site: Site) -> None:
-        """Reset the offset of a foot's barometer: its clock restarts, or the foot wears another barometer."""
+        """Reset the offset of a foot's barometer, because its clock restarts or the device has changed."""
         if site.foot is None:
             return
         source = LEFT if site.foot is Foot.LEFT else RIGHT
         self.sides[source] = PendingReadings()
         self.now.read_at[source] = None
         self.base = self.now.copy()
-        self.kept.clear()
+        self.inputs_kept.clear()
         self.strides.clear()
 
     def _add_stride(self, stride: StrideTaken) -> Sequence[PartOutput]:
         self.strides.append((float(round(100.0 * stride.t_start)), float(round(100.0 * stride.t_end))))
-        if stride.length < SHORTEST_STRIDE:
+        if stride.length < MIN_STRIDE_LENGTH:
             self.strides.pop()
-        elif len(self.strides) > MOST_STRIDES:
+        elif len(self.strides) > MAX_STRIDES:
             self.strides.popleft()
         if self.now.read_at[LEFT] is None and self.now.read_at[RIGHT] is None:
             return ()
         height, variance = abs(stride.height_change), stride.covariance[5]
-        if not LEVEL_LIMIT < height < LARGEST_HEIGHT or not variance < LARGEST_HEIGHT:
+        if not LEVEL_LIMIT < height < MAX_TRACK_HEIGHT or not variance < MAX_TRACK_HEIGHT:
             return ()
-        wrong = (STRIDE_ERROR * height) ** 2 + max(0.0, variance)
+        error_variance = (STRIDE_ERROR * height) ** 2 + max(0.0, variance)
         if stride.degraded:
-            wrong *= DEGRADED_FACTOR * DEGRADED_FACTOR
-        # each stride moves the mean of both feet by a half
-        return self._add_input((stride.t, MOVE, 0.0, 0.25 * wrong))
+            error_variance *= DEGRADED_FACTOR * DEGRADED_FACTOR
+        # a stride moves the mean of both feet by half of its height
+        return self._add_input((stride.t, MOVE, 0.0, 0.25 * error_variance))
 
     def _corrected_ride(self, ride: LiftRidden) -> LiftRidden:
-        """Return the ride with its likeliest height."""
+        """Process the inputs since the ride's start again, and return the ride with its likeliest height."""
         start, end = ride.t_start, ride.t
-        inputs = self.kept.all()
-        readings = [one for one in inputs if one[1] != MOVE and not start - RIDE_MARGIN < one[0] < end + RIDE_MARGIN]
-        enclosed = any([one[0] < start for one in readings]) and any([one[0] > end for one in readings])
+        inputs = self.inputs_kept.all()
+        readings = [
+            entry for entry in inputs if entry[1] != MOVE and not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
+        ]
+        enclosed = any([entry[0] < start for entry in readings]) and any([entry[0] > end for entry in readings])
         if not enclosed and not self._is_plausible(ride):
             return evolve(ride, height=None)
-        by = 0.0 if ride.height is None or not abs(ride.height) < LARGEST_HEIGHT else ride.height
+        by = 0.0 if ride.height is None or not abs(ride.height) < MAX_TRACK_HEIGHT else ride.height
         variance = (RIDE_ERROR * by) ** 2 if by else UNKNOWN_VARIANCE
-        before = self.now.values[0]
-        kept = [one for one in inputs if one[1] == MOVE or not start - RIDE_MARGIN < one[0] < end + RIDE_MARGIN]
-        first = [one for one in kept if one[0] <= end]
-        later = [one for one in kept if one[0] > end]
-        self.kept.replace([*first, (end, MOVE, by, variance), *later])
+        previous = self.now.values[0]
+        inputs_kept = [
+            entry for entry in inputs if entry[1] == MOVE or not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
+        ]
+        first = [entry for entry in inputs_kept if entry[0] <= end]
+        later = [entry for entry in inputs_kept if entry[0] > end]
+        self.inputs_kept.replace([*first, (end, MOVE, by, variance), *later])
         self.now = self.base.copy()
-        for one in self.kept.all():
-            self._apply(self.now, one)
-        risen = self.now.values[0] - before
+        for entry in self.inputs_kept.all():
+            self._apply_input(self.now, entry)
+        height_gain = self.now.values[0] - previous
         self.ride_variance = min(self.ride_variance + min(variance, self.now.covariance[0]), UNKNOWN_VARIANCE)
-        return evolve(ride, height=risen) if (risen > 0.0) is ride.up else ride
+        return evolve(ride, height=height_gain) if (height_gain > 0.0) is ride.up else ride
 
     def _is_plausible(self, ride: LiftRidden) -> bool:
-        """Return whether a ride that only the feet have measured can have had its height."""
-        height, lasted = ride.height, ride.t - ride.t_start
-        if height is None or not lasted > 0.0 or (height > 0.0) is not ride.up:
+        """Return whether the height of a ride that only the feet's accelerometers have measured is possible."""
+        height, duration = ride.height, ride.t - ride.t_start
+        if height is None or not duration > 0.0 or (height > 0.0) is not ride.up:
             return False
         t_start, t_end = 100.0 * ride.t_start, 100.0 * ride.t
-        walked = sum([start > t_start and end < t_end for start, end in self.strides])
-        return walked < 2 and abs(height) >= LOWEST_RIDE and SLOWEST_RIDE <= abs(height) / lasted <= FASTEST_RIDE
+        stride_count = sum([start > t_start and end < t_end for start, end in self.strides])
+        return (
+            stride_count < 2
+            and abs(height) >= MIN_RIDE_HEIGHT
+            and MIN_RIDE_SPEED <= abs(height) / duration <= MAX_RIDE_SPEED
+        )
 
-    def _add_input(self, one: HeightInput) -> Sequence[PartOutput]:
-        kept = self.kept
-        while (oldest := kept.oldest) is not None and (one[0] - oldest > KEPT_TIME or kept.count >= 8.0 * KEPT_TIME):
-            self._apply(self.base, kept.pop())
-        self._apply(self.now, kept.add(one))
-        return [self._height()]
+    def _add_input(self, entry: HeightInput) -> Sequence[PartOutput]:
+        inputs_kept = self.inputs_kept
+        while (oldest := inputs_kept.oldest) is not None and (
+            entry[0] - oldest > KEPT_TIME or inputs_kept.count >= 8.0 * KEPT_TIME
+        ):
+            self._apply_input(self.base, inputs_kept.pop())
+        self._apply_input(self.now, inputs_kept.add(entry))
+        return [self._height_shift()]
 
-    def _apply(self, estimate: HeightEstimate, one: HeightInput) -> None:
-        t, source, value, variance = one
+    def _apply_input(self, estimate: HeightEstimate, entry: HeightInput) -> None:
+        t, source, value, variance = entry
         if source == MOVE:
             estimate.move(value, variance)
         else:

@@ -1,6 +1,6 @@
 """Recent inputs of the height filter.
 
-A lift ride is known only after it has ended; all inputs since it started are then used again."""
+An elevator ride is known only after it has ended; all inputs since its start are then processed again."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from ...types.attrs import define, field
 from ...types.vector import single
 
 HeightInput = tuple[float, int, float, float]
-"""Time in s, source (left barometer, right barometer or move), value in m and its variance in m^2."""
+"""Time, s; source (left barometer, right barometer or change of the correction); value, m; its variance, m^2."""
 
 PackedInput = tuple[int, int, int, float]
-"""A `HeightInput` as it is kept: ticks, source, 1/`PARTS_PER_M` m, and the variance rounded to float32."""
+"""A `HeightInput` in compact form: ticks, source, value in units of 1/`PARTS_PER_M` m, variance as float32."""
 TICKS_PER_S = 100.0
-"""Ticks of the time in one second."""
+"""Number of ticks in a second."""
 PARTS_PER_M = 10_000.0
-"""Parts of the value in one metre."""
+"""Number of units of the value in a metre."""
 
 
 @define
 class RecentInputs:
-    """The newest inputs, in the order in which they were used."""
+    """The newest inputs, in the order in which the filter processed them."""
 
     rows: deque[PackedInput] = field(factory=deque)
 
-    def add(self, item: HeightInput) -> HeightInput:
-        """Add one input and return it as it is kept, rounded: that value is to be used."""
-        t, source, value, variance = item
+    def add(self, entry: HeightInput) -> HeightInput:
+        """Add an input and return it as rounded for storage; the filter must process the rounded input."""
+        t, source, value, variance = entry
         row = (round(t * TICKS_PER_S), source, round(value * PARTS_PER_M), single(variance))
         self.rows.append(row)
         return _unpack(row)
@@ -49,14 +49,14 @@ class RecentInputs:
         return _unpack(self.rows.popleft())
 
     def all(self) -> list[HeightInput]:
-        """Return all inputs in their order."""
+        """Return all inputs, oldest first."""
         return [_unpack(row) for row in self.rows]
 
     def replace(self, inputs: Iterable[HeightInput]) -> None:
         """Replace all inputs by these."""
         self.clear()
-        for one in inputs:
-            self.add(one)
+        for entry in inputs:
+            self.add(entry)
 
     def clear(self) -> None:
         """Remove all inputs."""

@@ -1,4 +1,4 @@
-"""Landings: the places at which a floor plan's stairs and lifts are entered and left."""
+"""Landings: the places at which stairs and elevators of a floor plan are entered and left."""
 
 from __future__ import annotations
 
@@ -7,91 +7,93 @@ from math import exp, hypot
 from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types.attrs import frozen
 
-REACH = 5.0
-"""Largest distance on the track between a wearer and the stairs or lift that he enters, m."""
+LANDING_REACH = 5.0
+"""Largest distance between the track and the stairs or elevator that the wearer enters, m."""
 DISTANCE_DEVIATION = 2.5
-"""Standard deviation of that distance, m."""
+"""Standard deviation of the distance between the track and the landing that is entered, m."""
 NEAR_LANDING = 4.0
-"""Distance from stairs or a lift within which the wearer may be on them, m."""
+"""Largest distance from stairs or an elevator at which the wearer may be on them already, m."""
 HEIGHT_ERROR = 0.35
-"""Standard deviation of a reported height, m, as a constant part."""
+"""Standard deviation of a reported height: constant part, m."""
 HEIGHT_ERROR_SHARE = 0.12
-"""Standard deviation of a reported height, m per m, which adds to `HEIGHT_ERROR`."""
-LOW, HIGH = 2.4, 5.0
-"""Usual heights of a storey, m: least and largest."""
-LEAST_LIKELY = 0.02
-"""Least likelihood of an exit, as a share of the best one's."""
+"""Standard deviation of a reported height: part that grows with the height, m per m."""
+MIN_STOREY_HEIGHT, MAX_STOREY_HEIGHT = 2.4, 5.0
+"""Least and largest usual height of a storey, m."""
+MIN_EXIT_LIKELIHOOD = 0.02
+"""Least likelihood of an exit, as a share of that of the likeliest exit."""
 
 
 @frozen
 class Landing:
-    """A stop of a connector on one level."""
+    """A landing: the stop of a connector (stairs or elevator) on one level."""
 
     index: int
     """Index of the stop among all stops of the plan, plus one."""
     connector: int
-    """Index of its connector in the plan."""
+    """Index of the connector in the plan."""
     kind: ConnectorKind
     level: int
-    """Index of its level in the plan."""
+    """Index of the level in the plan."""
     ordinal: int
-    """Ordinal of its level among the storeys."""
+    """Ordinal of the level among the storeys."""
     elevation: float
-    """Elevation of its level, m."""
+    """Elevation of the level, m."""
     place: Point
     """Place, m, plan frame."""
 
 
-def landings(plan: FloorPlan) -> list[Landing]:
+def list_landings(plan: FloorPlan) -> list[Landing]:
     """Return all landings, connector by connector, from the lowest up."""
     levels = {level.id: k for k, level in enumerate(plan.levels)}
-    found: list[Landing] = []
+    stops: list[Landing] = []
     for c, connector in enumerate(plan.connectors):
         for stop in connector.stops:
             k = levels.get(stop.level)
             if k is not None:
                 level = plan.levels[k]
-                number = len(found) + 1
-                found.append(Landing(number, c, connector.kind, k, level.ordinal, level.elevation, stop.place))
-    return found
+                number = len(stops) + 1
+                stops.append(Landing(number, c, connector.kind, k, level.ordinal, level.elevation, stop.place))
+    return stops
 
 
-def nearest(stops: list[Landing], kind: ConnectorKind, level: int, x: float, y: float) -> tuple[Landing, float] | None:
-    """Return the nearest landing of a kind on a level, and its likelihood for a wearer at (x, y); None out of reach."""
-    best, distance = None, REACH
+def find_nearest_landing(
+    stops: list[Landing], kind: ConnectorKind, level: int, x: float, y: float
+) -> tuple[Landing, float] | None:
+    """Return the landing nearest to (x, y), m, and its likelihood; None beyond `LANDING_REACH`."""
+    best, distance = None, LANDING_REACH
     for landing in stops:
         if landing.kind is kind and landing.level == level:
-            away = hypot(landing.place[0] - x, landing.place[1] - y)
-            if away <= distance:
-                best, distance = landing, away
+            new_distance = hypot(landing.place[0] - x, landing.place[1] - y)
+            if new_distance <= distance:
+                best, distance = landing, new_distance
     return None if best is None else (best, exp(-0.5 * (distance / DISTANCE_DEVIATION) ** 2))
 
 
-def ways_out(
+def find_exits(
     plan: FloorPlan, stops: list[Landing], entered: Landing, up: bool, height: float | None
 ) -> list[tuple[Landing, float]]:
-    """Return the exits for a wearer who entered there and gained `height` m (None: any), with their likelihoods.
+    """Return the exits after entering at `entered` and a height change of `height`, m (None: any), with likelihoods.
 
-    Where the plan has no heights, all usual heights of a storey are alike."""
-    ways = []
-    for landing in _along(stops, entered):
+    When the plan has no heights, all usual heights of a storey are equally likely."""
+    exits = []
+    for landing in _list_connector_landings(stops, entered):
         rise = landing.elevation - entered.elevation
         if rise > 0.0 if up else rise < 0.0:
             low = high = abs(rise)
             if not plan.heights_known:
                 storeys = max(abs(landing.ordinal - entered.ordinal), 1)
-                low, high = LOW * storeys, HIGH * storeys
-            out = 0.0 if height is None else max(low - height, height - high, 0.0)
-            off = out / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low)
-            ways.append((landing, exp(-0.5 * min(off * off, 1000.0))))
-    most = max([weight for _, weight in ways], default=0.0)
+                low, high = MIN_STOREY_HEIGHT * storeys, MAX_STOREY_HEIGHT * storeys
+            misfit = 0.0 if height is None else max(low - height, height - high, 0.0)
+            deviation = misfit / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low)
+            exits.append((landing, exp(-0.5 * min(deviation * deviation, 1000.0))))
+    most = max([weight for _, weight in exits], default=0.0)
     if most <= 0.0:
-        return [(landing, 1.0 / len(ways)) for landing, _ in ways]
-    return [(landing, weight / most) for landing, weight in ways if weight >= LEAST_LIKELY * most]
+        return [(landing, 1.0 / len(exits)) for landing, _ in exits]
+    return [(landing, weight / most) for landing, weight in exits if weight >= MIN_EXIT_LIKELIHOOD * most]
 
 
-def _along(stops: list[Landing], entered: Landing) -> list[Landing]:
-    """Return the landings of the same connector: they are consecutive."""
+def _list_connector_landings(stops: list[Landing], entered: Landing) -> list[Landing]:
+    """Return the landings of the same connector, which are consecutive."""
     first = last = entered.index - 1
     while first > 0 and stops[first - 1].connector == entered.connector:
         first -= 1
@@ -101,5 +103,5 @@ def _along(stops: list[Landing], entered: Landing) -> list[Landing]:
 
 
 def is_near_landing(stops: list[Landing], level: int, x: float, y: float) -> bool:
-    """Return whether a wearer at (x, y), m, may be on stairs or in a lift already."""
+    """Return whether a wearer at (x, y), m, may already be on stairs or in an elevator."""
     return any([stop.level == level and hypot(stop.place[0] - x, stop.place[1] - y) < NEAR_LANDING for stop in stops])

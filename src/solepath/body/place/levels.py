@@ -1,8 +1,8 @@
-"""Changes of level: every row is followed on each level that it may be on.
+"""Changes of level on stairs and in elevators, followed on each level that is possible.
 
-Activities are evidence, not facts: level walking is taken for stairs, and stairs down for stairs up. Therefore a wearer
-who may have changed level is followed on either level, and in either direction, each with its probability; the walls
-and later events decide."""
+Activities are uncertain: level walking may be reported as stairs, and stairs down as stairs up. Therefore, after a
+possible change of level, there are rows (hypotheses) for both levels and both directions, each with its probability.
+The walls of the plan and later events decide between them."""
 
 from __future__ import annotations
 
@@ -14,122 +14,126 @@ from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
-from .arrivals import all_exits, changing_level, exits
-from .landings import Landing, landings, ways_out
+from .arrivals import find_level_changes, rows_at_all_exits, rows_at_exits
+from .landings import Landing, find_exits, list_landings
 from .noise import next_random
 from .place_hypotheses import PlaceHypotheses
-from .reference import Arrived, Held, References
-from .rows import Row, resampled, rounded
+from .reference import LevelChangePossible, LevelReached, References
+from .rows import Row, resampled, round_rows
 from .stride_scale import StrideScale
 
 KNOWN_ROWS = 64
-"""Number of rows that are kept once the place is known."""
-LONGEST_JUMP = 100.0
-"""Longest move of the track that is used, m."""
+"""Number of rows that are kept when the place is known."""
+MAX_JUMP = 100.0
+"""Longest move of the track between two positions that is used, m."""
 DEGRADED_FACTOR = 1.5
-"""Factor of the errors of a degraded stride: few lack samples, most only a peak beyond the sensor's range."""
+"""Factor of the errors of a degraded stride, which mostly lacks only a clipped peak, rarely samples."""
 SAME_STAIRS_TIME = 10.0
-"""Time after an arrival in which stairs are taken for the same ones, s."""
-LEAST_SHARE = 0.02
-"""Least share of the weight near any landing; with less, the wearer was not where the plan had him."""
-OLD_SHARE = {ConnectorKind.STAIRS: 0.85, ConnectorKind.LIFT: 0.5}
-"""Share of the weight that the old places then keep, against the landings: level steps may be taken for stairs."""
-BOTH_LEVELS = (0.3, 0.8)
-"""Limits, as shares of the climb to the next landing, between which the wearer may be on either level.
-
-The height is that of counted steps."""
-LEAST_SURE = 0.3
-"""Least certainty of an arrival for which the wearer is searched elsewhere."""
+"""Time after an arrival, s, in which stairs count as the rest of the same stairs."""
+MIN_LANDING_SHARE = 0.02
+"""Least share of the weight near any landing; with less, the rows were at wrong places."""
+STAYING_SHARE = {ConnectorKind.STAIRS: 0.85, ConnectorKind.LIFT: 0.5}
+"""Share of the weight that the old rows then keep, because level walking may have been reported as stairs."""
+BOTH_LEVELS_LIMITS = (0.3, 0.8)
+"""Limits, as shares of the climb to the next landing, between which the wearer may be on either level."""
+MIN_CERTAINTY = 0.3
+"""Least certainty of an arrival after which the wearer may be at any landing of the plan."""
 
 
 @define
 class LevelChanges(PlaceHypotheses):
-    """Changes the level of the rows near stairs or a lift when the wearer is reported to be on them."""
+    """Changes the level of rows near stairs or an elevator when the wearer is reported to be on them."""
 
     last_place: Vec3 = field(default=ZERO, init=False)
-    """Place up to which the track has been followed, m."""
+    """Newest position of the track that was used, m, world frame."""
     references: References = field(factory=References, init=False)
     stride_scale: StrideScale = field(factory=StrideScale, init=False)
     level_uncertain: bool = field(default=False, init=False)
-    """Flag: the level follows only from the reported direction of stairs, which is easily wrong."""
+    """Flag: the level depends on the reported direction of stairs, which is often wrong."""
     arrived_at: float | None = field(default=None, init=False)
-    """Time of the last arrival on another level, s."""
+    """Time of the last arrival on another level, s; None before any."""
 
-    def hold(self, plan: FloorPlan, held: Held) -> None:
-        """Follow the rows near stairs or a lift both as changing level and as staying."""
+    def start_level_change(self, plan: FloorPlan, change: LevelChangePossible) -> None:
+        """Add a row that changes level for each row near stairs or an elevator, and keep the rows that stay."""
         rows = self.rows
         if rows:
             rows = [row for row in rows if not row[7]] or rows
-            self.set_rows(rows + changing_level(plan, rows, held.kind, self.displacement_since(held.t)))
+            self.set_rows(rows + find_level_changes(plan, rows, change.kind, self.displacement_since(change.t)))
 
-    def release(self) -> None:
-        """Stop following changes of level: there was none."""
+    def cancel_level_change(self) -> None:
+        """Remove the rows that change level, because there was no change."""
         rows = self.rows
         walking = [row for row in rows if not row[7]]
-        self.rows = rounded(walking or [(x, y, a, b, w, level, came, 0) for x, y, a, b, w, level, came, _ in rows])
+        self.rows = round_rows(
+            walking or [(x, y, a, b, w, level, origin, 0) for x, y, a, b, w, level, origin, _ in rows]
+        )
 
     def displacement_since(self, t: float) -> Point:
-        """Return the displacement of the track since `t` s, m."""
-        x, y, _ = self.references.at(t)
+        """Return the displacement of the track since `t`, s, in m."""
+        x, y, _ = self.references.position_at(t)
         return (
             (self.last_place[0] - x) * self.stride_scale.factor,
             (self.last_place[1] - y) * self.stride_scale.factor,
         )
 
-    def arrive(self, plan: IndexedPlan, arrived: Arrived) -> None:
-        """Continue each row that could be on another level from its landing, and all rows if the arrival is unsure."""
+    def arrive(self, plan: IndexedPlan, arrived: LevelReached) -> None:
+        """Continue each row that may have changed level from its exits, and keep rows that stayed."""
         if not any([connector.kind is arrived.kind for connector in plan.plan.connectors]):
             return  # the plan has no such connector
         rows = self.rows
-        held = [row for row in rows if row[7]]
+        changing = [row for row in rows if row[7]]
         rows = [row for row in rows if not row[7]] or [(*row[:7], 0) for row in rows]
-        if rows and not held:
-            held = changing_level(plan.plan, rows, arrived.kind, self.displacement_since(arrived.t_start))
+        if rows and not changing:
+            changing = find_level_changes(plan.plan, rows, arrived.kind, self.displacement_since(arrived.t_start))
         total = sum([row[4] for row in rows])
-        again = self.arrived_at is not None and arrived.t_start < self.arrived_at + SAME_STAIRS_TIME
-        if held and again and not leads_on(plan.plan, held, arrived.up):
-            self.release()  # the rest of a climb that was already taken for the whole
+        is_same_climb = self.arrived_at is not None and arrived.t_start < self.arrived_at + SAME_STAIRS_TIME
+        if changing and is_same_climb and not has_exit(plan.plan, changing, arrived.up):
+            self.cancel_level_change()  # the rest of a climb that already counted as a whole storey
             return
         self.random = next_random(self.random)
-        there = exits(plan, held, arrived, self.random)
-        found = sum([row[4] for row in there])
-        if found <= LEAST_SHARE * total:
-            if arrived.sure <= LEAST_SURE:
-                self.release()
+        exit_rows = rows_at_exits(plan, changing, arrived, self.random)
+        exit_weight = sum([row[4] for row in exit_rows])
+        if exit_weight <= MIN_LANDING_SHARE * total:
+            if arrived.certainty <= MIN_CERTAINTY:
+                self.cancel_level_change()
                 return
-            there = all_exits(self.scatter, plan, arrived, self.settings.most)
+            exit_rows = rows_at_all_exits(self.scatter, plan, arrived, self.settings.most)
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
-            found = sum([row[4] for row in there])
-            sure = 1.0 - OLD_SHARE[arrived.kind]
-            k = total * sure / (1.0 - sure) / found if found > 0.0 and total > 0.0 else 1.0
+            exit_weight = sum([row[4] for row in exit_rows])
+            landing_share = 1.0 - STAYING_SHARE[arrived.kind]
+            k = (
+                total * landing_share / (1.0 - landing_share) / exit_weight
+                if exit_weight > 0.0 and total > 0.0
+                else 1.0
+            )
         else:
-            k = arrived.sure / (1.0 - arrived.sure)
+            k = arrived.certainty / (1.0 - arrived.certainty)
             self.level_uncertain = False
         self.arrived_at = arrived.t
-        there = [(x, y, a, b, k * w, level, came, 0) for x, y, a, b, w, level, came, _ in there]
-        if len(there) > self.settings.most:
-            there = self.thin(there, self.settings.most)
-        there = self._move_to_now(plan, there, arrived.t) + resampled(rows, KNOWN_ROWS, 0.5)
-        if there:
-            self.set_rows(there)
+        exit_rows = [(x, y, a, b, k * w, level, origin, 0) for x, y, a, b, w, level, origin, _ in exit_rows]
+        if len(exit_rows) > self.settings.most:
+            exit_rows = self.thin(exit_rows, self.settings.most)
+        exit_rows = self._move_to_now(plan, exit_rows, arrived.t) + resampled(rows, KNOWN_ROWS, 0.5)
+        if exit_rows:
+            self.set_rows(exit_rows)
 
     def _move_to_now(self, plan: IndexedPlan, rows: list[Row], t: float) -> list[Row]:
-        """Return rows that stand where the wearer was at `t` s, moved to where the track is now."""
-        way = self.references.after(t)
-        for (x, y, _), (x1, y1, _) in zip(way, way[1:], strict=False):
+        """Return rows of the time `t`, s, moved along the track up to now."""
+        path = self.references.path_since(t)
+        for (x, y, _), (x1, y1, _) in zip(path, path[1:], strict=False):
             move = ((x1 - x) * self.stride_scale.factor, (y1 - y) * self.stride_scale.factor)
-            if rows and move != (0.0, 0.0) and hypot(*move) < LONGEST_JUMP:
+            if rows and move != (0.0, 0.0) and hypot(*move) < MAX_JUMP:
                 rows = self.move_rows(plan, rows, move, DEGRADED_FACTOR, 0.0)
         return rows
 
-    def with_levels(self, plan: FloorPlan, rows: list[Row], here: WearerMoved) -> tuple[list[Row], dict[int, float]]:
-        """Return the rows with the level that each is nearer to, and the height of the wearer by landing of entry, m.
+    def assign_levels(self, plan: FloorPlan, rows: list[Row], here: WearerMoved) -> tuple[list[Row], dict[int, float]]:
+        """Return the rows, with rows that change level on the nearer level, and their heights by landing of entry, m.
 
-        About half-way a row is on either level. The height is no further than the next landing."""
+        About half-way, such rows alternate between both levels. Heights are limited to the next landing."""
         entered = {row[7] for row in rows if row[7]}
         if not entered:
             return rows, {}
-        stops = landings(plan)
+        stops = list_landings(plan)
         heights: dict[int, float] = {}
         levels: dict[int, tuple[int, int]] = {}
         for index in sorted(entered):
@@ -137,31 +141,33 @@ class LevelChanges(PlaceHypotheses):
             height, above = self._height_gained(plan, stops, stop, here)
             heights[index] = stop.elevation + height
             rise = 0.0 if above is None else abs(above.elevation - stop.elevation)
-            here_still = above is None or abs(height) < BOTH_LEVELS[1] * rise
-            there = above is not None and abs(height) > BOTH_LEVELS[0] * rise
+            is_near_entry = above is None or abs(height) < BOTH_LEVELS_LIMITS[1] * rise
+            is_near_next = above is not None and abs(height) > BOTH_LEVELS_LIMITS[0] * rise
             next_level = stop.level if above is None else above.level
-            levels[index] = (stop.level if here_still else next_level, next_level if there else stop.level)
-        shown = [(*row[:5], levels[row[7]][k % 2], *row[6:]) if row[7] else row for k, row in enumerate(rows)]
-        return shown, heights
+            levels[index] = (stop.level if is_near_entry else next_level, next_level if is_near_next else stop.level)
+        rows_with_levels = [
+            (*row[:5], levels[row[7]][k % 2], *row[6:]) if row[7] else row for k, row in enumerate(rows)
+        ]
+        return rows_with_levels, heights
 
     def _height_gained(
         self, plan: FloorPlan, stops: list[Landing], entered: Landing, here: WearerMoved
     ) -> tuple[float, Landing | None]:
-        """Return the height of the rows that change level above their landing, m, and the next landing on their way."""
+        """Return the height above the landing `entered` of rows that change level, m, and the next landing."""
         passage = self.references.passage
         if passage is None:
             return 0.0, None
-        up = passage.up > 0
-        ways = ways_out(plan, stops, entered, up, None) or ways_out(plan, stops, entered, not up, None)
-        if not ways:
+        up = passage.net_up > 0
+        exits = find_exits(plan, stops, entered, up, None) or find_exits(plan, stops, entered, not up, None)
+        if not exits:
             return 0.0, None
-        above = min([way for way, _ in ways], key=lambda way: abs(way.elevation - entered.elevation))
+        above = min([landing for landing, _ in exits], key=lambda landing: abs(landing.elevation - entered.elevation))
         rise = above.elevation - entered.elevation
         height = min(passage.height(here.position) or 0.0, abs(rise))
         return (height if rise > 0.0 else -height), above
 
 
-def leads_on(plan: FloorPlan, held: list[Row], up: bool) -> bool:
-    """Return whether any of the landings that were entered has a way in this direction."""
-    stops: list[Landing] = landings(plan)
-    return any([ways_out(plan, stops, stops[index - 1], up, None) for index in {row[7] for row in held}])
+def has_exit(plan: FloorPlan, changing: list[Row], up: bool) -> bool:
+    """Return whether any of the landings that were entered has an exit in this direction."""
+    stops: list[Landing] = list_landings(plan)
+    return any([find_exits(plan, stops, stops[index - 1], up, None) for index in {row[7] for row in changing}])

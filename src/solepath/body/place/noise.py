@@ -1,13 +1,13 @@
-"""Numbers that look random and are the same on every platform.
+"""Quasi-random numbers that are equal on every platform.
 
-Each row has four numbers from -1 to 1, evenly filled (the additive recurrence of Roberts 2018 in four dimensions:
-multiples of the powers of 1 / 1.16730..., the root of x^5 = x + 1, less their whole part). Consecutive rows from a
-start that `next_random` chooses give all directions alike, and other ones each time."""
+Each entry of the table has four numbers, evenly distributed from -1 to 1. It is the additive recurrence of Roberts 2018
+in four dimensions: fractional parts of multiples of the powers of 1 / 1.16730..., where 1.16730... is the root of x^5 =
+x + 1. Consecutive entries cover all directions evenly; `next_random` chooses the first one."""
 
 from __future__ import annotations
 
-ROWS = 1021
-"""Number of rows: a prime, so that no regular selection of rows repeats early."""
+NOISE_ROWS = 1021
+"""Number of entries: a prime, so that no regular selection of entries repeats early."""
 
 _STEPS = (0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101)
 
@@ -17,9 +17,10 @@ def _row(k: int) -> tuple[float, float, float, float]:
     return (a, b, c, d)
 
 
-NOISE = tuple([_row(k) for k in range(ROWS)])
+NOISE_TABLE = tuple([_row(k) for k in range(NOISE_ROWS)])
+"""Table of quasi-random numbers; each entry has four numbers from -1 to 1."""
 
 
 def next_random(state: int) -> int:
-    """Return the next of 2^31 - 2 numbers (Park and Miller 1988)."""
+    """Return the next of 2^31 - 2 pseudo-random numbers (Park and Miller 1988)."""
     return state * 16807 % 2147483647

@@ -1,15 +1,15 @@
 """Particle filter on the floor plan.
 
 Every particle is a row (rows.py) that moves with random errors (sway.py). A particle that would go through a wall tries
-again with larger errors and less weight; when that fails, it is removed. The others are the places where the wearer can
-be. Random numbers come from a table and a count, so they are the same everywhere."""
+again with larger errors and less weight; when that fails, it is removed. The remaining particles are possible places of
+the wearer. Random numbers come from a table (noise.py), so they are equal on every platform."""
 
 from __future__ import annotations
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define
-from .noise import NOISE, ROWS, next_random
+from .noise import NOISE_ROWS, NOISE_TABLE, next_random
 from .placing import Placing
 from .rows import Row, resampled
 from .sway import sway_rows
@@ -17,7 +17,7 @@ from .sway import sway_rows
 
 @define
 class Particles(Placing):
-    """The particle filter: the default for every recipe."""
+    """The particle filter, the default method of every recipe."""
 
     def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """Return the rows after a move, without those that cannot go there."""
@@ -26,9 +26,9 @@ class Particles(Placing):
 
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
         """Return offsets for the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
-        return NOISE[k % ROWS]
+        return NOISE_TABLE[k % NOISE_ROWS]
 
     def thin(self, rows: list[Row], count: int) -> list[Row]:
-        """Return `count` rows, drawn by their weights."""
+        """Return `count` rows, drawn according to their weights."""
         self.random = next_random(self.random)
         return resampled(rows, count, (self.random % 4093) / 4093.0)

@@ -1,4 +1,4 @@
-"""Passage over stairs or by lift: its duration, height and direction, as far as they are known."""
+"""Passage over stairs or by elevator: its times, height and direction, as far as they are known."""
 
 from __future__ import annotations
 
@@ -8,77 +8,77 @@ from ...floorplan.plan import ConnectorKind
 from ...types import Vec3
 from ...types.attrs import define
 
-RISER = 0.165
-"""Height of one step of a stair, m, where neither track nor plan gives a height."""
-LARGEST_RUN, LANDINGS_LENGTH = 2.5, 4.0
-"""Longest way over stairs as a multiple of their height, and length of landings that adds to it, m."""
+RISER_HEIGHT = 0.165
+"""Height of one riser of stairs, m, used when the track gives no height."""
+MAX_RUN_RATIO, LANDING_LENGTH = 2.5, 4.0
+"""Largest horizontal length of stairs as a multiple of their height, and additional length for landings, m."""
 
 
 @define
 class Passage:
-    """A passage over stairs or by lift."""
+    """A passage over stairs or by elevator."""
 
     kind: ConnectorKind
     t: float
     """Start of the passage, s."""
     start: Vec3
-    """Place on the track at the start, m."""
-    up: int = 0
-    """Number of strides (stairs) or reports (lifts) upwards minus those downwards."""
+    """Position of the track at the start, m."""
+    net_up: int = 0
+    """Number of strides (stairs) or activity reports (elevator) upwards minus the number downwards."""
     left: int = 0
     """Number of strides of the left foot."""
     right: int = 0
     """Number of strides of the right foot."""
     flight_height: float = 0.0
-    """Sum of the heights of flights, m."""
+    """Sum of the heights of the flights, m, positive upwards."""
     t_left: float | None = None
-    """Time at which the wearer left the stairs or the lift, s; None before."""
+    """Time at which the wearer left the stairs or the elevator, s; None before."""
     end: Vec3 | None = None
-    """Place on the track at that time, m."""
+    """Position of the track at `t_left`, m."""
     strides_since: int = 0
-    """Number of strides since then."""
+    """Number of strides since `t_left`."""
 
     def height(self, here: Vec3) -> float | None:
-        """Return the height, m, not negative: by the track if it has one, else by flights or by counted steps."""
-        track = self._track(here)
+        """Return the height, m, not negative, by the track or else by flights or counted risers; None when unknown."""
+        track = self._track_height(here)
         if self.kind is ConnectorKind.LIFT:
             return track if track > 1.0 else None
-        return track if self.measured(here) else max(abs(self.flight_height), self._counted)
+        return track if self.is_measured(here) else max(abs(self.flight_height), self._counted_height)
 
-    def measured(self, here: Vec3) -> bool:
-        """Return whether the track has a height."""
-        track = self._track(here)
-        return track > 0.5 * self._counted and track > 0.3
+    def is_measured(self, here: Vec3) -> bool:
+        """Return whether the height of the track can be used for stairs."""
+        track = self._track_height(here)
+        return track > 0.5 * self._counted_height and track > 0.3
 
-    def _track(self, here: Vec3) -> float:
+    def _track_height(self, here: Vec3) -> float:
         return abs((here if self.end is None else self.end)[2] - self.start[2])
 
     @property
-    def _counted(self) -> float:
-        # a stride of a foot is two steps of the stair; with both feet each step has its own stride
-        # strides reported in the other direction may have led this way, or may not have been on stairs: half of them
-        strides = 0.5 * (self.left + self.right + abs(self.up))
-        return RISER * strides * (1.0 if self.left and self.right else 2.0)
+    def _counted_height(self) -> float:
+        # a stride of one foot climbs two risers; with both feet there is a stride for each riser
+        # strides with the other direction may be wrong or not on stairs: half of them are counted
+        strides = 0.5 * (self.left + self.right + abs(self.net_up))
+        return RISER_HEIGHT * strides * (1.0 if self.left and self.right else 2.0)
 
     @property
     def height_one_way(self) -> float:
-        """Height, m, when all strides led the same way, whatever direction was reported."""
-        return RISER * (self.left + self.right) * (1.0 if self.left and self.right else 2.0)
+        """Height, m, if all strides had the same direction, whatever direction was reported."""
+        return RISER_HEIGHT * (self.left + self.right) * (1.0 if self.left and self.right else 2.0)
 
     @property
     def opposite_share(self) -> float:
-        """Share of the strides that were reported in the other direction than most."""
+        """Share of the strides whose reported direction differs from that of the majority."""
         strides = self.left + self.right
         return (
-            0.5 * (1.0 - abs(self.up) / strides)
-            if self.kind is ConnectorKind.STAIRS and strides > abs(self.up)
+            0.5 * (1.0 - abs(self.net_up) / strides)
+            if self.kind is ConnectorKind.STAIRS and strides > abs(self.net_up)
             else 0.0
         )
 
     def leads_away(self, here: Vec3) -> bool:
-        """Return whether the passage led further away than stairs of its height do."""
+        """Return whether the passage is horizontally longer than stairs of its height can be."""
         if self.kind is ConnectorKind.LIFT:
             return False
         end = here if self.end is None else self.end
-        away = hypot(end[0] - self.start[0], end[1] - self.start[1])
-        return away > LARGEST_RUN * (self.height(end) or 0.0) + LANDINGS_LENGTH
+        distance = hypot(end[0] - self.start[0], end[1] - self.start[1])
+        return distance > MAX_RUN_RATIO * (self.height(end) or 0.0) + LANDING_LENGTH

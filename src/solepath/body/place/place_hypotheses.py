@@ -1,4 +1,4 @@
-"""Hypotheses of the wearer's place, for any method: moves at each stride, across gaps, and on stairs."""
+"""Hypotheses of the wearer's place (rows), for any method: their moves at strides, across gaps and on stairs."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define, field, frozen
 from ..part import Part
-from .noise import NOISE, ROWS, next_random
-from .rows import Row, resampled, rounded
+from .noise import NOISE_ROWS, NOISE_TABLE, next_random
+from .rows import Row, resampled, round_rows
 
-LONGEST_MOVE = 4.0
-"""Longest move between two strides, m; a longer one is across a gap, and its path is not known."""
+MAX_MOVE = 4.0
+"""Longest move between two strides, m; a longer move is across a gap, in which the path is not known."""
 OUTSIDE_WEIGHT = 0.25
-"""Factor of the weight of rows outside of the plan, at each check."""
-ABOUT_TURN = 2.0
-"""Least turn that may be badly wrong, rad: on the spot a foot turns faster than many gyroscopes can measure."""
+"""Factor by which each check reduces the weight of rows outside of the plan."""
+ABOUT_TURN_ANGLE = 2.0
+"""Least turn whose angle may be very wrong, rad, because a turn on the spot exceeds the range of many gyroscopes."""
 WRONG_TURN_SHARE = 0.1
-"""Share of such turns that are wrong."""
-HEADINGS, ROWS_PER_HEADING = 12, 8
-"""Number of headings that are then possible, and number of rows with each of them."""
+"""Share of such turns whose angle is wrong."""
+HEADING_COUNT, ROWS_PER_HEADING = 12, 8
+"""Number of headings that are tried after such a turn, and number of rows for each heading."""
 
 
 @frozen
 class PlaceSettings:
-    """Settings of any method."""
+    """The settings of any method."""
 
     most: int = 260
     """Largest number of rows that are kept."""
@@ -34,7 +34,7 @@ class PlaceSettings:
 
 @define
 class PlaceHypotheses(Part, ABC):
-    """The rows of one wearer; each method has its own way to extend them."""
+    """The rows of one wearer; each method implements how they are extended."""
 
     settings: PlaceSettings = PlaceSettings()
     rows: list[Row] = field(factory=list, init=False)
@@ -44,9 +44,9 @@ class PlaceHypotheses(Part, ABC):
 
     @abstractmethod
     def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
-        """Return the rows after a move (m, track), without those that cannot go there.
+        """Return the rows after a move of the track, m, without rows for which the plan forbids it.
 
-        `rough`: factor of the track's usual errors. `turned`: turn of the wearer in the move, rad, not negative."""
+        `rough` is a factor of the track's usual errors, `turned` the turn of the wearer, rad, not negative."""
 
     @abstractmethod
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
@@ -54,75 +54,75 @@ class PlaceHypotheses(Part, ABC):
 
     @abstractmethod
     def thin(self, rows: list[Row], count: int) -> list[Row]:
-        """Return about `count` rows that stand for all."""
+        """Return about `count` rows that represent the distribution of all rows."""
 
     def set_rows(self, rows: list[Row]) -> None:
-        """Set the rows, or as many as may be kept that stand for them."""
+        """Set the rows, thinned to the largest number that may be kept."""
         most = self.settings.most
-        self.rows = rounded(rows if len(rows) <= most else self.thin(rows, most))
+        self.rows = round_rows(rows if len(rows) <= most else self.thin(rows, most))
 
     def move_rows(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
-        """Return all rows after a move (m, track)."""
+        """Return all rows after a move of the track, m."""
         dx, dy = move
         changing = [row for row in rows if row[7]]
         walking = [row for row in rows if not row[7]] if changing else rows
-        if hypot(dx, dy) > LONGEST_MOVE:
-            walking = self._jumped(plan, walking, move)
+        if hypot(dx, dy) > MAX_MOVE:
+            walking = self._move_across_gap(plan, walking, move)
         elif walking:
             walking = self.extend(plan, walking, move, rough, turned)
-        # on stairs a row follows the track: the walls around them are those of one level or the other
+        # on stairs a row follows the track, because the walls of neither level apply
         moved = [
-            (x + a * dx - b * dy, y + b * dx + a * dy, a, b, w, level, origin, held)
-            for x, y, a, b, w, level, origin, held in changing
+            (x + a * dx - b * dy, y + b * dx + a * dy, a, b, w, level, origin, landing)
+            for x, y, a, b, w, level, origin, landing in changing
         ]
         return moved + walking
 
-    def _jumped(self, plan: IndexedPlan, rows: list[Row], move: Point) -> list[Row]:
-        """Return the rows after a gap: the straight path may cross walls, but its end must be within the plan."""
+    def _move_across_gap(self, plan: IndexedPlan, rows: list[Row], move: Point) -> list[Row]:
+        """Return the rows after a gap, with ends within the plan; the straight line may cross walls."""
         dx, dy = move
-        off = 0.3 * hypot(dx, dy)
+        move_error = 0.3 * hypot(dx, dy)
         x0, y0 = plan.plan.origin
         self.random = next_random(self.random)
         kept: list[Row] = []
-        for k, (x, y, a, b, w, level, origin, held) in enumerate(rows):
+        for k, (x, y, a, b, w, level, origin, landing) in enumerate(rows):
             for j in (0, 1):
-                ex, ey, _, _ = NOISE[(self.random + 2 * k + j) % ROWS]
-                nx, ny = x + a * dx - b * dy + off * ex, y + b * dx + a * dy + off * ey
+                ex, ey, _, _ = NOISE_TABLE[(self.random + 2 * k + j) % NOISE_ROWS]
+                nx, ny = x + a * dx - b * dy + move_error * ex, y + b * dx + a * dy + move_error * ey
                 if plan.inside(level, nx + x0, ny + y0):
-                    kept.append((nx, ny, a, b, w, level, origin, held))
+                    kept.append((nx, ny, a, b, w, level, origin, landing))
         most = self.settings.most
         return kept if len(kept) <= most else resampled(kept, most, 0.5)
 
 
 def penalise_outside(plan: IndexedPlan, rows: list[Row]) -> list[Row]:
-    """Return the rows with less weight where they are outside of the plan."""
+    """Return the rows, with less weight for rows outside of the plan."""
     x0, y0 = plan.plan.origin
-    seen: list[Row] = []
+    weighted: list[Row] = []
     for row in rows:
-        x, y, a, b, w, level, came, held = row
-        there = held or plan.inside(level, x0 + x, y0 + y)
-        seen.append(row if there else (x, y, a, b, OUTSIDE_WEIGHT * w, level, came, held))
-    return seen
+        x, y, a, b, w, level, origin, landing = row
+        there = landing or plan.inside(level, x0 + x, y0 + y)
+        weighted.append(row if there else (x, y, a, b, OUTSIDE_WEIGHT * w, level, origin, landing))
+    return weighted
 
 
-def wrong_turns(plan: IndexedPlan, rows: list[Row], since: Point) -> list[Row]:
-    """Return rows of all headings for an about-turn that the track may have wrong, few and of low weight.
+def rows_after_wrong_turn(plan: IndexedPlan, rows: list[Row], displacement: Point) -> list[Row]:
+    """Return a few rows of low weight in all headings, because the track's angle of an about-turn may be wrong.
 
-    The walls decide between them. `since`: displacement since the turn, m, track."""
-    dx, dy = since
+    The walls decide between them. `displacement` is that of the track since the turn, m."""
+    dx, dy = displacement
     x0, y0 = plan.plan.origin
-    some = resampled([row for row in rows if not row[7]], ROWS_PER_HEADING, 0.5)
-    total, drawn = sum([row[4] for row in rows]), sum([row[4] for row in some])
+    drawn_rows = resampled([row for row in rows if not row[7]], ROWS_PER_HEADING, 0.5)
+    total, drawn = sum([row[4] for row in rows]), sum([row[4] for row in drawn_rows])
     added: list[Row] = []
     if not drawn > 0.0:
         return added
-    share = WRONG_TURN_SHARE * total / drawn / (HEADINGS - 1)
-    for k in range(1, HEADINGS):
-        c, s = cos(2.0 * pi * k / HEADINGS), sin(2.0 * pi * k / HEADINGS)
-        for x, y, a, b, w, level, came, held in some:
+    share = WRONG_TURN_SHARE * total / drawn / (HEADING_COUNT - 1)
+    for k in range(1, HEADING_COUNT):
+        c, s = cos(2.0 * pi * k / HEADING_COUNT), sin(2.0 * pi * k / HEADING_COUNT)
+        for x, y, a, b, w, level, origin, landing in drawn_rows:
             px, py = x - (a * dx - b * dy), y - (b * dx + a * dy)
             a1, b1 = a * c - b * s, b * c + a * s
             nx, ny = px + a1 * dx - b1 * dy, py + b1 * dx + a1 * dy
             if not plan.crosses(level, x0 + px, y0 + py, x0 + nx, y0 + ny):
-                added.append((nx, ny, a1, b1, share * w, level, came, held))
+                added.append((nx, ny, a1, b1, share * w, level, origin, landing))
     return added

@@ -1,11 +1,11 @@
 """Place of the wearer on a floor plan: the common part of both methods.
 
-The track has a shape, but its placement in the plan is not known. Stairs and lifts give a place (a known start does,
-too); walls give the rest: placements of the track that lead through walls are wrong (Liu et al. 2015, section IV.E).
-Stairs and lifts lead to another level, and they end where the plan has them.
+The shape of the track is known, but its position and heading in the plan are not. Stairs, elevators and a known start
+give a position. Walls do the rest: a placement of the track that leads through walls is wrong (Liu et al. 2015, section
+IV.E). Stairs and elevators lead to another level and end where the plan has them.
 
-The track itself is never bent. Latency: a place is reported with the stride that leads there, a level as in
-reference.py."""
+The track itself is not changed. Latency: a place is reported with the stride that leads there; reference.py has the
+latency of a level."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...types.attrs import NOT_SAVED, define, field
 from ..part import MOVEMENTS, PartInput, PartOutput
-from .arrivals import fan, start_error
-from .levels import DEGRADED_FACTOR, KNOWN_ROWS, LONGEST_JUMP, LevelChanges
-from .place_hypotheses import ABOUT_TURN, penalise_outside, wrong_turns
-from .reference import Arrived, Held
-from .rows import ONE_CANDIDATE, Row, candidates_of, effective, rounded
+from .arrivals import spread_rows, start_error
+from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
+from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
+from .reference import LevelChangePossible, LevelReached
+from .rows import ONE_CANDIDATE_SPREAD, Row, candidates_of, effective_count, round_rows
 
 ROWS_PER_CANDIDATE = 30
-"""Number of further rows that are kept for every other candidate of some weight."""
-MOST_OUTSIDE = 6
-"""Number of strides outside of the plan after which the wearer has left it."""
+"""Number of additional rows that are kept for each candidate but the heaviest; fewer for a weight below 0.1."""
+MAX_STRIDES_OUTSIDE = 6
+"""Number of strides outside of the plan after which the place is lost."""
 OUTSIDE_INTERVAL = 4
 """Number of strides between two checks for rows outside of the plan."""
-WIDE_STRIDES = 12
-"""Number of strides until the walls have decided which way an about-turn led."""
-WIDE_LIMIT = 0.5
-"""Largest deviation (rms) at which all places are one candidate until then, m."""
-LONGEST_STUCK = 5.0
-"""Length of the track without a possible row after which the place is lost, m."""
-CLEAR_WEIGHT, FADE_FACTOR, FADE_RADIUS = 0.9, 0.88, 3.0
-"""Weight of a clear candidate, factor of the weight of rows on other levels, and their distance from it, m.
+ABOUT_TURN_STRIDES = 12
+"""Number of strides after an about-turn in which all rows are kept, until the walls have decided its angle."""
+ABOUT_TURN_SPREAD = 0.5
+"""Largest rms deviation of the places that form one candidate during `ABOUT_TURN_STRIDES`, m."""
+MAX_STUCK_DISTANCE = 5.0
+"""Length of track that no row could follow after which the place is lost, m."""
+MIN_CLEAR_WEIGHT, FADE_FACTOR, FADE_RADIUS = 0.9, 0.88, 3.0
+"""Least weight of a clear candidate; factor of the weight of rows on other levels; their largest distance from it, m.
 
-Rows within that distance on another level keep this share of their weight with each stride: floors are often alike, and
-then no wall ever decides."""
+When a candidate is clear, each stride reduces the weight of rows at the same place on other levels, because equal
+floors have equal walls, which cannot decide between levels."""
 
 
 @define
@@ -51,31 +51,31 @@ class Placing(LevelChanges):
 
     plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata=NOT_SAVED)
     """The floor plan; it is not saved, and is set when a session is made or restored."""
-    pending: list[Event] = field(factory=list, init=False)
-    """Events since the wearer's last move."""
+    pending_events: list[Event] = field(factory=list, init=False)
+    """Events since the wearer's last position."""
     start: Start | None = field(default=None, init=False)
     started: bool = field(default=False, init=False)
-    """Flag: the first position was followed."""
+    """Flag: the first position was received."""
     t: float | None = field(default=None, init=False)
     """Time of the newest position, s."""
     stride_count: int = field(default=0, init=False)
     """Number of strides since the last check for rows outside of the plan."""
-    outside: int = field(default=0, init=False)
-    """Number of strides since the wearer was last within the plan."""
-    wide: int = field(default=0, init=False)
-    """Number of strides for which more rows are kept than their weights need."""
-    stuck: float = field(default=0.0, init=False)
-    """Length of the track since a row could move, m."""
-    newest: Placed | None = field(default=None, init=False)
-    """The newest place that was reported, None once it is lost."""
+    strides_outside: int = field(default=0, init=False)
+    """Number of strides since the place was last within the plan."""
+    wide_strides: int = field(default=0, init=False)
+    """Number of further strides in which all rows are kept."""
+    stuck_distance: float = field(default=0.0, init=False)
+    """Length of track since a row could move, m."""
+    newest_placed: Placed | None = field(default=None, init=False)
+    """Newest place that was reported; None when it is lost."""
 
     @property
     def place(self) -> Placed | None:
         """Place of the wearer on the plan; None while it is not known."""
-        return self.newest
+        return self.newest_placed
 
     def set_out(self, start: Start) -> None:
-        """Set the start of the wearer, before the first `follow`; raises ValueError for values that are no numbers."""
+        """Set the start of the wearer before the first `follow`; raises ValueError for values that are not finite."""
         numbers = (*start.place, start.spread, 0.0 if start.heading is None else start.heading)
         if not all([isfinite(number) for number in numbers]):
             raise ValueError(f"a start's place, heading and spread are numbers, not {numbers}")
@@ -84,14 +84,14 @@ class Placing(LevelChanges):
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive an event and hold it back until the wearer's position after it is known."""
         if isinstance(event, MOVEMENTS):
-            self.pending.append(event)
+            self.pending_events.append(event)
         elif isinstance(event, WearerMoved) and self.plan is not None:
-            events, self.pending = self.pending, []
+            events, self.pending_events = self.pending_events, []
             return self.follow(self.plan, events, event)
         return ()
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
-        """Follow a stride, an activity, or several events, after which the wearer is `here`; never raises."""
+        """Update the rows with events after which the wearer is `here`, and return the place; never raises."""
         outputs: list[Event] = []
         if not all([isfinite(v) for v in (here.t, *here.position)]):
             return outputs
@@ -109,20 +109,20 @@ class Placing(LevelChanges):
         if strides:
             self._move(plan, here, strides, known_at, outputs)
         for event in events:
-            if isinstance(event, TurnMade) and abs(event.angle) > ABOUT_TURN and self.rows:
+            if isinstance(event, TurnMade) and abs(event.angle) > ABOUT_TURN_ANGLE and self.rows:
                 self._add_about_turn(plan, event.t)
         arrived = False
         for reference in self.references.update(plan.plan, events, here):
             match reference:
-                case Held():
-                    self.hold(plan.plan, reference)
-                case Arrived():
+                case LevelChangePossible():
+                    self.start_level_change(plan.plan, reference)
+                case LevelReached():
                     self.arrive(plan, reference)
                     arrived = True
                 case _:
-                    self.release()
+                    self.cancel_level_change()
         if (strides or arrived) and self.rows:
-            outputs.append(self._placed(plan, here, known_at))
+            outputs.append(self._report_place(plan, here, known_at))
         return outputs
 
     def _start(self, plan: IndexedPlan, here: WearerMoved, known_at: float, outputs: list[Event]) -> None:
@@ -134,14 +134,16 @@ class Placing(LevelChanges):
             outputs.append(PlaceLost(t=here.t, known_at=known_at, what=what))
             self.last_place = here.position
             return
-        why_not = start_error(plan, start)
-        if why_not is not None:
-            outputs.append(PlaceLost(t=here.t, known_at=known_at, what=why_not))
+        reason = start_error(plan, start)
+        if reason is not None:
+            outputs.append(PlaceLost(t=here.t, known_at=known_at, what=reason))
             self.last_place = here.position
             return
         level = plan.number(start.level)
         count = self.settings.most if start.heading is None else 2 * KNOWN_ROWS
-        self.rows = rounded(fan(self.scatter, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
+        self.rows = round_rows(
+            spread_rows(self.scatter, plan, level, start.place, start.spread, start.heading, count, 0, 1.0)
+        )
 
     def _move(
         self, plan: IndexedPlan, here: WearerMoved, strides: list[StrideTaken], known_at: float, outputs: list[Event]
@@ -149,10 +151,10 @@ class Placing(LevelChanges):
         """Move all rows with the track since the last stride."""
         x, y, _ = here.position
         move = (x - self.last_place[0], y - self.last_place[1])
-        if not (abs(move[0]) < LONGEST_JUMP and abs(move[1]) < LONGEST_JUMP):
+        if not (abs(move[0]) < MAX_JUMP and abs(move[1]) < MAX_JUMP):
             self.last_place = here.position
             if self.rows:
-                what = f"the track leaps by more than {LONGEST_JUMP:.0f} m"
+                what = f"the track leaps by more than {MAX_JUMP:.0f} m"
                 outputs.append(PlaceLost(t=here.t, known_at=known_at, what=what))
             self._lose_place()
             return
@@ -161,91 +163,99 @@ class Placing(LevelChanges):
         if not rows:
             return
         move = (move[0] * self.stride_scale.factor, move[1] * self.stride_scale.factor)
-        before = self.newest
-        came_from = rows
-        # each foot turns as the wearer does, and each stride contains the turn
+        previous = self.newest_placed
+        previous_rows = rows
+        # in a turn of the wearer both feet turn, so the strides of both contain it
         turned = min(0.5 * sum([abs(stride.heading_change) for stride in strides]), pi)
         rough = DEGRADED_FACTOR if any([stride.degraded for stride in strides]) else 1.0
         rows = self.move_rows(plan, rows, move, rough, turned)
         self.stride_count = (self.stride_count + 1) % OUTSIDE_INTERVAL
         if self.stride_count == 0:
             rows = penalise_outside(plan, rows)
-        stays = _stay(rows, came_from)
-        self.stuck = self.stuck + hypot(*move) if stays else 0.0
-        self.rows = rounded(rows) if self.stuck <= LONGEST_STUCK else []
+        not_moved = _have_not_moved(rows, previous_rows)
+        self.stuck_distance = self.stuck_distance + hypot(*move) if not_moved else 0.0
+        self.rows = round_rows(rows) if self.stuck_distance <= MAX_STUCK_DISTANCE else []
         if not self.rows:
-            where = "" if before is None else f" near ({before.position[0]:.1f}, {before.position[1]:.1f})"
-            level = "" if before is None else f" on level {before.level}"
+            where = "" if previous is None else f" near ({previous.position[0]:.1f}, {previous.position[1]:.1f})"
+            level = "" if previous is None else f" on level {previous.level}"
             outputs.append(
                 PlaceLost(t=here.t, known_at=known_at, what=f"the track goes where the plan has no way{where}{level}")
             )
             self._lose_place()
 
     def _add_about_turn(self, plan: IndexedPlan, t: float) -> None:
-        """Add rows for an about-turn of the wearer that ended at `t` s."""
+        """Add rows for an about-turn of the wearer that ended at `t`, s."""
         rows = self.rows
-        self.set_rows(rows + wrong_turns(plan, rows, self.displacement_since(t)))
-        self.wide = WIDE_STRIDES
+        self.set_rows(rows + rows_after_wrong_turn(plan, rows, self.displacement_since(t)))
+        self.wide_strides = ABOUT_TURN_STRIDES
 
     def _lose_place(self) -> None:
-        self.rows, self.newest, self.outside, self.stuck = [], None, 0, 0.0
+        self.rows, self.newest_placed, self.strides_outside, self.stuck_distance = [], None, 0, 0.0
 
-    def _placed(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
+    def _report_place(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
         rows = self.rows
         known = plan.plan.heights_known
-        shown, heights = self.with_levels(plan.plan, rows, here)
+        rows_with_levels, heights = self.assign_levels(plan.plan, rows, here)
         candidates, spread = candidates_of(
-            shown,
+            rows_with_levels,
             plan.plan,
             heights,
             None if known else here.position[2],
-            ONE_CANDIDATE if self.wide == 0 else WIDE_LIMIT,
+            ONE_CANDIDATE_SPREAD if self.wide_strides == 0 else ABOUT_TURN_SPREAD,
         )
-        first = candidates[0]
-        if len(candidates) == 1 and not plan.inside(plan.number(first.level), first.position[0], first.position[1]):
-            self.outside += 1
-            if self.outside >= MOST_OUTSIDE and self.references.passage is None:
+        heaviest = candidates[0]
+        if len(candidates) == 1 and not plan.inside(
+            plan.number(heaviest.level), heaviest.position[0], heaviest.position[1]
+        ):
+            self.strides_outside += 1
+            if self.strides_outside >= MAX_STRIDES_OUTSIDE and self.references.passage is None:
                 self._lose_place()
-                x, y, _ = first.position
-                what = f"the track leaves the plan near ({x:.1f}, {y:.1f}) on level {first.level}"
+                x, y, _ = heaviest.position
+                what = f"the track leaves the plan near ({x:.1f}, {y:.1f}) on level {heaviest.level}"
                 return PlaceLost(t=here.t, known_at=known_at, what=what)
         else:
-            self.outside = 0
-        others = sum([min(1.0, 10.0 * one.weight) for one in candidates[1:]])
+            self.strides_outside = 0
+        others = sum([min(1.0, 10.0 * candidate.weight) for candidate in candidates[1:]])
         count = min(
             self.settings.most, KNOWN_ROWS + int(ROWS_PER_CANDIDATE * others if others else 8.0 * min(spread, 5.0))
         )
-        if self.wide > 0:
-            self.wide, count = self.wide - 1, self.settings.most
-        few = len(rows) <= 1.25 * count and (self.wide > 0 or effective(rows) >= 0.5 * count)
-        if first.weight >= CLEAR_WEIGHT and len(candidates) > 1 and self.wide == 0 and not self.level_uncertain:
+        if self.wide_strides > 0:
+            self.wide_strides, count = self.wide_strides - 1, self.settings.most
+        is_small = len(rows) <= 1.25 * count and (self.wide_strides > 0 or effective_count(rows) >= 0.5 * count)
+        if (
+            heaviest.weight >= MIN_CLEAR_WEIGHT
+            and len(candidates) > 1
+            and self.wide_strides == 0
+            and not self.level_uncertain
+        ):
             x0, y0 = plan.plan.origin
-            x, y, at = first.position[0] - x0, first.position[1] - y0, plan.number(first.level)
+            x, y, heaviest_level = heaviest.position[0] - x0, heaviest.position[1] - y0, plan.number(heaviest.level)
             rows = [
                 (*row[:4], FADE_FACTOR * row[4], *row[5:])
-                if shown_row[5] != at and (row[0] - x) ** 2 + (row[1] - y) ** 2 < FADE_RADIUS * FADE_RADIUS
+                if row_with_level[5] != heaviest_level
+                and (row[0] - x) ** 2 + (row[1] - y) ** 2 < FADE_RADIUS * FADE_RADIUS
                 else row
-                for row, shown_row in zip(rows, shown, strict=True)
+                for row, row_with_level in zip(rows, rows_with_levels, strict=True)
             ]
-            self.rows = rounded(rows)
-        if not few:
-            self.rows = rounded(self.thin(rows, count))
-        self.newest = Placed(
+            self.rows = round_rows(rows)
+        if not is_small:
+            self.rows = round_rows(self.thin(rows, count))
+        self.newest_placed = Placed(
             t=here.t,
             known_at=known_at,
-            level=first.level,
-            position=first.position,
+            level=heaviest.level,
+            position=heaviest.position,
             spread=spread,
             candidates=candidates,
         )
-        return self.newest
+        return self.newest_placed
 
 
-def _stay(rows: list[Row], before: list[Row]) -> bool:
-    """Return whether all rows are where some were before; most often the first one is not."""
+def _have_not_moved(rows: list[Row], previous: list[Row]) -> bool:
+    """Return whether all rows have places of the previous rows; the first row is checked first, because it is fast."""
     if rows:
         x, y = rows[0][:2]
-        if not any([row[0] == x and row[1] == y for row in before]):
+        if not any([row[0] == x and row[1] == y for row in previous]):
             return False
-    places = {row[:2] for row in before}
+    places = {row[:2] for row in previous}
     return all([row[:2] in places for row in rows])

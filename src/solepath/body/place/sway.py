@@ -1,4 +1,4 @@
-"""Motion model of the rows: heading, stretch and each move have small errors from a table of numbers (noise.py)."""
+"""Motion model of the rows: heading, stretch and moves get small errors from a table of numbers (noise.py)."""
 
 from __future__ import annotations
 
@@ -6,42 +6,44 @@ from math import hypot
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
-from .landings import Landing, is_near_landing, landings
-from .noise import NOISE, ROWS
+from .landings import Landing, is_near_landing, list_landings
+from .noise import NOISE_ROWS, NOISE_TABLE
 from .rows import Row
 
 MOVE_ERROR = 0.06
-"""Error of a move as a share of its length, each way: half the width of an even distribution."""
+"""Largest error of a move on each axis, as a share of its length; errors are evenly distributed."""
 PLACE_ERROR = 0.03
-"""Error of a move that adds to `MOVE_ERROR`, m, each way."""
+"""Largest additional error of a move on each axis, m."""
 HEADING_NOISE = 0.02
-"""Largest turn of the track in the plan with each move, rad."""
+"""Largest error of the heading with each move, rad."""
 TURN_NOISE = 0.12
-"""Largest turn of the track as a share of the wearer's turn, which adds to `HEADING_NOISE`."""
+"""Largest additional error of the heading, as a share of the wearer's turn."""
 STRETCH_NOISE = 0.008
 """Largest change of the stretch with each move, as a share."""
 STRETCH_DECAY = 0.01
 """Share by which the stretch returns to 1 with each move."""
-BENDS = (0.07, 0.16)
-"""Turns to either side that a row tries at a wall, rad."""
+BEND_ANGLES = (0.07, 0.16)
+"""Changes of heading that a row tries at a wall, to either side, rad."""
 BEND_WEIGHT = 0.65
-"""Factor of the row's weight for each such try."""
-WIDE_BENDS = (0.1, 0.25, 0.45)
-"""Turns that all rows try once more when none is left, rad."""
+"""Factor of the row's weight for each angle of `BEND_ANGLES` that is tried."""
+WIDE_BEND_ANGLES = (0.1, 0.25, 0.45)
+"""Changes of heading that all rows try when no row is left, rad."""
 STAY_WEIGHT = 0.6
-"""Factor of the weight of a row that stays at stairs or a lift, since it may be on them already."""
+"""Factor of the weight of a row that stays near stairs or an elevator, because it may be on them already."""
 
 
 def sway_rows(
-    plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float, random: int, both: bool
+    plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float, random: int, both_sides: bool
 ) -> list[Row]:
-    """Return the rows after a move (m, track), without those that cannot go there.
+    """Return the rows after a move of the track, m, without rows for which the plan forbids it.
 
-    `rough`: factor of the track's usual errors; `turned`: turn of the wearer, rad; `random`: first row of the table;
-    `both`: a row that meets a wall continues on either side of it, not only on the first that is free."""
+    `rough` is a factor of the track's usual errors, `turned` the turn of the wearer, rad, `random` the first index in
+    the table. With `both_sides`, a row at a wall continues on both sides, not only on the first that is free."""
     turn = rough * (HEADING_NOISE + TURN_NOISE * turned)
-    kept = _sway(plan, rows, move, rough, turn, random % ROWS, both, BENDS)
-    return kept or _sway(plan, rows, move, 2.0 * rough, 2.0 * turn, (random + 499) % ROWS, both, WIDE_BENDS)
+    kept = _sway(plan, rows, move, rough, turn, random % NOISE_ROWS, both_sides, BEND_ANGLES)
+    return kept or _sway(
+        plan, rows, move, 2.0 * rough, 2.0 * turn, (random + 499) % NOISE_ROWS, both_sides, WIDE_BEND_ANGLES
+    )
 
 
 def _sway(
@@ -51,23 +53,23 @@ def _sway(
     rough: float,
     turn: float,
     k: int,
-    both: bool,
+    both_sides: bool,
     bends: tuple[float, ...],
 ) -> list[Row]:
     dx, dy = move
     x0, y0 = plan.plan.origin
-    way, stretch = rough * (MOVE_ERROR * hypot(dx, dy) + PLACE_ERROR), rough * STRETCH_NOISE
+    move_error, stretch = rough * (MOVE_ERROR * hypot(dx, dy) + PLACE_ERROR), rough * STRETCH_NOISE
     crosses = plan.crosses
     kept: list[Row] = []
     blocked: list[Row] = []
     for row in rows:
         x, y, a, b, w, level, origin, _ = row
-        k = k + 1 if k < ROWS - 1 else 0
-        ex, ey, eh, es = NOISE[k]
+        k = k + 1 if k < NOISE_ROWS - 1 else 0
+        ex, ey, eh, es = NOISE_TABLE[k]
         s = 1.0 + STRETCH_DECAY * (1.0 - a * a - b * b) + stretch * es
         h = turn * eh
         a1, b1 = a * s - b * h, b * s + a * h
-        nx, ny = x + a1 * dx - b1 * dy + way * ex, y + b1 * dx + a1 * dy + way * ey
+        nx, ny = x + a1 * dx - b1 * dy + move_error * ex, y + b1 * dx + a1 * dy + move_error * ey
         if crosses(level, x0 + x, y0 + y, x0 + nx, y0 + ny):
             blocked.append(row)
         else:
@@ -77,25 +79,25 @@ def _sway(
     stops: list[Landing] | None = None
     for row in blocked:
         x, y, a, b, w, level, origin, _ = row
-        k = (k + 367) % ROWS
-        ex, ey, eh, es = NOISE[k]
+        k = (k + 367) % NOISE_ROWS
+        ex, ey, eh, es = NOISE_TABLE[k]
         side, passed = (1.0 if eh > 0.0 else -1.0), False
         for bend in bends:
             w *= BEND_WEIGHT
-            # bend to one side, then to the other: the heading stays corrected
+            # bend to one side, then to the other; the row keeps the changed heading
             for h in (side * bend, -side * bend):
                 h, s = h + turn * es, 1.0 - 0.5 * h * h
                 a1, b1 = a * s - b * h, b * s + a * h
-                nx, ny = x + a1 * dx - b1 * dy + 2.0 * way * ex, y + b1 * dx + a1 * dy + 2.0 * way * ey
+                nx, ny = x + a1 * dx - b1 * dy + 2.0 * move_error * ex, y + b1 * dx + a1 * dy + 2.0 * move_error * ey
                 if not crosses(level, x0 + x, y0 + y, x0 + nx, y0 + ny):
                     kept.append((nx, ny, a1, b1, w, level, origin, 0))
                     passed = True
-                    if not both:
+                    if not both_sides:
                         break
             if passed:
                 break
         if not passed:
-            stops = landings(plan.plan) if stops is None else stops
+            stops = list_landings(plan.plan) if stops is None else stops
             if is_near_landing(stops, level, x0 + x, y0 + y):
                 kept.append((x, y, a, b, row[4] * STAY_WEIGHT, level, origin, 0))
     return kept

@@ -1,4 +1,4 @@
-"""Turn of a foot over the last second or two: the motion by which sides.py judges a stride."""
+"""Integral of a foot's angular rate over the last second or two, which sides.py uses."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from ...types.attrs import define, field
 from ...types.vector import ZERO
 
 Instant = tuple[int, int, int, int]
-"""Time since the previous instant, in ticks, and the three components of the turn, in units of `UNITS_PER_RAD`."""
+"""Time since the previous instant, ticks, and the components of the integral, in units of 1 / `UNITS_PER_RAD` rad."""
 TICKS_PER_S = 2.0**19
-"""Ticks of the time in one second: 2 us each."""
+"""Number of ticks in a second; a tick is 2 us."""
 UNITS_PER_RAD = 2.0**13
-"""Units of the turn in one radian: 0.12 mrad each."""
+"""Number of units in a radian; a unit is 0.12 mrad."""
 
 
 @define
 class RateIntegral:
-    """The integral of the angular rate, rad, sensor frame: its components along axes that are fixed in the foot."""
+    """The integral of the angular rate, rad, by component in the sensor frame (it is not an attitude)."""
 
     t: float | None = None
     """Time of the newest instant, s; None before any."""
@@ -28,19 +28,19 @@ class RateIntegral:
     """The newest instants, oldest first."""
 
     def restart(self, t: float) -> None:
-        """Start a new integral at `t`, s: nothing is known of the turn before."""
+        """Start a new integral at `t`, s, because the turn before is not known."""
         self.t, self.turn, self.rows = t, ZERO, [(0, 0, 0, 0)]
 
-    def add(self, t: float, dt: float, gyro: Vec3, most: int) -> None:
-        """Add an angular rate at `t`, s, in rad/s, that lasted `dt` s since the newest instant, 0.12 s at the most.
+    def add(self, t: float, dt: float, gyro: Vec3, max_instants: int) -> None:
+        """Add an angular rate, rad/s, at `t`, s; `dt`, s, is the time since the newest instant, at most 0.12 s.
 
-        When there are `most` instants, the oldest eighth is discarded."""
+        When there are `max_instants` instants, the oldest eighth is discarded."""
         x, y, z = self.turn
         gx, gy, gz = gyro
         x, y, z = self.turn = (x + dt * gx, y + dt * gy, z + dt * gz)
         self.t = t
-        if len(self.rows) >= most:
-            del self.rows[: most // 8]
+        if len(self.rows) >= max_instants:
+            del self.rows[: max_instants // 8]
         k = UNITS_PER_RAD
         self.rows.append((int(dt * TICKS_PER_S + 0.5), int(x * k), int(y * k), int(z * k)))
 
@@ -59,7 +59,7 @@ class RateIntegral:
         back = [-row[0] / TICKS_PER_S for row in self.rows]
         return [*accumulate([self.t, *back[:0:-1]])][::-1]
 
-    def between(self, i: int, j: int) -> list[Vec3]:
+    def turns_between(self, i: int, j: int) -> list[Vec3]:
         """Return the turn since instant `i` at each instant from `i` to before `j`, rad."""
         _, ax, ay, az = self.rows[i]
         return [

@@ -1,25 +1,25 @@
 """Detection of exchanged feet: the sensors of the left and the right foot are swapped.
 
-There are three kinds of evidence, the surest first:
+There are three kinds of evidence, the most reliable first:
 
-1. Layouts: the left foot's device has the layout of a right insole, and the other way round. A device that reports
-itself to be on the right side is trusted, whatever the other evidence shows.
+1. Layouts: the left foot's device has the layout of a right insole, and the other way round. A device whose layout fits
+its foot is trusted, even if the other evidence contradicts it.
 
-2. Roll of the foot, where there are inertial sensors. A foot lands on the outer edge of its heel: at heel-strike it is
-rolled outwards against its mean over the swing. The axes are the foot's own (up as it stands, left as it turns over the
-toes), so mounting does not matter. A wearer who walks backwards leaves the ground over the heel and looks exchanged by
-these axes. Toes turn further than heels, so a stride counts only if the foot turned further before it left the ground
-than after it landed.
+2. Roll of the foot, with inertial sensors. A foot lands on the outer edge of its heel, so at heel-strike it is rolled
+outwards relative to its mean over the swing. The axes are found from the motion, so mounting does not matter: up is the
+vertical at foot-flat, and left is the axis about which the foot turns over its toes. A wearer who walks backwards turns
+the foot over the heel, and these axes then make the feet look exchanged. The foot turns further over the toes than over
+the heel, so a stride counts only if the foot turned further before toe-off than after heel-strike.
 
-3. Centre of pressure, where there are cells and no inertial sensors: towards toe-off it moves inwards, to the big toe.
-Insoles whose cells are numbered as mirror images of each other look alike when they are exchanged together with their
-layouts; this evidence does not show that.
+3. Centre of pressure, with pressure cells and no inertial sensors. Before toe-off it moves inwards, to the big toe.
+This evidence fails when insoles with mirrored cell numbers are exchanged together with their layouts.
 
-Both feet must agree, over eight strides each. Nothing is reported of feet that hardly roll: a wearer who shuffles or
-climbs may be detected late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs,
-50 to 200 Hz) none is reported as exchanged, and 51 are when they are exchanged; of the others all but 9 have fewer than
-eight strides of a foot. A sensor frame that is left-handed on both feet (the sign of an axis is lost) mirrors the
-motion, and a mirrored left foot looks like a right one: it is reported as exchanged feet, and is as wrong."""
+Both feet must agree, over eight strides each. A wearer who shuffles or climbs hardly rolls the feet, and the exchange
+may be detected late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs, 50 to
+200 Hz), none is reported as exchanged. When their feet are exchanged, 51 are reported; all but 9 of the others have
+fewer than eight strides of a foot. If the sensor frames of both feet are left-handed (an axis has the wrong sign), the
+motion is mirrored and a left foot looks like a right foot. That is reported as exchanged feet; such data is also wrong.
+"""
 
 from __future__ import annotations
 
@@ -33,42 +33,42 @@ from ...types.attrs import define, field
 from ...types.vector import rotate_back
 from .rate_integral import RateIntegral
 
-UP: Vec3 = (0.0, 0.0, 1.0)
+UPWARDS: Vec3 = (0.0, 0.0, 1.0)
 SAMPLE_INTERVAL = 0.0195
 """Shortest interval at which the angular rate is integrated, s: about 50 Hz."""
-LONGEST_GAP = 0.11
-"""Longest gap between samples over which the turn of the foot is still known, s."""
-MOST_INSTANTS = 80
-"""Largest number of instants kept of the turn.
+MAX_GAP = 0.11
+"""Longest gap between samples over which the angular rate is integrated, s."""
+MAX_INSTANTS = 80
+"""Largest number of instants of the integral that are kept.
 
-At 50 Hz they are at least the last 1.4 s of a stride: a push-off, a swing and the loading after it."""
-PUSH_OFF = 0.3
+At 50 Hz they cover at least the last 1.4 s of a stride: push-off, swing and loading."""
+PUSH_OFF_TIME = 0.3
 """Approximate time before toe-off during which the foot turns over its toes, s."""
-LEAST_PUSH_OFF_TURN = 0.25
+MIN_PUSH_OFF_TURN = 0.25
 """Least turn of the foot in the push-off of a stride that counts, rad."""
 TIME_TOLERANCE = 1e-4
-"""Tolerance of the times of instants, s."""
-FEWEST_INSTANTS = 4
+"""Tolerance in comparing the times of instants, s."""
+MIN_INSTANTS = 4
 """Least number of instants in a swing that counts."""
-SHORTEST_STRIDE = 0.4
+MIN_STRIDE_LENGTH = 0.4
 """Length of the shortest stride that counts, m."""
-LARGEST_HEADING_CHANGE = 0.35
+MAX_HEADING_CHANGE = 0.35
 """Largest heading change of a stride that counts, rad."""
 CENTRE_INTERVAL = 0.05
 """Shortest interval between two values of the centre of pressure, s."""
-MOST_CENTRES = 40
+MAX_CENTRES = 40
 """Largest number of values of the centre of pressure that are kept."""
 MEAN_SPAN = 24.0
-"""Span of the running means, strides of one foot."""
-LEAST_STRIDES = 8
+"""Number of strides of one foot that the running means cover."""
+MIN_STRIDES = 8
 """Least number of strides of each foot before anything is reported."""
 ROLL_LIMIT, CENTRE_LIMIT = 0.02, 0.002
-"""Limits above which both feet look exchanged: roll, rad, and movement of the centre of pressure, m."""
+"""Limits above which the feet look exchanged: roll, rad, and movement of the centre of pressure, m."""
 
 
 @define
-class Average:
-    """Running mean and variance; the last `MEAN_SPAN` values count most."""
+class RunningAverage:
+    """The running mean and variance of values; older values fade after `MEAN_SPAN` values."""
 
     count: int = 0
     mean: float = 0.0
@@ -78,50 +78,50 @@ class Average:
         """Add one value."""
         self.count += 1
         k = 1.0 / min(float(self.count), MEAN_SPAN)
-        off = value - self.mean
-        self.mean += k * off
-        self.variance = (1.0 - k) * (self.variance + k * off * off)
+        deviation = value - self.mean
+        self.mean += k * deviation
+        self.variance = (1.0 - k) * (self.variance + k * deviation * deviation)
 
-    def exceeds(self, limit: float, least: int) -> bool:
-        """Return whether there are `least` values and the mean is above the limit by twice its standard error."""
-        if self.count < least:
+    def exceeds(self, limit: float, min_count: int) -> bool:
+        """Return whether there are `min_count` values and the mean exceeds the limit by two standard errors."""
+        if self.count < min_count:
             return False
         return self.mean - 2.0 * sqrt(self.variance / min(float(self.count), MEAN_SPAN)) > limit
 
 
 @define
 class SwapEvidence:
-    """Evidence that one foot is the other one; positive values speak for it."""
+    """The evidence that a device is worn on the other foot; positive values support it."""
 
-    roll: Average = field(factory=Average)
-    """Inward roll of the foot at heel-strike against its mean over the swing, rad."""
-    centre: Average = field(factory=Average)
+    roll: RunningAverage = field(factory=RunningAverage)
+    """Inward roll of the foot at heel-strike minus its mean over the swing, rad."""
+    centre: RunningAverage = field(factory=RunningAverage)
     """Outward movement of the centre of pressure before toe-off, m."""
     mirrored: bool = False
-    """Flag: the layout is the other foot's."""
+    """Flag: the layout is made for the other foot."""
     declared: bool = False
-    """Flag: the device reports itself to be on this foot."""
+    """Flag: the device has reported a layout that is made for this foot."""
     left_axis: Vec3 | None = None
-    """Unit vector to the left, as the foot turns over its toes, sensor frame."""
-    turned: RateIntegral = field(factory=RateIntegral)
+    """Unit vector to the left, the axis of the foot's turn over its toes, sensor frame; None before any stride."""
+    turn_integral: RateIntegral = field(factory=RateIntegral)
     """Integral of the angular rate over the last stride."""
     centre_at: float | None = None
     """Time of the newest value of the centre of pressure, s."""
     centre_ys: list[float] = field(factory=list)
-    """Values of the centre of pressure's y over this contact, m, sole frame."""
+    """Values of the centre of pressure's y in this stance, m, sole frame."""
 
 
 @define
 class Sides:
-    """Detects exchanged feet from the evidence of both; does nothing where a device reports the foot it is on.
+    """Detects exchanged feet from the evidence of both feet, unless a device has reported a layout that fits its foot.
 
-    It costs an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole alone."""
+    Cost: an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole without inertial sensor."""
 
     left: SwapEvidence = field(factory=SwapEvidence, init=False)
     right: SwapEvidence = field(factory=SwapEvidence, init=False)
 
     def update(self, view: FootView) -> bool:
-        """Add one sample of a foot and return whether both feet now look like the other one."""
+        """Add one sample of a foot and return whether both feet now look exchanged."""
         is_left = view.foot is Foot.LEFT
         side = self.left if is_left else self.right
         self.add_sample(side, view)
@@ -131,8 +131,8 @@ class Sides:
         for event in view.events:
             if isinstance(event, StrideTaken):
                 evidence_changed = True
-                _add_landing(side, event, rotate_back(view.attitude, UP))
-                side.turned.keep_newest()
+                _add_landing(side, event, rotate_back(view.attitude, UPWARDS))
+                side.turn_integral.keep_newest()
             elif isinstance(event, ToeOff) and side.centre_ys:
                 evidence_changed = True
                 _add_contact(side, is_left)
@@ -140,10 +140,10 @@ class Sides:
             return False
         layout = view.after.layout
         side.mirrored = layout is not None and layout.foot is not view.foot
-        return self._agree()
+        return self._both_look_swapped()
 
     def add_sample(self, side: SwapEvidence, view: FootView) -> None:
-        """Add one sample of the foot on that side to the evidence."""
+        """Add one sample of a foot to its evidence."""
         if self.left.declared or self.right.declared:
             return
         gyro = view.sample.gyro
@@ -151,75 +151,84 @@ class Sides:
             if view.moved_at is None and view.sample.pressure:
                 _add_centre(side, view.t, None if view.pressed is None else view.pressed.centre_alone)
             return
-        t, turned = view.t, side.turned
-        dt = LONGEST_GAP if turned.t is None else t - turned.t
+        t, rate_integral = view.t, side.turn_integral
+        dt = MAX_GAP if rate_integral.t is None else t - rate_integral.t
         if 0.0 <= dt < SAMPLE_INTERVAL:
             return
-        if 0.0 < dt < LONGEST_GAP:
-            turned.add(t, dt, gyro, MOST_INSTANTS)
+        if 0.0 < dt < MAX_GAP:
+            rate_integral.add(t, dt, gyro, MAX_INSTANTS)
         else:
-            turned.restart(t)
+            rate_integral.restart(t)
 
     def set_layout(self, foot: Foot, layout: Layout) -> None:
-        """Set the layout that the device on `foot` has reported, and with it the foot that it is made for."""
+        """Set the layout that the device on `foot` has reported."""
         side = self.left if foot is Foot.LEFT else self.right
         side.declared = layout.foot is foot
         if side.declared:
             self.reset()
 
     def reset(self) -> None:
-        """Discard the recent motion of both feet, which is not needed any more."""
+        """Discard the recent motion of both feet, which is no longer needed."""
         for side in (self.left, self.right):
-            side.turned.clear()
+            side.turn_integral.clear()
             side.centre_ys = []
 
-    def _agree(self) -> bool:
+    def _both_look_swapped(self) -> bool:
         left, right = self.left, self.right
         if left.mirrored and right.mirrored:
             return True
         if left.declared or right.declared:
             return False
         if left.roll.count or right.roll.count:
-            return left.roll.exceeds(ROLL_LIMIT, LEAST_STRIDES) and right.roll.exceeds(ROLL_LIMIT, LEAST_STRIDES)
-        return left.centre.exceeds(CENTRE_LIMIT, LEAST_STRIDES) and right.centre.exceeds(CENTRE_LIMIT, LEAST_STRIDES)
+            return left.roll.exceeds(ROLL_LIMIT, MIN_STRIDES) and right.roll.exceeds(ROLL_LIMIT, MIN_STRIDES)
+        return left.centre.exceeds(CENTRE_LIMIT, MIN_STRIDES) and right.centre.exceeds(CENTRE_LIMIT, MIN_STRIDES)
 
 
-def _add_landing(side: SwapEvidence, step: StrideTaken, up: Vec3) -> None:
+def _add_landing(side: SwapEvidence, stride: StrideTaken, up: Vec3) -> None:
     """Add the roll of the foot at the heel-strike of a finished stride; `up` is in the sensor frame, at foot-flat."""
-    t_toe_off, t_heel_strike = step.t_toe_off, step.t_heel_strike
-    if t_toe_off is None or t_heel_strike is None or step.degraded:
+    t_toe_off, t_heel_strike = stride.t_toe_off, stride.t_heel_strike
+    if t_toe_off is None or t_heel_strike is None or stride.degraded:
         return
-    if step.length < SHORTEST_STRIDE or abs(step.heading_change) > LARGEST_HEADING_CHANGE:
+    if stride.length < MIN_STRIDE_LENGTH or abs(stride.heading_change) > MAX_HEADING_CHANGE:
         return
-    turned = side.turned
-    times = turned.times()
-    if not times or times[0] > t_toe_off - PUSH_OFF:
+    rate_integral = side.turn_integral
+    times = rate_integral.times()
+    if not times or times[0] > t_toe_off - PUSH_OFF_TIME:
         return
-    off, landed = bisect_right(times, t_toe_off + TIME_TOLERANCE), bisect_right(times, t_heel_strike + TIME_TOLERANCE)
-    if landed - off < FEWEST_INSTANTS:
+    toe_off_index, heel_strike_index = (
+        bisect_right(times, t_toe_off + TIME_TOLERANCE),
+        bisect_right(times, t_heel_strike + TIME_TOLERANCE),
+    )
+    if heel_strike_index - toe_off_index < MIN_INSTANTS:
         return
-    *_, pushed = turned.between(bisect_right(times, t_toe_off - PUSH_OFF + TIME_TOLERANCE) - 1, off)
-    *_, after = turned.between(landed - 1, len(times))
-    if hypot(*pushed) < LEAST_PUSH_OFF_TURN or hypot(*after) > hypot(*pushed):  # the second: the wearer walks backwards
+    *_, push_off_turn = rate_integral.turns_between(
+        bisect_right(times, t_toe_off - PUSH_OFF_TIME + TIME_TOLERANCE) - 1, toe_off_index
+    )
+    *_, landing_turn = rate_integral.turns_between(heel_strike_index - 1, len(times))
+    if hypot(*push_off_turn) < MIN_PUSH_OFF_TURN or hypot(*landing_turn) > hypot(
+        *push_off_turn
+    ):  # the second condition: walking backwards
         return
-    k = 1.0 / hypot(*pushed)
-    x, y, z = pushed
+    k = 1.0 / hypot(*push_off_turn)
+    x, y, z = push_off_turn
     axis = (k * x, k * y, k * z)
     if side.left_axis is not None:
         u, v, w = side.left_axis
         axis = (u + 0.2 * (axis[0] - u), v + 0.2 * (axis[1] - v), w + 0.2 * (axis[2] - w))
     side.left_axis = axis
-    ahead = _ahead(axis, up)
-    if ahead is None:
+    forward = _forward_axis(axis, up)
+    if forward is None:
         return
-    a, b, c = ahead
-    angles = [a * x + b * y + c * z for x, y, z in turned.between(off, landed)]  # right-handed: the left edge rises
+    a, b, c = forward
+    angles = [
+        a * x + b * y + c * z for x, y, z in rate_integral.turns_between(toe_off_index, heel_strike_index)
+    ]  # positive: the left edge rises
     outwards = sum(angles) / len(angles) - angles[-1]
-    side.roll.add(-outwards if step.foot is Foot.LEFT else outwards)
+    side.roll.add(-outwards if stride.foot is Foot.LEFT else outwards)
 
 
-def _ahead(left: Vec3, up: Vec3) -> Vec3 | None:
-    """Return the unit vector to the toe; None when the foot turned about the vertical, not over its toes."""
+def _forward_axis(left: Vec3, up: Vec3) -> Vec3 | None:
+    """Return the unit vector to the toe; None when the left axis is nearly vertical."""
     lx, ly, lz = left
     ux, uy, uz = up
     x, y, z = ly * uz - lz * uy, lz * ux - lx * uz, lx * uy - ly * ux
@@ -235,16 +244,16 @@ def _add_centre(side: SwapEvidence, t: float, centre: tuple[float, float] | None
     if centre is None:
         return
     side.centre_ys.append(centre[1])
-    if len(side.centre_ys) > MOST_CENTRES:
-        del side.centre_ys[: MOST_CENTRES // 2]
+    if len(side.centre_ys) > MAX_CENTRES:
+        del side.centre_ys[: MAX_CENTRES // 2]
 
 
 def _add_contact(side: SwapEvidence, is_left: bool) -> None:
-    """Add the sideways movement of the centre of pressure from the middle of the finished contact to its end."""
+    """Add the lateral movement of the centre of pressure from the middle of the finished stance to its end."""
     ys, side.centre_ys = side.centre_ys, []
     n = len(ys)
     if n < 6:
         return
-    middle, last = ys[n // 3 : n - n // 3], ys[n - n // 6 :]
-    left = sum(last) / len(last) - sum(middle) / len(middle)
+    middle_values, end_values = ys[n // 3 : n - n // 3], ys[n - n // 6 :]
+    left = sum(end_values) / len(end_values) - sum(middle_values) / len(middle_values)
     side.centre.add(left if is_left else -left)

@@ -1,4 +1,4 @@
-"""Wearing faults of any recipe: a foot that falls silent, and left and right exchanged."""
+"""Faults of wearing, for any recipe: a silent foot (no samples during a walk), and exchanged feet."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ LEFT: Final = Foot.LEFT
 
 @define
 class FootSilence:
-    """The time since the last sample of one foot, and whether its silence was reported."""
+    """The time without samples of one foot."""
 
     t: float | None = None
     """Time of the newest sample, s; None before any."""
     strides_since: int = 0
-    """Number of strides that the other foot has taken since then."""
+    """Number of strides that the other foot has taken since `t`."""
     silent: bool = False
     """Flag: the silence of this foot was reported."""
 
@@ -42,10 +42,10 @@ class WearSettings:
 class Wear(Part):
     """Detects a silent foot and exchanged feet from the samples of both feet.
 
-    A foot that gave samples before is silent when the other one has taken `steps` strides, and `seconds` have passed,
-    since its last sample. FootSilent reports that, and FootResumed comes with the sample that ends it. Nothing is
-    reported while nobody walks, nor of a foot that never gave a sample: a recording may be of one foot. Recipes of two
-    feet continue with the one that is left. FeetSwapped is reported once, when `Sides` detects it."""
+    A foot that had samples is silent when, since its last sample, the other foot has taken `steps` strides and
+    `seconds` have passed. FootSilent reports that; FootResumed comes with the foot's next sample. Nothing is reported
+    while the wearer stands, or for a foot that never had a sample, because a recording may be of one foot. Recipes of
+    two feet continue with the other foot. FeetSwapped is reported once, when `Sides` detects exchanged feet."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -57,13 +57,13 @@ class Wear(Part):
     """Flag: exchanged feet were reported."""
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive the layout that the device on a foot may have reported."""
+        """Receive a notice that the device on a foot has reported its layout."""
         if isinstance(event, LayoutReported) and event.site.foot is not None:
             self.sides.set_layout(event.site.foot, event.layout)
         return ()
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add one sample of a foot and return what it reveals: a silent foot, a resumed one, exchanged feet."""
+        """Add one sample of a foot; return events of a silent foot, a resumed foot or exchanged feet."""
         t, events = view.t, view.events
         is_left = view.foot is LEFT
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
@@ -72,24 +72,24 @@ class Wear(Part):
             if not self.swapped:
                 self.sides.add_sample(self.sides.left if is_left else self.sides.right, view)
             return ()
-        found: list[PartOutput] = []
+        outputs: list[PartOutput] = []
         if this.silent:
             this.silent = False
             silence = 0.0 if this.t is None else max(0.0, t - this.t)
-            found.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
+            outputs.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
         this.t = t
         this.strides_since = 0
-        if view.after.covariance is not None:  # there was a stride
+        if view.after.covariance is not None:  # a stride has ended
             other.strides_since += 1
         if other.strides_since and other.t is not None and not other.silent:
             if t < other.t:
-                other.strides_since = 0  # this foot's samples arrive later than the other's, or its clock has restarted
+                other.strides_since = 0  # this foot's samples are late, or its clock has restarted
             elif other.strides_since >= self.settings.steps and t - other.t >= self.settings.seconds:
                 other.silent = True
                 silent_foot = Foot.RIGHT if is_left else LEFT
-                found.append(FootSilent(t=t, known_at=view.known_at, foot=silent_foot, silent_for=t - other.t))
+                outputs.append(FootSilent(t=t, known_at=view.known_at, foot=silent_foot, silent_for=t - other.t))
         if not self.swapped and self.sides.update(view):
             self.swapped = True
             self.sides.reset()
-            found.append(FeetSwapped(t=t, known_at=view.known_at))
-        return found
+            outputs.append(FeetSwapped(t=t, known_at=view.known_at))
+        return outputs
