@@ -10,7 +10,7 @@ import sys
 from solepath import Connected, Disconnected, LinkTrouble, Session, Site, StrideTaken
 from solepath.ble import NATIVE, Backend, BluetoothError, DeviceConfig, Devices
 from solepath.emulate import Bench, Route
-from solepath.emulate.controllers import virtual_air
+from solepath.emulate.controllers import virtual_link
 
 
 async def listen(left: str, right: str, backend: Backend = NATIVE, seconds: float = 600.0) -> None:
@@ -37,7 +37,7 @@ async def emulated() -> None:
     bench = Bench(Route().stand(2.0).walk(4.0, speed=1.3).stop(1.0))
     bench.prepare()
     left, right = (peripheral.address for peripheral in bench.peripherals)
-    async with virtual_air(bench.peripherals) as backend:
+    async with virtual_link(bench.peripherals) as backend:
         bench.walk_from(asyncio.get_running_loop().time() + 1.0)
         await listen(left, right, backend, 8.0)
 

@@ -25,7 +25,7 @@ for recipe in (recipes.DEFAULT, textbook):
     session = Session(recipe)
     strides = [e for e in session.feed(walk.packets) + session.finish() if isinstance(e, StrideTaken)]
     for foot in Foot:
-        found, true = [s for s in strides if s.foot is foot], walk.truth.steps(foot)
+        found, true = [s for s in strides if s.foot is foot], walk.truth.strides(foot)
         # a found stride matches the true one that ends at about the same time (s)
         pairs = [(f, t) for f in found for t in true if abs(f.t_end - t.t_end) < 0.3]
         error = sum(abs(f.length / t.length - 1) for f, t in pairs) / len(pairs)

@@ -31,7 +31,7 @@ from .foot.stance.stance import Detector
 from .types.attrs import evolve, field, frozen
 
 
-def usual(
+def usual_parts(
     track: TrackPart | None = None, activity: ActivityPart | None = None, altitude: Altitude | None = None
 ) -> tuple[Part, ...]:
     """Return the parts of the body in the order that most recipes use.
@@ -56,7 +56,7 @@ class Recipe:
     """Cues, which detect the signs of heel-strike, foot-flat, heel-off and toe-off."""
     insole: InsoleLoads = field(factory=InsoleLoads)
     """Part that converts the readings of pressure cells to load."""
-    parts: tuple[Part, ...] = field(factory=usual)
+    parts: tuple[Part, ...] = field(factory=usual_parts)
     """Parts of the body, in the order in which they receive events (body/part.py)."""
     place: Part | None = None
     """Part that finds the wearer on a floor plan, the last part of a session that has a plan.
@@ -85,7 +85,7 @@ class Recipe:
         return f"<Recipe {self.name}>"
 
 
-DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual(BothFeet(), altitude=Altitude()))
+DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual_parts(BothFeet(), altitude=Altitude()))
 """Recipe with a stance threshold from each gait cycle, a nine-state error-state filter, and both feet in one frame."""
 
 STRAIGHT_CORRIDORS = DEFAULT.exchanged(

@@ -13,10 +13,10 @@ from random import Random
 from measure import RUNS, machine, seconds
 
 from solepath.emulate.routes.building import BUILDING
-from solepath.floorplan.checks import warnings
-from solepath.floorplan.doors import with_doors_cut
-from solepath.floorplan.importers.geojson import text_of
-from solepath.floorplan.importers.reading import plan_of_bytes
+from solepath.floorplan.checks import find_warnings
+from solepath.floorplan.doors import cut_doors
+from solepath.floorplan.importers.geojson import format_floorplan
+from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall
 
@@ -47,7 +47,7 @@ def office(walls: int) -> FloorPlan:
         row += 1
     wide, deep = 3.5 * columns, 4.4 * row
     drawn += [Wall((0.0, deep), (wide, deep)), Wall((wide, 0.0), (wide, deep))]
-    level = with_doors_cut(Level("0", "", 0, 0.0, tuple(drawn), tuple(doors), tuple(rooms)))
+    level = cut_doors(Level("0", "", 0, 0.0, tuple(drawn), tuple(doors), tuple(rooms)))
     return FloorPlan("office", (level,))
 
 
@@ -108,10 +108,10 @@ def main() -> None:
     index, crowd = IndexedPlan(plan), random_moves(plan, PARTICLES, STEP_LENGTH, random)
     one_step = seconds(lambda: [index.crosses(0, x0, y0, x1, y1) for x0, y0, x1, y1 in crowd])
     rows.append((f"{PARTICLES} particles, {len(plan.levels[0].walls)} walls, one step", one_step * 1e3, "ms", ""))
-    text = text_of(BUILDING).encode()
-    rows.append(("two floors of 56 m by 63 m: read", seconds(lambda: plan_of_bytes(text)) * 1e3, "ms", ""))
+    text = format_floorplan(BUILDING).encode()
+    rows.append(("two floors of 56 m by 63 m: read", seconds(lambda: parse_floorplan(text)) * 1e3, "ms", ""))
     rows.append(("two floors of 56 m by 63 m: made ready", seconds(lambda: IndexedPlan(BUILDING)) * 1e3, "ms", ""))
-    rows.append(("two floors of 56 m by 63 m: warnings", seconds(lambda: warnings(BUILDING)) * 1e3, "ms", ""))
+    rows.append(("two floors of 56 m by 63 m: warnings", seconds(lambda: find_warnings(BUILDING)) * 1e3, "ms", ""))
 
     print(f"{machine()}, one used; medians of {RUNS}")
     width = max(len(what) for what, *_ in rows)

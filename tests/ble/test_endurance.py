@@ -95,7 +95,7 @@ class Walked:
 
     def ends(self, foot: Foot) -> list[float]:
         """Return the times between the true strides, at which the foot rests, s."""
-        steps = self.truth.steps(foot)
+        steps = self.truth.strides(foot)
         return [steps[0].t_start, *(step.t_end for step in steps)]
 
     def error(self) -> float:
@@ -151,7 +151,7 @@ def test_a_session_goes_on_through_any_number_of_disconnections_and_every_gap_is
     assert walked.disconnected == cuts
     assert walked.connected == cuts + 2
     assert walked.rejected == 0
-    true = sum(len(walked.truth.steps(foot)) for foot in Foot)
+    true = sum(len(walked.truth.strides(foot)) for foot in Foot)
     assert true > 1.5 * cuts
     assert abs(walked.steps - true) <= 0.02 * true
     # each cut costs samples, so each is a gap; none is longer than it takes to find and set up a device again

@@ -18,7 +18,7 @@ from solepath.emulate.devices.bench import Bench
 from solepath.emulate.sensors import sensortags
 from solepath.emulate.sensors.device import Device
 from solepath.lab.emulated.compare import compare
-from solepath.lab.evaluate.gathered import Gathering
+from solepath.lab.evaluate.gathered import EventCollection
 from solepath.link.devices.cc2541 import PROFILE as CC2541
 from solepath.link.devices.cc2541 import PROFILE_20HZ as CC2541_20HZ
 from solepath.link.devices.cc2650 import PROFILE as CC2650
@@ -156,11 +156,11 @@ def test_sensortags_give_the_steps_of_a_walk_end_to_end(
         configs = [DeviceConfig(worn.site, worn.address, profile) for worn in bench.peripherals]
         packets, started_at = receive(bench, configs, bench.truth().duration, interval)
         shifted = [evolve(packet, t=packet.t - started_at) for packet in packets]
-        gathering = Gathering()
+        collection = EventCollection()
         for event in run_session(shifted, poses=True):
-            gathering.add(event)
-        for foot in compare(bench.truth(), {foot: gathering.foot(foot) for foot in Foot}):
-            true += foot.steps_true
-            found += foot.steps_found
-            invented += foot.steps_invented
+            collection.add(event)
+        for foot in compare(bench.truth(), {foot: collection.foot(foot) for foot in Foot}):
+            true += foot.strides_true
+            found += foot.strides_found
+            invented += foot.strides_invented
     assert 2 * found / (found + invented + true) >= 0.95, f"{found} of {true} found, {invented} invented"

@@ -12,7 +12,7 @@ from views import fed
 
 from solepath import Session
 from solepath.body.activity.activities import Activities, ActivitiesSettings
-from solepath.body.activity.features import COUNT, GYRO
+from solepath.body.activity.features import FEATURE_COUNT, FIRST_GYRO_FEATURE
 from solepath.body.activity.motion import MOTIONS, from_json, load_released_model, to_json
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -95,7 +95,7 @@ def test_a_clock_that_restarts_is_followed() -> None:
     assert events and all(event.t < 100.0 for event in events)
 
 
-@given(st.lists(st.floats(-5.0, 5.0), min_size=COUNT, max_size=COUNT))
+@given(st.lists(st.floats(-5.0, 5.0), min_size=FEATURE_COUNT, max_size=FEATURE_COUNT))
 @settings(max_examples=30)
 def test_the_probabilities_of_the_network_add_up_to_one(features: list[float]) -> None:
     from math import exp, isclose
@@ -107,10 +107,10 @@ def test_the_probabilities_of_the_network_add_up_to_one(features: list[float]) -
 
 
 def test_a_foot_without_a_gyroscope_is_judged_by_its_accelerometer_alone() -> None:
-    model, acc = load_released_model(), [0.1] * GYRO
-    unknown = model.log_probabilities([*acc, 0.0, *[0.3] * (COUNT - GYRO - 1)])
+    model, acc = load_released_model(), [0.1] * FIRST_GYRO_FEATURE
+    unknown = model.log_probabilities([*acc, 0.0, *[0.3] * (FEATURE_COUNT - FIRST_GYRO_FEATURE - 1)])
     assert unknown == model.alone.log_probabilities(acc)
-    assert unknown != model.log_probabilities([*acc, 1.0, *[0.3] * (COUNT - GYRO - 1)])
+    assert unknown != model.log_probabilities([*acc, 1.0, *[0.3] * (FEATURE_COUNT - FIRST_GYRO_FEATURE - 1)])
 
 
 def test_a_model_goes_through_its_file_and_a_snapshot() -> None:

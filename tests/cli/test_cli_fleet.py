@@ -36,7 +36,7 @@ from solepath.fleet.demo.compare import (
     read_events,
     session_events,
 )
-from solepath.fleet.demo.kills import Cost, Kill, Outcome, compared, draw
+from solepath.fleet.demo.kills import Cost, Kill, Outcome, draw, find_event_differences
 from solepath.fleet.demo.stage import Engine
 from solepath.fleet.demo.wearers import Wearers
 from solepath.fleet.parquet import PartFiles
@@ -114,11 +114,11 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
     runs = kept[1] / "runs"
     copied = shutil.copytree(runs / "killed-1" / "events", tmp_path / "events")
     expected = read_events(runs / "uninterrupted" / "events")
-    assert compared(expected, copied) == []
+    assert find_event_differences(expected, copied) == []
     part = parquet.read_table(files(copied)[0])
     lost = part.slice(0, 1).to_pylist()[0]
     parquet.write_table(part.slice(1), files(copied)[0])
-    (found,) = compared(expected, copied)
+    (found,) = find_event_differences(expected, copied)
     assert found.startswith(f"{lost['wearer']}, event {lost['number']} ({lost['event']} at ")
     assert found.endswith(" is missing")
     assert verdict([], [[found]]) == 1
@@ -129,7 +129,7 @@ def test_a_part_that_is_damaged_is_named(kept: Kept, tmp_path: Path) -> None:
     copied = shutil.copytree(kept[1] / "events", tmp_path / "events")
     expected, part = read_events(copied), files(copied)[0]
     part.write_bytes(part.read_bytes()[:-40])
-    (found,) = compared(expected, copied)
+    (found,) = find_event_differences(expected, copied)
     assert str(part) in found and "cannot be read" in found
     with pytest.raises(UnreadableEvents):
         read_events(copied)

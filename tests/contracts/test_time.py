@@ -134,7 +134,7 @@ def steps_of(fed: list[Sample]) -> list[StrideTaken]:
 @pytest.mark.parametrize("seed", range(3))
 def test_jitter_of_the_sample_times_does_not_bend_the_track(seed: int) -> None:
     regular_strides, jittered_strides = steps_of(regular()), steps_of(jittered(seed))
-    assert len(regular_strides) == len(jittered_strides) == len(walker().truth().steps(Foot.LEFT))
+    assert len(regular_strides) == len(jittered_strides) == len(walker().truth().strides(Foot.LEFT))
     for a, b in zip(regular_strides, jittered_strides, strict=True):
         assert b.t_end == pytest.approx(a.t_end, abs=0.02)
         assert b.length == pytest.approx(a.length, abs=0.03)
@@ -160,4 +160,4 @@ def test_lost_packets_are_counted_and_their_gap_degrades_the_step() -> None:
     assert lost.count == len(walk.packets) - len(remaining) == round(gap.duration * 100) - 1
     assert lost.t == pytest.approx(gap.t + 0.01, abs=1e-3)
     assert [stride.degraded for stride in of(StrideTaken, emitted)].count(True) == 1
-    assert len(of(StrideTaken, emitted)) == len(walk.truth.steps(Foot.LEFT))
+    assert len(of(StrideTaken, emitted)) == len(walk.truth.strides(Foot.LEFT))

@@ -10,7 +10,7 @@ from here import EXAMPLES
 from solepath.emulate.routes.building import BUILDING, CABINS, EAST, NORTH, STOREY
 from solepath.emulate.routes.ways import BuildingWalk, case_study, corridor, wandering
 from solepath.emulate.wearers.walker import Walker
-from solepath.floorplan.checks import unusable, warnings
+from solepath.floorplan.checks import find_fault, find_warnings
 from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import ConnectorKind
@@ -26,7 +26,7 @@ def plan() -> IndexedPlan:
 
 
 def test_the_building_has_two_floors_of_56_by_63_metres_with_four_elevators_and_two_staircases() -> None:
-    assert unusable(BUILDING) is None and warnings(BUILDING) == ()
+    assert find_fault(BUILDING) is None and find_warnings(BUILDING) == ()
     assert len(BUILDING.levels) == 2
     for level in BUILDING.levels:
         ends = [point for wall in level.walls for point in (wall.start, wall.end)]

@@ -20,7 +20,7 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.lab.emulated.compare import FootComparison, compare
-from solepath.lab.evaluate.gathered import Gathering
+from solepath.lab.evaluate.gathered import EventCollection
 from solepath.link.decoder import Decoder
 from solepath.types import Sample
 from solepath.wire.insole import parse_frame
@@ -34,11 +34,11 @@ def compared_walk(walk: EmulatedWalk) -> tuple[list[Event], dict[Foot, FootCompa
     """Return the events of a session for a walk, and their comparison with the truth, foot by foot."""
     session = Session(poses=True)
     events = session.feed(walk.packets) + session.finish()
-    gathering = Gathering()
+    collection = EventCollection()
     for event in events:
-        gathering.add(event)
+        collection.add(event)
     feet = {packet.site.foot for packet in walk.packets}
-    compared = compare(walk.truth, {foot: gathering.foot(foot) for foot in Foot if foot in feet})
+    compared = compare(walk.truth, {foot: collection.foot(foot) for foot in Foot if foot in feet})
     return events, {one.foot: one for one in compared}
 
 
@@ -51,8 +51,8 @@ def found_all(compared: Mapping[Foot, FootComparison], least: int) -> None:
     """Check that every true step is found and none invented."""
     assert set(compared) == set(Foot)
     for one in compared.values():
-        assert one.steps_true >= least
-        assert (one.steps_found, one.steps_invented) == (one.steps_true, 0), one.foot
+        assert one.strides_true >= least
+        assert (one.strides_found, one.strides_invented) == (one.strides_true, 0), one.foot
 
 
 AGAIN = pytest.mark.soak
@@ -134,7 +134,7 @@ def test_the_steps_add_up_to_the_turn(name: str, turned: float, radio: Radio) ->
 def test_a_wearer_who_turns_round_on_the_spot_ends_at_the_start(radio: Radio) -> None:
     _, compared = routed("about", radio)
     for one in compared.values():
-        assert one.steps_found >= one.steps_true - 1 and one.steps_invented <= 1
+        assert one.strides_found >= one.strides_true - 1 and one.strides_invented <= 1
         assert one.end_error < 0.5
 
 
@@ -143,7 +143,7 @@ def test_a_minute_of_standing_has_no_step(radio: Radio) -> None:
     few = {site: Insole(cells=24, rate=50.0) for site in (LEFT, RIGHT)}
     events, compared = compared_walk(emulate(Route().stand(60.0), devices=few, radio=radio, seed=1))
     assert of(StrideTaken | HeelStrike | FootFlat | HeelOff | ToeOff, events) == []
-    assert all(one.steps_true == one.steps_invented == 0 for one in compared.values())
+    assert all(one.strides_true == one.strides_invented == 0 for one in compared.values())
 
 
 THIRTY = Route().stand(3.0).walk(30.0, 1.2).stop(3.0)
@@ -178,8 +178,8 @@ def tagged(name: str) -> dict[tuple[int, Foot], FootComparison]:
 
 def f1(compared: Mapping[object, FootComparison]) -> float:
     """Return the F1 score of the steps: 2 found / (true + found + invented)."""
-    found = sum(one.steps_found for one in compared.values())
-    total = sum(one.steps_true + one.steps_found + one.steps_invented for one in compared.values())
+    found = sum(one.strides_found for one in compared.values())
+    total = sum(one.strides_true + one.strides_found + one.strides_invented for one in compared.values())
     return 2.0 * found / total
 
 
@@ -189,11 +189,11 @@ def f1(compared: Mapping[object, FootComparison]) -> float:
 )
 def test_sensor_tags_find_the_steps_of_a_walk(name: str, least: float, length_error: float) -> None:
     compared = tagged(name)
-    assert all(one.steps_true >= 20 for one in compared.values())
+    assert all(one.strides_true >= 20 for one in compared.values())
     assert f1(compared) >= least
     errors = sorted(one.length_errors.mean for one in compared.values() if one.length_errors.mean is not None)
     assert errors[len(errors) // 2] <= length_error
-    assert sum(one.steps_invented for one in compared.values()) <= 1
+    assert sum(one.strides_invented for one in compared.values()) <= 1
 
 
 @pytest.mark.parametrize("name", ["CC2650 at 10 Hz", "CC2541 at 20 Hz"])

@@ -77,7 +77,7 @@ def test_a_straight_walk_ends_after_its_distance() -> None:
 
 def test_a_turn_on_the_spot_is_made_in_small_steps_around_the_body() -> None:
     walker = Walker(Route().stand(1).turn(radians(180)).stop(1), seed=2)
-    steps = [step for foot in Foot for step in walker.truth().steps(foot)]
+    steps = [step for foot in Foot for step in walker.truth().strides(foot)]
     assert len(steps) == 6  # five of 36 degrees, and the other foot beside the last
     assert all(abs(degrees(step.heading_change)) < 90.0 for step in steps)
     assert all(step.length < 0.45 for step in steps)
@@ -88,7 +88,7 @@ def test_walks_start_and_end_with_half_steps() -> None:
         walker = Walker(Route().stand(1).walk(12.0, 1.3).stop(1), Wearer(first_foot=foot_first), seed=3)
         assert all_steps(walker)[0][1] is foot_first
         truth = walker.truth()
-        steps = sorted((step.t_heel_strike, step.length) for foot in Foot for step in truth.steps(foot))
+        steps = sorted((step.t_heel_strike, step.length) for foot in Foot for step in truth.strides(foot))
         lengths = [length for _, length in steps]
         middle = sum(lengths[2:-2]) / len(lengths[2:-2])
         assert lengths[0] == pytest.approx(0.5 * middle, rel=0.15)
@@ -101,7 +101,7 @@ def test_speed_is_step_length_times_cadence() -> None:
         assert Wearer().walk_ratio * cadence * cadence / 60.0 == pytest.approx(speed)
     assert 105 < Wearer().cadence(1.3) < 115
     walker = Walker(Route().stand(1).walk(60.0, 1.3).stop(1), seed=6)
-    one, two = (walker.truth().steps(Foot.LEFT)[k] for k in (3, -3))
+    one, two = (walker.truth().strides(Foot.LEFT)[k] for k in (3, -3))
     positions = walker.truth().pose(Foot.LEFT, [one.t_end, two.t_end]).position[:, 0]
     assert (positions[1] - positions[0]) / (two.t_end - one.t_end) == pytest.approx(1.3, rel=0.02)
 

@@ -62,7 +62,7 @@ def test_feet_land_on_their_marks_within_centimetres(laps: Walker, mode: Walking
     errors = []
     for mark in found:
         stride = walker.plan.strides[mark.foot][mark.step - 1]
-        assert mark.t == stride.foot_flat == walker.truth().steps(mark.foot)[mark.step - 1].t_end
+        assert mark.t == stride.foot_flat == walker.truth().strides(mark.foot)[mark.step - 1].t_end
         errors.append(hypot(stride.end.x - mark.x, stride.end.y - mark.y))
     assert max(errors) < 0.06 and np.sqrt(np.mean(np.square(errors))) == pytest.approx(0.0156, rel=0.3)
     if mode is not None:
@@ -82,7 +82,7 @@ def test_steps_are_labelled_by_the_bend_in_which_they_land() -> None:
         labels = [label for label, before in zip(found[foot], [None, *found[foot]], strict=False) if label != before]
         straight, bends = WalkingMode.STRAIGHT, (WalkingMode.LEFT_TIGHT, WalkingMode.RIGHT_WIDE)
         assert labels[:5] == [straight, bends[0], straight, bends[1], straight]
-        assert len(found[foot]) == len(walker.truth().steps(foot))
+        assert len(found[foot]) == len(walker.truth().strides(foot))
         assert WalkingMode.STANDING in found[foot][-3:]
 
 
@@ -96,7 +96,7 @@ def test_the_corners_of_the_rectangle_are_passed_in_order_and_a_is_stood_on() ->
         # A bend of 0.5 m passes its corner 0.21 m away; the body leans inwards besides.
         assert hypot(corner.body[0] - corner.place[0], corner.body[1] - corner.place[1]) < 0.4
         for foot in Foot:
-            step = walker.truth().steps(foot)[corner.steps[foot] - 1]
+            step = walker.truth().strides(foot)[corner.steps[foot] - 1]
             assert abs(step.t_end - corner.t) < 1.0
             assert hypot(corner.feet[foot][0] - corner.body[0], corner.feet[foot][1] - corner.body[1]) < 0.7
     (a,) = found[3:]

@@ -109,8 +109,8 @@ def test_position_and_velocity_never_jump_and_the_same_seed_goes_the_same_way(na
     assert np.linalg.norm(np.diff(found.position, axis=0), axis=1).max() < max_speed * 1e-4
     assert np.linalg.norm(np.diff(found.velocity, axis=0), axis=1).max() < 250.0 * 1e-4
     assert np.linalg.norm(np.diff(found.acceleration, axis=0), axis=1).max() < max_acceleration_change
-    same, other = (Walker(route, seed=seed).truth().steps(Foot.LEFT) for seed in (6, 7))
-    assert walker.truth().steps(Foot.LEFT) == same != other
+    same, other = (Walker(route, seed=seed).truth().strides(Foot.LEFT) for seed in (6, 7))
+    assert walker.truth().strides(Foot.LEFT) == same != other
 
 
 def test_the_shoe_rolls_without_slip_over_heel_and_forefoot(straight: Walker) -> None:

@@ -17,7 +17,7 @@ from solepath.emulate.sensors.parts import (
     MPU9250,
     RESISTIVE,
     T5400,
-    AttitudePart,
+    AttitudeErrors,
     BarometerErrors,
     Imu,
     TriadErrors,
@@ -134,7 +134,7 @@ def test_cells_have_gain_preload_noise_and_an_end() -> None:
 
 
 @pytest.mark.parametrize("part", [INERTIACUBE3, CRE_CC02, MOVELLA_DOT])
-def test_an_attitude_has_the_slow_errors_of_its_sheet_from_the_start(part: AttitudePart) -> None:
+def test_an_attitude_has_the_slow_errors_of_its_sheet_from_the_start(part: AttitudeErrors) -> None:
     t = np.arange(0.0, 20.0, 0.1)
     true = np.tile((1.0, 0.0, 0.0, 0.0), (len(t), 1))
     read = np.stack([read_attitudes(true, t, part, 0.0, np.random.default_rng(k)) for k in range(300)])
@@ -146,7 +146,7 @@ def test_an_attitude_has_the_slow_errors_of_its_sheet_from_the_start(part: Attit
 
 
 def test_a_device_with_another_north_turns_the_world_about_the_vertical() -> None:
-    part = AttitudePart("ideal", tilt=0.0, heading=0.0)
+    part = AttitudeErrors("ideal", tilt=0.0, heading=0.0)
     true = np.array([[0.8, 0.6, 0.0, 0.0]])
     w, x, y, z = read_attitudes(true, np.zeros(1), part, 0.5, np.random.default_rng(1))[0].tolist()
     assert (w, x, y, z) == pytest.approx(multiply(from_rotation_vector((0.0, 0.0, -0.5)), (0.8, 0.6, 0.0, 0.0)))

@@ -48,7 +48,7 @@ def room_below(walker: Walker, foot: Foot, flight: Flight, t: np.ndarray) -> np.
 def test_both_feet_go_up_exactly_as_high_as_the_flights_and_come_down_again(storey: Walker, foot: Foot) -> None:
     truth = storey.truth()
     assert [flight.up for flight in truth.flights] == [True, True, False, False]
-    climbed = [step.displacement[2] for step in truth.steps(foot)]
+    climbed = [step.displacement[2] for step in truth.strides(foot)]
     assert sum(rise for rise in climbed if rise > 0.0) == pytest.approx(20 * 0.16, abs=1e-9)
     assert sum(climbed) == pytest.approx(0.0, abs=1e-9)
     assert truth.pose(foot, storey.duration).position[0, 2] == pytest.approx(0.0, abs=1e-9)

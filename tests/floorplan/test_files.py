@@ -14,10 +14,10 @@ from floorplans import FILES, archive, plans
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.floorplan.checks import warnings
+from solepath.floorplan.checks import find_warnings
 from solepath.floorplan.importers import reading
-from solepath.floorplan.importers.geojson import text_of, write_floorplan
-from solepath.floorplan.importers.reading import plan_of_bytes, read_floorplan
+from solepath.floorplan.importers.geojson import format_floorplan, write_floorplan
+from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError
 
@@ -61,7 +61,7 @@ def test_a_file_that_does_not_fit_is_rejected_with_the_reason(case: dict[str, An
 
 @given(plans())
 def test_a_plan_written_and_read_again_is_equal(plan: FloorPlan) -> None:
-    again = plan_of_bytes(text_of(plan).encode())
+    again = parse_floorplan(format_floorplan(plan).encode())
     assert again == plan
     assert again.fingerprint == plan.fingerprint
 
@@ -88,20 +88,22 @@ SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]
 
 def test_the_example_of_the_document_is_a_plan() -> None:
     text = (FILES.parent / "floorplan.md").read_text(encoding="utf-8").split("```json")[1].split("```")[0]
-    plan = plan_of_bytes(text.strip().encode())
+    plan = parse_floorplan(text.strip().encode())
     assert not IndexedPlan(plan).crosses(0, 3.5, -0.5, 3.5, 0.5)
-    assert warnings(plan) == ("lift 'A': stops at level '0' only",)
+    assert find_warnings(plan) == ("lift 'A': stops at level '0' only",)
 
 
 def test_doors_of_a_file_are_cut_out_of_its_walls() -> None:
-    plan = plan_of_bytes(geojson(feature("wall", "Polygon", [SQUARE]), feature("door", "LineString", [[4, 0], [5, 0]])))
+    plan = parse_floorplan(
+        geojson(feature("wall", "Polygon", [SQUARE]), feature("door", "LineString", [[4, 0], [5, 0]]))
+    )
     assert not IndexedPlan(plan).crosses(0, 4.5, -1.0, 4.5, 1.0)
     assert IndexedPlan(plan).crosses(0, 5.5, -1.0, 5.5, 1.0)
 
 
 def test_a_room_with_a_hole_does_not_hold_what_is_in_the_hole() -> None:
     hole = [[4, 4], [6, 4], [6, 6], [4, 6], [4, 4]]
-    plan = IndexedPlan(plan_of_bytes(geojson(feature("wall", "Polygon", [SQUARE]),
+    plan = IndexedPlan(parse_floorplan(geojson(feature("wall", "Polygon", [SQUARE]),
                                              feature("room", "Polygon", [SQUARE, hole]))))  # fmt: skip
     assert not plan.inside(0, 5.0, 5.0)
     for x, y in ((2.0, 2.0), (5.0, 2.0), (8.0, 8.0), (3.9, 5.0), (5.0, 6.1)):
@@ -110,10 +112,10 @@ def test_a_room_with_a_hole_does_not_hold_what_is_in_the_hole() -> None:
 
 def test_an_outline_that_does_not_close_is_a_room_and_remarked() -> None:
     room = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 1]]
-    plan = plan_of_bytes(geojson(feature("wall", "Polygon", [SQUARE]), feature("room", "Polygon", [room])))
+    plan = parse_floorplan(geojson(feature("wall", "Polygon", [SQUARE]), feature("room", "Polygon", [room])))
     remark = "feature 2 on level '0': its outline does not close, it ends 1.00 m from where it begins"
     assert plan.remarks == (remark,)
-    assert remark in warnings(plan)
+    assert remark in find_warnings(plan)
     assert IndexedPlan(plan).inside(0, 5.0, 5.0)
 
 
@@ -121,12 +123,12 @@ def test_levels_without_elevations_lie_a_storey_apart_and_nobody_may_rely_on_it(
     upper = {"type": "Feature", "id": 1, "properties": {"feature": "level", "ordinal": 1}, "geometry": None}
     data = geojson(upper, feature("wall", "LineString", SQUARE), feature("lift", "Point", [1, 1], connector="a"),
                    feature("lift", "Point", [1, 2], level=1, connector="a", name="A"))  # fmt: skip
-    plan = plan_of_bytes(data, storey=4.0)
+    plan = parse_floorplan(data, storey=4.0)
     assert [level.elevation for level in plan.levels] == [0.0, 4.0]
     assert not plan.heights_known
     assert [stop.place for stop in plan.connectors[0].stops] == [(1.0, 1.0), (1.0, 2.0)]
     with pytest.raises(FloorPlanError, match="^a storey of 0.1 m cannot be$"):
-        plan_of_bytes(data, storey=0.1)
+        parse_floorplan(data, storey=0.1)
 
 
 def imdf_files() -> dict[str, bytes]:
@@ -138,7 +140,7 @@ def imdf_files() -> dict[str, bytes]:
 def test_an_archive_reads_as_its_folder_does(folder: str, compression: int) -> None:
     other = {"../outside.json": b"{}", "__MACOSX/manifest.txt": b"\x00"}
     packed = archive({**{f"{folder}{name}": data for name, data in imdf_files().items()}, **other}, "", compression)
-    assert plan_of_bytes(packed) == HOUSE
+    assert parse_floorplan(packed) == HOUSE
 
 
 def test_a_bomb_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -146,21 +148,21 @@ def test_a_bomb_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
     bomb = archive({**imdf_files(), "unit.geojson": b" " * 10_000_000})
     assert len(bomb) < 100_000
     with pytest.raises(FloorPlanError, match="unpacked it is larger than"):
-        plan_of_bytes(bomb)
+        parse_floorplan(bomb)
 
 
 def test_a_damaged_or_strangely_packed_archive_is_rejected() -> None:
     packed = archive(imdf_files())
     for damaged in (packed[: len(packed) // 2], b"PK\x03\x04", packed[:200] + b"\xff" * 50 + packed[250:]):
         with pytest.raises(FloorPlanError):
-            plan_of_bytes(damaged)
+            parse_floorplan(damaged)
     with pytest.raises(FloorPlanError, match="manifest.json: is packed in a way that IMDF does not know"):
-        plan_of_bytes(archive(imdf_files(), "", zipfile.ZIP_LZMA))
+        parse_floorplan(archive(imdf_files(), "", zipfile.ZIP_LZMA))
     locked = bytearray(packed)
     for at in (packed.find(b"PK\x03\x04") + 6, packed.find(b"PK\x01\x02") + 8):
         locked[at : at + 2] = struct.pack("<H", 1)  # says that it is encrypted
     with pytest.raises(FloorPlanError, match="damaged archive"):
-        plan_of_bytes(bytes(locked))
+        parse_floorplan(bytes(locked))
 
 
 def test_unreadable_files_are_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -189,7 +191,7 @@ json_values = st.recursive(
 
 def reads_or_rejects(data: bytes) -> None:
     try:
-        plan = plan_of_bytes(data)
+        plan = parse_floorplan(data)
     except FloorPlanError as error:
         assert "\n" not in str(error)
     else:

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath.floorplan.importers.earth import Tangent
-from solepath.floorplan.importers.reading import plan_of_bytes, read_floorplan
+from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError, Point
 
@@ -46,7 +46,7 @@ def plan_of(units: list[dict[str, Any]], levels: list[dict[str, Any]] | None = N
             **others: list[dict[str, Any]]) -> FloorPlan:  # fmt: skip
     files = {"level": levels or [level()], "unit": units, **others}
     collections = {f"{name}.geojson": {"type": "FeatureCollection", "features": some} for name, some in files.items()}
-    return plan_of_bytes(archive({"manifest.json": {"version": "1.0.0", "language": language}, **collections}))
+    return parse_floorplan(archive({"manifest.json": {"version": "1.0.0", "language": language}, **collections}))
 
 
 def test_the_outline_of_a_level_is_a_wall_unless_it_is_outdoors() -> None:
@@ -144,4 +144,4 @@ def test_the_order_and_the_sense_in_which_a_map_was_drawn_make_no_difference(dat
             first = data.draw(st.integers(0, len(ring) - 1))
             turned = (ring[first:] + ring[:first])[:: data.draw(st.sampled_from([1, -1]))]
             shape["coordinates"] = [[*turned, turned[0]]]
-    assert plan_of_bytes(archive(files)) == HOUSE
+    assert parse_floorplan(archive(files)) == HOUSE

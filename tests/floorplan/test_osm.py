@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from solepath.floorplan.importers.earth import Tangent
 from solepath.floorplan.importers.osm_tags import parse_levels
-from solepath.floorplan.importers.reading import plan_of_bytes
+from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, ConnectorKind, Door, FloorPlan, FloorPlanError, Point
 
@@ -47,7 +47,7 @@ class Map:
         for place, (number, tags) in self._nodes.items():
             latitude, longitude = CORNER.degrees(place)
             nodes.append(f'<node id="{number}" lat="{latitude:.10f}" lon="{longitude:.10f}">{_tags(tags)}</node>')
-        return plan_of_bytes(f'<osm version="0.6">{"".join(nodes)}{"".join(self._rest)}</osm>'.encode())
+        return parse_floorplan(f'<osm version="0.6">{"".join(nodes)}{"".join(self._rest)}</osm>'.encode())
 
 
 def _tags(tags: dict[str, str]) -> str:

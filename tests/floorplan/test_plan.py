@@ -10,8 +10,8 @@ from floorplans import FILES, doors, plans, walls
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.floorplan.checks import unusable, warnings
-from solepath.floorplan.doors import with_doors_cut
+from solepath.floorplan.checks import find_fault, find_warnings
+from solepath.floorplan.doors import cut_doors
 from solepath.floorplan.importers.reading import read_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import (
@@ -105,8 +105,8 @@ UNUSABLE = [
 
 @pytest.mark.parametrize(("plan", "message"), UNUSABLE, ids=[message[:40] for _, message in UNUSABLE])
 def test_a_plan_that_cannot_be_used_is_rejected_in_one_line(plan: FloorPlan, message: str) -> None:
-    assert unusable(plan) == message
-    assert warnings(plan) == ()
+    assert find_fault(plan) == message
+    assert find_warnings(plan) == ()
     with pytest.raises(FloorPlanError):
         IndexedPlan(plan)
 
@@ -114,16 +114,16 @@ def test_a_plan_that_cannot_be_used_is_rejected_in_one_line(plan: FloorPlan, mes
 @settings(max_examples=12)
 @given(plans())
 def test_plans_within_the_limits_can_be_used_and_remarked_upon(plan: FloorPlan) -> None:
-    assert unusable(plan) is None
-    assert all(line and "\n" not in line for line in warnings(plan))
+    assert find_fault(plan) is None
+    assert all(line and "\n" not in line for line in find_warnings(plan))
 
 
 def test_a_closed_house_with_stairs_gives_no_warning() -> None:
-    assert warnings(evolve(HOUSE, heights_known=True)) == ()
+    assert find_warnings(evolve(HOUSE, heights_known=True)) == ()
 
 
 def test_assumed_heights_are_a_warning() -> None:
-    assert warnings(HOUSE) == ("the plan does not say how high its levels lie",)
+    assert find_warnings(HOUSE) == ("the plan does not say how high its levels lie",)
 
 
 def test_a_gap_in_the_outer_wall_is_a_warning_and_a_door_in_it_is_not() -> None:
@@ -131,25 +131,25 @@ def test_a_gap_in_the_outer_wall_is_a_warning_and_a_door_in_it_is_not() -> None:
     known = evolve(HOUSE, heights_known=True)
     for rooms in ((), (((0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (0.0, 10.0)),)):
         open_level = Level("0", "", 0, 0.0, gap, (), rooms)
-        found = warnings(evolve(known, levels=(open_level, *HOUSE.levels[1:])))
+        found = find_warnings(evolve(known, levels=(open_level, *HOUSE.levels[1:])))
         assert len(found) == 1
         assert found[0].startswith("level '0': its walls do not close near (1")
         with_door = evolve(open_level, doors=(Door((10.0, 0.0), (11.0, 0.0)),))
-        assert warnings(evolve(known, levels=(with_door, *HOUSE.levels[1:]))) == ()
+        assert find_warnings(evolve(known, levels=(with_door, *HOUSE.levels[1:]))) == ()
 
 
 def test_a_door_drawn_on_the_other_face_of_a_wall_is_no_gap() -> None:
     for off in (0.05, 0.13, 0.2, 0.29):
         outer, inner = box(0.0, 0.0, 20.0, 10.0), box(off, off, 20.0 - off, 10.0 - off)
         for drawn in (outer, (*outer, *inner)):
-            level = with_doors_cut(Level("0", "", 0, 0.0, drawn, (Door((10.0, off), (11.5, off)),)))
+            level = cut_doors(Level("0", "", 0, 0.0, drawn, (Door((10.0, off), (11.5, off)),)))
             assert len(level.walls) > len(drawn)
-            assert not [line for line in warnings(FloorPlan("", (level,))) if "close" in line]
+            assert not [line for line in find_warnings(FloorPlan("", (level,))) if "close" in line]
             assert IndexedPlan(FloorPlan("", (level,))).inside(0, 5.0, 5.0)
 
 
 def cut(drawn: tuple[Wall, ...], *through: Door) -> tuple[Wall, ...]:
-    return with_doors_cut(Level("0", "", 0, 0.0, drawn, through)).walls
+    return cut_doors(Level("0", "", 0, 0.0, drawn, through)).walls
 
 
 LONG_WALLS = (Wall((0.0, 0.0), (10.0, 0.0)),)
@@ -192,7 +192,7 @@ def test_one_walks_through_the_middle_of_a_door_in_a_wall_of_any_direction(turn:
         return x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
 
     door = Door(along(at, 0.0), along(at + wide, 0.0))
-    plan = IndexedPlan(FloorPlan("", (with_doors_cut(Level("0", "", 0, 0.0, (Wall(along(0.0, 0.0), along(10.0, 0.0)),),
+    plan = IndexedPlan(FloorPlan("", (cut_doors(Level("0", "", 0, 0.0, (Wall(along(0.0, 0.0), along(10.0, 0.0)),),
                                                            (door,))),)))  # fmt: skip
     for x, free in ((at + 0.5 * wide, True), (at + 0.01, True), (at - 0.01, False), (at + wide - 0.01, True),
                     (at + wide + 0.01, at + wide > 10.0 - 0.01)):  # fmt: skip
@@ -233,7 +233,7 @@ MISSHAPEN = [
 def test_a_plan_of_something_else_than_records_is_rejected_by_the_session_in_one_line(
     plan: FloorPlan, message: str
 ) -> None:
-    assert unusable(plan) == message
+    assert find_fault(plan) == message
     with pytest.raises(FloorPlanError) as error:
         Session(floorplan=plan)
     assert str(error.value) == message
@@ -269,16 +269,18 @@ def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_s
         return FloorPlan("", levels, tuple(Connector(ConnectorKind.LIFT, str(k), each) for k in range(count)))
 
     too_many = "the plan's stairs and lifts have more than 2000 stops"
-    assert unusable(lifts(66_000, 1)) == unusable(lifts(1001, 2)) == unusable(lifts(250, 300)) == too_many
-    assert unusable(lifts(1000, 2)) is None
+    assert find_fault(lifts(66_000, 1)) == find_fault(lifts(1001, 2)) == find_fault(lifts(250, 300)) == too_many
+    assert find_fault(lifts(1000, 2)) is None
     levels = tuple(Level(str(k), "", k, 0.0, ()) for k in range(1001))
-    assert unusable(FloorPlan("", levels)) == "the plan has more than 1000 levels or 100000 walls"
+    assert find_fault(FloorPlan("", levels)) == "the plan has more than 1000 levels or 100000 walls"
     many = (Wall((0.0, 0.0), (1.0, 1.0)),) * 100_001
-    assert unusable(with_level(walls=many)) == "the plan has more than 1000 levels or 100000 walls"
+    assert find_fault(with_level(walls=many)) == "the plan has more than 1000 levels or 100000 walls"
     ring = tuple((math.cos(0.001 * k), math.sin(0.001 * k)) for k in range(1000))
-    assert unusable(with_level(rooms=(ring,) * 101)) == "the plan has more than 100000 doors and corners of rooms"
+    assert find_fault(with_level(rooms=(ring,) * 101)) == "the plan has more than 100000 doors and corners of rooms"
     long = tuple(Wall((0.0, 0.01 * k), (4000.0, 0.01 * k)) for k in range(126))
-    assert unusable(with_level(walls=long)) == "the walls, doors and rooms of the plan come to 504 km; it can have 500"
+    assert (
+        find_fault(with_level(walls=long)) == "the walls, doors and rooms of the plan come to 504 km; it can have 500"
+    )
 
 
 def test_more_walls_around_one_place_than_a_step_can_be_tried_against_are_rejected() -> None:

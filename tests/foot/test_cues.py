@@ -99,7 +99,7 @@ def test_a_foot_that_rolls_over_its_toe_has_not_left_the_ground_however_fast_the
 
 def test_a_jolt_in_the_middle_of_a_long_swing_is_no_heel_strike() -> None:
     cues = InertialCues()
-    cues.cleared(0.0)
+    cues.make_hidden_toe_off(0.0)
     cues.lowest_rate = 0.0
     for k in range(1, 80):
         acc = (40.0 if k == 30 else 0.0, 0.0, GRAVITY)

@@ -192,7 +192,7 @@ def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride
         holes.append((t, t + random.choice([0.1, 0.2, 0.4, 0.7, 1.0])))
         t += random.uniform(0.3, 4.0)
     events, _ = feed_new_session(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
-    longest = max(stride_taken.length for stride_taken in walker.truth().steps(Foot.LEFT))
+    longest = max(stride_taken.length for stride_taken in walker.truth().strides(Foot.LEFT))
     for stride_taken in of(StrideTaken, events):
         if stride_taken.degraded:
             assert stride_taken.length < 2.5 * longest

@@ -15,7 +15,7 @@ from own import CELLS, WALKED, ByMotion, Resets, StillDetector
 from solepath import recipes
 from solepath.body.part import LayoutReported, Part, PartInput, PartOutput
 from solepath.events import WearerMoved
-from solepath.foot.cues.cues import SeenCue
+from solepath.foot.cues.cues import TimedCue
 from solepath.foot.stance.stance import Stance
 from solepath.foot.view import FootView
 from solepath.recipes import NAMES, by_name
@@ -152,21 +152,21 @@ class Leaving(Resets):
 
     def correct(self, t: float, stance: Stance) -> bool:
         self.__dict__["times"] = self.__dict__.get("times", 0) + 1
-        self.lasted = 0.001 * self.__dict__["times"]
+        self.time_since_anchor = 0.001 * self.__dict__["times"]
         return Resets.correct(self, t, stance)
 
 
 @define
 class Foretelling(ByMotion):
-    def update(self, t: float, *rest: Any) -> Sequence[SeenCue]:
-        return [SeenCue(one.cue, t + 1.0) for one in ByMotion.update(self, t, *rest)]
+    def update(self, t: float, *rest: Any) -> Sequence[TimedCue]:
+        return [TimedCue(one.cue, t + 1.0) for one in ByMotion.update(self, t, *rest)]
 
 
 @define
 class Listing(ByMotion):
     seen: list[float] = field(factory=list, init=False)
 
-    def update(self, t: float, *rest: Any) -> Sequence[SeenCue]:
+    def update(self, t: float, *rest: Any) -> Sequence[TimedCue]:
         self.seen.append(t)
         return ByMotion.update(self, t, *rest)
 

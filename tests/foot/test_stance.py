@@ -193,13 +193,13 @@ def test_airborne_cells_overrule_a_still_sensor() -> None:
 
 
 def test_noise_of_the_evidence_grows_with_the_turning_of_the_foot() -> None:
-    parts = [Cycle(CycleSettings(arm=0.06, arm2=0.5)) for _ in range(2)]
+    parts = [Cycle(CycleSettings(noise_per_rate=0.06, noise_per_rate_square=0.5)) for _ in range(2)]
     still, turning = (
         run(part, [ACC_REST] * 9, [(0.0, rate, 0.0)] * 9)[-1] for part, rate in zip(parts, (0.0, 0.15), strict=True)
     )
     assert still.sigma == pytest.approx(0.01)
-    arm = 0.15 * sqrt(0.06**2 + (0.5 * 0.15) ** 2)
-    assert turning.sigma == pytest.approx(sqrt(0.01**2 + arm**2), rel=1e-6)
+    noise_per_rate = 0.15 * sqrt(0.06**2 + (0.5 * 0.15) ** 2)
+    assert turning.sigma == pytest.approx(sqrt(0.01**2 + noise_per_rate**2), rel=1e-6)
 
 
 DT = 0.005

@@ -64,7 +64,7 @@ def run_session(samples: Any, recipe: Recipe = DEFAULT, **options: Any) -> list[
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
 def test_both_correctors_track_a_walk_of_20_m(recipe: Recipe, seed: int) -> None:
     events = run_session(samples_of_walk(seed), recipe, poses=True)
-    true, strides = walker(seed).truth().feet[Foot.LEFT].steps, of(StrideTaken, events)
+    true, strides = walker(seed).truth().feet[Foot.LEFT].strides, of(StrideTaken, events)
     assert len(strides) == len(true)
     for stride, truth in zip(strides, true, strict=True):
         assert stride.t_end == pytest.approx(truth.t_end, abs=0.08)
@@ -130,7 +130,7 @@ def test_strides_do_not_depend_on_the_mounting(mounting: tuple[float, float, flo
 def test_a_sensor_on_the_laces_finds_the_same_strides_as_one_in_the_sole() -> None:
     mounting = Mounting(ON_INSTEP.position, normalise((0.7, 0.1, -0.4, 0.2)))
     events = run_session(walker().samples(Foot.LEFT, 100.0, LSM6DSOX, mounting=mounting))
-    true = walker().truth({Foot.LEFT: mounting}).feet[Foot.LEFT].steps
+    true = walker().truth({Foot.LEFT: mounting}).feet[Foot.LEFT].strides
     strides = of(StrideTaken, events)
     assert len(strides) == len(true)
     for stride, truth in zip(strides, true, strict=True):
@@ -218,7 +218,7 @@ def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     strides = of(StrideTaken, events)
     has_gap = [stride.t_start < gap.t + gap.duration and stride.t_end > gap.t for stride in strides]
     assert [stride.degraded for stride in strides] == has_gap and True in has_gap
-    true = walker().truth().feet[Foot.LEFT].steps
+    true = walker().truth().feet[Foot.LEFT].strides
     after = [(s, t) for s in strides for t in true if abs(s.t_end - t.t_end) < 0.1 and t.t_start > start + length + 0.1]
     assert len(after) >= 4
     for stride, truth in after[1:]:

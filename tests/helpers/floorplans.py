@@ -10,7 +10,7 @@ from typing import Any
 from here import PROTOCOL
 from hypothesis import strategies as st
 
-from solepath.floorplan.doors import with_doors_cut
+from solepath.floorplan.doors import cut_doors
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Wall
 
 FILES = PROTOCOL / "floorplans"
@@ -44,7 +44,7 @@ def plans(draw: st.DrawFn) -> FloorPlan:
     for i, level_id in enumerate(ids):
         elevation = 3.0 * i + draw(st.floats(0.0, 2.0))
         level_walls = (corner, *draw(st.lists(walls, max_size=4)))
-        levels.append(with_doors_cut(Level(level_id, draw(names), i, elevation, level_walls,
+        levels.append(cut_doors(Level(level_id, draw(names), i, elevation, level_walls,
                                            tuple(draw(st.lists(doors, max_size=3))),
                                            tuple(draw(st.lists(outlines, max_size=2))))))  # fmt: skip
     connectors = []

@@ -27,7 +27,7 @@ def above(*loads: float) -> tuple[float, ...]:
 def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
     """Return the samples of the left foot at 100 Hz without cells, and its true strides."""
     walker = Walker(route, seed=seed)
-    return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().steps(Foot.LEFT)
+    return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().strides(Foot.LEFT)
 
 
 def without(samples: tuple[Sample, ...], *gaps: tuple[float, float]) -> list[Sample]:

@@ -11,7 +11,7 @@ from solepath import Foot, Phase
 from solepath.calibration import Calibration
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.insoles import layout
-from solepath.foot.cues.cues import Cues, SeenCue
+from solepath.foot.cues.cues import Cues, TimedCue
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Detector, Load, Stance
@@ -70,16 +70,16 @@ class ByMotion(Cues):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[SeenCue]:  # fmt: skip
+    ) -> Sequence[TimedCue]:  # fmt: skip
         if still:
             self.stood = t
-            return (SeenCue(Cue.CONTACT, t), SeenCue(Cue.FLAT, t)) if phase is not Phase.STATIONARY else ()
+            return (TimedCue(Cue.CONTACT, t), TimedCue(Cue.FLAT, t)) if phase is not Phase.STATIONARY else ()
         if phase is Phase.STATIONARY:
-            return (SeenCue(Cue.LIFT, t),)
-        return (SeenCue(Cue.CLEAR, t),) if speed > self.fast and phase is not Phase.SWING else ()
+            return (TimedCue(Cue.LIFT, t),)
+        return (TimedCue(Cue.CLEAR, t),) if speed > self.fast and phase is not Phase.SWING else ()
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
-        return (SeenCue(Cue.CLEAR if load.airborne else Cue.CONTACT, t),)
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[TimedCue]:
+        return (TimedCue(Cue.CLEAR if load.airborne else Cue.CONTACT, t),)
 
     def set_layout(self, layout: Layout) -> None:
         self.cells = len(layout.cells)

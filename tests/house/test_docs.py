@@ -125,7 +125,7 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, t
         (wearer, int(number), event) for wearer, number, event in map(str.split, emitted.splitlines())
     )
     steps = [row for row in rows if row["event"] == "StrideTaken"]
-    assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
+    assert len(steps) == sum(len(walk.truth.strides(foot)) for foot in Foot)
 
 
 def test_what_a_wearer_of_a_fleet_sends_is_counted():
@@ -156,7 +156,7 @@ def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
 def test_a_plain_class_of_hot_code_is_saved_and_goes_on(played):
     _, names = played("docs/hot-code.md")
     kind = names["Rest"]
-    rest = kind(CycleSettings(share=0.4))
+    rest = kind(CycleSettings(threshold_position=0.4))
     rest.started_at = 2.0
     rest.span.add((0.0, 0.0, 9.8), (0.1, 0.0, 0.0))
     again = codec.load(kind, codec.save(rest))
@@ -180,7 +180,7 @@ def test_three_commands_make_a_report_of_a_phones_log(tmp_path, monkeypatch):
         program, *arguments = shlex.split(line)
         done = run(*arguments)
         assert (program, done.returncode, done.stderr) == (".venv/bin/solepath", 0, "")
-    steps = len(WALK.truth.steps(Foot.LEFT))
+    steps = len(WALK.truth.strides(Foot.LEFT))
     assert f"left foot took {steps} strides" in (tmp_path / "report.html").read_text()
 
 

@@ -57,7 +57,7 @@ def test_the_loop_prints_the_strides_of_a_recording(tmp_path):
     walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
     lines_out = run("own_loop", recorded(tmp_path / "walk.jsonl", walk.packets))
     for foot in Foot:
-        assert lines_out.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
+        assert lines_out.count(f"{foot.value} step of") == len(walk.truth.strides(foot))
     assert "a packet was not used: checksum" in lines_out
 
 
@@ -71,7 +71,7 @@ def test_samples_of_ones_own_give_steps(tmp_path):
     rows = [(sample.t, *(sample.acc or ()), *(sample.gyro or ())) for sample in samples]
     header = "t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z"
     np.savetxt(tmp_path / "walk.csv", rows, delimiter=",", header=header, comments="")
-    true = len(Walker(ROUTE).truth().steps(Foot.RIGHT))
+    true = len(Walker(ROUTE).truth().strides(Foot.RIGHT))
     assert run("own_samples", tmp_path / "walk.csv").count(" step ") == true
 
 
@@ -86,7 +86,7 @@ def test_two_recipes_on_one_walk_are_set_beside_the_truth():
 def test_a_device_of_ones_own_is_one_file_and_its_vectors():
     first, *lines_out = run("own_device").splitlines()
     assert first == "the vectors agree"
-    true = len(Walker(Route().stand(2).walk(8).stop(2)).truth().steps(Foot.LEFT))
+    true = len(Walker(Route().stand(2).walk(8).stop(2)).truth().strides(Foot.LEFT))
     assert sum(" step " in line for line in lines_out) == true
     assert sum("3 packets lost" in line for line in lines_out) == 1
     assert sum("with a gap in it" in line for line in lines_out) == 1

@@ -27,7 +27,7 @@ def output(which: int) -> list[str]:
 
 
 def steps(metres: float) -> int:
-    return len(Walker(Route().stand(2).walk(metres).stop(2)).truth().steps(Foot.LEFT))
+    return len(Walker(Route().stand(2).walk(metres).stop(2)).truth().strides(Foot.LEFT))
 
 
 def test_there_are_five_programs_and_each_fits_a_screen() -> None:
@@ -60,5 +60,5 @@ def test_each_recipe_of_the_page_finds_the_walk(what: str) -> None:
     truth = emulate(Route().stand(2).walk(6, speed=1.3).stop(1), seed=1).truth
     (line,) = [line for line in output(RECIPE) if line.startswith(what)]
     found, _, length, _ = line[len(what) :].split()
-    assert int(found) == sum(len(truth.steps(foot)) for foot in Foot)
+    assert int(found) == sum(len(truth.strides(foot)) for foot in Foot)
     assert float(length) == pytest.approx(6.0, abs=0.5)

@@ -42,7 +42,7 @@ def test_its_loop_gets_every_stride_of_a_walk(tmp_path, monkeypatch):
     with redirect_stdout(io.StringIO()) as out:
         exec(compile(program, "README.md", "exec"), {"__name__": "readme"})
     for foot in Foot:
-        assert out.getvalue().count(f"{foot.value} step of") == len(walk.truth.steps(foot))
+        assert out.getvalue().count(f"{foot.value} step of") == len(walk.truth.strides(foot))
         assert f"s: {foot.value} heel-strike" in out.getvalue()
     assert "a packet was not used: checksum" in out.getvalue()
 

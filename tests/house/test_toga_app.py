@@ -57,7 +57,7 @@ async def test_after_a_walk_the_labels_show_the_walk_and_the_canvases_show_it(ex
     assert app.start.text == "Stop" and not app.show.enabled
     await app.listening
     labels = {name: label.text for name, label in app.figures.items()}
-    true = [step for foot in Foot for step in WALK.truth.steps(foot)]
+    true = [step for foot in Foot for step in WALK.truth.strides(foot)]
     assert int(labels["steps"]) == len(true)
     assert float(labels["length"]) == pytest.approx(1.4, abs=0.1)
     assert float(labels["cadence"]) == pytest.approx(111, abs=5)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from quoted import below, nearly_the_same
 
-from solepath.lab.evaluate.jobs import find
+from solepath.lab.evaluate.jobs import find_data_sets
 from solepath.lab.evaluate.report import Result
 from solepath.lab.measures.score import Scored, Summary
 from solepath.lab.tables.markdown import accuracy_table
@@ -87,7 +87,7 @@ def test_initial_contacts_are_those_of_motion_capture(evaluated: Evaluated) -> N
 @pytest.mark.soak
 def test_the_accuracy_that_is_quoted_is_what_evaluate_prints(evaluated: Evaluated, data_dir: Path) -> None:
     """solepath evaluate DIR --markdown prints it, except for data that need training in folds: those take minutes."""
-    results = [evaluated(found.name, "default") for found in find(data_dir) if not found.folds]
+    results = [evaluated(found.name, "default") for found in find_data_sets(data_dir) if not found.folds]
     nearly_the_same(below("accuracy"), accuracy_table(results).splitlines())
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isclose
 
-from solepath.body.activity.chain import DEFAULT_CHANCES, STAND, UP, WALK, chain_of
+from solepath.body.activity.chain import DEFAULT_CHANCES, STAIRS_UP, STAND, WALK, chain_of
 from solepath.lab.train.activities_course import LabelledCourse, chances, changes
 from solepath.lab.train.hugadb import spans
 from solepath.types import Activity
@@ -23,7 +23,9 @@ def test_frequent_climbing_makes_stairs_likelier() -> None:
     done = [(10.0 * k, 10.0 * k + 10.0, (WALKING, STAIRS)[k % 2]) for k in range(100)]
     learnt = chances([LabelledCourse(0.0, {}, tuple(done))])
     assert all(isclose(sum(row), 1.0, abs_tol=1e-4) for row in learnt)
-    assert DEFAULT_CHANCES[WALK][UP] < learnt[WALK][UP] < 1.0 / 20.0 + 1e-3  # ten seconds are twenty blocks
+    assert (
+        DEFAULT_CHANCES[WALK][STAIRS_UP] < learnt[WALK][STAIRS_UP] < 1.0 / 20.0 + 1e-3
+    )  # ten seconds are twenty blocks
 
 
 def test_without_recordings_the_chances_are_the_supposed_ones() -> None:
@@ -33,4 +35,4 @@ def test_without_recordings_the_chances_are_the_supposed_ones() -> None:
 
 def test_every_activity_may_follow_standing() -> None:
     chain = chain_of(DEFAULT_CHANCES, ())
-    assert all(STAND in [source for source, _ in chain.predecessors[state]] for state in range(UP))
+    assert all(STAND in [source for source, _ in chain.predecessors[state]] for state in range(STAIRS_UP))

@@ -24,7 +24,7 @@ from solepath.lab.reproduce.tables import (
     as_json,
     statistics,
 )
-from solepath.lab.tables.comparison import reproduced
+from solepath.lab.tables.comparison import comparison_with_paper
 from solepath.lab.train import emulated
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
@@ -106,7 +106,7 @@ def test_the_json_has_the_form_of_the_design():
 
 
 def test_our_figures_stand_beside_the_papers_and_are_marked_as_emulated():
-    first, _, header, _, row, other, _, note = reproduced(TWO_ROWS).splitlines()
+    first, _, header, _, row, other, _, note = comparison_with_paper(TWO_ROWS).splitlines()
     assert "ours is emulated" in first and "a paper, table I" in first
     assert header.split() == ["m", "ours:", *FIVE, "paper:", *FIVE]
     assert " ".join(row.split()) == "ZUPT-L 20.00 1.41 19.50 20.00 20.50 20.97 1.84 19.74 21.17 22.56"

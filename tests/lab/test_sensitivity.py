@@ -34,22 +34,22 @@ def test_a_setting_at_twice_its_value_is_a_recipe_of_its_own() -> None:
 
 def score(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """The value of the constant while a recording is scored."""
-    return Scored(path.name, {"past_peak": inertial.PAST_PEAK})
+    return Scored(path.name, {"past_peak": inertial.TOE_OFF_RATE_RATIO})
 
 
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 def test_a_constant_is_changed_while_a_recording_is_scored_and_then_as_before(factor: float) -> None:
-    before = inertial.PAST_PEAK
-    recipe, constants = NUMBERS["PAST_PEAK"].scale(factor)
+    before = inertial.TOE_OFF_RATE_RATIO
+    recipe, constants = NUMBERS["TOE_OFF_RATE_RATIO"].scale(factor)
     job = SensitivityJob(EvaluationJob(score, RunSettings(recipe, Calibration(), None), Path("walk"), {}), constants)
     scored = job.run()
     assert isinstance(scored, Scored) and scored.figures == {"past_peak": factor * before}
-    restored = inertial.PAST_PEAK
+    restored = inertial.TOE_OFF_RATE_RATIO
     assert restored == before
 
 
 def test_a_line_has_the_change_at_half_and_at_twice_the_value() -> None:
-    number = NUMBERS["PAST_PEAK"]
+    number = NUMBERS["TOE_OFF_RATE_RATIO"]
     columns = [column for column in TABLE_COLUMNS if column.title in ("strides", "HS F1", "ipol HS")]
     default, half, double = [0.02, 0.98, 0.010], [0.021, 0.95, 0.0104], [0.02, 0.98, -0.020]
     lines = list(table(iter([(None, 1.0, default), (number, 0.5, half), (number, 2.0, double)]), columns))

@@ -13,12 +13,12 @@ from strap import BATTERY, BEAT, BOOK, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, st
 from virtual import ONE, TWO, Host, find, linked, now, strap, virtually
 
 from solepath.emulate.controllers.gatt import advertisement
-from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.controllers.server import virtual_link
 
 
 @virtually
 async def test_a_scan_finds_names_services_and_addresses_of_all_advertisers() -> None:
-    async with virtual_air([strap(), strap("two", TWO, advertised=[HEART_RATE, LOG])]) as backend:
+    async with virtual_link([strap(), strap("two", TWO, advertised=[HEART_RATE, LOG])]) as backend:
         received = await BleakScanner.discover(1.0, return_adv=True, backend=backend.scanner)
         assert {address: data.local_name for address, (_, data) in received.items()} == {ONE: "one", TWO: "two"}
         assert received[ONE][1].service_uuids == [HEART_RATE]
@@ -139,7 +139,7 @@ async def test_an_error_of_the_apps_callback_is_reported_and_the_next_notificati
 @virtually
 async def test_a_link_with_an_interval_sends_everything_at_its_events_in_order() -> None:
     interval = 0.03
-    async with virtual_air([strap()], interval=interval) as backend:
+    async with virtual_link([strap()], interval=interval) as backend:
         host = Host(backend, await find(backend))
         async with host.client:
             for _ in range(5):
@@ -170,7 +170,7 @@ async def test_a_link_that_is_lost_while_it_is_paired_or_discovered_is_an_error_
     at: float,
 ) -> None:
     device = strap(faults=f"0 * pairing; {at} * disconnect")
-    async with virtual_air([device], interval=0.03) as backend:
+    async with virtual_link([device], interval=0.03) as backend:
         found = await find(backend)
         await asyncio.sleep(1.0 - now())
         client = BleakClient(found, backend=backend.client, pair=True)

@@ -13,7 +13,7 @@ from here import HELPERS
 from strap import CONTROL, LEVEL, PAGE
 from virtual import ONE, TWO, Host, find, linked, now, run, strap, virtually
 
-from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.controllers.server import virtual_link
 
 
 @virtually
@@ -32,7 +32,7 @@ async def test_a_request_that_its_caller_gives_up_does_not_have_its_answer_taken
 @virtually
 async def test_a_connected_client_is_notified_when_the_radio_closes() -> None:
     device = strap()
-    async with virtual_air([device]) as backend:
+    async with virtual_link([device]) as backend:
         host = Host(backend, await find(backend))
         await host.client.connect()
     await asyncio.sleep(0.1)
@@ -45,7 +45,7 @@ async def test_a_connected_client_is_notified_when_the_radio_closes() -> None:
 @virtually
 async def test_a_device_that_does_not_answer_holds_up_the_others_for_seconds_only() -> None:
     absent, there = strap("one", ONE, "1 * vanish 12"), strap("two", TWO)
-    async with virtual_air([absent, there]) as backend:
+    async with virtual_link([absent, there]) as backend:
         first, second = await find(backend, "one"), await find(backend, "two")
         await asyncio.sleep(1.0)
         slow, quick = (BleakClient(device, backend=backend.client, timeout=20.0) for device in (first, second))
@@ -63,7 +63,7 @@ async def test_a_device_that_does_not_answer_holds_up_the_others_for_seconds_onl
 @virtually
 async def test_a_connection_that_its_caller_gives_up_leaves_nothing_behind() -> None:
     absent, there = strap("one", ONE, "1 * vanish 10"), strap("two", TWO)
-    async with virtual_air([absent, there]) as backend:
+    async with virtual_link([absent, there]) as backend:
         first, second = await find(backend, "one"), await find(backend, "two")
         await asyncio.sleep(1.0)
         waiting = asyncio.create_task(BleakClient(first, backend=backend.client).connect())
@@ -83,7 +83,7 @@ def test_the_same_devices_send_the_same_values_at_the_same_times() -> None:
 
     async def main() -> None:
         devices = [strap("one", ONE, "2 * drop 3; 3 * flip 5; 4 * disconnect"), strap("two", TWO)]
-        async with virtual_air(devices) as backend:
+        async with virtual_link(devices) as backend:
             hosts = [Host(backend, device) for device in (await find(backend, "one"), await find(backend, "two"))]
             await asyncio.gather(*(host.client.connect() for host in hosts))
             await asyncio.gather(*(host.count(100) for host in hosts))
@@ -98,7 +98,7 @@ def test_the_same_devices_send_the_same_values_at_the_same_times() -> None:
 
 def test_links_start_and_end_without_a_line_in_the_log(caplog: pytest.LogCaptureFixture) -> None:
     async def main() -> None:
-        async with virtual_air([strap(faults="2 * disconnect; 4 * hang; 8 * vanish 1")]) as backend:
+        async with virtual_link([strap(faults="2 * disconnect; 4 * hang; 8 * vanish 1")]) as backend:
             for _ in range(6):
                 host = Host(backend, await find(backend))
                 await host.client.connect()
@@ -118,11 +118,11 @@ def test_links_start_and_end_without_a_line_in_the_log(caplog: pytest.LogCapture
 PROGRAM = """
 import asyncio, logging
 from bleak import BleakClient, BleakScanner
-from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.controllers.server import virtual_link
 from strap import Strap
 
 async def main():
-    async with virtual_air([Strap("one", "F0:00:00:00:00:01")]) as backend:
+    async with virtual_link([Strap("one", "F0:00:00:00:00:01")]) as backend:
         device = await BleakScanner.find_device_by_name("one", 5.0, backend=backend.scanner)
         async with BleakClient(device, backend=backend.client) as client:
             print(len(list(client.services)), logging.getLogger().handlers)

@@ -85,7 +85,7 @@ STARTS = st.one_of(
 @settings(max_examples=40)
 @given(start=STARTS, updates=UPDATES)
 def test_any_events_and_any_track_give_sound_events_and_no_exception(method, start, updates) -> None:  # type: ignore[no-untyped-def]
-    part = method(PlaceSettings(most=60))
+    part = method(PlaceSettings(max_rows=60))
     if start is not None:
         part.set_out(start)
     for events, t, position in updates:

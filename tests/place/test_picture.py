@@ -21,7 +21,7 @@ from solepath.cli.common.inputs import start_of
 from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
 from solepath.show.places import PlaceCounts
-from solepath.show.tables.plan import COLOURS, PlanPicture, blend
+from solepath.show.tables.plan import TRACK_COLOURS, PlanPicture, blend
 from solepath.show.tables.summary import place_lines
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -81,9 +81,9 @@ def test_the_track_is_broken_where_the_place_was_lost() -> None:
 
 
 def test_colours_run_from_the_start_to_the_end() -> None:
-    shades = [blend(COLOURS, share) for share in (-1.0, 0.0, 0.5, 1.0, 2.0)]
+    shades = [blend(TRACK_COLOURS, share) for share in (-1.0, 0.0, 0.5, 1.0, 2.0)]
     assert shades[0] == shades[1] != shades[2] != shades[3] == shades[4]
-    assert all(len(blend(COLOURS, k / 50.0)) == 7 for k in range(51))
+    assert all(len(blend(TRACK_COLOURS, k / 50.0)) == 7 for k in range(51))
 
 
 def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels() -> None:

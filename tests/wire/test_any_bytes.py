@@ -224,9 +224,9 @@ def test_each_cell_is_at_the_bits_of_its_number(values: list[int], data: st.Data
 def test_a_fragment_never_starts_as_a_frame_does() -> None:
     first_bytes = {
         fragment.build_fragment(fragment.Fragment(frame_id, last, index, b"x"))[0]
-        for frame_id in range(fragment.FRAME_IDS)
+        for frame_id in range(fragment.FRAME_ID_COUNT)
         for last in (False, True)
         for index in range(fragment.MAX_FRAGMENTS)
     }
-    assert len(first_bytes) == fragment.FRAME_IDS * 2 * fragment.MAX_FRAGMENTS
+    assert len(first_bytes) == fragment.FRAME_ID_COUNT * 2 * fragment.MAX_FRAGMENTS
     assert MAGIC not in first_bytes

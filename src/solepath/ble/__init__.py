@@ -4,7 +4,7 @@ from .config import DeviceConfig
 from .connection import Connection, ConnectionState
 from .devices import Devices
 from .record import record
-from .scanning import NATIVE, Backend, Found, scan
+from .scanning import NATIVE, Advertisement, Backend, scan
 from .trouble import BluetoothError
 
 __all__ = [
@@ -13,7 +13,7 @@ __all__ = [
     "BluetoothError",
     "Connection",
     "Devices",
-    "Found",
+    "Advertisement",
     "ConnectionState",
     "DeviceConfig",
     "record",

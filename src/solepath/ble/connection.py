@@ -13,11 +13,11 @@ from bleak.exc import BleakDeviceNotFoundError
 from bleak_retry_connector import establish_connection
 
 from ..types import Site
-from ..wire.receiver import LONGEST_NAME, ConnectionFrame, build_connected
+from ..wire.receiver import MAX_NAME_SIZE, ConnectionFrame, build_connected
 from .config import DeviceConfig
 from .inbox import Emitter, shorten
 from .listening import Listening
-from .scanning import WEAKEST_SIGNAL, Backend, Found, Scanner
+from .scanning import WEAKEST_SIGNAL, Advertisement, Backend, Scanner
 from .search import PRESENCE_TIME, Search
 from .setup import INFO_CHANNEL, WrongDevice, find_missing_stream, parse_site, read_info
 from .trouble import FAILURES, NO_ANSWER, bleak_call, describe_error
@@ -127,18 +127,18 @@ class Connection:
             if not self._streamed:
                 pause = min(2.0 * pause, MAX_SEARCH_DELAY)
 
-    def _is_excluded(self, found: Found) -> bool:
+    def _is_excluded(self, found: Advertisement) -> bool:
         """Return whether the device belongs to another connection or is known to be wrong."""
         self._wrong_since = {address: t for address, t in self._wrong_since.items() if _now() - t < RECHECK_TIME}
         other_connections = (connection for connection in self.siblings if connection is not self)
         return found.address in self._wrong_since or any(connection._claims(found) for connection in other_connections)
 
-    def _claims(self, found: Found) -> bool:
+    def _claims(self, found: Advertisement) -> bool:
         if self.address or self._current_address:
             return found.address in (self.address, self._current_address)
         return self.config.is_named(found.address, found.name)
 
-    async def _use(self, found: Found) -> None:
+    async def _use(self, found: Advertisement) -> None:
         """Connect and listen until the connection is lost. Raises WrongDevice and FAILURES."""
         profile = self.config.profile or found.profile
         name = found.name or found.address
@@ -157,7 +157,7 @@ class Connection:
                 client, profile, self.emitter, disconnected, {} if info is None else {INFO_CHANNEL: info}
             )
             self.emitter.emit(
-                "receiver/connected", build_connected(ConnectionFrame(shorten(name, LONGEST_NAME), self.signal))
+                "receiver/connected", build_connected(ConnectionFrame(shorten(name, MAX_NAME_SIZE), self.signal))
             )
             try:
                 await listening.set_up()
@@ -171,7 +171,7 @@ class Connection:
                 async with bleak_call(DISCONNECT_TIMEOUT):
                     await client.disconnect()
 
-    async def _connect(self, found: Found, name: str, disconnected: asyncio.Event) -> BleakClient:
+    async def _connect(self, found: Advertisement, name: str, disconnected: asyncio.Event) -> BleakClient:
         """Connect to the device; `disconnected` is set when the connection is lost. Raises FAILURES."""
         loop = asyncio.get_running_loop()
         complain_at = max(self._no_stream_since + self.patience, _now() + min(PRESENCE_TIME, self.patience))
@@ -195,7 +195,7 @@ class Connection:
             disconnected.clear()  # an earlier attempt may have set it: it was connected for a moment
         return client
 
-    def _assign(self, reported: Site | None, found: Found, name: str) -> None:
+    def _assign(self, reported: Site | None, found: Advertisement, name: str) -> None:
         """Assign this device to the site that it reports; raise WrongDevice when another site is configured."""
         site, requested = reported or self.config.site, self.config.site
         if site is None:

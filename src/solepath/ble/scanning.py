@@ -41,7 +41,7 @@ Any other value stands for an unknown signal strength."""
 
 
 @frozen
-class Found:
+class Advertisement:
     """The last advertisement of a device.
 
     `services` holds the UUIDs that the device advertises. `signal` is the signal strength, dBm, -127 when unknown. `t`
@@ -64,7 +64,7 @@ class Found:
         return identify(self.name, self.services)
 
 
-OnAdvertisement = Callable[[Found], None]
+OnAdvertisement = Callable[[Advertisement], None]
 
 
 @define(eq=False)
@@ -112,7 +112,7 @@ class Scanner:
                 async with asyncio.timeout(MAX_SILENCE):
                     await self._changed.wait()
 
-    def _on_advertisement(self, found: Found) -> None:
+    def _on_advertisement(self, found: Advertisement) -> None:
         self._advertised_at = found.t
         for on_advertisement in tuple(self._listeners):
             on_advertisement(found)
@@ -125,18 +125,18 @@ def make_scanner(backend: Backend, on_advertisement: OnAdvertisement) -> BleakSc
     def on_detection(device: BLEDevice, advertisement: AdvertisementData) -> None:
         name = (advertisement.local_name or device.name or "").encode("utf-8", "replace").decode("utf-8")
         signal = advertisement.rssi if WEAKEST_SIGNAL <= advertisement.rssi <= STRONGEST_SIGNAL else WEAKEST_SIGNAL
-        on_advertisement(Found(device, name, tuple(advertisement.service_uuids), signal, loop.time()))
+        on_advertisement(Advertisement(device, name, tuple(advertisement.service_uuids), signal, loop.time()))
 
     return BleakScanner(on_detection, backend=backend.scanner)
 
 
-async def scan(seconds: float = 4.0, *, backend: Backend = NATIVE) -> list[Found]:
+async def scan(seconds: float = 4.0, *, backend: Backend = NATIVE) -> list[Advertisement]:
     """Return the devices, also unknown ones, that advertise within `seconds`, the strongest signal first.
 
     Returns when the time is over. Raises BluetoothError when Bluetooth cannot be used."""
-    devices: dict[str, Found] = {}
+    devices: dict[str, Advertisement] = {}
 
-    def on_advertisement(device: Found) -> None:
+    def on_advertisement(device: Advertisement) -> None:
         devices[device.address] = device
 
     try:

@@ -9,7 +9,7 @@ from contextlib import suppress
 from attrs import define, field
 
 from .config import DeviceConfig, reports_site
-from .scanning import Found, Scanner
+from .scanning import Advertisement, Scanner
 
 UNIQUENESS_TIME = 1.0
 """Time of listening without a second device that matches the config, after which the first is accepted, s."""
@@ -30,15 +30,15 @@ class Search:
     scanner: Scanner
     config: DeviceConfig
     address: str
-    is_excluded: Callable[[Found], bool]
+    is_excluded: Callable[[Advertisement], bool]
     patience: float
     since: float
     report_trouble: Callable[[str], None]
-    _found: dict[str, Found] = field(factory=dict, init=False)
+    _found: dict[str, Advertisement] = field(factory=dict, init=False)
     _advertised: asyncio.Event = field(factory=asyncio.Event, init=False)
     _reported: bool = field(default=False, init=False)
 
-    async def run(self) -> Found:
+    async def run(self) -> Advertisement:
         """Return the device as soon as it advertises and no other device can be mistaken for it."""
         loop = asyncio.get_running_loop()
         present_since: float | None = None
@@ -69,7 +69,7 @@ class Search:
                     async with asyncio.timeout(UNIQUENESS_TIME / 2):
                         await self._advertised.wait()
 
-    def _on_advertisement(self, found: Found) -> None:
+    def _on_advertisement(self, found: Advertisement) -> None:
         if self.address:
             matches = found.address == self.address
         else:
@@ -80,10 +80,12 @@ class Search:
         else:
             self._found.pop(found.address, None)  # the device advertises another name now
 
-    def _has_address(self, found: Found) -> bool:
+    def _has_address(self, found: Advertisement) -> bool:
         return found.address == self.address or self.config.is_address(found.address)
 
-    def _choose(self, candidates: list[Found], present: list[Found], settled: bool) -> Found | None:
+    def _choose(
+        self, candidates: list[Advertisement], present: list[Advertisement], settled: bool
+    ) -> Advertisement | None:
         for device in present:
             if self._has_address(device):
                 return device

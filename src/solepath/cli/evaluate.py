@@ -73,7 +73,7 @@ def run(options: argparse.Namespace) -> int:
     from ..lab.evaluate import ablation
     from ..lab.evaluate.changes import read_scores
     from ..lab.evaluate.datasets import EMULATED
-    from ..lab.evaluate.jobs import evaluate, evaluate_emulated, find
+    from ..lab.evaluate.jobs import evaluate, evaluate_emulated, find_data_sets
     from ..lab.evaluate.report import as_json
     from ..lab.tables.markdown import accuracy_table
     from ..lab.tables.scores import ablation_table, comparison_tables, score_table
@@ -109,7 +109,7 @@ def run(options: argparse.Namespace) -> int:
         evaluations: list[Iterator[Result]] = []
         if options.ablation and folder is not None and not options.only:
             main_sets = {column.data_set for column in ablation.COLUMNS}
-            recorded = [data_set.name for data_set in find(folder) if data_set.name in main_sets]
+            recorded = [data_set.name for data_set in find_data_sets(folder) if data_set.name in main_sets]
         if folder is not None and (recorded or not options.only):
             evaluations.append(evaluate(folder, chosen or known, only=recorded, **common_options))
         if emulated:

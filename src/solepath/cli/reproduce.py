@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
             check_writable(path)
 
     from ..lab.reproduce.tables import as_json
-    from ..lab.tables.comparison import reproduced
+    from ..lab.tables.comparison import comparison_with_paper
     from ..show.tables.progress import progress_bar
 
     with progress_bar("walks", 100) as show:
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
 
         module = import_module(f"solepath.lab.reproduce.{options.name.replace('-', '_')}")
         experiment = module.reproduce(options.walks, options.seed, processes=options.processes, progress=percent)
-    print(reproduced(experiment))
+    print(comparison_with_paper(experiment))
     if options.json is not None:
         write_json(options.json, as_json(experiment))
     if figure is not None:

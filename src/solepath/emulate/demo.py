@@ -29,7 +29,7 @@ ROUTE = (
 )
 """A route of about 40 m: a U-shaped path, a halt, a turn on the spot, and a second path."""
 
-WAY = 8
+BUILDING_WALK_SEED = 8
 """Seed of a walk through the emulated building: down by an elevator, along 130 m of corridors, up the stairs."""
 
 

@@ -2,7 +2,7 @@
 
     walk = emulate(Route().stand(2).walk(100, 1.3).stop(2), radio=Radio(loss=0.05, jitter=0.05), seed=7)
     for packet in walk.packets: ...
-    walk.truth.steps(Foot.LEFT)
+    walk.truth.strides(Foot.LEFT)
 
 Time 0 is the start of the first stand on the true clock, which is also the receiver's clock. The same arguments give
 the same packets, byte for byte. The gait, each device and each radio link have separate random generators: the same

@@ -31,7 +31,7 @@ MAX_TOTAL_LENGTH = 500e3
 """Largest total length of all walls, doors and outlines, m: the time of indexing grows with it."""
 
 
-def unusable(plan: FloorPlan) -> str | None:
+def find_fault(plan: FloorPlan) -> str | None:
     """Return the first fault that makes a plan unusable, in one line; None when it is usable.
 
     The limits are those of protocol/floorplan.md."""
@@ -160,11 +160,11 @@ def _is_place(point: Point) -> bool:
     return abs(point[0]) <= MAX_COORDINATE and abs(point[1]) <= MAX_COORDINATE  # False for NaN
 
 
-def warnings(plan: FloorPlan) -> tuple[str, ...]:
+def find_warnings(plan: FloorPlan) -> tuple[str, ...]:
     """Return the warnings about a usable plan, one line each; takes about as long as indexing the plan.
 
     They are the reader's remarks, walls that do not close, and missing stairs and elevators of the plan or a level."""
-    return (*plan.remarks, *_find_remarks(plan)) if unusable(plan) is None else ()
+    return (*plan.remarks, *_find_remarks(plan)) if find_fault(plan) is None else ()
 
 
 def _find_remarks(plan: FloorPlan) -> Iterator[str]:

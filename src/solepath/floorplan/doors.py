@@ -43,7 +43,7 @@ class Openings:
         ]  # fmt: skip
 
 
-def with_doors_cut(level: Level) -> Level:
+def cut_doors(level: Level) -> Level:
     """Return the level with a gap in its walls wherever a door lies along them; a second call changes nothing."""
     doors = Openings([(door.start, door.end) for door in level.doors])
     return evolve(level, walls=cut_openings(level.walls, doors, MAX_DOOR_OFFSET))

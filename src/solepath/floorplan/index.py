@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import isfinite
 
-from .checks import unusable
+from .checks import find_fault
 from .crossing import MAX_CELLS, Walls
 from .enclosure import MAX_PLACES, Enclosure
 from .grid import MAX_CELLS_PER_PLAN, MAX_PLACES_PER_PLAN, share_limit
@@ -29,7 +29,7 @@ class IndexedPlan:
     __slots__ = ("_insides", "_numbers", "_walls", "fingerprint", "plan")
 
     def __init__(self, plan: FloorPlan) -> None:
-        fault = unusable(plan)
+        fault = find_fault(plan)
         if fault is not None:
             raise FloorPlanError(fault)
         self.plan = plan

@@ -81,7 +81,7 @@ def _check_connector(connector: Connector) -> Iterator[str]:
         yield from _check_number(f"{name}: the rise of a step", connector.rise)
 
 
-def no_start(start: Start) -> str | None:
+def find_start_fault(start: Start) -> str | None:
     """Return why this start is invalid on any plan, in one line; None when it is valid."""
     return next(_check_start(start), None)
 

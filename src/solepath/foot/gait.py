@@ -6,7 +6,7 @@ from ..events import Event
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import define, field
 from ..types.vector import ZERO, from_yaw, heading_turned, multiply, sub
-from .cues.cues import Cues, SeenCue
+from .cues.cues import Cues, TimedCue
 from .gaps.gap import Infill
 from .gaps.template import StrideTemplate
 from .navigate.corrector import Corrector
@@ -62,7 +62,7 @@ class Gait:
         return (x, y, z)
 
     def apply_cue(
-        self, timed_cue: SeenCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
+        self, timed_cue: TimedCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
     ) -> list[Event]:
         """Return the events that follow from a cue.
 
@@ -93,18 +93,18 @@ class Gait:
     ) -> list[Event]:
         """Return the events of the phases that a gap has hidden."""
         self.template.add_infill(infill.t_heel_off, infill.duration)
-        hidden_cues: list[SeenCue] = []
+        hidden_cues: list[TimedCue] = []
         phase = self.phase
         if phase is Phase.STATIONARY:
-            hidden_cues.append(SeenCue(Cue.LIFT, infill.t_heel_off))
+            hidden_cues.append(TimedCue(Cue.LIFT, infill.t_heel_off))
             phase = Phase.PUSH_OFF
         if infill.t_toe_off is not None and phase is not Phase.SWING and self.stride.t_toe_off is None:
-            hidden_cues.append(cues.cleared(infill.t_toe_off))
+            hidden_cues.append(cues.make_hidden_toe_off(infill.t_toe_off))
             phase = Phase.SWING
         if infill.t_heel_strike is not None and phase is Phase.SWING:
-            hidden_cues.append(SeenCue(Cue.CONTACT, infill.t_heel_strike))
+            hidden_cues.append(TimedCue(Cue.CONTACT, infill.t_heel_strike))
         if infill.t_foot_flat is not None:
-            hidden_cues.append(SeenCue(Cue.FLAT, infill.t_foot_flat))
+            hidden_cues.append(TimedCue(Cue.FLAT, infill.t_foot_flat))
         return [
             event
             for timed_cue in hidden_cues

@@ -53,7 +53,7 @@ PHASES: dict[Phase, dict[Cue, Phase]] = {
 }
 """Next phase for each phase and cue."""
 
-TO_COME: dict[Phase, tuple[Cue, ...]] = {
+REMAINING_CUES: dict[Phase, tuple[Cue, ...]] = {
     Phase.STATIONARY: (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
     Phase.PUSH_OFF: (Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
     Phase.SWING: (Cue.CONTACT, Cue.FLAT),

@@ -27,25 +27,25 @@ class FootSettings:
 class CycleSettings:
     """The settings of `Cycle`."""
 
-    share: float = 0.45
+    threshold_position: float = 0.45
     """Position of the stance threshold between the lowest (0) and the highest (1) statistic, in logarithms."""
-    floor: float = 2e4
+    least_threshold: float = 2e4
     """Smallest stance threshold, no unit: a standing foot shows statistics up to this."""
     least_statistic: float = 3e3
     """Smallest statistic that enters the threshold, no unit: a stance of walking is less still than standing."""
-    ceiling: float = 6e6
+    largest_threshold: float = 6e6
     """Largest stance threshold, no unit: the stance of a runner shows statistics up to this."""
     standing_statistic: float = 2e3
     """Statistic below which the foot stands for certain, no unit, whatever velocity the corrector estimates."""
     sigma: float = 0.01
     """Standard deviation of the velocity of a foot that shows no motion, m/s."""
-    arm: float = 0.05
+    noise_per_rate: float = 0.05
     """Standard deviation of the velocity for each rad/s of angular rate, m: uncertainty of the sensor height."""
-    arm2: float = 0.5
+    noise_per_rate_square: float = 0.5
     """Standard deviation of the velocity for each (rad/s)^2, m s: a foot that turns fast rolls unevenly."""
-    off_gravity: float = 0.05
+    noise_per_acceleration: float = 0.05
     """Standard deviation of the velocity for each m/s^2 by which the specific force differs from gravity, s."""
-    off_gravity2: float = 0.02
+    noise_per_acceleration_square: float = 0.02
     """Standard deviation of the velocity for each (m/s^2)^2 of that difference, s^3/m.
 
     It grows steeply because a foot that brakes before it lands may turn as little as one in stance."""
@@ -97,7 +97,7 @@ class ErrorStateSettings:
     """Noise density of the gyroscope, rad/s/sqrt(Hz)."""
     noise_per_motion: float = 0.001
     """Noise density for each unit of acceleration or rate, 1/sqrt(Hz): scale and alignment errors."""
-    between: float = 0.25
+    noise_per_difference: float = 0.25
     """Noise of each axis as a share of the difference between two neighbouring samples, 0 to 1.
 
     It stands for the motion between them, which is taken as a straight line. It is small at 400 Hz. At 20 Hz, where a
@@ -114,9 +114,9 @@ class ErrorStateSettings:
     """Largest squared innovation, weighted by its covariance, with which evidence is used; no unit.
 
     It is the 99.3 % point of chi-square with three degrees of freedom."""
-    patience: float = 2.0
+    time_until_lost: float = 2.0
     """Time without accepted evidence after which the filter is lost, s."""
-    lasting: float = 0.35
+    time_until_ungated: float = 0.35
     """Duration of unbroken evidence after which the innovation gate no longer rejects it, s."""
     tilt_rate: float = 2.0
     """Inverse time constant with which gravity corrects the tilt of a foot that stands for certain, 1/s."""
@@ -144,7 +144,7 @@ class InsoleSettings:
 class DedriftSettings:
     """The settings of `LinearDedrift`."""
 
-    trusted: float = 0.05
+    largest_stance_sigma: float = 0.05
     """Largest standard deviation of evidence that counts as stance, m/s."""
     tilt_rate: float = 2.0
     """Inverse time constant with which gravity corrects the tilt in stance, 1/s."""

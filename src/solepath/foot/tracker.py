@@ -13,7 +13,7 @@ from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define, evolve, field
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, check_scale
-from .cues.cues import Cues, SeenCue
+from .cues.cues import Cues, TimedCue
 from .cues.gait_cues import GaitCues
 from .gait import Gait
 from .gaps.crossing import cross_gap
@@ -53,7 +53,7 @@ class FootTracker:
     """Time of the newest sample with both acc and gyro, s; None before any."""
     partial_at: float | None = field(default=None, init=False)
     """Time of the newest sample without acc or gyro, s; None before any."""
-    seen_at: float | None = field(default=None, init=False)
+    viewed_at: float | None = field(default=None, init=False)
     """Time of the newest sample whose view the parts of the body received, s; None before any."""
     load: Load | None = field(default=None, init=False)
     """Newest load that came without acc or gyro and waits for the next inertial sample; None otherwise."""
@@ -108,7 +108,7 @@ class FootTracker:
     def view(
         self, sample: Sample, known_at: float, events: tuple[Event, ...], with_covariance: bool, other_t: float | None
     ) -> FootView:
-        """Return the view after `sample`, which caused `events`; `other_t` is `seen_at` of the other foot, s."""
+        """Return the view after `sample`, which caused `events`; `other_t` is `viewed_at` of the other foot, s."""
         corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
         after, pressed = NOTHING_HAPPENED, None
         if events:
@@ -153,7 +153,7 @@ class FootTracker:
         """Discard what depends on unbroken samples, because times restart, earlier or later, after unknown motion."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
-        self.t = self.moved_at = self.partial_at = self.seen_at = self.limitations.lacking_since = self.load = None
+        self.t = self.moved_at = self.partial_at = self.viewed_at = self.limitations.lacking_since = self.load = None
         self.limitations.mismatch_since = None
         self.gait.reset()
         # Windows that hold old times would wait until the new times reach them. What was learnt stays.
@@ -294,6 +294,6 @@ class FootTracker:
         p, v = self.position, self.velocity
         events.append(FootMoved(t=t, known_at=known_at, foot=self.foot, position=p, velocity=v, phase=self.phase))
 
-    def _apply_cue(self, timed_cue: SeenCue, known_at: float, events: list[Event]) -> None:
+    def _apply_cue(self, timed_cue: TimedCue, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None
         events += self.gait.apply_cue(timed_cue, known_at, corrector, self.rhythm.usual_interval or 0.0)

@@ -29,7 +29,7 @@ class PressedCells(NamedTuple):
 class AfterEvents(NamedTuple):
     """The data that a view has in addition if its sample caused events."""
 
-    stood: Quat
+    flat_attitude: Quat
     """Attitude at the start of the current stride, its foot-flat, sensor to navigation frame."""
     layout: Layout | None
     """Layout of the pressure cells; None when it is unknown."""

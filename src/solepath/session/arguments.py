@@ -46,11 +46,11 @@ def check_start(start: Start, plan: IndexedPlan | None) -> Start:
 
     Raises TypeError for another type or without a floor plan, FloorPlanError for impossible values."""
     from ..floorplan import plan as plans
-    from ..floorplan.records import no_start
+    from ..floorplan.records import find_start_fault
 
     if not isinstance(start, plans.Start) or plan is None:
         raise TypeError("start must be a Start, on a floor plan")
-    fault = no_start(start)
+    fault = find_start_fault(start)
     if fault is not None:
         raise plans.FloorPlanError(f"start: {fault}")
     return deepcopy(start)

@@ -109,8 +109,8 @@ class WearerParts:
             return events
         t, known_at = sample.t, sample.known_at
         known_at = t if known_at is None or known_at < t else known_at
-        if tracker.seen_at is None or t > tracker.seen_at:
-            tracker.seen_at = t
+        if tracker.viewed_at is None or t > tracker.viewed_at:
+            tracker.viewed_at = t
         if not events and sample.air_pressure is None:  # the case of nearly all samples
             view = tracker.view(sample, known_at, (), False, None)
             for part in self.sampled:
@@ -123,7 +123,7 @@ class WearerParts:
         else:
             stride = any([isinstance(event, StrideTaken) for event in events])
             other = self.feet.get(OTHER[foot])
-            view = tracker.view(sample, known_at, tuple(events), stride, None if other is None else other.seen_at)
+            view = tracker.view(sample, known_at, tuple(events), stride, None if other is None else other.viewed_at)
             moved = self._run_parts(events, view, known_at)
             if moved is not None and self.settings.poses and stride:
                 events.append(moved)

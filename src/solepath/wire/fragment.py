@@ -9,7 +9,7 @@ from ..types.attrs import frozen
 from .error import WireError
 from .fields import LONGEST_VALUE, build_whole, malformed, parse_whole
 
-FRAME_IDS = 7
+FRAME_ID_COUNT = 7
 """Number of frame ids, which are 0 to 6: with id 7, a fragment could start with 0xF5 as a whole frame does."""
 MAX_FRAGMENTS = 16
 """Largest number of fragments of a frame."""
@@ -32,7 +32,7 @@ _FRAGMENT = Struct(
 
 def is_fragment(data: bytes) -> bool:
     """Return whether the first byte marks a fragment rather than a whole frame."""
-    return len(data) > 0 and data[0] >> 5 < FRAME_IDS
+    return len(data) > 0 and data[0] >> 5 < FRAME_ID_COUNT
 
 
 def parse_fragment(data: bytes) -> Fragment:
@@ -50,8 +50,8 @@ def parse_fragment(data: bytes) -> Fragment:
 
 def build_fragment(fragment: Fragment) -> bytes:
     """Return the bytes of `fragment`; ValueError when it does not fit the format."""
-    if not 0 <= fragment.frame_id < FRAME_IDS:
-        raise ValueError(f"frame id {fragment.frame_id}, 0 to {FRAME_IDS - 1} are allowed")
+    if not 0 <= fragment.frame_id < FRAME_ID_COUNT:
+        raise ValueError(f"frame id {fragment.frame_id}, 0 to {FRAME_ID_COUNT - 1} are allowed")
     if not 0 < len(fragment.body) <= LONGEST_VALUE - 1:
         raise ValueError(f"a fragment with a body of {len(fragment.body)} bytes")
     head = {"frame_id": fragment.frame_id, "last": fragment.last, "index": fragment.index}

@@ -13,7 +13,7 @@ from .fields import build_whole, malformed, parse_whole
 
 UNKNOWN_SIGNAL = 127
 """Signal strength that means unknown, as in the Bluetooth HCI; no receiver measures 127 dBm."""
-LONGEST_NAME = 248
+MAX_NAME_SIZE = 248
 """Largest size of a device name, bytes (Bluetooth Core, vol 3 part C, 12.1)."""
 
 _SIGNAL = Struct("signal" / Int8sl)
@@ -33,8 +33,8 @@ def parse_connected(data: bytes) -> ConnectionFrame:
     data = bytes(data)
     if not data:
         raise WireError(Rejection.TRUNCATED, "no signal strength")
-    if len(data) > 1 + LONGEST_NAME:
-        raise WireError(Rejection.OVERSIZED, f"a name of {len(data) - 1} bytes, at most {LONGEST_NAME}")
+    if len(data) > 1 + MAX_NAME_SIZE:
+        raise WireError(Rejection.OVERSIZED, f"a name of {len(data) - 1} bytes, at most {MAX_NAME_SIZE}")
     signal: int = parse_whole(_SIGNAL, data[:1]).signal
     try:
         name = data[1:].decode("utf-8")
@@ -46,7 +46,7 @@ def parse_connected(data: bytes) -> ConnectionFrame:
 def build_connected(connection: ConnectionFrame) -> bytes:
     """Return the bytes of a connection; ValueError when the name is too long or the signal is no i8."""
     name = connection.name.encode("utf-8")
-    if len(name) > LONGEST_NAME or connection.signal == UNKNOWN_SIGNAL:
+    if len(name) > MAX_NAME_SIZE or connection.signal == UNKNOWN_SIGNAL:
         raise ValueError(f"a name of {len(name)} bytes, a signal of {connection.signal} dBm")
     signal = UNKNOWN_SIGNAL if connection.signal is None else connection.signal
     return build_whole(_SIGNAL, {"signal": signal}) + name

@@ -13,7 +13,7 @@ from attrs import evolve
 from memory_radio import MemoryRadio
 
 from solepath.ble import Backend, DeviceConfig, Devices
-from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.controllers.server import virtual_link
 from solepath.emulate.devices.bench import Bench
 from solepath.link.devices.reassembly import Reassembly
 from solepath.types import Packet, Site
@@ -37,7 +37,7 @@ async def memory(bench: Bench) -> AsyncIterator[Backend]:
 
 def bumble(bench: Bench, interval: float | None = None) -> AbstractAsyncContextManager[Backend]:
     """Return a backend of the devices behind virtual controllers; `interval` is between connection events, s."""
-    return virtual_air(bench.peripherals, interval=interval)
+    return virtual_link(bench.peripherals, interval=interval)
 
 
 TIERS = {"memory": memory, "bumble": bumble}

@@ -14,7 +14,7 @@ from bleak.backends.device import BLEDevice
 from strap import BEAT, CONTROL, Strap
 
 from solepath.ble.scanning import Backend
-from solepath.emulate.controllers.server import virtual_air
+from solepath.emulate.controllers.server import virtual_link
 from solepath.emulate.devices.faults import parse_faults
 
 ONE, TWO = "F0:00:00:00:00:01", "F0:00:00:00:00:02"
@@ -82,7 +82,7 @@ class Host:
 
 @asynccontextmanager
 async def linked(device: Strap, mtu: int = 247) -> AsyncIterator[tuple[Host, Backend]]:
-    async with virtual_air([device], mtu) as backend:
+    async with virtual_link([device], mtu) as backend:
         host = Host(backend, await find(backend))
         async with host.client:
             yield host, backend

@@ -21,7 +21,11 @@ from solepath.lab.train import activities, emulated
 from solepath.lab.train import footstep_activity as footstep_training
 from solepath.lab.train import turns as turns_training
 from solepath.papers.footstep_tracker.activity import two_second_windows
-from solepath.papers.footstep_tracker.activity.two_second_windows import LONGEST_RIDE, MOVING, TwoSecondWindows
+from solepath.papers.footstep_tracker.activity.two_second_windows import (
+    LONGEST_RIDE,
+    MOVING_ACTIVITIES,
+    TwoSecondWindows,
+)
 from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel, shipped
 from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindows
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
@@ -166,7 +170,7 @@ def test_who_walks_off_before_the_second_pulse_rode_no_lift():
     )
     assert not [event for event in events if isinstance(event, LiftRidden)]
     found = timeline(events)
-    assert found.at(8.0) is STILL and found.at(14.0) in MOVING
+    assert found.at(8.0) is STILL and found.at(14.0) in MOVING_ACTIVITIES
 
 
 def test_no_second_pulse_for_a_minute_means_that_there_was_no_ride():
@@ -223,7 +227,7 @@ def test_the_variance_tree_comes_first():
     for swing, moves in ((0.9, False), (1.1, True)):
         part = TwoSecondWindows(two_second_windows.TwoSecondSettings(width_one_model()))
         events_of(samples(lambda t, v=swing: v * (-1.0) ** round(t * SAMPLE_RATE), 6.0), part)
-        assert (part.activity in MOVING) is moves
+        assert (part.activity in MOVING_ACTIVITIES) is moves
 
 
 numbers = st.floats(-499, 499)
@@ -263,14 +267,14 @@ def test_the_shipped_model_is_sound_and_names_its_training_data():
 
 
 def test_no_wearer_that_is_scored_was_learnt_from():
-    first, last = emulated.FIRST_TO_LEARN_FROM, emulated.LAST_TO_LEARN_FROM
+    first, last = emulated.FIRST_TRAINING_SEED, emulated.LAST_TRAINING_SEED
     for seeds in (
-        range(first, first + footstep_training.WALKS),
+        range(first, first + footstep_training.WALK_COUNT),
         range(turns_training.FIRST_TRAINING_SEED, turns_training.FIRST_TRAINING_SEED + turns_training.TURNS_PER_CLASS),
         activities.EMULATED,
     ):
         assert first <= min(seeds) and max(seeds) <= last
-    assert last < footstep_tracker.FIRST and first > 50  # and the tests' own wearers come before
+    assert last < footstep_tracker.FIRST_SEED and first > 50  # and the tests' own wearers come before
 
 
 def test_the_activities_of_an_emulated_wearer_are_found():

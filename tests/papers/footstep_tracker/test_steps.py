@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.gait.turning_steps import TurningSteps
+from solepath.body.gait.turning_steps import TurningStrideFilter
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
 from solepath.papers.footstep_tracker.critical_cues import CriticalCues
@@ -274,7 +274,7 @@ def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:
 
 
 def test_the_usual_turn_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:
-    turning = TurningSteps()
+    turning = TurningStrideFilter()
     for _ in range(60):
         turning.turn(0.1)
     assert turning.straight_turn == pytest.approx(0.1, abs=0.01)

@@ -81,7 +81,7 @@ def test_with_its_noise_removed_a_foot_in_the_air_has_no_load() -> None:
     assert noise == pytest.approx([0.8 + 3 * 0.15] * 96, abs=0.12)
     insole = InsoleLoads(InsoleSettings(noise=noise))
     insole.set_layout(cells)
-    swings = walker.truth().feet[Foot.LEFT].steps[1:-1]
+    swings = walker.truth().feet[Foot.LEFT].strides[1:-1]
     for sample in samples:
         load = insole.update(sample.t, sample.pressure or ())
         if load is not None and any(s.t_toe_off + 0.02 < sample.t < s.t_heel_strike - 0.02 for s in swings):

@@ -10,7 +10,7 @@ import pytest
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.cues.cues import SeenCue
+from solepath.foot.cues.cues import TimedCue
 from solepath.foot.cues.touch import Touch
 from solepath.foot.phase import PHASES, Cue
 from solepath.foot.pressure.insole import InsoleLoads
@@ -45,10 +45,10 @@ def cues_with_load() -> CopCues:
 
 def watch(
     rows: list[Row], cues: CopCues | None = None, speed: float = 0.0
-) -> tuple[list[tuple[SeenCue, int]], list[Cue | None]]:
+) -> tuple[list[tuple[TimedCue, int]], list[Cue | None]]:
     """Return the cues, each with the number of the sample at which it was reported, and the marks; 100 Hz."""
     cues = cues or cues_with_load()
-    seen: list[tuple[SeenCue, int]] = []
+    seen: list[tuple[TimedCue, int]] = []
     marks: list[Cue | None] = []
     phase = Phase.STATIONARY
     gyro: Vec3 = (0.0, 0.5, 0.0)
@@ -184,13 +184,13 @@ def test_the_table_of_stages_has_none_too_many_and_can_be_printed() -> None:
 WALK = Route().stand(2.0).walk(12.0, 1.2).stop(1.5)
 
 
-def cues_without_imu(cells: Layout, walker: Walker) -> list[SeenCue]:
+def cues_without_imu(cells: Layout, walker: Walker) -> list[TimedCue]:
     """Return the cues of an insole without an inertial sensor."""
     foot = cells.foot
     insole, cues = InsoleLoads(), CopCues()
     insole.set_layout(cells)
     cues.set_layout(cells)
-    seen: list[SeenCue] = []
+    seen: list[TimedCue] = []
     phase = Phase.STATIONARY
     for sample in walker.samples(foot, 100.0, layout=cells):
         load = insole.update(sample.t, sample.pressure or ())

@@ -53,7 +53,7 @@ def stride_errors(recipe: str, rate: float) -> tuple[list[float], list[float]]:
     errors, distances = [], []
     for seed in SEEDS:
         for foot in Foot:
-            found, true = strides_in(run(recipe, samples(seed, foot, rate))), walker_of(seed).truth().steps(foot)
+            found, true = strides_in(run(recipe, samples(seed, foot, rate))), walker_of(seed).truth().strides(foot)
             assert len(found) == len(true)
             errors += [a.length - b.length for a, b in zip(found[2:], true[2:], strict=True)]
             distances.append(sum(a.length for a in found) - sum(b.length for b in true))
@@ -149,7 +149,7 @@ def test_after_a_long_stand_on_both_feet_the_next_steps_are_found() -> None:
     two = Walker(route, seed=224)
     for foot in Foot:
         walk = two.samples(foot, 50.0, LSM6DSOX, layout=layout(96, foot))
-        found, true = strides_in(run("kupt", tuple(walk))), two.truth().steps(foot)
+        found, true = strides_in(run("kupt", tuple(walk))), two.truth().strides(foot)
         assert len(found) == len(true)
         assert sum(step.length for step in found) == pytest.approx(sum(s.length for s in true), abs=0.5)
 
@@ -185,7 +185,7 @@ def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
 def test_insoles_without_a_layout_make_no_step_longer_than_the_wearers() -> None:
     """Without areas, before the order of loading has shown where the cells are, the foot still stands."""
     walk = samples(223, Foot.RIGHT, 100.0)
-    found, true = strides_in(run_session(walk, recipes.by_name("kupt"))), walker_of(223).truth().steps(Foot.RIGHT)
+    found, true = strides_in(run_session(walk, recipes.by_name("kupt"))), walker_of(223).truth().strides(Foot.RIGHT)
     assert len(found) == len(true)
     assert sum(step.length for step in found) == pytest.approx(sum(step.length for step in true), abs=0.6)
     assert max(step.length for step in found) < 1.2 * max(step.length for step in true)

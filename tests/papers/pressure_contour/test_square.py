@@ -15,7 +15,7 @@ from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.routes.laps import square
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
-from solepath.emulate.sensors.parts import AttitudePart
+from solepath.emulate.sensors.parts import AttitudeErrors
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.papers.pressure_contour.recipe import GYROSCOPE
@@ -25,7 +25,7 @@ from solepath.recording.decoded import decode_recording
 from solepath.types import Foot, Packet, Sample, Site, Vec3
 
 LEFT = Foot.LEFT
-EXACT_ATTITUDE = AttitudePart("exact", tilt=0.0, heading=0.0)
+EXACT_ATTITUDE = AttitudeErrors("exact", tilt=0.0, heading=0.0)
 MARKS_PER_LAP = 8
 
 

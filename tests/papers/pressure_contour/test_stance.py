@@ -250,7 +250,7 @@ def test_too_few_cells_are_reported_once_and_the_walk_continues_by_the_gyroscope
     assert [one.what for one in of(Limitation, events)] == [
         "2 pressure cells under the heel have no contour, 4 are the fewest; the gyroscope says when the foot stands"
     ]
-    assert len(of(StrideTaken, events)) >= len(walk.truth.steps(LEFT)) - 1
+    assert len(of(StrideTaken, events)) >= len(walk.truth.strides(LEFT)) - 1
 
 
 @pytest.mark.parametrize("recipe", [PRESSURE_CONTOUR, GYROSCOPE], ids=["contours", "gyroscope"])
@@ -262,7 +262,7 @@ def test_all_steps_are_found_and_a_square_ends_where_it_started(recipe: Recipe) 
     walk = emulate(side.stop(2.0), devices={Site.LEFT_FOOT: device}, seed=108)
     session = Session(recipe)
     events = session.feed(walk.packets) + session.finish()
-    assert len(of(StrideTaken, events)) == len(walk.truth.steps(LEFT))
+    assert len(of(StrideTaken, events)) == len(walk.truth.strides(LEFT))
     x, y, _ = session.feet[LEFT].position
     true = walk.truth.pose(LEFT, walk.truth.duration).position[0]
     assert np.hypot(x, y) - np.hypot(true[0], true[1]) < 0.6

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.body.activity.steepness import DOWN_FROM, UP_FROM, angle_per_metre, steepness
+from solepath.body.activity.steepness import DOWNSTAIRS_THRESHOLD, UPSTAIRS_THRESHOLD, angle_per_metre, steepness
 from solepath.foot.stance.stance import Stance
 from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude, EnergySettings, ShortTimeEnergy
 from solepath.saving import codec as machine
@@ -90,8 +90,8 @@ def test_the_stride_of_figure_28_lies_within_table_1() -> None:
 
 
 def test_thresholds_are_half_way_between_the_averages_of_table_1() -> None:
-    assert degrees(UP_FROM) == pytest.approx((3.935 + 107.904) / 2)
-    assert degrees(DOWN_FROM) == pytest.approx((3.935 - 89.464) / 2)
+    assert degrees(UPSTAIRS_THRESHOLD) == pytest.approx((3.935 + 107.904) / 2)
+    assert degrees(DOWNSTAIRS_THRESHOLD) == pytest.approx((3.935 - 89.464) / 2)
 
 
 @pytest.mark.parametrize(

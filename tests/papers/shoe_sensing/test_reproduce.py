@@ -9,8 +9,8 @@ from strides import stride
 from solepath.emulate.wearers.truth import TrueStride
 from solepath.events import StrideTaken
 from solepath.lab.reproduce import shoe_sensing, shoe_walks
-from solepath.lab.reproduce.published import NORMALISED
 from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
+from solepath.lab.reproduce.published import TABLE_2_DIVISOR
 from solepath.lab.reproduce.shoe_walks import FOOT, STATES, matched, route_of, score_strides, tour_route, worn
 from solepath.lab.reproduce.walks import run_session
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
@@ -56,13 +56,13 @@ def test_table_2_is_the_mean_error_over_the_length_divided_by_22_5() -> None:
     ):
         error, printed = PAPER[off].mean, PAPER[row].mean
         assert error is not None and printed is not None
-        assert 100.0 * error / length / NORMALISED == pytest.approx(printed, abs=0.011)
+        assert 100.0 * error / length / TABLE_2_DIVISOR == pytest.approx(printed, abs=0.011)
 
 
 def test_strides_are_about_as_long_as_the_papers() -> None:
     for state, length in (("walking", 1.20), ("jogging", 1.60), ("upstairs", 0.60), ("downstairs", 0.60)):
         _, truth = worn(route_of(state), 1)
-        lengths = [one.length for one in truth.steps(FOOT) if state in STATES[:2] or abs(one.displacement[2]) > 0.25]
+        lengths = [one.length for one in truth.strides(FOOT) if state in STATES[:2] or abs(one.displacement[2]) > 0.25]
         assert sorted(lengths)[len(lengths) // 2] == pytest.approx(length, rel=0.08)
 
 
@@ -73,7 +73,7 @@ def test_five_minutes_are_five_minutes() -> None:
 def test_on_the_stairs_those_strides_count_that_climb_two_risers() -> None:
     samples, truth = worn(route_of("upstairs"), 1)
     steps = score_strides(run_session(SHOE_SENSING, samples), truth, "upstairs")
-    climbed = [one for one in truth.steps(FOOT) if one.displacement[2] > 0.25]
+    climbed = [one for one in truth.strides(FOOT) if one.displacement[2] > 0.25]
     assert steps.found + steps.not_found == len(climbed)
     assert steps.right == (True,) * steps.found
     assert all(80.0 < angle < 130.0 for angle in steps.angles)

@@ -23,7 +23,7 @@ from ...types import Activity, Foot, Site
 from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartOutput
-from .features import BLOCK, REACH
+from .features import BLOCK_DURATION, WINDOW_REACH
 from .flights import Flights
 from .foot_blocks import FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
@@ -107,7 +107,7 @@ class Activities(ActivityPart):
             if acc is None:
                 return ()
             self.origin = origin = t
-        block_number = (t - origin + TIE) / BLOCK
+        block_number = (t - origin + TIE) / BLOCK_DURATION
         events: Sequence[PartOutput] = ()
         if sample.air_pressure is not None and side.index is not None:
             self.pressure_height.add(view.foot, floor(block_number), sample.air_pressure)
@@ -143,7 +143,7 @@ class Activities(ActivityPart):
         """Judge the blocks that are complete in all feet that give samples."""
         open_blocks = [side.index for side in (self.left, self.right) if side.index is not None]
         newest = max(open_blocks)
-        complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1 - REACH
+        complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1 - WINDOW_REACH
         if complete < self.next_block:
             return []
         events: list[Event] = []
@@ -152,7 +152,7 @@ class Activities(ActivityPart):
             empty_blocks = 0 if self._judge_block(self.next_block) else empty_blocks + 1
             self.next_block += 1
             if empty_blocks > MAX_EMPTY_BLOCKS:
-                self.next_block = max(self.next_block, complete - REACH)
+                self.next_block = max(self.next_block, complete - WINDOW_REACH)
         self._report(known_at, events)
         self._count_flights(t, known_at, events)
         return events
@@ -162,24 +162,24 @@ class Activities(ActivityPart):
         t = self._time(index)
         model = self.settings.model or load_released_model()
         sides = (self.left, self.right)
-        features = [side.features(index, t + 0.5 * BLOCK) for side in sides]
+        features = [side.features(index, t + 0.5 * BLOCK_DURATION) for side in sides]
         pressure_height = self.pressure_height
-        climbs = pressure_height.score_slope(index, BLOCK) if pressure_height.blocks else NO_EVIDENCE
+        pressure_scores = pressure_height.score_slope(index, BLOCK_DURATION) if pressure_height.blocks else NO_EVIDENCE
         self.hypotheses.update(
             BlockEvidence(
                 t=t,
-                motions=motion_votes(model, features),
+                motion_scores=motion_votes(model, features),
                 forces=tuple([block_force(side.block(index), side.resolution) for side in sides]),
-                climbs=climbs,
+                pressure_scores=pressure_scores,
                 before=pressure_height.height(index - 3, index - 1),
-                after=pressure_height.height(index, index + REACH),
+                after=pressure_height.height(index, index + WINDOW_REACH),
             ),
             model.chain,
         )
         return any([foot_features is not None for foot_features in features])
 
     def _time(self, index: int) -> float:
-        return (0.0 if self.origin is None else self.origin) + index * BLOCK
+        return (0.0 if self.origin is None else self.origin) + index * BLOCK_DURATION
 
     def _restart(self) -> None:
         self.origin = None

@@ -10,9 +10,9 @@ from math import log
 
 from .block import ActivityBlock, BlockStride
 
-BLOCK = 0.5
+BLOCK_DURATION = 0.5
 """Duration of a block, s."""
-REACH = 2
+WINDOW_REACH = 2
 """Number of blocks before and after the judged one in its window: five blocks, 2.5 s."""
 BIN_COUNT = 10
 """Number of bins of |acc|, 2 m/s^2 wide, and of |gyro|, 1 rad/s wide; the last bin has no upper limit."""
@@ -20,21 +20,21 @@ ACC_LIMIT, SQUARED_RATE_LIMIT = 2.0 * BIN_COUNT, BIN_COUNT * BIN_COUNT
 """Lower limits of the last bins: |acc|, m/s^2, and |gyro|^2, (rad/s)^2."""
 WINDOW_PARTS = 3
 """Number of parts of a window: the blocks before the judged one, the judged one, and the blocks after it."""
-GYRO = 4 + WINDOW_PARTS * BIN_COUNT
+FIRST_GYRO_FEATURE = 4 + WINDOW_PARTS * BIN_COUNT
 """Index of the first feature that needs a gyroscope."""
-TRACK = GYRO + 5 + WINDOW_PARTS * BIN_COUNT
+FIRST_TRACK_FEATURE = FIRST_GYRO_FEATURE + 5 + WINDOW_PARTS * BIN_COUNT
 """Index of the first feature that needs a track."""
-STRIDE = TRACK + 6
+FIRST_STRIDE_FEATURE = FIRST_TRACK_FEATURE + 6
 """Index of the first feature of a stride."""
-COUNT = STRIDE + 11
+FEATURE_COUNT = FIRST_STRIDE_FEATURE + 11
 """Number of features."""
 
 
 def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: BlockStride | None) -> list[float]:
-    """Return `COUNT` features, scaled to the order of 1, of the block `judged`; unknown features are 0.
+    """Return `FEATURE_COUNT` features, scaled to the order of 1, of the block `judged`; unknown features are 0.
 
     `window` has the blocks of the window, including `judged`; `stride` is the stride in its middle."""
-    values = [0.0] * COUNT
+    values = [0.0] * FEATURE_COUNT
     earlier = [block for block in window if block.index < judged.index]
     later = [block for block in window if block.index > judged.index]
     with_gyro = [block for block in window if block.gyro_count]
@@ -72,14 +72,14 @@ def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: Bloc
                 least = gyro_mean_square
             elif gyro_mean_square > most:
                 most = gyro_mean_square
-        values[GYRO] = 1.0
-        values[GYRO + 1] = _log_variance(
+        values[FIRST_GYRO_FEATURE] = 1.0
+        values[FIRST_GYRO_FEATURE + 1] = _log_variance(
             judged.gyro_mean_square if judged.gyro_count else with_gyro[0].gyro_mean_square
         )
-        values[GYRO + 2] = _log_variance(least)
-        values[GYRO + 3] = _log_variance(most)
-        values[GYRO + 4] = _log_variance(squares / gyro_count)
-        start = GYRO + 5
+        values[FIRST_GYRO_FEATURE + 2] = _log_variance(least)
+        values[FIRST_GYRO_FEATURE + 3] = _log_variance(most)
+        values[FIRST_GYRO_FEATURE + 4] = _log_variance(squares / gyro_count)
+        start = FIRST_GYRO_FEATURE + 5
         for blocks in window_parts:
             if len(with_gyro) < len(window):
                 blocks = [block for block in blocks if block.gyro_count]
@@ -89,25 +89,25 @@ def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: Bloc
                 )
             start += BIN_COUNT
     if tracked:
-        values[TRACK] = 1.0
-        values[TRACK + 1] = min(max([block.climb for block in tracked]), 3.0)
-        values[TRACK + 2] = max(min([block.sink for block in tracked]), -3.0)
-        values[TRACK + 3] = 0.5 * min(max([block.speed for block in tracked]), 6.0)
-        values[TRACK + 4] = min(judged.climb, 3.0)
-        values[TRACK + 5] = max(judged.sink, -3.0)
+        values[FIRST_TRACK_FEATURE] = 1.0
+        values[FIRST_TRACK_FEATURE + 1] = min(max([block.climb for block in tracked]), 3.0)
+        values[FIRST_TRACK_FEATURE + 2] = max(min([block.sink for block in tracked]), -3.0)
+        values[FIRST_TRACK_FEATURE + 3] = 0.5 * min(max([block.speed for block in tracked]), 6.0)
+        values[FIRST_TRACK_FEATURE + 4] = min(judged.climb, 3.0)
+        values[FIRST_TRACK_FEATURE + 5] = max(judged.sink, -3.0)
     if stride is not None:
         duration = stride.end - stride.start
-        values[STRIDE] = 1.0
-        values[STRIDE + 1] = min(duration, 2.0)
-        values[STRIDE + 2] = min(stride.length, 2.0)
-        values[STRIDE + 3] = 2.0 * min(max(stride.rise, -0.6), 0.6)
-        values[STRIDE + 4] = 2.0 * min(max(stride.clearance, 0.0), 0.5)
-        values[STRIDE + 5] = 0.5 * min(stride.speed, 6.0)
-        values[STRIDE + 6] = min(stride.pitch, 3.0)
-        values[STRIDE + 7] = min(max(stride.rise / max(stride.length, 0.2), -1.0), 1.0)
-        values[STRIDE + 8] = 2.0 * min(max(stride.top, -0.6), 0.6)
-        values[STRIDE + 9] = 2.0 * min(max(stride.bottom, -0.6), 0.6)
-        values[STRIDE + 10] = 2.0 * min(max(stride.strike_height, -0.6), 0.6)
+        values[FIRST_STRIDE_FEATURE] = 1.0
+        values[FIRST_STRIDE_FEATURE + 1] = min(duration, 2.0)
+        values[FIRST_STRIDE_FEATURE + 2] = min(stride.length, 2.0)
+        values[FIRST_STRIDE_FEATURE + 3] = 2.0 * min(max(stride.rise, -0.6), 0.6)
+        values[FIRST_STRIDE_FEATURE + 4] = 2.0 * min(max(stride.clearance, 0.0), 0.5)
+        values[FIRST_STRIDE_FEATURE + 5] = 0.5 * min(stride.speed, 6.0)
+        values[FIRST_STRIDE_FEATURE + 6] = min(stride.pitch, 3.0)
+        values[FIRST_STRIDE_FEATURE + 7] = min(max(stride.rise / max(stride.length, 0.2), -1.0), 1.0)
+        values[FIRST_STRIDE_FEATURE + 8] = 2.0 * min(max(stride.top, -0.6), 0.6)
+        values[FIRST_STRIDE_FEATURE + 9] = 2.0 * min(max(stride.bottom, -0.6), 0.6)
+        values[FIRST_STRIDE_FEATURE + 10] = 2.0 * min(max(stride.strike_height, -0.6), 0.6)
     return values
 
 

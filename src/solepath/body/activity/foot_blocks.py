@@ -12,9 +12,9 @@ from ...types import Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
 from .block import ActivityBlock, BlockStride
-from .features import ACC_LIMIT, BIN_COUNT, BLOCK, REACH, SQUARED_RATE_LIMIT, features_of
+from .features import ACC_LIMIT, BIN_COUNT, BLOCK_DURATION, SQUARED_RATE_LIMIT, WINDOW_REACH, features_of
 
-MAX_BLOCKS = 2 * REACH + 1
+MAX_BLOCKS = 2 * WINDOW_REACH + 1
 """Number of blocks that are kept: one window."""
 MAX_STRIDES = 3
 """Number of strides that are kept: a window of a runner holds as many."""
@@ -200,12 +200,12 @@ class FootBlocks:
         here = self.block(index)
         if here is None:
             return None
-        near = [block for block in self.blocks if -REACH <= block.index - index <= REACH]
+        near = [block for block in self.blocks if -WINDOW_REACH <= block.index - index <= WINDOW_REACH]
         return features_of(here, near, self._stride_at(t))
 
     def _stride_at(self, t: float) -> BlockStride | None:
         """Return the stride nearest to `t`, s; None when none is within a quarter of a second."""
-        best, nearest = None, 0.5 * BLOCK
+        best, nearest = None, 0.5 * BLOCK_DURATION
         for stride in self.strides:
             start = max(stride.start, stride.end - MAX_STRIDE_TIME)
             distance = max(start - t, t - stride.end, 0.0)

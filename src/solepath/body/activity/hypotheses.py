@@ -25,7 +25,7 @@ from .chain import (
     UNFINISHED_STATES,
     Chain,
 )
-from .features import BLOCK
+from .features import BLOCK_DURATION
 from .ride import (
     DWELL_TIME,
     HALT_ACCELERATION,
@@ -85,11 +85,11 @@ class BlockEvidence:
     """The evidence of the block that starts at `t`, s."""
 
     t: float
-    motions: tuple[float, ...]
+    motion_scores: tuple[float, ...]
     """Log-likelihoods of STAND, WALK, RUN, UP, DOWN and UNKNOWN by the motion of the feet (motion.py)."""
     forces: tuple[BlockForce | None, ...]
     """Force on the left and on the right foot."""
-    climbs: tuple[float, ...]
+    pressure_scores: tuple[float, ...]
     """Log-likelihood of each state by the air pressure."""
     before: float | None
     """Height just before the block by the air pressure, m above any reference."""
@@ -240,7 +240,7 @@ def _score_course(
     else:
         levels, log_likelihood = elevator.add_walking(levels)
     return (
-        score + start_score + block.motions[motion] + log_likelihood + block.climbs[state],
+        score + start_score + block.motion_scores[motion] + log_likelihood + block.pressure_scores[state],
         state,
         token,
         levels,
@@ -255,10 +255,10 @@ def _extend_course(
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
     if path and path[-1].activity is activity:
         if state in RIDE_STATES:
-            return path, ride.move(levels, acceleration, BLOCK)
+            return path, ride.move(levels, acceleration, BLOCK_DURATION)
         if state == STAND:
-            return path, ride.wait(levels, BLOCK)
-        return path, ElevatorRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK)
+            return path, ride.wait(levels, BLOCK_DURATION)
+        return path, ElevatorRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK_DURATION)
     t = block.t
     if path:
         last = path[-1]
@@ -270,12 +270,12 @@ def _extend_course(
     if state in RIDE_STATES:
         has_first_pulse = state in PULSE_SIGNS and bool(path)
         return (*path, ActivitySegment(t, activity, block.t)), ride.start(
-            has_first_pulse, block.before, levels, acceleration, BLOCK
+            has_first_pulse, block.before, levels, acceleration, BLOCK_DURATION
         )
     path = (*path, ActivitySegment(t, activity))
     if state == STAND:
-        return path, ride.wait(levels, BLOCK)
-    return path, ElevatorRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK)
+        return path, ride.wait(levels, BLOCK_DURATION)
+    return path, ElevatorRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK_DURATION)
 
 
 FIRST_TOKENS = tuple(

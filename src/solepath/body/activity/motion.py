@@ -23,7 +23,7 @@ from typing import Any
 from ...types import Activity
 from ...types.attrs import frozen
 from .chain import Chain, Chances, Shifts, chain_of
-from .features import COUNT, GYRO
+from .features import FEATURE_COUNT, FIRST_GYRO_FEATURE
 
 MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down")
 """Motions that one foot's samples can distinguish, in the order of the network outputs.
@@ -73,13 +73,13 @@ class MotionModel:
     trained_on: str
     """Description of the training data, one sentence."""
     whole: Network
-    """Network for all `COUNT` features, used with a gyroscope."""
+    """Network for all `FEATURE_COUNT` features, used with a gyroscope."""
     alone: Network
-    """Network for the first `GYRO` features, used without a gyroscope."""
+    """Network for the first `FIRST_GYRO_FEATURE` features, used without a gyroscope."""
     usual: tuple[Row, ...]
-    """Means of the first `GYRO` features, one row for each of `MOTIONS`."""
+    """Means of the first `FIRST_GYRO_FEATURE` features, one row for each of `MOTIONS`."""
     spread: tuple[Row, ...]
-    """Standard deviations of the first `GYRO` features, one row for each of `MOTIONS`."""
+    """Standard deviations of the first `FIRST_GYRO_FEATURE` features, one row for each of `MOTIONS`."""
     chances: Chances
     shifts: Shifts
 
@@ -90,17 +90,17 @@ class MotionModel:
 
     def log_probabilities(self, features: Sequence[float]) -> list[float]:
         """Return the natural logarithm of the probability of each of `MOTIONS`."""
-        return (self.whole if features[GYRO] else self.alone).log_probabilities(features)
+        return (self.whole if features[FIRST_GYRO_FEATURE] else self.alone).log_probabilities(features)
 
     def strangeness(self, features: Sequence[float]) -> float:
         """Return the mean squared deviation from the nearest motion; 1 is usual, 4 is two deviations everywhere."""
-        inputs = features[:GYRO]
+        inputs = features[:FIRST_GYRO_FEATURE]
         distances = [
             dist(tuple(map(truediv, inputs, spread)), middle)
             for spread, middle in zip(self.spread, self.middles, strict=True)
         ]
         nearest = min(distances)
-        return nearest * nearest / GYRO
+        return nearest * nearest / FIRST_GYRO_FEATURE
 
     @property
     def chain(self) -> Chain:
@@ -123,8 +123,8 @@ def from_json(data: dict[str, Any]) -> MotionModel:
     Raises ValueError when the model does not fit the features of this release."""
     model = MotionModel(
         trained_on=str(data["trained_on"]),
-        whole=_network(data["whole"], COUNT),
-        alone=_network(data["alone"], GYRO),
+        whole=_network(data["whole"], FEATURE_COUNT),
+        alone=_network(data["alone"], FIRST_GYRO_FEATURE),
         usual=_rows(data["usual"]),
         spread=_rows(data["spread"]),
         chances=_rows(data["chances"]),

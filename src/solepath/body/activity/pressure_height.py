@@ -8,7 +8,6 @@ from math import exp, log
 from ...types import Foot
 from ...types.attrs import define, field
 from .chain import (
-    DOWN,
     ELEVATOR_CREEPS_DOWN,
     ELEVATOR_CREEPS_UP,
     ELEVATOR_HALTS_DOWN,
@@ -20,9 +19,10 @@ from .chain import (
     ELEVATOR_STOPS_DOWN,
     ELEVATOR_STOPS_UP,
     RUN,
+    STAIRS_DOWN,
+    STAIRS_UP,
     STAND,
     UNKNOWN,
-    UP,
     WALK,
 )
 
@@ -45,8 +45,8 @@ _SLOPES = {
     STAND: (0.0, 0.05),
     WALK: (0.0, 0.15),
     RUN: (0.0, 0.25),
-    UP: (0.3, 0.15),
-    DOWN: (-0.3, 0.15),
+    STAIRS_UP: (0.3, 0.15),
+    STAIRS_DOWN: (-0.3, 0.15),
     UNKNOWN: (0.0, 1.0),
     ELEVATOR_MOVES_UP: (1.3, 0.8),
     ELEVATOR_MOVES_DOWN: (-1.3, 0.8),

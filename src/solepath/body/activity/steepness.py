@@ -25,11 +25,11 @@ UPSTAIRS_ANGLE = radians(107.904)
 DOWNSTAIRS_ANGLE = radians(-89.464)
 """Average angle per metre of table 1 downstairs, rad/m."""
 
-UP_FROM = 0.5 * (LEVEL_ANGLE + UPSTAIRS_ANGLE)
+UPSTAIRS_THRESHOLD = 0.5 * (LEVEL_ANGLE + UPSTAIRS_ANGLE)
 """Threshold of stairs upwards: 55.9 degrees/m, half way between the averages.
 
 The paper: "by using a threshold of the average theta'"."""
-DOWN_FROM = 0.5 * (LEVEL_ANGLE + DOWNSTAIRS_ANGLE)
+DOWNSTAIRS_THRESHOLD = 0.5 * (LEVEL_ANGLE + DOWNSTAIRS_ANGLE)
 """Threshold of stairs downwards: -42.8 degrees/m, half way between the averages."""
 
 LEAST_RISE = 0.08
@@ -59,7 +59,7 @@ def steepness(ground: float, height: float) -> int:
     if -LEAST_RISE < height < LEAST_RISE:
         return 0
     angle = angle_per_metre(ground, height)
-    return 1 if angle > UP_FROM else -1 if angle < DOWN_FROM else 0
+    return 1 if angle > UPSTAIRS_THRESHOLD else -1 if angle < DOWNSTAIRS_THRESHOLD else 0
 
 
 def is_stair_rise(height: float, degraded: bool = False) -> bool:

@@ -15,7 +15,7 @@ from math import pi
 from ...events import StrideTaken
 from ...types import Foot
 from ...types.attrs import define, field, frozen
-from .turning_steps import STRAIGHT_TOLERANCE, TurningSteps
+from .turning_steps import STRAIGHT_TOLERANCE, TurningStrideFilter
 
 MIN_PAUSE = 2.0
 """Least time without a foot-flat that ends a turn, s.
@@ -53,7 +53,7 @@ class TurnProcess:
 class FootTurn:
     """The turn of one foot in the turning process under way."""
 
-    stride_filter: TurningSteps = field(factory=TurningSteps)
+    stride_filter: TurningStrideFilter = field(factory=TurningStrideFilter)
     stride_end: float | None = None
     """End of the foot's last stride or pivot, s."""
     angle: float = 0.0

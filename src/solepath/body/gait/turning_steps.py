@@ -23,7 +23,7 @@ MAX_STRAIGHT_TURN = 0.3
 
 
 @define
-class TurningSteps:
+class TurningStrideFilter:
     """The low-pass filter of one foot's turns; time and memory are O(1), and there is no latency."""
 
     straight_turn: float = field(default=0.0, init=False)

@@ -94,7 +94,7 @@ class Turns(Part):
 
     def _add_foot_flat(self, view: FootView, event: FootFlat) -> TurnProcess | None:
         """Add a foot-flat, before which the foot may have pivoted without a stride."""
-        previous, attitude = self.last_flat.get(event.foot), view.after.stood
+        previous, attitude = self.last_flat.get(event.foot), view.after.flat_attitude
         self.last_flat[event.foot] = FlatFoot(event.t, attitude)
         has_stride = view.after.covariance is not None and any(
             [isinstance(other, StrideTaken) and other.t == event.t for other in view.events]

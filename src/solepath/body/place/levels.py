@@ -19,7 +19,7 @@ from .landings import Landing, find_exits, list_landings
 from .noise import next_random
 from .place_hypotheses import PlaceHypotheses
 from .reference import LevelChangePossible, LevelReached, References
-from .rows import Row, resampled, round_rows
+from .rows import Row, resample_rows, round_rows
 from .stride_scale import StrideScale
 
 KNOWN_ROWS = 64
@@ -97,7 +97,7 @@ class LevelChanges(PlaceHypotheses):
             if arrived.certainty <= MIN_CERTAINTY:
                 self.cancel_level_change()
                 return
-            exit_rows = rows_at_all_exits(self.scatter, plan, arrived, self.settings.most)
+            exit_rows = rows_at_all_exits(self.scatter, plan, arrived, self.settings.max_rows)
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
             exit_weight = sum([row[4] for row in exit_rows])
             landing_share = 1.0 - STAYING_SHARE[arrived.kind]
@@ -111,9 +111,9 @@ class LevelChanges(PlaceHypotheses):
             self.level_uncertain = False
         self.arrived_at = arrived.t
         exit_rows = [(x, y, a, b, k * w, level, origin, 0) for x, y, a, b, w, level, origin, _ in exit_rows]
-        if len(exit_rows) > self.settings.most:
-            exit_rows = self.thin(exit_rows, self.settings.most)
-        exit_rows = self._move_to_now(plan, exit_rows, arrived.t) + resampled(rows, KNOWN_ROWS, 0.5)
+        if len(exit_rows) > self.settings.max_rows:
+            exit_rows = self.thin(exit_rows, self.settings.max_rows)
+        exit_rows = self._move_to_now(plan, exit_rows, arrived.t) + resample_rows(rows, KNOWN_ROWS, 0.5)
         if exit_rows:
             self.set_rows(exit_rows)
 

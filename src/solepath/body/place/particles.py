@@ -11,7 +11,7 @@ from ...floorplan.plan import Point
 from ...types.attrs import define
 from .noise import NOISE_ROWS, NOISE_TABLE, next_random
 from .placing import Placing
-from .rows import Row, resampled
+from .rows import Row, resample_rows
 from .sway import sway_rows
 
 
@@ -19,10 +19,10 @@ from .sway import sway_rows
 class Particles(Placing):
     """The particle filter, the default method of every recipe."""
 
-    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
+    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float) -> list[Row]:
         """Return the rows after a move, without those that cannot go there."""
         self.random = next_random(self.random)
-        return sway_rows(plan, rows, move, rough, turned, self.random, False)
+        return sway_rows(plan, rows, move, error_factor, turned, self.random, False)
 
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
         """Return offsets for the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
@@ -31,4 +31,4 @@ class Particles(Placing):
     def thin(self, rows: list[Row], count: int) -> list[Row]:
         """Return `count` rows, drawn according to their weights."""
         self.random = next_random(self.random)
-        return resampled(rows, count, (self.random % 4093) / 4093.0)
+        return resample_rows(rows, count, (self.random % 4093) / 4093.0)

@@ -10,7 +10,7 @@ from ...floorplan.plan import Point
 from ...types.attrs import define, field, frozen
 from ..part import Part
 from .noise import NOISE_ROWS, NOISE_TABLE, next_random
-from .rows import Row, resampled, round_rows
+from .rows import Row, resample_rows, round_rows
 
 MAX_MOVE = 4.0
 """Longest move between two strides, m; a longer move is across a gap, in which the path is not known."""
@@ -28,7 +28,7 @@ HEADING_COUNT, ROWS_PER_HEADING = 12, 8
 class PlaceSettings:
     """The settings of any method."""
 
-    most: int = 260
+    max_rows: int = 260
     """Largest number of rows that are kept."""
 
 
@@ -38,15 +38,15 @@ class PlaceHypotheses(Part, ABC):
 
     settings: PlaceSettings = PlaceSettings()
     rows: list[Row] = field(factory=list, init=False)
-    """The rows, at most `PlaceSettings.most`."""
+    """The rows, at most `PlaceSettings.max_rows`."""
     random: int = field(default=1, init=False)
     """State of the random numbers (noise.py)."""
 
     @abstractmethod
-    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
+    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float) -> list[Row]:
         """Return the rows after a move of the track, m, without rows for which the plan forbids it.
 
-        `rough` is a factor of the track's usual errors, `turned` the turn of the wearer, rad, not negative."""
+        `error_factor` is a factor of the track's usual errors, `turned` the turn of the wearer, rad, not negative."""
 
     @abstractmethod
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
@@ -58,10 +58,12 @@ class PlaceHypotheses(Part, ABC):
 
     def set_rows(self, rows: list[Row]) -> None:
         """Set the rows, thinned to the largest number that may be kept."""
-        most = self.settings.most
-        self.rows = round_rows(rows if len(rows) <= most else self.thin(rows, most))
+        max_rows = self.settings.max_rows
+        self.rows = round_rows(rows if len(rows) <= max_rows else self.thin(rows, max_rows))
 
-    def move_rows(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
+    def move_rows(
+        self, plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float
+    ) -> list[Row]:
         """Return all rows after a move of the track, m."""
         dx, dy = move
         changing = [row for row in rows if row[7]]
@@ -69,7 +71,7 @@ class PlaceHypotheses(Part, ABC):
         if hypot(dx, dy) > MAX_MOVE:
             walking = self._move_across_gap(plan, walking, move)
         elif walking:
-            walking = self.extend(plan, walking, move, rough, turned)
+            walking = self.extend(plan, walking, move, error_factor, turned)
         # on stairs a row follows the track, because the walls of neither level apply
         moved = [
             (x + a * dx - b * dy, y + b * dx + a * dy, a, b, w, level, origin, landing)
@@ -90,8 +92,8 @@ class PlaceHypotheses(Part, ABC):
                 nx, ny = x + a * dx - b * dy + move_error * ex, y + b * dx + a * dy + move_error * ey
                 if plan.inside(level, nx + x0, ny + y0):
                     kept.append((nx, ny, a, b, w, level, origin, landing))
-        most = self.settings.most
-        return kept if len(kept) <= most else resampled(kept, most, 0.5)
+        max_rows = self.settings.max_rows
+        return kept if len(kept) <= max_rows else resample_rows(kept, max_rows, 0.5)
 
 
 def penalise_outside(plan: IndexedPlan, rows: list[Row]) -> list[Row]:
@@ -111,7 +113,7 @@ def rows_after_wrong_turn(plan: IndexedPlan, rows: list[Row], displacement: Poin
     The walls decide between them. `displacement` is that of the track since the turn, m."""
     dx, dy = displacement
     x0, y0 = plan.plan.origin
-    drawn_rows = resampled([row for row in rows if not row[7]], ROWS_PER_HEADING, 0.5)
+    drawn_rows = resample_rows([row for row in rows if not row[7]], ROWS_PER_HEADING, 0.5)
     total, drawn = sum([row[4] for row in rows]), sum([row[4] for row in drawn_rows])
     added: list[Row] = []
     if not drawn > 0.0:

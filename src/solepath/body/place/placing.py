@@ -140,7 +140,7 @@ class Placing(LevelChanges):
             self.last_place = here.position
             return
         level = plan.number(start.level)
-        count = self.settings.most if start.heading is None else 2 * KNOWN_ROWS
+        count = self.settings.max_rows if start.heading is None else 2 * KNOWN_ROWS
         self.rows = round_rows(
             spread_rows(self.scatter, plan, level, start.place, start.spread, start.heading, count, 0, 1.0)
         )
@@ -167,8 +167,8 @@ class Placing(LevelChanges):
         previous_rows = rows
         # in a turn of the wearer both feet turn, so the strides of both contain it
         turned = min(0.5 * sum([abs(stride.heading_change) for stride in strides]), pi)
-        rough = DEGRADED_FACTOR if any([stride.degraded for stride in strides]) else 1.0
-        rows = self.move_rows(plan, rows, move, rough, turned)
+        error_factor = DEGRADED_FACTOR if any([stride.degraded for stride in strides]) else 1.0
+        rows = self.move_rows(plan, rows, move, error_factor, turned)
         self.stride_count = (self.stride_count + 1) % OUTSIDE_INTERVAL
         if self.stride_count == 0:
             rows = penalise_outside(plan, rows)
@@ -217,10 +217,10 @@ class Placing(LevelChanges):
             self.strides_outside = 0
         others = sum([min(1.0, 10.0 * candidate.weight) for candidate in candidates[1:]])
         count = min(
-            self.settings.most, KNOWN_ROWS + int(ROWS_PER_CANDIDATE * others if others else 8.0 * min(spread, 5.0))
+            self.settings.max_rows, KNOWN_ROWS + int(ROWS_PER_CANDIDATE * others if others else 8.0 * min(spread, 5.0))
         )
         if self.wide_strides > 0:
-            self.wide_strides, count = self.wide_strides - 1, self.settings.most
+            self.wide_strides, count = self.wide_strides - 1, self.settings.max_rows
         is_small = len(rows) <= 1.25 * count and (self.wide_strides > 0 or effective_count(rows) >= 0.5 * count)
         if (
             heaviest.weight >= MIN_CLEAR_WEIGHT

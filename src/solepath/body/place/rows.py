@@ -54,7 +54,7 @@ def round_rows(rows: list[Row]) -> list[Row]:
     ]
 
 
-def resampled(rows: list[Row], count: int, offset: float) -> list[Row]:
+def resample_rows(rows: list[Row], count: int, offset: float) -> list[Row]:
     """Return `count` rows that represent all rows, by systematic resampling with `offset` from 0 to 1.
 
     Each row is drawn with a frequency proportional to the root of its weight, and gets that root as weight. The

@@ -33,16 +33,16 @@ STAY_WEIGHT = 0.6
 
 
 def sway_rows(
-    plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float, random: int, both_sides: bool
+    plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float, random: int, both_sides: bool
 ) -> list[Row]:
     """Return the rows after a move of the track, m, without rows for which the plan forbids it.
 
-    `rough` is a factor of the track's usual errors, `turned` the turn of the wearer, rad, `random` the first index in
-    the table. With `both_sides`, a row at a wall continues on both sides, not only on the first that is free."""
-    turn = rough * (HEADING_NOISE + TURN_NOISE * turned)
-    kept = _sway(plan, rows, move, rough, turn, random % NOISE_ROWS, both_sides, BEND_ANGLES)
+    `error_factor` multiplies the track's usual errors, `turned` is the turn of the wearer, rad, and `random` the first
+    index in the table. With `both_sides`, a row at a wall continues on both sides, not only on the first that is free."""
+    turn = error_factor * (HEADING_NOISE + TURN_NOISE * turned)
+    kept = _sway(plan, rows, move, error_factor, turn, random % NOISE_ROWS, both_sides, BEND_ANGLES)
     return kept or _sway(
-        plan, rows, move, 2.0 * rough, 2.0 * turn, (random + 499) % NOISE_ROWS, both_sides, WIDE_BEND_ANGLES
+        plan, rows, move, 2.0 * error_factor, 2.0 * turn, (random + 499) % NOISE_ROWS, both_sides, WIDE_BEND_ANGLES
     )
 
 
@@ -50,7 +50,7 @@ def _sway(
     plan: IndexedPlan,
     rows: list[Row],
     move: Point,
-    rough: float,
+    error_factor: float,
     turn: float,
     k: int,
     both_sides: bool,
@@ -58,7 +58,7 @@ def _sway(
 ) -> list[Row]:
     dx, dy = move
     x0, y0 = plan.plan.origin
-    move_error, stretch = rough * (MOVE_ERROR * hypot(dx, dy) + PLACE_ERROR), rough * STRETCH_NOISE
+    move_error, stretch = error_factor * (MOVE_ERROR * hypot(dx, dy) + PLACE_ERROR), error_factor * STRETCH_NOISE
     crosses = plan.crosses
     kept: list[Row] = []
     blocked: list[Row] = []

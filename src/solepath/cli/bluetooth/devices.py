@@ -11,7 +11,7 @@ from ...types import Site
 from ..common.failure import Failure, has_terminal, note, parse_positive, require
 
 if TYPE_CHECKING:
-    from ...ble import DeviceConfig, Found
+    from ...ble import Advertisement, DeviceConfig
 
 SCAN_TIME = 4.0
 """Time of the search for devices when none was named, s."""
@@ -80,7 +80,7 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
     return devices
 
 
-def choose_devices(found: list[Found], kind: str | None) -> list[DeviceConfig]:
+def choose_devices(found: list[Advertisement], kind: str | None) -> list[DeviceConfig]:
     """Return the devices to listen to when none was named; raise Failure where the choice is not clear.
 
     If any insole is found, the devices are two insoles, which report their feet themselves; else the only device found,

@@ -11,7 +11,7 @@ from ..common.failure import parse_positive
 from .devices import SCAN_TIME, add_via, need_bleak
 
 if TYPE_CHECKING:
-    from ...ble import Found
+    from ...ble import Advertisement
 
 
 def add_to(commands: Any) -> None:
@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
     return listen_to_end(listen)
 
 
-def _print_devices(found: list[Found], show_all: bool) -> None:
+def _print_devices(found: list[Advertisement], show_all: bool) -> None:
     known = [device for device in found if device.profile is not None]
     if listed := found if show_all else known:
         rows = [

@@ -104,7 +104,7 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
 
     Failure is raised when the plan cannot be used, or when a walk cannot start there."""
     from ...body.place.arrivals import start_error
-    from ...floorplan.checks import warnings
+    from ...floorplan.checks import find_warnings
     from ...floorplan.importers.reading import read_floorplan
     from ...floorplan.index import IndexedPlan
     from ...floorplan.plan import FloorPlanError
@@ -119,7 +119,7 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
         indexed = IndexedPlan(plan)
     except FloorPlanError as error:
         raise Failure(str(error)) from None
-    for sentence in warnings(plan):
+    for sentence in find_warnings(plan):
         note(f"{options.floorplan}: {sentence}")
     if start is not None and (problem := start_error(indexed, start)) is not None:
         raise Failure(f"{options.floorplan}: {problem}")
@@ -131,7 +131,7 @@ def start_of(text: str) -> Start:
 
     The name of the level may contain commas."""
     from ...floorplan.plan import Start
-    from ...floorplan.records import no_start
+    from ...floorplan.records import find_start_fault
 
     for numbers in (3, 2):
         level, *parts = text.rsplit(",", numbers)
@@ -141,7 +141,7 @@ def start_of(text: str) -> Start:
             if heading and not abs(heading[0]) <= 360.0:
                 raise Failure(f"--start {printable(text, 80)}: a heading can be -360 to 360 degrees")
             start = Start(level.strip(), (x, y), radians(heading[0]) if heading else None)
-            problem = no_start(start)
+            problem = find_start_fault(start)
             if problem is not None:
                 raise Failure(f"--start {printable(text, 80)}: {problem}")
             return start

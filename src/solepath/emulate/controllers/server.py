@@ -1,6 +1,6 @@
 """Emulated devices as real GATT servers, each on its own virtual controller, and a central that reaches them.
 
-`virtual_air` is for one process; tcp.py connects other processes to the same medium."""
+`virtual_link` is for one process; tcp.py connects other processes to the same medium."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _STANDARD_SERVICES = ("0000180a", "0000180f")
 
 
 @asynccontextmanager
-async def virtual_air(
+async def virtual_link(
     peripherals: Iterable[Peripheral], mtu: int = 247, interval: float | None = None
 ) -> AsyncIterator[Backend]:
     """Serve the devices in this process, in the time of this loop, and yield a Backend that reaches them.

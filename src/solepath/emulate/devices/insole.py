@@ -11,7 +11,7 @@ from attrs import Factory, define, evolve
 from ...link.devices.insole import PROFILE as INSOLE
 from ...types import Foot
 from ...wire.error import WireError
-from ...wire.fragment import FRAME_IDS, MAX_FRAGMENTS, split
+from ...wire.fragment import FRAME_ID_COUNT, MAX_FRAGMENTS, split
 from ...wire.insole import InsoleFrame, build_frame
 from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampling, parse_control
 from ...wire.insole_info import build_info
@@ -102,7 +102,7 @@ class _Frames:
 
     def _pieces(self, number: int, retransmitted: bool, mtu: int) -> list[bytes]:
         frame = self.frame(number)
-        return split(build_frame(evolve(frame, retransmitted=retransmitted)), mtu - 3, number % FRAME_IDS)
+        return split(build_frame(evolve(frame, retransmitted=retransmitted)), mtu - 3, number % FRAME_ID_COUNT)
 
 
 class InsolePeripheral(Peripheral):

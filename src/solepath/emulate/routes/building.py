@@ -12,8 +12,8 @@ from math import pi
 
 from attrs import frozen
 
-from ...floorplan.doors import with_doors_cut
-from ...floorplan.importers.drawing import merged
+from ...floorplan.doors import cut_doors
+from ...floorplan.importers.drawing import merge_walls
 from ...floorplan.importers.earth import to_mm
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Point, Wall
 
@@ -138,7 +138,7 @@ def _walls(boxes: list[_Box]) -> tuple[Wall, ...]:
     """Return the sides of all boxes as walls; a side of two boxes is one wall."""
     rings = [[to_mm(corner) for corner in _ring(box)] for box in boxes]
     sides = [side for ring in rings for side in pairwise([*ring, ring[0]])]
-    return tuple(merged({Wall(min(side), max(side)) for side in sides}))
+    return tuple(merge_walls({Wall(min(side), max(side)) for side in sides}))
 
 
 def _ring(box: _Box) -> tuple[Point, ...]:
@@ -166,7 +166,7 @@ def _level(name: str, title: str, ordinal: int, has_exits: bool) -> Level:
         doors=tuple(doors),
         rooms=tuple(_ring(box) for box in [*corridors, *(box for box, side in rooms if side)]),
     )
-    return with_doors_cut(level)
+    return cut_doors(level)
 
 
 def _connectors() -> tuple[Connector, ...]:

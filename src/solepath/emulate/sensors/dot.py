@@ -12,7 +12,7 @@ from ..wearers.curves import Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .device import Notification, draw_clock, make_sampling, setup_notifications
-from .parts import CRE_CC02, AttitudePart
+from .parts import CRE_CC02, AttitudeErrors
 from .sensors import read_attitudes
 from .tag_signals import HANDLING_TIME
 
@@ -30,7 +30,7 @@ class Dot:
 
     mounting: Mounting = Mounting((0.0, 0.0, 0.0))
     """Position, m, and attitude of the sensor in the frame of its segment (limbs.py)."""
-    attitude: AttitudePart = CRE_CC02
+    attitude: AttitudeErrors = CRE_CC02
     """Attitude errors; by default those of the device of Gong et al. 2023, because the DOT emulates their experiments.
 
     MOVELLA_DOT has the errors of the DOT itself."""

@@ -11,7 +11,7 @@ from ...link.devices.insole import PROFILE as INSOLE
 from ...types import Foot, Layout, Sample, Site
 from ...types.vector import GRAVITY, from_rotation_vector, multiply, rotate_back
 from ...wire.device import build_battery, build_firmware
-from ...wire.fragment import FRAME_IDS, split
+from ...wire.fragment import FRAME_ID_COUNT, split
 from ...wire.insole import InsoleFrame, InsoleSample, build_frame
 from ...wire.insole_info import InsoleInfo, build_info
 from ..wearers.curves import Array, Rng
@@ -19,7 +19,7 @@ from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
 from .device import Notification, draw_clock, foot_of, make_sampling, setup_notifications
 from .insoles import LOAD_PER_COUNT, heel_array, layout
-from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellErrors, Imu
+from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudeErrors, CellErrors, Imu
 from .sensors import measure_imu, read_attitudes, read_cells, samples_of, take_samples, to_counts
 
 HANDLING_TIME = 1e-3
@@ -120,7 +120,7 @@ class Insole:
     """True when acceleration and angular rate are sent."""
     quaternion: bool = False
     """True when the attitude that the device estimates is sent too."""
-    attitude: AttitudePart | None = None
+    attitude: AttitudeErrors | None = None
     """Attitude errors; None: a constant tilt error of half a degree and a random heading."""
     north: float = 0.0
     """Yaw of the device's world frame in the walk's world frame, rad; it is used only with `attitude`."""
@@ -152,7 +152,7 @@ class Insole:
         sent = setup_notifications(INSOLE, device_values)
         for number in range(signal.frames(self.batch)):
             frame, ready = build_frame(signal.frame(number, self.batch)), signal.ready(number, self.batch)
-            for piece in split(frame, self.mtu - 3, number % FRAME_IDS):
+            for piece in split(frame, self.mtu - 3, number % FRAME_ID_COUNT):
                 sent.append(Notification(ready, "insole/frame", piece))
         return sent
 

@@ -209,7 +209,7 @@ The paper (IEEE Trans. Instrum. Meas. 59) gives only the range; the errors are a
 
 
 @frozen
-class AttitudePart:
+class AttitudeErrors:
     """The errors of the attitude that a device estimates, as standard deviations.
 
     The accuracy of a sheet is taken as one standard deviation, as those makers do who define it."""
@@ -224,11 +224,11 @@ class AttitudePart:
     """Correlation time of the errors, s (assumed)."""
 
 
-INERTIACUBE3 = AttitudePart("InertiaCube3", tilt=radians(0.25), heading=radians(1.0))
+INERTIACUBE3 = AttitudeErrors("InertiaCube3", tilt=radians(0.25), heading=radians(1.0))
 """InterSense InertiaCube3 (*): accuracy 1 degree in yaw, 0.25 degrees in pitch and roll at 25 degrees C."""
 
-CRE_CC02 = AttitudePart("CRE-CC02", tilt=radians(0.81), heading=radians(0.81))
+CRE_CC02 = AttitudeErrors("CRE-CC02", tilt=radians(0.81), heading=radians(0.81))
 """Nine-axis unit of Gong et al. 2023, Sensors 23, 5417, section 3.1: absolute angle accuracy 0.81 degrees."""
 
-MOVELLA_DOT = AttitudePart("Movella DOT", tilt=radians(1.0), heading=radians(2.0))
+MOVELLA_DOT = AttitudeErrors("Movella DOT", tilt=radians(1.0), heading=radians(2.0))
 """Movella DOT (*): in motion 1.0 degree in roll and pitch, 2.0 degrees in heading, one standard deviation."""

@@ -18,7 +18,7 @@ from ...types.vector import GRAVITY
 from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.turning import multiply_quaternions
-from .parts import AttitudePart, BarometerErrors, CellErrors, Imu, TriadErrors
+from .parts import AttitudeErrors, BarometerErrors, CellErrors, Imu, TriadErrors
 
 MIN_FINE_RATE = 800.0
 """Least rate at which a signal is computed before it is filtered, Hz."""
@@ -194,7 +194,7 @@ def read_barometer(height: Array, t: Array, chip: BarometerErrors, rng: Rng) -> 
     return np.asarray(pressure + chip.noise * rng.standard_normal(len(t)))
 
 
-def read_attitudes(true: Array, t: Array, chip: AttitudePart, north: float, rng: Rng) -> Array:
+def read_attitudes(true: Array, t: Array, chip: AttitudeErrors, north: float, rng: Rng) -> Array:
     """Return the attitudes (N, 4), sensor to the device's world, that a device reports for `true` (N, 4) at times `t`.
 
     The device's world is the walk's world, turned about the vertical by `north` rad and by the part's errors: a

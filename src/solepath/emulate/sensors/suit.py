@@ -18,7 +18,7 @@ from .device import Device
 from .dot import Dot
 from .insole_device import Insole
 from .insoles import LOAD_PER_COUNT
-from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudePart, CellErrors, Imu
+from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudeErrors, CellErrors, Imu
 from .sensors import instants, measure_imu, read_attitudes, read_cells, samples_of, take_samples
 
 MISALIGNMENT = 0.15
@@ -47,7 +47,7 @@ def limb_samples(
     limbs: Limbs | None = None,
     seed: int = 1,
     *,
-    attitude: AttitudePart | None = CRE_CC02,
+    attitude: AttitudeErrors | None = CRE_CC02,
     errors: Imu | None = MPU9250,
     north: float = 0.0,
     turned: float = MISALIGNMENT,
@@ -90,7 +90,7 @@ def limb_samples(
 
 
 def suit(
-    limbs: Limbs, seed: int, *, attitude: AttitudePart = CRE_CC02, north: float = 0.0, rate: float = 50.0
+    limbs: Limbs, seed: int, *, attitude: AttitudeErrors = CRE_CC02, north: float = 0.0, rate: float = 50.0
 ) -> dict[Site, Device]:
     """Return seven devices for one session, mounted by `limb_mounting`.
 

@@ -97,7 +97,7 @@ class FootTruth:
     """True times of the heel-offs, s."""
     toe_offs: tuple[float, ...]
     """True times of the toe-offs, s."""
-    steps: tuple[TrueStride, ...]
+    strides: tuple[TrueStride, ...]
     """True strides of the foot."""
     origin: Vec3
     """Position of the sensor at t = 0 relative to the point between the feet, world frame, m."""
@@ -137,9 +137,9 @@ class Truth:
         """Return the motion of a foot's sensor at `t`, s; the position is relative to that at t = 0, world, m."""
         return self.feet[foot].pose(t)
 
-    def steps(self, foot: Foot) -> tuple[TrueStride, ...]:
+    def strides(self, foot: Foot) -> tuple[TrueStride, ...]:
         """Return the true strides of a foot."""
-        return self.feet[foot].steps
+        return self.feet[foot].strides
 
     def activity(self, t: float) -> Activity:
         """Return the activity of the wearer at `t` s."""
@@ -193,7 +193,7 @@ def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mountin
         foot_flats=tuple(s.foot_flat for s in strides),
         heel_offs=tuple(s.heel_off for s in strides),
         toe_offs=tuple(s.toe_off for s in strides),
-        steps=tuple(true_strides),
+        strides=tuple(true_strides),
         origin=(x, y, z),
         motion=motion,
         mounting=mounting,

@@ -118,7 +118,9 @@ def play_run(create_run: Callable[[], EngineRun], kills: list[Kill], expected: p
         with closing(run):
             if _kill_and_restart(run, kills, marks):
                 run.finish()
-                return Outcome(_compute_costs(marks, run.starts(), run.reopened()), compared(expected, run.events))
+                return Outcome(
+                    _compute_costs(marks, run.starts(), run.reopened()), find_event_differences(expected, run.events)
+                )
         late_kill = kills[len(marks)]
         share = None if late_kill.share is None else late_kill.share * RETRY_FACTOR
         earlier = evolve(late_kill, share=share, after=late_kill.after * RETRY_FACTOR)
@@ -126,7 +128,7 @@ def play_run(create_run: Callable[[], EngineRun], kills: list[Kill], expected: p
         shutil.rmtree(run.home)
 
 
-def compared(expected: pa.Table, events: Path) -> list[str]:
+def find_event_differences(expected: pa.Table, events: Path) -> list[str]:
     """Return the differences of the events in a directory from the expected ones, a sentence each."""
     try:
         return differences(expected, read_events(events))

@@ -136,7 +136,7 @@ class Drawing:
         for i, (lines, border) in enumerate(unwalled):
             if border is Border.OPEN:
                 walls.update(cut_openings(sorted(lines, key=_ends_of), borders, SHARED_BORDER_DISTANCE, excluded=i))
-        pieces = cut_openings(merged(walls), Openings(doors), MAX_DOOR_OFFSET)
+        pieces = cut_openings(merge_walls(walls), Openings(doors), MAX_DOOR_OFFSET)
         return tuple(sorted({_make_wall(wall.start, wall.end) for wall in pieces}, key=_ends_of))
 
 
@@ -148,7 +148,7 @@ def _ends_of(wall: Wall) -> tuple[Point, Point]:
     return wall.start, wall.end
 
 
-def merged(walls: set[Wall]) -> list[Wall]:
+def merge_walls(walls: set[Wall]) -> list[Wall]:
     """Return the walls after joining those that lie on one line and touch: most walls are drawn once for each room."""
     joined_walls: list[Wall] = []
     for wall in sorted(walls, key=_line_sort_key):

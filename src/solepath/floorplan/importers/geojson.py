@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...types.attrs import evolve
-from ..doors import with_doors_cut
+from ..doors import cut_doors
 from ..outlines import Ring, find_inner_point, join_holes, without_repeats
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Wall
 from .earth import Tangent
@@ -81,7 +81,7 @@ class _GeoJsonReader:
             if feature.kind != "level":
                 self._read_feature(feature)
         levels_with_shapes = [
-            with_doors_cut(evolve(level, walls=tuple(self._walls[level.id]), doors=tuple(self._doors[level.id]),
+            cut_doors(evolve(level, walls=tuple(self._walls[level.id]), doors=tuple(self._doors[level.id]),
                                   rooms=tuple(self._rooms[level.id])))
             for level in levels
         ]  # fmt: skip
@@ -181,10 +181,10 @@ def write_floorplan(path: Path | str, plan: FloorPlan) -> None:
     """Write the plan to a file in the plan frame; reading it returns an equal plan, if doors are cut out of the walls.
 
     Raises OSError when the file cannot be written, ValueError for numbers that JSON does not have."""
-    Path(path).write_text(text_of(plan), encoding="utf-8")
+    Path(path).write_text(format_floorplan(plan), encoding="utf-8")
 
 
-def text_of(plan: FloorPlan) -> str:
+def format_floorplan(plan: FloorPlan) -> str:
     """Return the file's text, with one feature a line."""
     head: dict[str, Any] = {"type": "FeatureCollection", "format": FORMAT, "version": VERSION, "name": plan.name,
                             "frame": "local", "elevations": "known" if plan.heights_known else "assumed"}  # fmt: skip

@@ -7,7 +7,7 @@ from __future__ import annotations
 from io import BytesIO
 from pathlib import Path
 
-from ..checks import unusable
+from ..checks import find_fault
 from ..plan import FloorPlan, FloorPlanError
 
 MAX_FILE_SIZE = 32_000_000
@@ -31,13 +31,13 @@ def read_floorplan(path: Path | str, storey: float = DEFAULT_STOREY_HEIGHT) -> F
         raise FloorPlanError(f"{path}: {error.strerror or error}") from None
 
 
-def plan_of_bytes(data: bytes, storey: float = DEFAULT_STOREY_HEIGHT) -> FloorPlan:
+def parse_floorplan(data: bytes, storey: float = DEFAULT_STOREY_HEIGHT) -> FloorPlan:
     """Return the plan in a file's bytes; raise FloorPlanError when there is none that can be used."""
     return _check(_plan(data, storey))
 
 
 def _check(plan: FloorPlan) -> FloorPlan:
-    fault = unusable(plan)
+    fault = find_fault(plan)
     if fault is not None:
         raise FloorPlanError(fault)
     return plan

@@ -11,7 +11,7 @@ from ..phase import Cue
 from ..stance.stance import Load, Stance
 
 
-class SeenCue(NamedTuple):
+class TimedCue(NamedTuple):
     """A cue and its time."""
 
     cue: Cue
@@ -35,13 +35,13 @@ class Cues(Protocol):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[SeenCue]:  # fmt: skip
+    ) -> Sequence[TimedCue]:  # fmt: skip
         """Return the cues of one corrected sample, in order.
 
         `acc` is in m/s^2, `gyro` in rad/s without bias, both in the sensor frame. `still` is True when zero-velocity
         evidence was accepted. `speed` is in m/s, `phase` is the phase before this sample."""
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[TimedCue]:
         """Return the cues of one sample of an insole without inertial sensor, in order."""
 
     # what follows is optional: the default does nothing
@@ -55,9 +55,9 @@ class Cues(Protocol):
     CONTACT: the last sample is the most likely one of heel-strike so far. CLEAR: the sample before it is the most
     likely one of toe-off so far."""
 
-    def cleared(self, t: float) -> SeenCue:
+    def make_hidden_toe_off(self, t: float) -> TimedCue:
         """Return a toe-off at `t`, s, which a gap has hidden; the swing may go on after the gap."""
-        return SeenCue(Cue.CLEAR, t)
+        return TimedCue(Cue.CLEAR, t)
 
     def reset(self) -> None:
         """Discard what depends on unbroken samples, after a gap."""

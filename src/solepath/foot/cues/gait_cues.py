@@ -12,7 +12,7 @@ from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, evolve, field
 from ..phase import Cue
 from ..stance.stance import Load, Stance
-from .cues import Cues, SeenCue
+from .cues import Cues, TimedCue
 from .inertial import InertialCues
 from .pressure import PressureCues
 from .touch import MOST_SINGLE_CELLS, Touch
@@ -38,7 +38,7 @@ class GaitCues(Cues):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[SeenCue]:  # fmt: skip
+    ) -> Sequence[TimedCue]:  # fmt: skip
         """Return at most one cue; arguments as in `Cues`."""
         inertial = self.inertial
         seen = inertial.update(t, dt, acc, gyro, still, speed, phase)
@@ -53,7 +53,7 @@ class GaitCues(Cues):
                     return () if seen is None else (seen,)
                 pressure_cue = None
                 if airborne is not (phase is Phase.SWING):
-                    pressure_cue = SeenCue(Cue.CLEAR if airborne else Cue.CONTACT, t)
+                    pressure_cue = TimedCue(Cue.CLEAR if airborne else Cue.CONTACT, t)
             if pressure_cue is not None:
                 if pressure_cue.cue is Cue.CLEAR:
                     inertial.apply_toe_off(phase)
@@ -63,14 +63,14 @@ class GaitCues(Cues):
                 seen = self.pressure.date_lift(seen) if seen.cue is Cue.LIFT else None
         return () if seen is None else (seen,)
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[TimedCue]:
         """Return the cue of an insole without inertial sensor, from the loads of heel and forefoot."""
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.update_areas(t, load, phase)
         return () if seen is None else (seen,)
 
-    def cleared(self, t: float) -> SeenCue:
+    def make_hidden_toe_off(self, t: float) -> TimedCue:
         """Return a toe-off at `t`, s, which a gap has hidden."""
-        return self.inertial.cleared(t)
+        return self.inertial.make_hidden_toe_off(t)
 
     def reset(self) -> None:
         """Discard what depends on unbroken samples, after a gap."""

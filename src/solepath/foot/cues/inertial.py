@@ -20,7 +20,7 @@ from ...types import Phase, Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO
 from ..phase import Cue
-from .cues import SeenCue
+from .cues import TimedCue
 from .impact import Impact
 
 # Local names, because one look-up in the enum costs as much as five multiplications.
@@ -43,7 +43,7 @@ STILLNESS_DEBOUNCE = 0.009
 """Shortest duration of stillness that counts, and of motion that ends it, s."""
 LEAST_PUSH_OFF_RATE = 1.5
 """Smallest peak of the sagittal rate in a push-off, rad/s."""
-PAST_PEAK = 0.5
+TOE_OFF_RATE_RATIO = 0.5
 """Ratio of the sagittal rate at toe-off to its peak in push-off; no unit."""
 LEAST_TROUGH_DEPTH = 1.0
 """Smallest depth below zero of the sagittal rate in a swing, rad/s."""
@@ -114,7 +114,7 @@ class InertialCues:
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase
-    ) -> SeenCue | None:
+    ) -> TimedCue | None:
         """Return the cue of one sample, or None.
 
         `acc` is in m/s^2, `gyro` in rad/s without bias. `still` is True when zero-velocity evidence was accepted.
@@ -149,7 +149,7 @@ class InertialCues:
             self.not_turning_at = t
         if self.still_since is not None:
             if phase is not STATIONARY and t - self.still_since >= STILLNESS_DEBOUNCE - TIE:
-                return SeenCue(Cue.FLAT, self.still_since - STILLNESS_DELAY)
+                return TimedCue(Cue.FLAT, self.still_since - STILLNESS_DELAY)
             return None
         x, y, z = self.turn
         self.turn = (x + gx * dt, y + gy * dt, z + gz * dt)
@@ -157,17 +157,17 @@ class InertialCues:
             if rate > self.peak_rate:
                 self.peak_rate = rate
             if self.moving_since is not None and t - self.moving_since >= STILLNESS_DEBOUNCE - TIE:
-                return SeenCue(
+                return TimedCue(
                     Cue.LIFT,
                     self.moving_since if self.not_turning_at is None else min(self.not_turning_at, self.moving_since),
                 )
             return None
         return self._in_push_off(t, dt, previous_rate, rate, phase)
 
-    def _in_push_off(self, t: float, dt: float, previous_rate: float, rate: float, phase: Phase) -> SeenCue | None:
+    def _in_push_off(self, t: float, dt: float, previous_rate: float, rate: float, phase: Phase) -> TimedCue | None:
         if rate > self.peak_rate:
             self.peak_rate = rate
-        toe_off_rate = PAST_PEAK * self.peak_rate
+        toe_off_rate = TOE_OFF_RATE_RATIO * self.peak_rate
         if phase is PUSH_OFF and self.peak_rate > LEAST_PUSH_OFF_RATE and rate < toe_off_rate and self._learn_axis():
             # the moment at which a straight line between two samples falls through the rate of toe-off
             share = (
@@ -181,7 +181,7 @@ class InertialCues:
 
     def _in_swing(
         self, t: float, dt: float, speed: float, previous_rate: float, rate: float, previous_force: Vec3 | None
-    ) -> SeenCue | None:
+    ) -> TimedCue | None:
         if rate < self.lowest_rate:
             self.lowest_rate = rate
         impact = self.impact
@@ -211,11 +211,11 @@ class InertialCues:
             return self._report_contact(impact.peak_shock_time)
         return None
 
-    def _report_contact(self, t: float) -> SeenCue:
+    def _report_contact(self, t: float) -> TimedCue:
         self.peak_rate = 0.0
         self.turn = ZERO
         self.landing_at = self.fast_since = None
-        return SeenCue(Cue.CONTACT, t)
+        return TimedCue(Cue.CONTACT, t)
 
     def reset(self) -> None:
         """Discard the times since which the foot is still or fast, because a gap counts as neither."""
@@ -227,18 +227,18 @@ class InertialCues:
         fresh.axis = self.axis
         return fresh
 
-    def cleared(self, t: float) -> SeenCue:
+    def make_hidden_toe_off(self, t: float) -> TimedCue:
         """Return a toe-off at `t`, s, which a gap has hidden; the swing may go on after the gap."""
         toe_off = self._report_clear(t)
         self.lowest_rate = -GAP_TROUGH_RATIO * LEAST_TROUGH_DEPTH
         return toe_off
 
-    def _report_clear(self, t: float) -> SeenCue:
+    def _report_clear(self, t: float) -> TimedCue:
         self.swing_start = t
         self.impact.start_swing(t)
         self.landing_at = None
         self.lowest_rate = self.peak_rate = 0.0
-        return SeenCue(Cue.CLEAR, t)
+        return TimedCue(Cue.CLEAR, t)
 
     def apply_toe_off(self, phase: Phase) -> None:
         """Learn the sagittal axis from a toe-off that the load has shown in `phase`."""

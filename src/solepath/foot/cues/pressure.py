@@ -10,7 +10,7 @@ from ...types import Phase
 from ...types.attrs import define, field
 from ..phase import Cue
 from ..stance.stance import Load
-from .cues import SeenCue
+from .cues import TimedCue
 
 # Local names, because one look-up in the enum costs as much as five multiplications.
 SWING: Final = Phase.SWING
@@ -39,7 +39,7 @@ class PressureCues:
     heel_loaded_at: float | None = field(default=None, init=False)
     """Time at which the heel was last above AREA_UNLOADED, s; None before any."""
 
-    def update(self, t: float, dt: float, load: Load, phase: Phase) -> SeenCue | None:
+    def update(self, t: float, dt: float, load: Load, phase: Phase) -> TimedCue | None:
         """Return CONTACT or CLEAR if the total load shows it in this sample, or None."""
         previous_load, current_load = self.previous_load, load.total
         self.previous_load = current_load
@@ -47,30 +47,30 @@ class PressureCues:
             self.heel_loaded_at = t
         if phase is SWING:
             return (
-                SeenCue(Cue.CONTACT, _crossing(t, dt, previous_load, current_load, CONTACT_LOAD))
+                TimedCue(Cue.CONTACT, _crossing(t, dt, previous_load, current_load, CONTACT_LOAD))
                 if current_load > CONTACT_LOAD
                 else None
             )
         if current_load < CLEAR_LOAD:
-            return SeenCue(Cue.CLEAR, _crossing(t, dt, previous_load, current_load, CLEAR_LOAD))
+            return TimedCue(Cue.CLEAR, _crossing(t, dt, previous_load, current_load, CLEAR_LOAD))
         return None
 
-    def date_lift(self, lift: SeenCue) -> SeenCue:
+    def date_lift(self, lift: TimedCue) -> TimedCue:
         """Return `lift`, seen by the inertial sensor, with the time at which the heel was last loaded, if known."""
         if self.heel_loaded_at is None or not 0.0 <= lift.t - self.heel_loaded_at < LONGEST_DATING_BACK:
             return lift
-        return SeenCue(lift.cue, self.heel_loaded_at)
+        return TimedCue(lift.cue, self.heel_loaded_at)
 
-    def update_areas(self, t: float, load: Load, phase: Phase) -> SeenCue | None:
+    def update_areas(self, t: float, load: Load, phase: Phase) -> TimedCue | None:
         """Return FLAT or LIFT from heel and forefoot, for an insole without inertial sensor, or None."""
         if load.heel is None or load.forefoot is None:
             return None
         if phase is LOADING and load.heel > AREA_UNLOADED and load.forefoot > AREA_LOADED:
-            return SeenCue(Cue.FLAT, t)
+            return TimedCue(Cue.FLAT, t)
         if phase is STATIONARY and load.heel < AREA_UNLOADED and load.forefoot > AREA_LOADED:
-            return SeenCue(Cue.LIFT, t)
+            return TimedCue(Cue.LIFT, t)
         if phase is PUSH_OFF and load.heel > AREA_LOADED and load.forefoot > AREA_LOADED:
-            return SeenCue(Cue.FLAT, t)
+            return TimedCue(Cue.FLAT, t)
         return None
 
 

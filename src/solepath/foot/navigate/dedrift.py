@@ -31,24 +31,24 @@ class LinearDedrift(Strapdown):
     """Time since the last evidence of stance, s."""
     length: float = field(default=0.0, init=False)
     """Length of the path since the last anchor, m."""
-    lasted: float = field(default=0.0, init=False)
+    time_since_anchor: float = field(default=0.0, init=False)
     """Time since the last anchor, s."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = attitude
         self.velocity = self.position = ZERO
         self.force = self.rate = None
-        self.swing = self.length = self.lasted = 0.0
+        self.swing = self.length = self.time_since_anchor = 0.0
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         self.integrate(dt, acc, gyro)
         vx, vy, vz = self.velocity
         self.length += sqrt(vx * vx + vy * vy + vz * vz) * dt
         self.swing += dt
-        self.lasted += dt
+        self.time_since_anchor += dt
 
     def correct(self, t: float, stance: Stance) -> bool:
-        if stance.sigma > self.settings.trusted or stance.hint is Phase.SWING:
+        if stance.sigma > self.settings.largest_stance_sigma or stance.hint is Phase.SWING:
             return False
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
@@ -73,19 +73,19 @@ class LinearDedrift(Strapdown):
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         self.length += sqrt(sum(v * v for v in sub(position, self.position)))
         self.swing += dt
-        self.lasted += dt
+        self.time_since_anchor += dt
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
 
     def anchor(self) -> tuple[float, ...]:
         stretch = self.covariance()
-        self.length = self.lasted = 0.0
+        self.length = self.time_since_anchor = 0.0
         return stretch
 
     def covariance(self) -> tuple[float, ...]:
         variance = (self.settings.path_error * self.length) ** 2
         drift = self.settings.turn_drift
-        yaw = drift * drift * self.lasted
+        yaw = drift * drift * self.time_since_anchor
         return (variance, 0.0, 0.0, variance, 0.0, variance, yaw)
 
     def _level(self) -> None:

@@ -50,7 +50,7 @@ LOST_STATISTIC_RATIO = 3.0
 LOST_SPEED, LOST_TILT = 0.3, 0.03
 """Standard deviations that inflate the covariance of a lost filter: velocity, m/s, and tilt, rad."""
 LASTING_TILT = 0.1
-"""Standard deviation that inflates the tilt when evidence has lasted for `ErrorStateSettings.lasting`, rad.
+"""Standard deviation that inflates the tilt when evidence has lasted for `ErrorStateSettings.time_until_ungated`, rad.
 
 The velocity is inflated by its whole difference from the evidence."""
 
@@ -157,7 +157,7 @@ class ErrorStateFilter(PropagatedCovariance):
         settings = self.settings
         motion_factor, difference_factor = (
             settings.noise_per_motion * settings.noise_per_motion,
-            settings.between * settings.between * dt,
+            settings.noise_per_difference * settings.noise_per_difference * dt,
         )
         self.acc_variance += (
             settings.acc_noise * settings.acc_noise
@@ -214,11 +214,11 @@ class ErrorStateFilter(PropagatedCovariance):
         vx, vy, vz = self.velocity
         if (
             not stands
-            and t - self.accepted_at > settings.patience - TIE
+            and t - self.accepted_at > settings.time_until_lost - TIE
             and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated_statistic
         ):
             self._inflate(velocity=LOST_SPEED, tilt=LOST_TILT)
-        elif min(t - self.evidence_since, t - self.accepted_at) > settings.lasting - TIE:
+        elif min(t - self.evidence_since, t - self.accepted_at) > settings.time_until_ungated - TIE:
             # a foot in the air is never still for so long, so the foot stands and the velocity is wrong
             self._inflate(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=LASTING_TILT)
         outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if stands else settings.innovation_gate)

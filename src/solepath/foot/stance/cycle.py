@@ -108,9 +108,9 @@ class Cycle(Detector):
             self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, SWING, None))
         settings = self.settings
-        if statistic < settings.floor:
+        if statistic < settings.least_threshold:
             hint = STATIONARY if statistic < settings.standing_statistic else None
-        elif statistic > settings.ceiling or statistic > self._threshold():
+        elif statistic > settings.largest_threshold or statistic > self._threshold():
             if self.sensor_height.sums is not EMPTY:
                 self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, None, None))
@@ -118,8 +118,15 @@ class Cycle(Detector):
             hint = None
         variance = (
             settings.sigma * settings.sigma
-            + (settings.arm * settings.arm + settings.arm2 * settings.arm2 * rate) * rate
-            + (settings.off_gravity * settings.off_gravity + settings.off_gravity2 * settings.off_gravity2 * force)
+            + (
+                settings.noise_per_rate * settings.noise_per_rate
+                + settings.noise_per_rate_square * settings.noise_per_rate_square * rate
+            )
+            * rate
+            + (
+                settings.noise_per_acceleration * settings.noise_per_acceleration
+                + settings.noise_per_acceleration_square * settings.noise_per_acceleration_square * force
+            )
             * force
         )
         if not settings.rolls:
@@ -137,8 +144,8 @@ class Cycle(Detector):
             highest = self.past_high
         if highest < least_statistic:
             highest = least_statistic
-        share = self.settings.share
-        return exp((1.0 - share) * log(lowest) + share * log(highest))
+        threshold_position = self.settings.threshold_position
+        return exp((1.0 - threshold_position) * log(lowest) + threshold_position * log(highest))
 
     def _start_span(self, t: float, statistic: float) -> None:
         """Start the next span at `t`, s, with its first statistic."""

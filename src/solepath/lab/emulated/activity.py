@@ -7,7 +7,7 @@ from attrs import frozen
 from ...recipes import Recipe
 from ...session import Session
 from ..evaluate.activity import score_rides, score_samples, score_windows
-from ..evaluate.gathered import Gathering
+from ..evaluate.gathered import EventCollection
 from ..measures.confusion import ActivityScore
 from ..train import emulated
 
@@ -29,10 +29,10 @@ def score(recipe: Recipe, seed: int) -> EmulatedScore:
     """Score a session of the recipe on the walk of a seed, which must not be a training seed (train/emulated.py)."""
     walk = emulated.walk(seed)
     session = Session(recipe)
-    gathering = Gathering.of(session.feed(walk.packets) + session.finish())
+    collection = EventCollection.of(session.feed(walk.packets) + session.finish())
     truth = walk.truth
     t = [k * SAMPLING_INTERVAL for k in range(int(truth.duration / SAMPLING_INTERVAL))]
-    in_time = score_samples(t, [truth.activity(at) for at in t], gathering.timeline)
+    in_time = score_samples(t, [truth.activity(at) for at in t], collection.timeline)
     return EmulatedScore(
-        score_windows(truth.activities, gathering.timeline), in_time + score_rides(truth.activities, gathering.rides)
+        score_windows(truth.activities, collection.timeline), in_time + score_rides(truth.activities, collection.rides)
     )

@@ -25,11 +25,11 @@ class FootComparison:
     """The comparison of the strides and events of one foot in one walk with the truth."""
 
     foot: Foot
-    steps_true: int
+    strides_true: int
     """Number of true strides."""
-    steps_found: int
+    strides_found: int
     """Number of true strides that were found."""
-    steps_invented: int
+    strides_invented: int
     """Number of found strides that match no true one."""
     length_errors: Errors
     """Relative error of each stride length, found minus true (0.01 is 1 %)."""
@@ -47,13 +47,13 @@ def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
 
 
 def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
-    matched = pairs([s.t_end for s in truth.steps], [s.t_end for s in run.strides], STRIDE_TOLERANCE)
-    errors = [run.strides[j].length / truth.steps[i].length - 1.0 for i, j in matched if truth.steps[i].length > 0]
+    matched = pairs([s.t_end for s in truth.strides], [s.t_end for s in run.strides], STRIDE_TOLERANCE)
+    errors = [run.strides[j].length / truth.strides[i].length - 1.0 for i, j in matched if truth.strides[i].length > 0]
     return FootComparison(
         foot=truth.foot,
-        steps_true=len(truth.steps),
-        steps_found=len(matched),
-        steps_invented=len(run.strides) - len(matched),
+        strides_true=len(truth.strides),
+        strides_found=len(matched),
+        strides_invented=len(run.strides) - len(matched),
         length_errors=Errors(tuple(errors)),
         events={
             "heel_strike": match(truth.heel_strikes, run.times[HeelStrike], windows=WHOLE_WALK),
@@ -66,8 +66,8 @@ def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
 
 
 def _end_error(truth: FootTruth, run: FootRun) -> float | None:
-    if len(truth.steps) < 2 or not len(run.t):
+    if len(truth.strides) < 2 or not len(run.t):
         return None
-    t_stances = np.array([truth.steps[0].t_start, *(step.t_end for step in truth.steps), run.t[-1]])
+    t_stances = np.array([truth.strides[0].t_start, *(step.t_end for step in truth.strides), run.t[-1]])
     true_positions = truth.pose(t_stances).position[:, :2]
     return float(position_errors(t_stances, true_positions, run.t, run.positions)[-1])

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from attrs import define, field
 
-from ...emulate.demo import RADIO, ROUTE, WAY
+from ...emulate.demo import BUILDING_WALK_SEED, RADIO, ROUTE
 from ...emulate.radio import Radio
 from ...emulate.routes.building import BUILDING
 from ...emulate.routes.route import Route
@@ -17,7 +17,7 @@ from ...floorplan.index import IndexedPlan
 from ...session import Session
 from ...show.observer import Observer
 from ...types import Foot, Packet, Sample
-from ..evaluate.gathered import Gathering
+from ..evaluate.gathered import EventCollection
 from .compare import FootComparison, compare
 from .place import PlaceScore, score
 
@@ -36,7 +36,7 @@ class Demo:
     plan: IndexedPlan | None = None
     """FloorPanel plan of that building; None when the walk is not in the building."""
     observer: Observer = field(factory=Observer)
-    gathering: Gathering = field(factory=Gathering)
+    collection: EventCollection = field(factory=EventCollection)
     _place_events: list[Event] = field(factory=list)
 
     @property
@@ -55,13 +55,13 @@ class Demo:
         """Add the events that a session returned for a packet; `packet` is None at the end."""
         self.observer.take(packet, events)
         for event in events:
-            self.gathering.add(event)
+            self.collection.add(event)
             if isinstance(event, Placed | PlaceLost | TurnMade):
                 self._place_events.append(event)
 
     def comparison(self) -> list[FootComparison]:
         """Return the comparison of both feet with the truth. Call it after `play` has finished."""
-        return compare(self.walk.truth, {foot: self.gathering.foot(foot) for foot in Foot})
+        return compare(self.walk.truth, {foot: self.collection.foot(foot) for foot in Foot})
 
     def place(self) -> PlaceScore | None:
         """Return the score of the position on the floor plan; None without a plan."""
@@ -78,6 +78,6 @@ def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) ->
 
     The session has the floor plan, but not the position from which the wearer starts. With `pressures` it emits
     FootPressed."""
-    way, plan = wandering(WAY), IndexedPlan(BUILDING)
+    way, plan = wandering(BUILDING_WALK_SEED), IndexedPlan(BUILDING)
     session = Session(poses=True, pressures=pressures, floorplan=plan)
     return Demo(emulate(way.route, radio=radio, seed=seed), session, way, plan)

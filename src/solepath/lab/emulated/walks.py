@@ -110,12 +110,12 @@ def score_route(make_route: Callable[[int], Route], path: Path, meta: Meta, sett
     seed: int = meta["seed"]
     walk = sampled(make_route(seed), wearer=Wearer(), insoles=insoles_of(seed), seed=seed)
     session, truth = Session(settings.recipe, calibration=settings.calibration), walk.truth
-    gathering, track, seconds = run_timed(session, walk.samples, POSITION_INTERVAL)
+    collection, track, seconds = run_timed(session, walk.samples, POSITION_INTERVAL)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
-    for foot in compare(truth, {foot: gathering.foot(foot) for foot in Foot}):
+    for foot in compare(truth, {foot: collection.foot(foot) for foot in Foot}):
         heel_strike += foot.events["heel_strike"]
         toe_off += foot.events["toe_off"]
-        strides += StrideScore(foot.steps_true, foot.steps_found, foot.steps_invented, foot.length_errors)
+        strides += StrideScore(foot.strides_true, foot.strides_found, foot.strides_invented, foot.length_errors)
     return Scored(
         path.stem,
         figures={} if track is None else place_figures(track.t, track.positions, mean_position(truth, track.t)),

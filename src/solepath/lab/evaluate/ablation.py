@@ -34,15 +34,19 @@ def _filter(**settings: Any) -> Recipe:
 
 
 ABLATED_RECIPES: dict[str, Recipe] = {
-    "one threshold for all, no wearer's own cycle": _cycle(floor=FIXED_THRESHOLD, ceiling=FIXED_THRESHOLD),
-    "evidence of one noise, whatever the motion": _cycle(arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0),
+    "one threshold for all, no wearer's own cycle": _cycle(
+        least_threshold=FIXED_THRESHOLD, largest_threshold=FIXED_THRESHOLD
+    ),
+    "evidence of one noise, whatever the motion": _cycle(
+        noise_per_rate=0.0, noise_per_rate_square=0.0, noise_per_acceleration=0.0, noise_per_acceleration_square=0.0
+    ),
     "zero velocity, no rolling foot": _cycle(rolls=False),
-    "no extra noise of a foot that is braked": _cycle(off_gravity2=0.0),
+    "no extra noise of a foot that is braked": _cycle(noise_per_acceleration_square=0.0),
     "no refusal of unlikely evidence": _filter(innovation_gate=UNREACHABLE_LIMIT),
-    "no recovery of what was refused": _filter(patience=UNREACHABLE_LIMIT, lasting=UNREACHABLE_LIMIT),
+    "no recovery of what was refused": _filter(time_until_lost=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT),
     "no level, slope or stair": _filter(level=False),
     "no tilt aiding": _filter(tilt_rate=0.0),
-    "no noise of what lies between samples": _filter(between=0.0),
+    "no noise of what lies between samples": _filter(noise_per_difference=0.0),
     "no recovery of a clipped gyroscope": _filter(recover=False),
     "each foot by itself": DEFAULT.exchanged(TrackPart, MeanOfFeet()),
     "no heights of lifts and of the air": DEFAULT.exchanged(Altitude, None),

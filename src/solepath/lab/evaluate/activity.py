@@ -66,7 +66,7 @@ def score_labelled(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score a recording of hugadb, whose activities the experimenter labelled by pressing keys."""
     result = run(path, settings, poses=False)
     t, true = labels(path)
-    score = score_samples(t, true, result.gathering.timeline) + score_rides(spans(t, true), result.gathering.rides)
+    score = score_samples(t, true, result.collection.timeline) + score_rides(spans(t, true), result.collection.rides)
     number = fold_of(int(meta["subject"]))
     wearers = ", ".join(map(str, sorted(FOLDS[number])))
     return scored(path, result, activity=score, groups=("all", f"of wearers {wearers}"))
@@ -97,7 +97,7 @@ def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         times = [start + k * SAMPLING_INTERVAL for k in range(int((end - start) / SAMPLING_INTERVAL))]
         t += times
         true += [activity] * len(times)
-    score = score_samples(t, true, result.gathering.timeline)
+    score = score_samples(t, true, result.collection.timeline)
     return scored(path, result, figures=stairs_figures(score))
 
 

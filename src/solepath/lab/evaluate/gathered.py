@@ -53,7 +53,7 @@ class _FootEvents:
 
 
 @define
-class Gathering:
+class EventCollection:
     """Collects the events of a session as they arrive."""
 
     timeline: Timeline = field(factory=Timeline)
@@ -62,12 +62,12 @@ class Gathering:
     _feet: dict[Foot, _FootEvents] = field(factory=dict)
 
     @classmethod
-    def of(cls, events: Iterable[Event]) -> Gathering:
+    def of(cls, events: Iterable[Event]) -> EventCollection:
         """Return a collection with these events."""
-        gathering = cls()
+        collection = cls()
         for event in events:
-            gathering.add(event)
-        return gathering
+            collection.add(event)
+        return collection
 
     def add(self, event: Event) -> None:
         """Add one event. Positions and activities are always kept, other events only when they are final."""

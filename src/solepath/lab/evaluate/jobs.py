@@ -37,7 +37,7 @@ class EvaluationJob:
             return str(error)
 
 
-def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
+def find_data_sets(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
     """Return the data sets in `folder`. Raise RecordingError when it has none, or lacks a data set of `only`."""
     if not folder.is_dir():
         raise RecordingError(folder, "is not a directory of recorded data")
@@ -91,7 +91,7 @@ def evaluate(
     """Yield the result of each recipe on each data set of `folder` as soon as it is complete.
 
     `calibration` is used for every recording. `progress` is called with (number of jobs done, number of all jobs)."""
-    data_sets = find(folder, only)
+    data_sets = find_data_sets(folder, only)
     plan = [(d, recipe, recordings(folder, d)) for recipe in recipes for d in data_sets if d.suits(recipe)]
     sources = training_sources(folder, recipes) if any(data_set.folds for data_set in data_sets) else []
     return _scored(plan, sources, calibration, processes, progress)

@@ -22,7 +22,7 @@ from ...session import Session
 from ...types import Foot, Sample, Vec3
 from ..measures.alignment import Floats
 from ..measures.score import Scored
-from .gathered import FootRun, Gathering
+from .gathered import EventCollection, FootRun
 
 
 @frozen
@@ -50,7 +50,7 @@ class RecordingRun:
     """The events of the session that processed a recording, and the time that it took."""
 
     feet: dict[Foot, FootRun]
-    gathering: Gathering
+    collection: EventCollection
     samples: int
     """Number of samples."""
     seconds: float
@@ -81,14 +81,14 @@ def run(
     samples = list(recording)
     if without_pressure:
         samples = [attrs.evolve(sample, pressure=None) for sample in samples]
-    gathering, wearer, seconds = run_timed(session, samples, 0.0 if body else None)
-    feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
-    return RecordingRun(feet, gathering, len(samples), seconds, wearer)
+    collection, wearer, seconds = run_timed(session, samples, 0.0 if body else None)
+    feet = {table.foot: collection.foot(table.foot) for table in recording.tables}
+    return RecordingRun(feet, collection, len(samples), seconds, wearer)
 
 
 def run_timed(
     session: Session, samples: Iterable[Sample], interval: float | None
-) -> tuple[Gathering, ScoredTrack | None, float]:
+) -> tuple[EventCollection, ScoredTrack | None, float]:
     """Return the session's events for the samples, the wearer's track and the wall time, s.
 
     The track has a position every `interval` s. With 0 it has one after every sample, with None there is no track."""
@@ -103,7 +103,7 @@ def run_timed(
     outputs.append(session.finish())
     seconds = perf_counter() - started_at
     track = ScoredTrack(np.array([t for t, _ in positions]), np.array([at for _, at in positions]).reshape(-1, 3))
-    return Gathering.of(event for events in outputs for event in events), track if positions else None, seconds
+    return EventCollection.of(event for events in outputs for event in events), track if positions else None, seconds
 
 
 Meta = dict[str, Any]

@@ -31,7 +31,7 @@ from ...recipes import DEFAULT, Recipe
 from ..measures.score import Scored
 from ..processes import run_jobs
 from .ablation import COLUMNS, Column
-from .jobs import EvaluationJob, find, recordings
+from .jobs import EvaluationJob, find_data_sets, recordings
 from .report import Result
 from .run import RunSettings
 
@@ -147,7 +147,9 @@ def evaluate(
 ) -> Iterator[tuple[Number | None, float, list[float | None]]]:
     """Yield number, factor and figures: first the default recipe with None as number, then each number and factor."""
     shown = columns(names)
-    data_sets = [(one, recordings(folder, one)) for one in find(folder, sorted({column.data_set for column in shown}))]
+    data_sets = [
+        (one, recordings(folder, one)) for one in find_data_sets(folder, sorted({column.data_set for column in shown}))
+    ]
     variants: list[tuple[Number | None, float]] = [(None, 1.0), *((one, k) for one in chosen for k in FACTORS)]
     jobs: list[SensitivityJob] = []
     for number, factor in variants:

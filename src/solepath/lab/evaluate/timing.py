@@ -86,8 +86,8 @@ def _turn_figures(span: list[float], result: RecordingRun) -> Figures:
     between pi and the largest angle of a turn that overlaps the span (0 when there is none). Reported U-turns that do
     not overlap the span are invented."""
     t_start, t_end = span
-    overlapping = [turn for turn in result.gathering.turns if turn.t >= t_start and turn.t_start <= t_end]
-    n_about = sum(turn.turn is Turn.ABOUT for turn in result.gathering.turns)
+    overlapping = [turn for turn in result.collection.turns if turn.t >= t_start and turn.t_start <= t_end]
+    n_about = sum(turn.turn is Turn.ABOUT for turn in result.collection.turns)
     found = any(turn.turn is Turn.ABOUT for turn in overlapping)
     angle = max([abs(turn.angle) for turn in overlapping], default=0.0)
     return {

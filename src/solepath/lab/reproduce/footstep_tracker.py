@@ -21,7 +21,7 @@ from .footstep_walks import CORRIDOR_LENGTH, FootstepResults, walked
 from .tables import DrawStyle, FloorPanel, PictureTrack, Reproduction, row_of
 
 NAME = FOOTSTEP_TRACKER.name
-FIRST = 100_000
+FIRST_SEED = 100_000
 """First seed of the wearers; training uses only smaller seeds (lab/train/emulated.py)."""
 WEARERS = 8
 """Number of wearers; section V-E: "we invited eight different users"."""
@@ -32,7 +32,7 @@ def reproduce(
 ) -> Reproduction:
     """Return the results of `walks` wearers, each of whom does every experiment."""
     count = WEARERS if walks is None else walks
-    seeds = [FIRST + 1000 * seed + k for k in range(count)]
+    seeds = [FIRST_SEED + 1000 * seed + k for k in range(count)]
     results = list(run_jobs(walked, seeds, processes=processes, progress=progress))
     places = [place for one in results for place in one.places]
     rows = [

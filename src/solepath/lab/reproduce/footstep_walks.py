@@ -138,7 +138,7 @@ def _true_length(walk: EmulatedWalk, stride: StrideTaken) -> float | None:
     if stride.t_toe_off is None or stride.t_heel_strike is None:
         return None
     middle = 0.5 * (stride.t_toe_off + stride.t_heel_strike)
-    for true in walk.truth.steps(stride.foot):
+    for true in walk.truth.strides(stride.foot):
         if true.t_start <= middle <= true.t_end:
             return hypot(true.displacement[0], true.displacement[1])
     return None

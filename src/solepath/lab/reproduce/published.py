@@ -166,7 +166,7 @@ SHOE_SENSING: Table = {
 Section 4.2.5 has figs. 33 and 34. Errors are magnitudes for single strides, which the paper calls steps. What the text
 calls variance or mean square error is taken for the standard deviation."""
 
-NORMALISED = 22.5
+TABLE_2_DIVISOR = 22.5
 """Number by which table 2 divides the mean error of a stride relative to its length.
 
 "The accuracy of the two sensors differ 22.5-fold": 9.17 % / 22.5 = 0.41 % for walking. The other errors before the

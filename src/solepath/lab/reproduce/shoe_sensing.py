@@ -88,7 +88,7 @@ def _lengths(results: Sequence[ShoeResults]) -> list[FigureRow]:
     for state in STATES:
         stride_errors = [one.energy[state] for one in results]
         errors = [one.heights if state == "upstairs" else one.lengths for one in stride_errors if one.found]
-        rows.append(_row(f"{state}, table 2 %", [100.0 * _relative(of) / published.NORMALISED for of in errors]))
+        rows.append(_row(f"{state}, table 2 %", [100.0 * _relative(of) / published.TABLE_2_DIVISOR for of in errors]))
     return rows
 
 

@@ -179,11 +179,11 @@ def worn(route: Route, seed: int) -> tuple[list[Sample], Truth]:
 def score_strides(events: Sequence[Event], truth: Truth, state: str) -> StrideErrors:
     """Score found strides against the true ones. On stairs only strides over two risers count."""
     strides = [event for event in events if isinstance(event, StrideTaken)]
-    matches = matched(strides, truth.steps(FOOT))
+    matches = matched(strides, truth.strides(FOOT))
     stairs = state in ("upstairs", "downstairs")
     direction = {"upstairs": 1, "downstairs": -1}.get(state, 0)
     counted = [(stride, true) for stride, true in matches if not stairs or abs(true.displacement[2]) > 0.25]
-    expected = [true for true in truth.steps(FOOT) if not stairs or abs(true.displacement[2]) > 0.25]
+    expected = [true for true in truth.strides(FOOT) if not stairs or abs(true.displacement[2]) > 0.25]
     matched_strides = [stride for stride, _ in matches]
     counted_strides = [
         stride for stride in strides if not stairs or any(true.t_start < stride.t < true.t_end for true in expected)
@@ -198,7 +198,9 @@ def score_strides(events: Sequence[Event], truth: Truth, state: str) -> StrideEr
         found=len(counted),
         not_found=len(expected) - len(counted),
         invented=sum([stride not in matched_strides for stride in counted_strides]),
-        height=strides[-1].position[2] - sum([true.displacement[2] for true in truth.steps(FOOT)]) if strides else 0.0,
+        height=strides[-1].position[2] - sum([true.displacement[2] for true in truth.strides(FOOT)])
+        if strides
+        else 0.0,
     )
 
 

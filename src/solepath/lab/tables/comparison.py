@@ -16,9 +16,9 @@ EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "h
 def comparison_table(comparisons: Sequence[FootComparison]) -> str:
     """Return the table of the strides and events of both feet compared with the truth."""
     rows = [
-        ["steps walked", *(str(c.steps_true) for c in comparisons)],
-        ["steps found", *(str(c.steps_found) for c in comparisons)],
-        ["steps invented", *(str(c.steps_invented) for c in comparisons)],
+        ["steps walked", *(str(c.strides_true) for c in comparisons)],
+        ["steps found", *(str(c.strides_found) for c in comparisons)],
+        ["steps invented", *(str(c.strides_invented) for c in comparisons)],
         ["stride length, mean error %", *(percent(c.length_errors.mean) for c in comparisons)],
         ["end position, error m", *(number(c.end_error) for c in comparisons)],
     ]
@@ -41,7 +41,7 @@ def place_table(score: PlaceScore) -> str:
     return table(["place against the truth", "wearer"], rows)
 
 
-def reproduced(reproduction: Reproduction) -> str:
+def comparison_with_paper(reproduction: Reproduction) -> str:
     """Return the table of our figures beside the paper's, and below it the notes, one sentence on a line."""
     first, *others = STATISTICS
     header = [reproduction.unit, f"ours: {first}", *others, f"paper: {first}", *others]

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from ... import recipes
 from ...body.activity import motion
-from ...body.activity.features import BLOCK, COUNT, REACH, STRIDE
+from ...body.activity.features import BLOCK_DURATION, FEATURE_COUNT, FIRST_STRIDE_FEATURE, WINDOW_REACH
 from ...body.activity.foot_blocks import FootBlocks
 from ...body.activity.motion import MotionModel, to_json
 from ...body.activity.ride import BlockForce
@@ -70,7 +70,7 @@ MISLABELLED = ("various_03_05", "various_03_06")
 They are labelled as stairs down, but each stride rises by 0.4 m, and its swing looks like those of other wearers who
 climb two stairs at a time."""
 LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
-EMULATED = range(emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + 16)
+EMULATED = range(emulated.FIRST_TRAINING_SEED, emulated.FIRST_TRAINING_SEED + 16)
 DEVICES: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
     (100.0, LSM6DSOX, IN_SOLE),
     CC2650(),
@@ -126,14 +126,17 @@ def blocks_of(
         foot_samples = [sample for sample in samples if sample.site.foot is foot and sample.acc is not None]
         for index, features, force in _features(foot, foot_samples, t_start, recipe):
             evidence.setdefault(index, {})[foot] = features, force
-            activity = _block_label(label, t_start + index * BLOCK)
-            if activity is not None and (not only_strides or (features[STRIDE] and features[1] > STILLNESS_LIMIT)):
+            activity = _block_label(label, t_start + index * BLOCK_DURATION)
+            with_stride = features[FIRST_STRIDE_FEATURE] and features[1] > STILLNESS_LIMIT
+            if activity is not None and (with_stride or not only_strides):
                 rows.append(features)
                 classes.append(CLASSES[activity])
     n = len(rows)
     by_hand = wearer != EMULATED_WEARER
     course = None if course_spans is None else LabelledCourse(t_start, evidence, tuple(course_spans), by_hand)
-    return Blocks(np.array(rows).reshape(n, COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer), course)
+    return Blocks(
+        np.array(rows).reshape(n, FEATURE_COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer), course
+    )
 
 
 def _features(
@@ -144,12 +147,12 @@ def _features(
     window = FootBlocks()
     for sample in samples:
         events = tracker.feed(sample)
-        index = int((sample.t - t_start + TIE) / BLOCK)
+        index = int((sample.t - t_start + TIE) / BLOCK_DURATION)
         if window.index is None or index > window.index:
             if window.index is not None:
                 window.close()
-                complete = window.index - REACH
-                features = window.features(complete, t_start + (complete + 0.5) * BLOCK)
+                complete = window.index - WINDOW_REACH
+                features = window.features(complete, t_start + (complete + 0.5) * BLOCK_DURATION)
                 if features is not None:
                     yield complete, features, block_force(window.block(complete), window.resolution)
             rest = tracker.rest
@@ -163,7 +166,7 @@ def _features(
 def _block_label(label: Label, t_start: float) -> Activity | None:
     """Return the label of the block that starts at `t_start` s; None when no label has the share MIN_LABEL_SHARE."""
     n = 20
-    block_labels = [label(t_start + BLOCK * (k + 0.5) / n) for k in range(n)]
+    block_labels = [label(t_start + BLOCK_DURATION * (k + 0.5) / n) for k in range(n)]
     most_frequent = max(set(block_labels), key=block_labels.count)
     return most_frequent if block_labels.count(most_frequent) >= MIN_LABEL_SHARE * n else None
 

@@ -15,7 +15,7 @@ from statistics import median
 from attrs import frozen
 
 from ...body.activity.chain import DEFAULT_CHANCES, Chances, Shifts
-from ...body.activity.features import BLOCK
+from ...body.activity.features import BLOCK_DURATION
 from ...body.activity.hypotheses import BlockEvidence, Hypotheses
 from ...body.activity.motion import MotionModel
 from ...body.activity.pressure_height import NO_EVIDENCE
@@ -63,7 +63,7 @@ def chances(courses: Sequence[LabelledCourse]) -> Chances:
     counts = [[1e-6 * chance for chance in row] for row in DEFAULT_CHANCES]
     for course in courses:
         for t_start, end, activity in course.activities:
-            counts[CLASSES[activity]][CLASSES[activity]] += (end - t_start) / BLOCK
+            counts[CLASSES[activity]][CLASSES[activity]] += (end - t_start) / BLOCK_DURATION
         for _, before, after in changes(course.activities):
             counts[CLASSES[before]][CLASSES[after]] += 1.0
     return tuple(
@@ -110,18 +110,18 @@ def report_spans(course: LabelledCourse, model: MotionModel) -> list[Span]:
     for index in range(last + 1):
         feet = course.evidence.get(index, {})
         evidence = [feet.get(foot) for foot in Foot]
-        t = course.t_start + index * BLOCK
+        t = course.t_start + index * BLOCK_DURATION
         hypotheses.update(
             BlockEvidence(
                 t=t,
-                motions=motion_votes(model, [None if one is None else one[0] for one in evidence]),
+                motion_scores=motion_votes(model, [None if one is None else one[0] for one in evidence]),
                 forces=tuple([None if one is None else one[1] for one in evidence]),
-                climbs=NO_EVIDENCE,
+                pressure_scores=NO_EVIDENCE,
                 before=None,
                 after=None,
             ),
             model.chain,
         )
         starts += [(segment.t, segment.activity) for segment, _, _ in hypotheses.settle(t if index < last else 1e9)]
-    ends = [*[t for t, _ in starts[1:]], course.t_start + (last + 1) * BLOCK]
+    ends = [*[t for t, _ in starts[1:]], course.t_start + (last + 1) * BLOCK_DURATION]
     return [(t, end, activity) for (t, activity), end in zip(starts, ends, strict=True)]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...body.activity.features import GYRO, STRIDE, TRACK
+from ...body.activity.features import FIRST_GYRO_FEATURE, FIRST_STRIDE_FEATURE, FIRST_TRACK_FEATURE
 from ...body.activity.motion import MOTIONS, Network, Row
 from ...types import Activity
 
@@ -55,9 +55,9 @@ def fit_networks(features: Floats, classes: Numbers, wearers: Numbers) -> tuple[
     """Return the network for feet with a gyroscope, and the network that needs only the accelerometer.
 
     `features` (n, COUNT), `classes` (n,) (numbers of CLASSES) and `wearers` (n,) have a row for each block."""
-    has_gyro = features[:, GYRO] > 0.0
+    has_gyro = features[:, FIRST_GYRO_FEATURE] > 0.0
     full_network = fit_network(features[has_gyro], classes[has_gyro], wearers[has_gyro])
-    return full_network, fit_network(features[:, :GYRO], classes, wearers)
+    return full_network, fit_network(features[:, :FIRST_GYRO_FEATURE], classes, wearers)
 
 
 def fit_network(features: Floats, classes: Numbers, wearers: Numbers, seed: int = 0) -> Network:
@@ -71,7 +71,7 @@ def fit_network(features: Floats, classes: Numbers, wearers: Numbers, seed: int 
     mean_slopes, mean_squares = [np.zeros(shape) for shape in shapes], [np.zeros(shape) for shape in shapes]
     count = 0
     for epoch in range(EPOCHS):
-        rows = ((disturb(features, rng) if inputs > GYRO else features) - mean) / deviation
+        rows = ((disturb(features, rng) if inputs > FIRST_GYRO_FEATURE else features) - mean) / deviation
         rate = LEARNING_RATE * 0.5 * (1.0 + np.cos(np.pi * epoch / EPOCHS))
         order = rng.permutation(len(rows))
         for start in range(0, len(order), BATCH_SIZE):
@@ -93,7 +93,7 @@ def fit_network(features: Floats, classes: Numbers, wearers: Numbers, seed: int 
 
 def feature_statistics(features: Floats, classes: Numbers) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
     """Return mean and standard deviation of each accelerometer feature, for each of MOTIONS."""
-    accelerometer_rows = [features[classes == k][:, :GYRO] for k in range(len(MOTIONS))]
+    accelerometer_rows = [features[classes == k][:, :FIRST_GYRO_FEATURE] for k in range(len(MOTIONS))]
     return (
         tuple([rounded_row(one.mean(0)) for one in accelerometer_rows]),
         tuple([rounded_row(np.maximum(one.std(0), MIN_DEVIATION)) for one in accelerometer_rows]),
@@ -121,13 +121,13 @@ def disturb(features: Floats, rng: np.random.Generator) -> Floats:
     """Return the features with noise and gaps as other sensors might have them."""
     noisy = features.copy()
     n = len(noisy)
-    has_stride = noisy[:, STRIDE] > 0.0
+    has_stride = noisy[:, FIRST_STRIDE_FEATURE] > 0.0
     for column, size in ((2, 0.12), (5, 0.06), (6, 0.05)):
-        noisy[has_stride, STRIDE + column] *= np.exp(rng.normal(0.0, size, n))[has_stride]
+        noisy[has_stride, FIRST_STRIDE_FEATURE + column] *= np.exp(rng.normal(0.0, size, n))[has_stride]
     for column, size in ((3, 0.08), (4, 0.05), (8, 0.05), (9, 0.05), (10, 0.05)):
-        noisy[has_stride, STRIDE + column] += rng.normal(0.0, size, n)[has_stride]
-    noisy[rng.random(n) < STRIDE_DROPOUT, STRIDE:] = 0.0
-    noisy[rng.random(n) < TRACK_DROPOUT, TRACK:] = 0.0
+        noisy[has_stride, FIRST_STRIDE_FEATURE + column] += rng.normal(0.0, size, n)[has_stride]
+    noisy[rng.random(n) < STRIDE_DROPOUT, FIRST_STRIDE_FEATURE:] = 0.0
+    noisy[rng.random(n) < TRACK_DROPOUT, FIRST_TRACK_FEATURE:] = 0.0
     return noisy
 
 

@@ -26,7 +26,7 @@ from attrs import frozen
 from numpy.typing import NDArray
 
 from ...papers.footstep_tracker.activity import window_model
-from ...papers.footstep_tracker.activity.two_second_windows import MOVING
+from ...papers.footstep_tracker.activity.two_second_windows import MOVING_ACTIVITIES
 from ...papers.footstep_tracker.activity.window_model import LEAST_VARIANCE, Gaussian, WindowModel, window_features
 from ...papers.footstep_tracker.activity.windows import HOP, WINDOW, FootWindow, FootWindows
 from ...recording.decoded import decode_recording
@@ -44,7 +44,7 @@ RIDE_MARGIN = 4
 """Number of windows before and after an elevator ride that may have its pulses, because labels are about 1 s off."""
 LABEL_MARGIN = 0.5
 """Time at both ends of a label that is not used, s, because the labels were made by pressing keys."""
-WALKS = 12
+WALK_COUNT = 12
 """Number of emulated walks."""
 STILL_VARIANCE = 10.0
 """Variance of a_z, m^2/s^4, above which nobody stands; used only to learn the threshold of elevator pulses."""
@@ -173,7 +173,7 @@ def _mixtures(examples: Sequence[RecordingWindows]) -> dict[Activity, tuple[Gaus
     groups: dict[tuple[Activity, str], list[tuple[float, ...]]] = {}
     for one in examples:
         for labelled in one.windows:
-            if labelled.activity in MOVING or labelled.activity is Activity.RUNNING:
+            if labelled.activity in MOVING_ACTIVITIES or labelled.activity is Activity.RUNNING:
                 complete_rows = [x for x in map(window_features, labelled.feet) if len(x) == len(window_model.FEATURES)]
                 groups.setdefault((labelled.activity, one.source), []).extend(complete_rows)
     component_rows = {key: np.array(rows) for key, rows in groups.items() if len(rows) > 2 * len(window_model.FEATURES)}
@@ -182,7 +182,7 @@ def _mixtures(examples: Sequence[RecordingWindows]) -> dict[Activity, tuple[Gaus
         n_rows, 1
     )
     mixtures: dict[Activity, tuple[Gaussian, ...]] = {}
-    for state in MOVING:
+    for state in MOVING_ACTIVITIES:
         component_keys = [
             key for key in component_rows if key[0] is state or state is Activity.WALKING and key[0] is Activity.RUNNING
         ]
@@ -205,8 +205,8 @@ def _transitions(examples: Sequence[RecordingWindows]) -> tuple[tuple[float, ...
     counts = np.ones((3, 3))
     for one in examples:
         for before, after in zip(one.windows, one.windows[1:], strict=False):
-            if before.middle in MOVING and after.middle in MOVING:
-                counts[MOVING.index(before.middle), MOVING.index(after.middle)] += 1.0
+            if before.middle in MOVING_ACTIVITIES and after.middle in MOVING_ACTIVITIES:
+                counts[MOVING_ACTIVITIES.index(before.middle), MOVING_ACTIVITIES.index(after.middle)] += 1.0
     rows = counts / counts.sum(axis=1, keepdims=True)
     return tuple([tuple([_rounded(value) for value in row]) for row in rows.tolist()])
 
@@ -226,7 +226,7 @@ def of_emulated(seed: int) -> RecordingWindows:
 def main(folder: Path) -> None:
     """Write the model that is fitted to all data beside the part that reads it."""
     examples = [of_recording(one.path) for one in recordings(folder)]
-    first, last = emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + WALKS - 1
+    first, last = emulated.FIRST_TRAINING_SEED, emulated.FIRST_TRAINING_SEED + WALK_COUNT - 1
     examples += [of_emulated(seed) for seed in range(first, last + 1)]
     model = train(examples, f"hugadb, all wearers, and emulated walks at 20 Hz, seeds {first} to {last}")
     file = Path(window_model.__file__).with_name("footstep_activity.json")

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...foot.cues.cues import Cues, SeenCue
+from ...foot.cues.cues import Cues, TimedCue
 from ...foot.cues.pressure import PressureCues
-from ...foot.phase import TO_COME, Cue
+from ...foot.phase import REMAINING_CUES, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3
 from ...types.attrs import define, field
@@ -28,18 +28,18 @@ class CriticalCues(Cues):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[SeenCue]:  # fmt: skip
+    ) -> Sequence[TimedCue]:  # fmt: skip
         """Return uplift, liftoff, landing and rest of the segment that ends at this sample, as cues (`Cues`)."""
         segment = stance.detail
         if not isinstance(segment, StrideSegment) or segment.times is None:
             if still and phase is not Phase.STATIONARY:
-                return (SeenCue(Cue.FLAT, t),)
+                return (TimedCue(Cue.FLAT, t),)
             return ()
         times = segment.times
         when = {Cue.LIFT: times.uplift, Cue.CLEAR: times.liftoff, Cue.CONTACT: times.landing, Cue.FLAT: times.rest}
-        return [SeenCue(cue, when[cue]) for cue in TO_COME[phase]]
+        return [TimedCue(cue, when[cue]) for cue in REMAINING_CUES[phase]]
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[TimedCue]:
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.update_areas(t, load, phase)
         return () if seen is None else (seen,)
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, inf, sin
 
-from ...body.gait.turning_steps import TurningSteps
+from ...body.gait.turning_steps import TurningStrideFilter
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.strapdown import Strapdown
@@ -63,7 +63,7 @@ class Projection(Strapdown):
     integration at height 0. They jump at the end of the stride."""
 
     settings: ProjectionSettings = ProjectionSettings()
-    turning: TurningSteps = field(factory=TurningSteps)
+    turning: TurningStrideFilter = field(factory=TurningStrideFilter)
     largest_saturated: float = field(default=0.0, init=False)
     """Largest rate about an axis in a sample that the device marked as saturated, rad/s; 0 before the first."""
     least_saturated: float = field(default=0.0, init=False)

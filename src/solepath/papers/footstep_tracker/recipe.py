@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...recipes import Recipe, usual
+from ...recipes import Recipe, usual_parts
 from .activity.two_second_windows import TwoSecondWindows
 from .critical_cues import CriticalCues
 from .footsteps import Footsteps
@@ -15,7 +15,7 @@ FOOTSTEP_TRACKER = Recipe(
     StaticZones(),
     Projection(),
     CriticalCues(),
-    parts=usual(Footsteps(), TwoSecondWindows()),
+    parts=usual_parts(Footsteps(), TwoSecondWindows()),
     place=SnakeGame(),
 )
 """Liu et al. 2015: strides between static zones, projected onto the ground; turns; candidate traces on a floor plan."""

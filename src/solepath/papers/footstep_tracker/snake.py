@@ -17,7 +17,7 @@ from math import atan2
 
 from ...body.place.noise import next_random
 from ...body.place.placing import Placing
-from ...body.place.rows import Row, resampled
+from ...body.place.rows import Row, resample_rows
 from ...body.place.sway import sway_rows
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
@@ -35,11 +35,11 @@ LENGTH_SHARE = 0.02
 class SnakeGame(Placing):
     """Keeps traces from every stairs and elevator, and drops those that cross walls until one is left."""
 
-    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
+    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float) -> list[Row]:
         """Return the traces one move further, without those that cannot go there."""
         self.random = next_random(self.random)
-        extended = sway_rows(plan, rows, move, rough, turned, self.random, True)
-        max_rows = self.settings.most
+        extended = sway_rows(plan, rows, move, error_factor, turned, self.random, True)
+        max_rows = self.settings.max_rows
         return extended if len(extended) <= max_rows else self.thin(extended, max_rows)
 
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
@@ -49,7 +49,7 @@ class SnakeGame(Placing):
     def thin(self, rows: list[Row], count: int) -> list[Row]:
         """Return about `count` rows: merge those that are nearly the same, then select by weight."""
         merged = merge_rows(rows) if len(rows) > count else rows
-        return merged if 0.8 * count < len(merged) <= count else resampled(merged, count, 0.5)
+        return merged if 0.8 * count < len(merged) <= count else resample_rows(merged, count, 0.5)
 
 
 def merge_rows(rows: list[Row]) -> list[Row]:

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...foot.cues.cues import Cues, SeenCue
+from ...foot.cues.cues import Cues, TimedCue
 from ...foot.cues.inertial import SHUFFLE_SPEED, InertialCues
 from ...foot.cues.touch import Touch
 from ...foot.phase import Cue
@@ -92,7 +92,7 @@ class CopCues(Cues):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[SeenCue]:  # fmt: skip
+    ) -> Sequence[TimedCue]:  # fmt: skip
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         self.sagittal = 0.0 if self.inertial.axis is None else self.inertial.sagittal
@@ -109,12 +109,12 @@ class CopCues(Cues):
             if self.fast_t_start is None:
                 self.fast_t_start = t
             elif t - self.fast_t_start >= SHUFFLE_TIME - TIE:
-                cues.append(SeenCue(Cue.CLEAR, self.fast_t_start))
+                cues.append(TimedCue(Cue.CLEAR, self.fast_t_start))
         else:
             self.fast_t_start = None
         return cues
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[TimedCue]:
         """Return the cues of one sample of an insole alone (`Cues`); a foot is stationary when both areas are loaded.
 
         Without a layout there are no areas; then a heel-strike is reported at once, and foot-flat never."""
@@ -127,19 +127,21 @@ class CopCues(Cues):
         self.areas_loaded = min(load.heel, load.forefoot) >= (AREA_OFF if self.areas_loaded else AREA_ON)
         return self._add_load(t, self.areas_loaded, self.touch.update(t, load), load)
 
-    def _start(self, t: float, airborne: bool, phase: Phase) -> list[SeenCue]:
+    def _start(self, t: float, airborne: bool, phase: Phase) -> list[TimedCue]:
         """Return the cues at the first sample with a known load, when the foot swings or has just landed."""
         if airborne:
             moving_t_start = self.touch.moving_since
             self.stage = StrideStage.FLYING
             self.airborne_t_start = t - REST_TIME
-            return [] if phase is Phase.SWING else [SeenCue(Cue.CLEAR, t if moving_t_start is None else moving_t_start)]
+            return (
+                [] if phase is Phase.SWING else [TimedCue(Cue.CLEAR, t if moving_t_start is None else moving_t_start)]
+            )
         if phase is Phase.SWING:
             self._enter(StrideStage.LANDING, t)
             self.largest_jump, self.candidate_t = LARGEST_JUMP, t  # report this sample, but never set a mark
         return []
 
-    def _add_load(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[SeenCue]:
+    def _add_load(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[TimedCue]:
         """Return the cues of one sample with a load."""
         last_cop, last_t = self.cop, self.load_t
         self.load_t = t
@@ -147,7 +149,7 @@ class CopCues(Cues):
         new_cop = self.foot_centre if airborne else ground_cop
         self.cop = new_cop
         jump = 0.0 if last_cop is None or new_cop is None else abs(new_cop - last_cop)
-        cues: list[SeenCue] = []
+        cues: list[TimedCue] = []
         for cue in self._cell_cues(t, stationary, airborne):
             stage, reported = STAGES[self.stage][cue]
             cues += self._with_times(reported, t)
@@ -188,8 +190,8 @@ class CopCues(Cues):
         elif self.stage is StrideStage.LANDING and not self.contact_reported:
             self.largest_jump, self.candidate_t, self.mark = jump, t, Cue.CONTACT
 
-    def _with_times(self, cues: Sequence[Cue], t: float) -> list[SeenCue]:
-        timed_cues: list[SeenCue] = []
+    def _with_times(self, cues: Sequence[Cue], t: float) -> list[TimedCue]:
+        timed_cues: list[TimedCue] = []
         for cue in cues:
             cue_t: float | None = t
             if cue is Cue.CONTACT:
@@ -203,7 +205,7 @@ class CopCues(Cues):
                 if cue_t is None:
                     cue_t = self.airborne_t_start if landing else t
             if cue_t is not None:
-                timed_cues.append(SeenCue(cue, cue_t))
+                timed_cues.append(TimedCue(cue, cue_t))
         return timed_cues
 
     def _enter(self, stage: StrideStage, t: float) -> None:
@@ -219,8 +221,8 @@ class CopCues(Cues):
             self._enter(StrideStage.LEAVING, t)
         self.load_t = self.cop = self.ground_t = None
 
-    def cleared(self, t: float) -> SeenCue:
-        return self.inertial.cleared(t)
+    def make_hidden_toe_off(self, t: float) -> TimedCue:
+        return self.inertial.make_hidden_toe_off(t)
 
     def reset(self) -> None:
         self.inertial.reset()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.pressure.insole import InsoleLoads
 from ...foot.settings import InsoleSettings
-from ...recipes import Recipe, usual
+from ...recipes import Recipe, usual_parts
 from ...types.attrs import evolve
 from .cop_cues import CopCues
 from .fusion import DoubleFoot
@@ -27,7 +27,7 @@ KUPT = Recipe(
 )
 """Velocity known from heel-strike to toe-off, without the fusion of both feet."""
 
-KUPT_DFPC = evolve(KUPT, name="kupt-dfpc", parts=usual(DoubleFoot()))
+KUPT_DFPC = evolve(KUPT, name="kupt-dfpc", parts=usual_parts(DoubleFoot()))
 """Chen et al. 2019: `KUPT`, with the strides of both feet calibrating each other."""
 
 ZUPT = evolve(KUPT, name="zupt", corrector=LinearDedrift())

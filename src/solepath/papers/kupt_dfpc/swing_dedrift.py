@@ -139,7 +139,7 @@ class SwingDedrift(LinearDedrift):
     def correct(self, t: float, stance: Stance) -> bool:
         hint = stance.hint
         rolls = hint is Phase.PUSH_OFF or hint is Phase.LOADING
-        if stance.sigma <= self.settings.trusted and not rolls and hint is not Phase.SWING:
+        if stance.sigma <= self.settings.largest_stance_sigma and not rolls and hint is not Phase.SWING:
             self._end_motion()
             return True
         self.moved = True

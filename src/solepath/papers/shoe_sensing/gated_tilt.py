@@ -175,7 +175,7 @@ class ShoeSensing(LinearDedrift):
         self.last_dt = dt
         self.stance_age += dt
         self.swing += dt
-        self.lasted += dt
+        self.time_since_anchor += dt
 
     def correct(self, t: float, stance: Stance) -> bool:
         was_standing = self.standing

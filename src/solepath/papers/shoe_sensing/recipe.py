@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from ...recipes import Recipe, usual
+from ...recipes import Recipe, usual_parts
 from .gated_tilt import ShoeSensing, ShoeSensingSettings
 from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from .walking_state import AnglePerMetre
 
-SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=usual(activity=AnglePerMetre()))
+SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=usual_parts(activity=AnglePerMetre()))
 """Li et al. 2016: short-time energy, tilt feedback in stance, height errors of level strides removed."""
 
 SHOE_MAGNITUDE = Recipe(
     "acceleration-magnitude",
     AccelerationMagnitude(),
     ShoeSensing(ShoeSensingSettings(detector_delay=0.0)),
-    parts=usual(activity=AnglePerMetre()),
+    parts=usual_parts(activity=AnglePerMetre()),
 )
 """Li et al.'s baseline: `SHOE_SENSING`, but with stance where the specific force is about 1 g."""

@@ -18,7 +18,7 @@ from ...calibration.csv_table import read_rows
 from ...events import TouchedDown
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.stance.cycle import Cycle
-from ...recipes import Recipe, usual
+from ...recipes import Recipe, usual_parts
 from ...recording.decoded import DecodedRecording
 from ...session import Session
 from ...types import Foot, WalkingMode
@@ -96,7 +96,7 @@ def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)
         insoles[foot] = insole if insole.layout is not None else evolve(insole, layout=layout)
-    parts = usual(Modes(settings=ModesSettings(heading=heading)))
+    parts = usual_parts(Modes(settings=ModesSettings(heading=heading)))
     recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), parts=parts)
     session = Session(recipe, calibration=evolve(known, insoles=insoles))
     events = [*session.feed(walk.samples), *session.finish()]

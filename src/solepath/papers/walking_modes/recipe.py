@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.settings import ErrorStateSettings
 from ...foot.stance.cycle import Cycle
-from ...recipes import Recipe, usual
+from ...recipes import Recipe, usual_parts
 from .compensation import TABLE_1
 from .modes import Modes
 from .settings import ModesSettings
@@ -15,20 +15,26 @@ _OWN_HEIGHTS = ErrorStateFilter(ErrorStateSettings(level=False))
 """Corrector that leaves heights alone, because method I compares the heights of the feet."""
 
 WALKING_MODES = Recipe(
-    "walking-modes", Cycle(), _OWN_HEIGHTS, parts=usual(Modes(settings=ModesSettings(TABLE_1))), needs_pressure=True
+    "walking-modes",
+    Cycle(),
+    _OWN_HEIGHTS,
+    parts=usual_parts(Modes(settings=ModesSettings(TABLE_1))),
+    needs_pressure=True,
 )
 """Gong et al. 2023, method IV: touchdowns by maximum pressure, compensated by walking mode.
 
 The compensation is the paper's table 1, which holds for the paper's wearers. For emulated wearers it is worse than the
 compensation from their own marked walks (`solepath calibrate modes`)."""
 
-TOUCHDOWN_HEIGHT = Recipe("touchdown-height", Cycle(), _OWN_HEIGHTS, parts=usual(Modes(Height())))
+TOUCHDOWN_HEIGHT = Recipe("touchdown-height", Cycle(), _OWN_HEIGHTS, parts=usual_parts(Modes(Height())))
 """Gong et al. 2023, method I: the lower foot is the reference."""
 
-TOUCHDOWN_ACCELERATION = Recipe("touchdown-acceleration", Cycle(), _OWN_HEIGHTS, parts=usual(Modes(NetAcceleration())))
+TOUCHDOWN_ACCELERATION = Recipe(
+    "touchdown-acceleration", Cycle(), _OWN_HEIGHTS, parts=usual_parts(Modes(NetAcceleration()))
+)
 """Gong et al. 2023, method II: the foot with little net acceleration is the reference."""
 
 TOUCHDOWN_PRESSURE = Recipe(
-    "touchdown-pressure", Cycle(), _OWN_HEIGHTS, parts=usual(Modes(PressureTouchdown())), needs_pressure=True
+    "touchdown-pressure", Cycle(), _OWN_HEIGHTS, parts=usual_parts(Modes(PressureTouchdown())), needs_pressure=True
 )
 """Gong et al. 2023, method III: touchdowns by maximum pressure."""

@@ -32,7 +32,7 @@ MAX_CANDIDATE_DOTS = 4000
 PAPER_COLOUR, INK_COLOUR, SOFT_COLOUR, FLOOR_COLOUR, WALL_COLOUR = "#ffffff", "#1f2933", "#7b8794", "#f4f6f8", "#323f4b"
 DOOR_COLOUR, STAIRS_COLOUR, ELEVATOR_COLOUR, CANDIDATE_COLOUR = "#d9b382", "#9fb3c8", "#b8a9c9", "#6b7a8c"
 START_COLOUR, END_COLOUR = "#2e7d32", "#c62828"
-COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
+TRACK_COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
 """Colours of the track from its start to its end."""
 
 
@@ -135,7 +135,7 @@ class PlanPicture:
                 if len(piece) > 1:
                     points = frame.points(tuple([end.position[:2] for end in piece]))
                     share = (k - 0.5 * len(piece)) / max(len(self.places), 1)
-                    SubElement(panel, "polyline", {"points": points, "stroke": blend(COLOURS, share), **style})
+                    SubElement(panel, "polyline", {"points": points, "stroke": blend(TRACK_COLOURS, share), **style})
                 piece = [] if place is None else [place]
         all_decided = [place for place in self.places if len(place.candidates) == 1]
         first_word = "start" if all_decided[:1] == self.places[:1] else "found"
@@ -158,7 +158,7 @@ class PlanPicture:
         if self.places:
             for k in range(40):
                 box = {"x": px(left + 3.0 * k), "y": px(top + 2.0), "width": "3.2", "height": "8"}
-                SubElement(svg, "rect", {**box, "fill": blend(COLOURS, k / 39.0)})
+                SubElement(svg, "rect", {**box, "fill": blend(TRACK_COLOURS, k / 39.0)})
             first, last = self.places[0].t, self.places[-1].t
             _text(svg, left, top + 28.0, f"{first:.0f} s", size=12.0)
             _text(svg, left + 120.0, top + 28.0, f"{last:.0f} s", size=12.0, anchor="end")

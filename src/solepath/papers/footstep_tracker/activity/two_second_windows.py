@@ -45,7 +45,7 @@ from .hmm import bayes_update, forward, scaled_likelihoods
 from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, QUICK_SHARE, WINDOW, FootWindow, FootWindows, StandingForce
 
-MOVING = (Activity.WALKING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
+MOVING_ACTIVITIES = (Activity.WALKING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
 """States of the hidden Markov model."""
 ELEVATOR_ACTIVITY = {True: Activity.ELEVATOR_UP, False: Activity.ELEVATOR_DOWN}
 """Activity in an elevator by its direction; True for up."""
@@ -200,7 +200,7 @@ class TwoSecondWindows(ActivityPart):
             if belief is None
             else forward(belief, model.transitions, likelihoods)
         )
-        return MOVING[self.belief.index(max(self.belief))]
+        return MOVING_ACTIVITIES[self.belief.index(max(self.belief))]
 
     def _add_moving_window(self, index: int, state: Activity, known_at: float) -> list[Event]:
         t_start = self._newest(index - self.moving_windows + 1)
@@ -208,7 +208,7 @@ class TwoSecondWindows(ActivityPart):
         if self.ride is not None:
             ride = self.ride
             events = self._end_ride(ride, t_start, known_at) if ride.braking else self._withdraw_ride(ride, known_at)
-        if self.activity in MOVING:
+        if self.activity in MOVING_ACTIVITIES:
             t_start = self._newest(index) + 0.5 * (HOP - WINDOW)  # the middle of the window
         return events + self._change(t_start, state, known_at)
 
