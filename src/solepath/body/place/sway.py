@@ -38,7 +38,7 @@ def sway_rows(
     """Return the rows after a move of the track, m, without rows for which the plan forbids it.
 
     `error_factor` multiplies the track's usual errors, `turned` is the turn of the wearer, rad, and `random` the first
-    index in the table. With `both_sides`, a row at a wall continues on both sides, not only on the first that is free."""
+    index in the table. With `both_sides`, a row at a wall continues on both sides, not only the free one."""
     turn = error_factor * (HEADING_NOISE + TURN_NOISE * turned)
     kept = _sway(plan, rows, move, error_factor, turn, random % NOISE_ROWS, both_sides, BEND_ANGLES)
     return kept or _sway(
