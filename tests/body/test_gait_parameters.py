@@ -48,9 +48,9 @@ def really(truth: Truth, foot: Foot) -> dict[float, dict[str, float]]:
     """Return the true values of a foot's strides, by their second contact, s."""
     own, other = truth.feet[foot], truth.feet[OTHER[foot]]
     found = {}
-    for before, step in zip(own.steps, own.steps[1:], strict=False):
+    for before, step in zip(own.strides, own.strides[1:], strict=False):
         start, toe_off, end = before.t_heel_strike, step.t_toe_off, step.t_heel_strike
-        between = [one for one in other.steps if start < one.t_heel_strike < end]
+        between = [one for one in other.strides if start < one.t_heel_strike < end]
         if toe_off - start > 2.0 or len(between) != 1:
             continue
         (across,) = between

@@ -68,7 +68,7 @@ def strapdown(walker: Walker, foot: Foot, mounting: Mounting, rate: float) -> tu
 def test_the_measured_motion_integrates_to_the_true_track(winding: Walker, foot: Foot, mounting: Mounting) -> None:
     t, found = strapdown(winding, foot, mounting, 1000.0)
     true = winding.kinematics(foot, t, mounting).position
-    steps = winding.truth({foot: mounting}).steps(foot)
+    steps = winding.truth({foot: mounting}).strides(foot)
     for step in steps:
         ends = np.searchsorted(t, [step.t_start, step.t_end])
         moved, truly = np.diff(found[ends], axis=0)[0], np.diff(true[ends], axis=0)[0]

@@ -62,7 +62,7 @@ def test_every_level_step_is_found_and_ends_as_high_as_it_started(route: Route, 
         for foot in Foot:
             found, true = (
                 strides_of(events_of(route, seed, rate), foot),
-                samples_and_truth(route, seed, rate)[1].steps(foot),
+                samples_and_truth(route, seed, rate)[1].strides(foot),
             )
             # the first two of a jog may be reported as one
             assert len(true) - (route is JOG) <= len(found) <= len(true)

@@ -79,21 +79,21 @@ class ElevatorEvidence:
     Most courses share the same `RestLevels` object, so each result is computed once and cached. An instance is used
     for one block only and is not part of the state."""
 
-    __slots__ = ("_accelerations", "_pulses", "_rests", "_walks", "forces")
+    __slots__ = ("_accelerations", "_pulses", "_standing", "_walks", "forces")
 
     def __init__(self, forces: tuple[BlockForce | None, ...]) -> None:
         self.forces = forces
         # keys are ids of levels; they stay valid because tokens hold the levels longer than this object exists
         self._accelerations: dict[int, tuple[float, float] | None] = {}
-        self._rests: dict[int, tuple[RestLevels, float]] = {}
+        self._standing: dict[int, tuple[RestLevels, float]] = {}
         self._walks: dict[int, tuple[RestLevels, float]] = {}
         self._pulses: dict[tuple[int, float], tuple[RestLevels, float, float]] = {}
 
     def add_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
         """Return the levels after a block without acceleration, and the log-likelihood of the forces."""
-        result = self._rests.get(id(levels))
+        result = self._standing.get(id(levels))
         if result is None:
-            result = self._rests[id(levels)] = self._compute_rest(levels)
+            result = self._standing[id(levels)] = self._compute_rest(levels)
         return result
 
     def _compute_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
