@@ -10,7 +10,7 @@ from ..phase import Cue
 from ..stance.stance import Stance
 
 LONGEST_BRIDGE = 0.25
-"""Longest gap over which samples are integrated, s; in a longer one a foot may turn and turn back."""
+"""Longest gap that is integrated over, with the rate and force around it, s; in a longer one a foot may turn back."""
 
 
 class Corrector(Protocol):
@@ -44,12 +44,12 @@ class Corrector(Protocol):
         reports that a sensor was at the end of its range."""
 
     def correct(self, t: float, stance: Stance) -> bool:
-        """Use the evidence of the last predicted sample; return whether it agrees with the motion so far."""
+        """Use the evidence at the sample last given to `predict`; return whether it agrees with the motion so far."""
 
     def bridge(self, dt: float) -> float:
-        """Cross `dt` s without samples and inflate the covariance; return the time over which to integrate, s.
+        """Inflate the covariance for a gap of `dt` s; return how much of it the caller has to integrate, s.
 
-        The result is `dt`. After more than `LONGEST_BRIDGE` it is 0: the foot continues from its last position."""
+        The result is `dt`, or 0 after more than `LONGEST_BRIDGE`: the foot then continues from its last position."""
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         """Set the state after `dt` s without samples to that of the infill."""
@@ -69,9 +69,9 @@ class Corrector(Protocol):
 
     @property
     def error_index(self) -> float | None:
-        """Difference between integration and a known velocity in the last motion, m/s (StrideFeatures).
+        """Difference between the integrated velocity and that of the rolling shoe in the last swing, m/s.
 
-        None if no velocity except zero is known."""
+        None for a corrector that uses no velocity of a rolling shoe. StrideFeatures reports it."""
         return None
 
     def use_attitude(self, attitude: Quat) -> None:
@@ -81,12 +81,12 @@ class Corrector(Protocol):
     def mark(self, t: float, cue: Cue) -> None:
         """Receive the cue of an event that most likely happened just now (`Cues.mark`).
 
-        CONTACT: the sample just corrected, at `t` s, is the most likely one of heel-strike so far. CLEAR: the sample
-        before it is the most likely one of toe-off so far."""
+        CONTACT: heel-strike is most likely the sample just corrected, at `t` s. CLEAR: toe-off is most likely the
+        sample before it. A later call for the same event replaces this one."""
         return
 
     def flat(self, start: Vec3, turn: float) -> None:
-        """Use a foot-flat that ends a stride; a corrector that knows level strides corrects the height here.
+        """Use a foot-flat that ends a stride; a corrector that detects level strides corrects the height here.
 
         The stride started at the position `start`, m, and its heading changed by `turn` rad."""
         return
