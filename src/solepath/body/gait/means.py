@@ -143,8 +143,8 @@ class GaitParameters:
     coordination: float | None
     """Phase coordination index, as a share (0.03 is 3 %); None without both feet.
 
-    It is the coefficient of variation of `phase` of the foot with the longer swing, plus twice the mean of |phase - 0.5|
-    (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04."""
+    It is the coefficient of variation of `phase` of the foot with the longer swing, plus twice the mean of
+    |phase - 0.5| (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04."""
 
     @property
     def cadence(self) -> float | None:
