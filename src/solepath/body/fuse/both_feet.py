@@ -47,7 +47,7 @@ TURN_ERROR = 0.12
 MIN_LENGTH, MAX_TURN, MAX_DIRECTION_DEVIATION = 0.5, 0.8, 0.6
 """Limits for a stride that is compared: length, m; turn, rad; deviation from the foot's usual direction, rad."""
 GATE_LIMIT, NO_GATE = 16.0, 1e12
-"""Largest squared innovation, divided by its variance, of a measurement that is used, and no limit."""
+"""Largest squared innovation, divided by its variance, of a measurement that is used; `NO_GATE`: always."""
 MAX_STRIDE_LENGTH = 2.5
 """Longest plausible stride, m; the excess of a longer stride inflates the covariance."""
 ALIGNMENT_DISTANCE = 5.0
