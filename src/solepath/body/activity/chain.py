@@ -88,18 +88,8 @@ _OTHER_CHANCES: dict[str, dict[str, float]] = {
     "ELEVATOR_HALTS_DOWN": {"STAND": 0.4, "WALK": 0.02},
 }
 """Chances within one block of the transitions that are not learnt; the rest is the chance to stay."""
-_STATE_NAMES = (
-    *_LEARNT_STATES,
-    "UNKNOWN",
-    *("ELEVATOR_STARTS_UP", "ELEVATOR_MOVES_UP", "ELEVATOR_STOPS_UP", "ELEVATOR_CREEPS_UP", "ELEVATOR_HALTS_UP"),
-    *(
-        "ELEVATOR_STARTS_DOWN",
-        "ELEVATOR_MOVES_DOWN",
-        "ELEVATOR_STOPS_DOWN",
-        "ELEVATOR_CREEPS_DOWN",
-        "ELEVATOR_HALTS_DOWN",
-    ),
-)
+_STATE_NAMES = tuple(_OTHER_CHANCES)
+"""Names of the states, in their order."""
 FIRST_CHANCES = (0.5, 0.25, 0.05, 0.05, 0.05, 0.04, *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5), *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5))
 """Probability of each state before any evidence, in the order of the states."""
 

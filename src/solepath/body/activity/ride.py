@@ -219,15 +219,8 @@ class ElevatorRide:
 
         `start_height` is by air pressure, m; see `move` for `levels` and `acceleration`."""
         velocity = round(0.0 + acceleration * block, 6)
-        return ElevatorRide(
-            levels,
-            velocity,
-            abs(velocity),
-            round(0.0 + 0.5 * velocity * block, 6),
-            block,
-            has_first_pulse,
-            start_height,
-        )
+        height = round(0.0 + 0.5 * velocity * block, 6)
+        return ElevatorRide(levels, velocity, abs(velocity), height, block, has_first_pulse, start_height)
 
     def move(self, levels: RestLevels, acceleration: float, block: float) -> ElevatorRide:
         """Return the ride after `block` s more with this elevator acceleration, m/s^2, and with new levels."""

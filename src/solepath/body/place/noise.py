@@ -1,8 +1,8 @@
 """Quasi-random numbers that are equal on every platform.
 
-Each entry of the table has four numbers, evenly distributed from -1 to 1. It is the additive recurrence of Roberts 2018
-in four dimensions: fractional parts of multiples of the powers of 1 / 1.16730..., where 1.16730... is the root of x^5 =
-x + 1. Consecutive entries cover all directions evenly; `next_random` chooses the first one."""
+Each entry of the table has four numbers, evenly distributed from -1 to 1: the additive recurrence of Roberts 2018 in
+four dimensions. They are fractional parts of multiples of the powers of 1 / 1.16730..., where 1.16730... is the root of
+x^5 = x + 1. Consecutive entries cover all directions evenly; `next_random` chooses the first one."""
 
 from __future__ import annotations
 

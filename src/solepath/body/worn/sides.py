@@ -18,8 +18,7 @@ Both feet must agree, over eight strides each. If a wearer shuffles or climbs, t
 be detected late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs, 50 to 200
 Hz), none is reported as exchanged. With left and right exchanged, 51 of them are reported; all but 9 of the others have
 fewer than eight strides of a foot. If the sensor frames of both feet are left-handed (an axis has the wrong sign), the
-motion is mirrored and a left foot looks like a right foot. That wrong data is also reported as exchanged feet.
-"""
+motion is mirrored and a left foot looks like a right foot. That wrong data is also reported as exchanged feet."""
 
 from __future__ import annotations
 
