@@ -41,15 +41,15 @@ from .ride import (
 )
 
 DROP_LIMIT = 13.0
-"""Largest deficit of a token's log-likelihood to that of the best token; a token with a larger one is dropped."""
+"""A token whose log-likelihood is further than this below that of the best token is dropped."""
 AGREEMENT_LIMIT = 8.0
-"""Largest deficit of the tokens that must agree before a segment is settled."""
+"""Tokens whose log-likelihood is further than this below that of the best token need not agree with a segment."""
 RIDE_SETTLING_TIME = 12.0
 """Time after which the end of a ride is settled, s; later, the elevator will not creep on to its floor."""
 MAX_OPEN_TIME = 60.0
 """Time after which the start of an activity is settled in any case, s; few rides last longer."""
 ACCELERATED_STATES = RIDE_STATES - UNACCELERATED_STATES
-"""States of a ride from which a path may end the ride with the log-likelihood `ElevatorRide.score_stop`."""
+"""States of a ride with acceleration; `ElevatorRide.score_stop` scores a path that ends the ride after one of them."""
 MAX_SEGMENTS = 8
 """Largest number of segments of a path; when there are more, the oldest is settled."""
 

@@ -8,7 +8,7 @@ from math import cos, pi, sin, sqrt
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Start
 from .landings import Landing, find_exits, find_nearest_landing, list_landings
-from .noise import NOISE_ROWS, NOISE_TABLE
+from .noise import NOISE_ENTRIES, NOISE_TABLE
 from .reference import LevelReached
 from .rows import Row
 
@@ -82,7 +82,7 @@ def rows_at_exits(plan: IndexedPlan, changing: list[Row], arrived: LevelReached,
     exit_rows: list[Row] = []
     for k, (_, _, a, b, w, _, origin, landing) in enumerate(changing):
         for exit_landing, share in _weigh_exits(plan.plan, landings, landings[landing - 1], arrived):
-            ex, ey, eh, es = NOISE_TABLE[(random + k) % NOISE_ROWS]
+            ex, ey, eh, es = NOISE_TABLE[(random + k) % NOISE_ENTRIES]
             turn, stretch = TURN_ERROR * eh, 1.0 + STRETCH_ERROR * es
             x, y = exit_landing.place[0] + EXIT_ERROR * ex, exit_landing.place[1] + EXIT_ERROR * ey
             if plan.crosses(exit_landing.level, exit_landing.place[0], exit_landing.place[1], x, y):

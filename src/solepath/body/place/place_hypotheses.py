@@ -9,7 +9,7 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define, field, frozen
 from ..part import Part
-from .noise import NOISE_ROWS, NOISE_TABLE, next_random
+from .noise import NOISE_ENTRIES, NOISE_TABLE, next_random
 from .rows import Row, resample_rows, round_rows
 
 MAX_MOVE = 4.0
@@ -90,7 +90,7 @@ class PlaceHypotheses(Part, ABC):
         kept: list[Row] = []
         for k, (x, y, a, b, w, level, origin, landing) in enumerate(rows):
             for j in (0, 1):
-                ex, ey, _, _ = NOISE_TABLE[(self.random + 2 * k + j) % NOISE_ROWS]
+                ex, ey, _, _ = NOISE_TABLE[(self.random + 2 * k + j) % NOISE_ENTRIES]
                 nx, ny = x + a * dx - b * dy + move_error * ex, y + b * dx + a * dy + move_error * ey
                 if plan.inside(level, nx + x0, ny + y0):
                     kept.append((nx, ny, a, b, w, level, origin, landing))

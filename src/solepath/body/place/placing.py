@@ -91,7 +91,7 @@ class Placing(LevelChanges):
         return ()
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
-        """Update the rows with events after which the wearer is `here`, and return the place; never raises."""
+        """Update the rows with events after which the wearer is at `here`, and return the place; never raises."""
         outputs: list[Event] = []
         if not all([isfinite(v) for v in (here.t, *here.position)]):
             return outputs

@@ -7,7 +7,7 @@ from math import hypot
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from .landings import Landing, is_near_landing, list_landings
-from .noise import NOISE_ROWS, NOISE_TABLE
+from .noise import NOISE_ENTRIES, NOISE_TABLE
 from .rows import Row
 
 MOVE_ERROR = 0.06
@@ -40,9 +40,9 @@ def sway_rows(
     `error_factor` multiplies the track's usual errors, `turned` is the size of the wearer's turn, rad, and `random` the
     first index in the table. With `both_sides`, a row at a wall continues on both sides, not only the free one."""
     turn = error_factor * (HEADING_NOISE + TURN_NOISE * turned)
-    kept = _sway(plan, rows, move, error_factor, turn, random % NOISE_ROWS, both_sides, BEND_ANGLES)
+    kept = _sway(plan, rows, move, error_factor, turn, random % NOISE_ENTRIES, both_sides, BEND_ANGLES)
     return kept or _sway(
-        plan, rows, move, 2.0 * error_factor, 2.0 * turn, (random + 499) % NOISE_ROWS, both_sides, WIDE_BEND_ANGLES
+        plan, rows, move, 2.0 * error_factor, 2.0 * turn, (random + 499) % NOISE_ENTRIES, both_sides, WIDE_BEND_ANGLES
     )
 
 
@@ -64,7 +64,7 @@ def _sway(
     blocked: list[Row] = []
     for row in rows:
         x, y, a, b, w, level, origin, _ = row
-        k = k + 1 if k < NOISE_ROWS - 1 else 0
+        k = k + 1 if k < NOISE_ENTRIES - 1 else 0
         ex, ey, eh, es = NOISE_TABLE[k]
         s = 1.0 + STRETCH_DECAY * (1.0 - a * a - b * b) + stretch * es
         h = turn * eh
@@ -79,7 +79,7 @@ def _sway(
     landings: list[Landing] | None = None
     for row in blocked:
         x, y, a, b, w, level, origin, _ = row
-        k = (k + 367) % NOISE_ROWS
+        k = (k + 367) % NOISE_ENTRIES
         ex, ey, eh, es = NOISE_TABLE[k]
         side, passed = (1.0 if eh > 0.0 else -1.0), False
         for bend in bends:
