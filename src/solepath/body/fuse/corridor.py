@@ -113,7 +113,7 @@ class Corridor:
             return None
         a, b = pp / s, pr / s
         self.drift = ((1.0 - a) * pp, (1.0 - a) * pr, rr - b * pr)
-        # the corrections are against the drift; that of the heading is extrapolated from the middle to the end
+        # minus: corrections oppose the drift; the heading's is extrapolated from the middle of the section to its end
         return (-a * angle - b * angle * (t - middle), -b * angle)
 
     def _propagate(self, t: float) -> None:

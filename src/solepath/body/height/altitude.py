@@ -43,8 +43,10 @@ MAX_INPUT_RATE = 8.0
 """Number of inputs per second of `KEPT_TIME` that may be kept."""
 MIN_PRESSURE, MAX_PRESSURE = 2e4, 2e5
 """Limits of a plausible air pressure, Pa."""
-NOISE_WEIGHT, MAX_NOISE_RATIO, MIN_NOISE = 0.05, 3.0, 1e-4
-"""Filter of a reading's variance: weight and largest ratio of one value, and least variance, m^2."""
+NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 3.0
+"""Weight of one value in the low-pass filter of `Altitude.noise`, and largest ratio of a value to the filter's."""
+MIN_NOISE = 1e-4
+"""Least variance of a reading, m^2."""
 JUMP_LIMIT = 25.0
 """Squared innovation, divided by its variance, above which the offset has changed suddenly: a door or a gust."""
 UNKNOWN_VARIANCE = 1e4

@@ -101,8 +101,8 @@ class LevelChanges(PlaceHypotheses):
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
             exit_weight = sum([row[4] for row in exit_rows])
             landing_share = 1.0 - STAYING_SHARE[arrived.kind]
-            known = exit_weight > 0.0 and total > 0.0
-            k = total * landing_share / (1.0 - landing_share) / exit_weight if known else 1.0
+            has_weights = exit_weight > 0.0 and total > 0.0
+            k = total * landing_share / (1.0 - landing_share) / exit_weight if has_weights else 1.0
         else:
             k = arrived.certainty / (1.0 - arrived.certainty)
             self.level_uncertain = False
@@ -124,9 +124,9 @@ class LevelChanges(PlaceHypotheses):
         return rows
 
     def assign_levels(self, plan: FloorPlan, rows: list[Row], here: WearerMoved) -> tuple[list[Row], dict[int, float]]:
-        """Return the rows with the levels of rows that change level, and their heights, m, by landing of entry.
+        """Return the rows, with a level for those that change level, and the heights of those, m, by landing of entry.
 
-        The nearer level is set; about half-way, rows alternate between both. Heights end at the next landing."""
+        The level is the nearer one; about half-way, rows alternate between both. Heights end at the next landing."""
         entered = {row[7] for row in rows if row[7]}
         if not entered:
             return rows, {}

@@ -12,8 +12,10 @@ RISER_HEIGHT = 0.165
 """Height of one riser of stairs, m, used when the track gives no height."""
 MAX_LENGTH_RATIO, LANDING_LENGTH = 2.5, 4.0
 """Largest horizontal length of stairs as a multiple of their height, and additional length for landings, m."""
-MIN_TRACK_SHARE, MIN_TRACK_HEIGHT, MIN_RIDE_HEIGHT = 0.5, 0.3, 1.0
-"""Least height of the track that is used: share of the counted risers' height; m, on stairs; m, of a ride."""
+MIN_TRACK_SHARE = 0.5
+"""Least height by the track that is used on stairs, as a share of the height by counted risers."""
+MIN_TRACK_HEIGHT, MIN_RIDE_HEIGHT = 0.3, 1.0
+"""Least heights by the track that are used on stairs and after a ride, m."""
 
 
 @define

@@ -172,17 +172,8 @@ def _group_rows(rows: list[Row], limit: float) -> list[_Group]:
         gw, gx, gy, ga, gb, gl, level, origin, entry = groups[best]
         if level != row_level:  # the list is full: add the weight of the row, not its place
             ratio = (gw + w) / gw
-            groups[best] = (
-                gw * ratio,
-                gx * ratio,
-                gy * ratio,
-                ga * ratio,
-                gb * ratio,
-                gl * ratio,
-                level,
-                origin,
-                entry,
-            )
+            gw, gx, gy, ga, gb, gl = gw * ratio, gx * ratio, gy * ratio, ga * ratio, gb * ratio, gl * ratio
+            groups[best] = (gw, gx, gy, ga, gb, gl, level, origin, entry)
         else:
             groups[best] = (gw + w, gx + w * x, gy + w * y, ga + w * a, gb + w * b, gl + length, level, origin, entry)
     return groups
