@@ -146,18 +146,18 @@ class BothFeet(MeanOfFeet):
         if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
             self._restart()
             return ()
-        own_place = event.position
+        own_position = event.position
         c, s = cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
         t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
         swing = max(0.0, min(event.t_end - t_toe_off, MAX_PHASE_TIME))
         stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
-        # correct heading and position for the estimated heading drift
+        # correct the drift of the heading, and the displacement by the drift up to mid-swing
         rate = self.errors.rates[index]
-        middle = rate * (stance + 0.5 * swing)
-        this.correct(own_place, rate * (stance + swing), -middle * dy, middle * dx)
-        x, y, _ = this.place(own_place)
+        mid_turn = rate * (stance + 0.5 * swing)
+        this.correct(own_position, rate * (stance + swing), -mid_turn * dy, mid_turn * dx)
+        x, y, _ = this.place(own_position)
         xx, xy, _, yy, _, _ = event.covariance
         cc, ss, cs = c * c, s * s, c * s
         variance = (
@@ -172,11 +172,11 @@ class BothFeet(MeanOfFeet):
         self.distance = min(ALIGNMENT_DISTANCE, self.distance + 0.5 * event.length)  # the mean of both feet
         x, y, _ = event.displacement
         straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not event.degraded
-        self.strides[index] = DirectedStride(event.t_end, own_place, atan2(y, x) if straight else None)
+        self.strides[index] = DirectedStride(event.t_end, own_position, atan2(y, x) if straight else None)
         if self.distance >= ALIGNMENT_DISTANCE or not self._realign(index, event):
             self._compare_feet(index, event, dx, dy, stance, swing)
             if self.settings.straight_corridors:
-                x, y, z = this.place(own_place)
+                x, y, z = this.place(own_position)
                 self._follow_corridor(index, event, (x - dx, y - dy, z), (x, y, z))
         return self._shift_foot(index, event.foot, takes_shifts)
 
@@ -285,10 +285,10 @@ class BothFeet(MeanOfFeet):
         elif stride is not None and self.settings.feedback and takes_shifts:
             place, yaw = this.place(stride.end), this.turn
             this.turn, this.offset = self.placements[index]
-            own_place = this.to_own(place)
-            shift = sub(own_place, stride.end)
+            own_position = this.to_own(place)
+            shift = sub(own_position, stride.end)
             (x, y, z), (dx, dy, dz) = this.newest_place, shift
-            stride.end, this.newest_place = own_place, (x + dx, y + dy, z + dz)
+            stride.end, this.newest_place = own_position, (x + dx, y + dy, z + dz)
             return [Shift(foot, yaw - this.turn, shift)]
         return ()
 
