@@ -45,7 +45,7 @@ UNACCELERATED_STATES = frozenset((ELEVATOR_MOVES_UP, ELEVATOR_CREEPS_UP, ELEVATO
 Chances = tuple[tuple[float, ...], ...]
 """Chances of a transition from each of `_LEARNT_STATES` (rows) to each of them (columns); each row adds up to 1."""
 Shifts = tuple[tuple[Activity, Activity, float], ...]
-"""Old activity, new activity, and time from the block in which the change was detected to the change, s."""
+"""For each change: old activity, new activity, and time from the block of its detection to the change, s."""
 
 DEFAULT_CHANCES: Chances = (
     (0.959, 0.03, 1e-3, 5e-3, 5e-3),

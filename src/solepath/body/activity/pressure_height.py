@@ -35,9 +35,9 @@ BLOCK_NOISE = 0.25
 
 Small barometers have a noise of 1 to 3 Pa, and doors change the pressure as well."""
 BLOCKS_BEFORE, BLOCKS_AFTER = 3, 2
-"""Numbers of blocks before and after the judged one from which, with it, the slope is computed."""
+"""Numbers of blocks before and after the judged one; the slope is computed over all of them."""
 MIN_SLOPE_SPAN = 1.0
-"""Least time between the first and the last of these blocks, s."""
+"""Least time between the first and the last of these blocks with air pressure, s."""
 SLOPE_WEIGHT = 1.0 / 3.0
 """Weight of one slope's log-likelihood; it is below 1 because neighbouring slopes share samples."""
 MAX_SLOPE_PENALTY = 3.0

@@ -46,7 +46,7 @@ class Footfalls:
     contact: float | None = None
     """Contact at which the cycle under way started, s; None while there is none."""
     toe_off: float | None = None
-    """Toe-off since the newest contact, s, also when no cycle is under way; None before it."""
+    """Toe-off since the newest contact, s, also when no cycle is under way; None without one."""
     follows_cycle: bool = False
     """Flag: the cycle directly before the one under way was accepted."""
     degraded: bool = False
