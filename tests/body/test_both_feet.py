@@ -197,7 +197,7 @@ def test_a_straight_walk_is_not_changed() -> None:
     assert all(abs(yaw) < 1e-6 for yaw, _ in _corridor_corrections(Corridor(), 1e-9))
 
 
-def test_a_corner_starts_a_new_run() -> None:
+def test_a_corner_ends_a_straight() -> None:
     corridor = Corridor()
     _corridor_corrections(corridor, 1e-9, 40)
     assert corridor.heading is not None

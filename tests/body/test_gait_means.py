@@ -25,7 +25,7 @@ from solepath import (
     ToeOff,
 )
 from solepath.body.gait.cycles import GaitCycles
-from solepath.body.gait.means import MEMORY_STRIDES, GaitMeans, RunningMean, add
+from solepath.body.gait.means import MEMORY_STRIDES, GaitMeans, RunningMean, add_values
 from solepath.events import Event
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
@@ -202,7 +202,7 @@ def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
 def test_up_to_two_minutes_of_walking_mean_and_deviation_are_plain_ones(values: list[float]) -> None:
     running = RunningMean()
     for value in values:
-        add([(running, value)], MEMORY_STRIDES)
+        add_values([(running, value)], MEMORY_STRIDES)
     assert running.figure.strides == len(values)
     assert running.figure.mean == pytest.approx(mean(values), abs=1e-9)
     assert running.figure.sd == pytest.approx(stdev(values), abs=1e-6)
@@ -211,14 +211,14 @@ def test_up_to_two_minutes_of_walking_mean_and_deviation_are_plain_ones(values: 
 def test_after_that_what_is_old_fades() -> None:
     running = RunningMean()
     for value in [1.0] * 500 + [2.0] * 500:
-        add([(running, value)], MEMORY_STRIDES)
+        add_values([(running, value)], MEMORY_STRIDES)
     assert running.figure.mean == pytest.approx(2.0, abs=0.02)
     assert running.count == MEMORY_STRIDES
 
 
 def test_one_stride_has_no_deviation() -> None:
     running = RunningMean()
-    add([(running, 1.0)], MEMORY_STRIDES)
+    add_values([(running, 1.0)], MEMORY_STRIDES)
     assert running.figure.sd is running.figure.cv is None
 
 

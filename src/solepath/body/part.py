@@ -1,8 +1,8 @@
 """The contract of body parts: the parts of a recipe that do not belong to one foot.
 
-A recipe has its parts in a tuple. The output of a foot or of a link reaches the parts in that order. The output of a
-part reaches the parts after it, also at the end of a session. Parts never write into a foot. A part returns a
-correction as a value (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it."""
+A recipe has its parts in a tuple. The output of a foot or of a link reaches the parts in the order of the
+tuple. The output of a part reaches the parts after it, also at the end of a session. Parts never write into a foot. A
+part returns a correction as a value (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..types.attrs import frozen
 
 @frozen
 class Shift:
-    """A correction of a flat foot: `yaw`, rad, is added to its heading, `by`, m, world frame, to its position."""
+    """A correction of a flat foot: `yaw`, rad, is added to its heading and `by`, m, world frame, to its position."""
 
     foot: Foot
     yaw: float
@@ -48,7 +48,7 @@ class Replacement:
 
 @frozen
 class ClockUnsettled:
-    """A notice that sample times of a site up to `until`, s, cannot be compared with another site's; None: all can."""
+    """A notice that times of a site up to `until`, s, cannot be compared with those of other sites; None: all can."""
 
     site: Site
     until: float | None
@@ -56,7 +56,7 @@ class ClockUnsettled:
 
 @frozen
 class LayoutReported:
-    """A notice that the device at a site has reported its cell layout, which also tells left from right insoles.
+    """A notice that the device at a site has reported its cell layout, which is that of a left or a right insole.
 
     A layout that comes from a calibration is not reported this way."""
 
@@ -93,7 +93,7 @@ class Part(Protocol):
     needs_samples: ClassVar[bool] = False
     """Flag: the part needs the samples of the feet, so `feed` is called."""
     idle: bool = False
-    """Flag: `feed` is not called for samples without events and air pressure, because it would do nothing with them.
+    """Flag: `feed` is not called for a sample with neither events nor air pressure, because it would do nothing.
 
     It is either always true, or a field that changes only in `receive`, `reset` and `feed`."""
     sites: ClassVar[tuple[Site, ...]] = ()

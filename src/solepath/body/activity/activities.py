@@ -7,8 +7,8 @@ a barometer (pressure_height.py). Viterbi's algorithm finds the likeliest sequen
 
 Latency: a block is judged when two more blocks have come, 1 to 1.5 s after it. The likeliest sequence is reported at
 once as not final. The segments on which all likely sequences agree are reported again as final, mostly seconds later.
-Standing may turn out to be a ride whose start was not detected, so it stays open for up to a minute; the end of a ride
-stays open for 12 s."""
+Standing may turn out to be a ride whose start was not detected, so it becomes final after up to a minute; the end of a
+ride becomes final after 12 s."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartOutput
 from .features import BLOCK_DURATION, WINDOW_REACH
 from .flights import Flights
-from .foot_blocks import FootBlocks
+from .foot_blocks import MAX_STRIDE_TIME, FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
 from .motion import MotionModel, load_released_model
-from .pressure_height import NO_EVIDENCE, PressureHeight
+from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
 from .votes import block_force, motion_votes
 
 LEFT: Final = Foot.LEFT
@@ -44,10 +44,10 @@ MAX_WAITING_STRIDES = 8
 """Largest number of strides whose activity is not known yet; older ones are discarded."""
 NO_FEATURES = StrideFeatures(0.0, 0.0, 0.0)
 NO_COVARIANCE = (0.0,) * 6
-"""Placeholder for the covariance of a stride in `Activities.strides`, of which only times and heights are used."""
+"""Placeholders in `Activities.strides`: only the times and heights of these strides are used."""
 STAIR_DIRECTIONS = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 ELEVATOR_GOES_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
-"""Elevator activities, with a flag: the ride goes up."""
+"""Flag for each elevator activity: the ride goes up."""
 
 
 @frozen
@@ -78,7 +78,7 @@ class Activities(ActivityPart):
     provisional: list[ActivitySegment] = field(factory=list, init=False)
     """Segments that were reported and are not final, oldest first."""
     withdrawn_at: float | None = field(default=None, init=False)
-    """Time `t` of the newest provisional report, s, when it withdrew an activity without a successor."""
+    """Time `t` of the newest report, s, if it is not final and withdrew an activity without a successor; else None."""
     flights: Flights = field(factory=Flights, init=False)
     strides: deque[StrideTaken] = field(factory=deque, init=False)
     """Strides whose activity is not known yet, without their features."""
@@ -89,7 +89,7 @@ class Activities(ActivityPart):
             load_released_model()
 
     def reset(self, site: Site) -> None:
-        """Discard the blocks and strides of a foot, and the flight under way, because its clock restarts."""
+        """Discard the blocks of a foot whose clock restarts, the waiting strides and the flight under way."""
         if site.foot is None:
             return
         (self.left if site.foot is LEFT else self.right).restart()
@@ -171,7 +171,7 @@ class Activities(ActivityPart):
                 motion_scores=motion_votes(model, features),
                 forces=tuple([block_force(side.block(index), side.resolution) for side in sides]),
                 pressure_scores=pressure_scores,
-                before=pressure_height.height(index - 3, index - 1),
+                before=pressure_height.height(index - BLOCKS_BEFORE, index - 1),
                 after=pressure_height.height(index, index + WINDOW_REACH),
             ),
             model.chain,
@@ -254,7 +254,7 @@ class Activities(ActivityPart):
         path: Sequence[ActivitySegment] = () if best is None else best.path
         while self.strides and 0.5 * (self.strides[0].t_start + self.strides[0].t_end) < t_judged:
             stride = self.strides.popleft()
-            middle = 0.5 * (max(stride.t_start, stride.t_end - 1.6) + stride.t_end)
+            middle = 0.5 * (max(stride.t_start, stride.t_end - MAX_STRIDE_TIME) + stride.t_end)
             activity = Activity.UNKNOWN
             for segment in path:
                 if segment.t <= middle:

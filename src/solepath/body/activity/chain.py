@@ -3,9 +3,9 @@
 Five states describe an elevator ride in each direction: the elevator STARTS with a pulse of acceleration, MOVES without
 acceleration and STOPS with a pulse in the other direction. It may then CREEP on to its floor and HALT there with a weak
 pulse. "Chance" is the probability of a transition within one block. The chances between standing, walking, running and
-stairs are learnt (motion.py). The delay between the detection of a change and the label that people gave it is learnt
-as well. The other chances describe durations (2 s for a pulse, 7 s between the pulses of a ride) and rare transitions.
-They were not fitted to labels, but chosen by hand while looking at HuGaDB's recordings and emulated elevators."""
+stairs are learnt (motion.py), as are the delays between the detection of a change and its time in the labels. The other
+chances describe durations (2 s for a pulse, 7 s between the pulses of a ride) and rare transitions. They were not
+fitted to labels, but chosen by hand while looking at HuGaDB's recordings and emulated elevators."""
 
 from __future__ import annotations
 
@@ -39,15 +39,13 @@ HALT_SIGNS = {ELEVATOR_HALTS_UP: -1, ELEVATOR_HALTS_DOWN: 1}
 """Sign of the weaker acceleration of an elevator that has crept on to its floor and stops, positive upwards."""
 RIDE_STATES = frozenset(range(ELEVATOR_STARTS_UP, ELEVATOR_HALTS_DOWN + 1))
 """States of an elevator ride."""
-UNFINISHED_STATES = frozenset((ELEVATOR_MOVES_UP, ELEVATOR_CREEPS_UP, ELEVATOR_MOVES_DOWN, ELEVATOR_CREEPS_DOWN))
+UNACCELERATED_STATES = frozenset((ELEVATOR_MOVES_UP, ELEVATOR_CREEPS_UP, ELEVATOR_MOVES_DOWN, ELEVATOR_CREEPS_DOWN))
 """States of a ride without acceleration, before its last pulse."""
 
 Chances = tuple[tuple[float, ...], ...]
-"""Chances of a transition from STAND, WALK, RUN, UP or DOWN (rows) to each of these (columns) within one block.
-
-Elevator rides are left out. Each row adds up to 1."""
+"""Chances of a transition from each of `_LEARNT_STATES` (rows) to each of them (columns); each row adds up to 1."""
 Shifts = tuple[tuple[Activity, Activity, float], ...]
-"""Delays (old activity, new activity, s) of the start of the new one after the block in which it was detected."""
+"""For each change: old activity, new activity, and time from the block of its detection to the change, s."""
 
 DEFAULT_CHANCES: Chances = (
     (0.959, 0.03, 1e-3, 5e-3, 5e-3),
@@ -56,7 +54,7 @@ DEFAULT_CHANCES: Chances = (
     (0.02, 0.05, 2e-3, 0.926, 2e-3),
     (0.02, 0.05, 2e-3, 2e-3, 0.926),
 )
-"""Chances before anything is learnt: standing lasts a quarter of a minute, and most flights end on level ground."""
+"""Chances before anything is learnt: standing lasts 12 s on average, and most flights end on level ground."""
 
 _RIDE_FROM_STANDING = {
     "ELEVATOR_STARTS_UP": 3e-3,
@@ -90,20 +88,10 @@ _OTHER_CHANCES: dict[str, dict[str, float]] = {
     "ELEVATOR_HALTS_DOWN": {"STAND": 0.4, "WALK": 0.02},
 }
 """Chances within one block of the transitions that are not learnt; the rest is the chance to stay."""
-_STATE_NAMES = (
-    *_LEARNT_STATES,
-    "UNKNOWN",
-    *("ELEVATOR_STARTS_UP", "ELEVATOR_MOVES_UP", "ELEVATOR_STOPS_UP", "ELEVATOR_CREEPS_UP", "ELEVATOR_HALTS_UP"),
-    *(
-        "ELEVATOR_STARTS_DOWN",
-        "ELEVATOR_MOVES_DOWN",
-        "ELEVATOR_STOPS_DOWN",
-        "ELEVATOR_CREEPS_DOWN",
-        "ELEVATOR_HALTS_DOWN",
-    ),
-)
+_STATE_NAMES = tuple(_OTHER_CHANCES)
+"""Names of the states, in their order."""
 FIRST_CHANCES = (0.5, 0.25, 0.05, 0.05, 0.05, 0.04, *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5), *(1e-3, 5e-4, 2e-4, 1e-5, 1e-5))
-"""Chance of each state before any evidence, in the order of the states."""
+"""Probability of each state before any evidence, in the order of the states."""
 
 
 @frozen
@@ -113,7 +101,7 @@ class Chain:
     predecessors: tuple[tuple[tuple[int, float], ...], ...]
     """States that may precede each state, with the natural logarithm of the chance."""
     shift: tuple[tuple[float, ...], ...]
-    """Delay of the start of a state (column) after a state (row), counted from the block of its detection, s."""
+    """Time from the block in which a change from a state (row) to a state (column) was detected to the change, s."""
 
 
 @lru_cache(maxsize=4)

@@ -33,7 +33,7 @@ FEATURE_COUNT = FIRST_STRIDE_FEATURE + 11
 def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: BlockStride | None) -> list[float]:
     """Return `FEATURE_COUNT` features, scaled to the order of 1, of the block `judged`; unknown features are 0.
 
-    `window` has the blocks of the window, including `judged`; `stride` is the stride in its middle."""
+    `window` has the blocks of the window, including `judged`; `stride` is the stride in the middle of `judged`."""
     values = [0.0] * FEATURE_COUNT
     earlier = [block for block in window if block.index < judged.index]
     later = [block for block in window if block.index > judged.index]

@@ -16,7 +16,7 @@ level strides, about a second, or `END_PAUSE`.
 A height change that is impossible on stairs (steepness.py), or that has the wrong sign, is an error of the track and is
 not trusted. Such a stride is counted with the mean height of the trusted strides of the flight. When less than half of
 the strides are trusted, the height is unknown and no flight is reported. A stride that cannot be judged counts as level
-for the end of a flight; when a stair stride follows it, it belongs to the flight."""
+for the end of a flight; when a stair stride follows, the unjudged stride belongs to the flight."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from .steepness import LEAST_RISE, is_stair_rise
 MIN_FLIGHT_HEIGHT = 0.4
 """Least height of a flight, m: a little less than three risers."""
 END_PAUSE = 3.0
-"""Time without another stair stride that ends a flight, s."""
+"""Time without a stride that ends a flight when both feet stand at one height, s."""
 LEVEL_TOLERANCE = 0.08
 """Largest difference in height of two feet that stand on one level, m."""
 ACTIVE_TIME = 4.0
@@ -36,7 +36,7 @@ ACTIVE_TIME = 4.0
 MIN_END_RISE = 0.08
 """Least rise of a level stride before or after stair strides that counts into the flight's height, m.
 
-Such a long stride takes the first or last riser of the flight."""
+Such a stride takes the first or last riser of the flight."""
 
 
 @define
@@ -64,7 +64,7 @@ class Flights:
     heights: dict[Foot, float] = field(factory=dict, init=False)
     """Height of each foot above the last level on which both feet stood, m."""
     last_level_rise: dict[Foot, float] = field(factory=dict, init=False)
-    """Height gained by each foot's last stride, m; only for a level stride."""
+    """Height gained by each foot's last stride, m, if that was a level stride; 0 if it is not trusted."""
     last_stride_at: dict[Foot, float] = field(factory=dict, init=False)
     """Time of each foot's last stride, s."""
 

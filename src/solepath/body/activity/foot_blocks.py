@@ -159,7 +159,7 @@ class FootBlocks:
 
     def _add_stride(self, stride: StrideTaken) -> None:
         features = stride.features
-        # use heights as integrated: the network was trained with them
+        # use heights as integrated: the network was trained with them; clearance is above the higher end of the stride
         rise = stride.height_change if features.rise is None else features.rise
         clearance = features.clearance + max(stride.height_change, 0.0) - max(rise, 0.0)
         self.strides.append(

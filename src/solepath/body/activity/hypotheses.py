@@ -22,7 +22,7 @@ from .chain import (
     PULSE_SIGNS,
     RIDE_STATES,
     STAND,
-    UNFINISHED_STATES,
+    UNACCELERATED_STATES,
     Chain,
 )
 from .features import BLOCK_DURATION
@@ -41,15 +41,15 @@ from .ride import (
 )
 
 DROP_LIMIT = 13.0
-"""Largest difference to the best token's log-likelihood; a token below that is dropped."""
+"""A token whose log-likelihood is further than this below that of the best token is dropped."""
 AGREEMENT_LIMIT = 8.0
-"""Largest difference to the best token's log-likelihood of the tokens that must agree before a segment is settled."""
+"""Tokens whose log-likelihood is further than this below that of the best token need not agree with a segment."""
 RIDE_SETTLING_TIME = 12.0
 """Time after which the end of a ride is settled, s; later, the elevator will not creep on to its floor."""
 MAX_OPEN_TIME = 60.0
 """Time after which the start of an activity is settled in any case, s; few rides last longer."""
-FINISHED_STATES = RIDE_STATES - UNFINISHED_STATES
-"""States in which a ride has made its last pulse or may do so, and which pay `ElevatorRide.score_stop` to leave."""
+ACCELERATED_STATES = RIDE_STATES - UNACCELERATED_STATES
+"""States of a ride with acceleration; `ElevatorRide.score_stop` scores a path that ends the ride after one of them."""
 MAX_SEGMENTS = 8
 """Largest number of segments of a path; when there are more, the oldest is settled."""
 
@@ -86,15 +86,15 @@ class BlockEvidence:
 
     t: float
     motion_scores: tuple[float, ...]
-    """Log-likelihoods of STAND, WALK, RUN, UP, DOWN and UNKNOWN by the motion of the feet (motion.py)."""
+    """Log-likelihoods of the first six states of chain.py by the motion of the feet (motion.py)."""
     forces: tuple[BlockForce | None, ...]
     """Force on the left and on the right foot."""
     pressure_scores: tuple[float, ...]
     """Log-likelihood of each state by the air pressure."""
     before: float | None
-    """Height just before the block by the air pressure, m above any reference."""
+    """Height just before the block by the air pressure, m above an arbitrary level."""
     after: float | None
-    """Height just after the block by the air pressure, m above the same reference."""
+    """Height just after the block by the air pressure, m above the same level."""
 
 
 @define
@@ -117,7 +117,7 @@ class Hypotheses:
         for token in self.tokens:
             state = token.state
             token_of_state[state], scores[state] = token, token.score
-            if state in FINISHED_STATES:
+            if state in ACCELERATED_STATES:
                 stop_scores[state] = token.ride.score_stop()
         elevator = ElevatorEvidence(block.forces)
         candidates: list[tuple[float, int, Token, RestLevels, float]] = []
@@ -139,7 +139,7 @@ class Hypotheses:
                         best, highest = i, score
             predecessor = (token_of_state[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None
             if predecessor is not None:
-                candidate = _score_course(predecessor, highest, state, block, elevator)
+                candidate = _score_path(predecessor, highest, state, block, elevator)
                 candidates.append(candidate)
                 if candidate[0] > top_score:
                     top_score = candidate[0]
@@ -147,13 +147,11 @@ class Hypotheses:
         for new_score, state, token, levels, acceleration in candidates:
             score = round(new_score - top_score, 4)
             if score >= -DROP_LIMIT:
-                path, ride = _extend_course(token, state, block, chain, levels, acceleration)
+                path, ride = _extend_path(token, state, block, chain, levels, acceleration)
                 self.tokens.append(Token(state, score, path, ride))
 
     def settle(self, now: float) -> list[tuple[ActivitySegment, ActivitySegment | None, float]]:
-        """Settle the segments that are certain at `now` s and return them.
-
-        Each comes with the segment that it ends and with its probability."""
+        """Settle the segments that are certain at `now`, s; return each with the one before it and its probability."""
         best = self.best
         settled_segments: list[tuple[ActivitySegment, ActivitySegment | None, float]] = []
         if best is None:
@@ -177,7 +175,7 @@ class Hypotheses:
         return settled_segments
 
     def probability(self, segment: ActivitySegment) -> float:
-        """Return the share of the tokens' likelihood whose activity at the segment's start is the segment's."""
+        """Return the share of the whole likelihood of tokens that have the segment's activity at its start."""
         agreeing = total = 0.0
         for token in self.tokens:
             likelihood = exp(token.score)
@@ -211,12 +209,12 @@ def _agrees(token: Token, i: int, segment: ActivitySegment) -> bool:
     return counterpart.t == segment.t and counterpart.activity is segment.activity
 
 
-def _score_course(
+def _score_path(
     token: Token, score: float, state: int, block: BlockEvidence, elevator: ElevatorEvidence
 ) -> tuple[float, int, Token, RestLevels, float]:
-    """Return the score of the path of `token` when the next block is in the state, and the record of that step.
+    """Return the score of the path of `token` after a block in `state`, the state, the token, levels and acceleration.
 
-    The record is the state, the token, the new rest levels, and the acceleration of the elevator, m/s^2."""
+    Levels (rest levels) and acceleration (of the elevator, m/s^2) are those of the block; `score` is that before it."""
     levels, acceleration, start_score = token.ride.levels, 0.0, 0.0
     motion = state
     if state in RIDE_STATES:
@@ -248,10 +246,10 @@ def _score_course(
     )
 
 
-def _extend_course(
+def _extend_path(
     token: Token, state: int, block: BlockEvidence, chain: Chain, levels: RestLevels, acceleration: float
 ) -> tuple[tuple[ActivitySegment, ...], ElevatorRide]:
-    """Return the path of the token and its ride after a block in the state."""
+    """Return the path and the ride of the token after a block in `state`."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
     if path and path[-1].activity is activity:
         if state in RIDE_STATES:

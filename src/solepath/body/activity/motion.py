@@ -9,7 +9,7 @@ every accelerometer feature; the strangeness is the mean squared deviation, in s
 motion.
 
 Sums of products use math.dist: w x = (w w + x x - |w - x|^2) / 2. It is the only loop over floats that runs in C in
-every Python from 3.11 on, three times as fast as sum(map(mul, ...)), and gives the same bits everywhere. The identity
+every Python from 3.11 on, three times as fast as sum(map(mul, ...)), and gives the same bits everywhere. The result
 is off by 1e-12 at most, and hypotheses.py rounds the scores to 1e-4."""
 
 from __future__ import annotations

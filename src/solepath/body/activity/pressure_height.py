@@ -28,14 +28,16 @@ from .chain import (
 
 SCALE_HEIGHT = 8578.0
 """Height over which the pressure of air at 20 degrees Celsius falls to 1/e, m: R T / (M g)."""
+MIN_PRESSURE, MAX_PRESSURE = 2e4, 2e5
+"""Limits of a plausible air pressure, Pa."""
 BLOCK_NOISE = 0.25
 """Standard deviation of the mean height over a block, m; it corresponds to 3 Pa.
 
 Small barometers have a noise of 1 to 3 Pa, and doors change the pressure as well."""
 BLOCKS_BEFORE, BLOCKS_AFTER = 3, 2
-"""Numbers of blocks before and after the judged one from which the slope is computed."""
+"""Numbers of blocks before and after the judged one; the slope is computed over all of them."""
 MIN_SLOPE_SPAN = 1.0
-"""Least time between the first and the last of these blocks, s."""
+"""Least time between the first and the last of these blocks with air pressure, s."""
 SLOPE_WEIGHT = 1.0 / 3.0
 """Weight of one slope's log-likelihood; it is below 1 because neighbouring slopes share samples."""
 MAX_SLOPE_PENALTY = 3.0
@@ -85,7 +87,7 @@ class PressureHeight:
 
     def add(self, foot: Foot, index: int, pressure: float) -> None:
         """Add a foot's air pressure, Pa, to the block number `index`."""
-        if not 2e4 < pressure < 2e5:
+        if not MIN_PRESSURE < pressure < MAX_PRESSURE:
             return
         reference = self.references.get(foot)
         if reference is None:
@@ -126,7 +128,7 @@ class PressureHeight:
         variance = BLOCK_NOISE * BLOCK_NOISE / spread
         scores = []
         for mean, deviation in _SLOPE_OF_STATE:
-            whole = variance + deviation * deviation
-            scores.append(-0.5 * (min((slope - mean) ** 2 / whole, 1e3) + log(whole)))
+            total = variance + deviation * deviation
+            scores.append(-0.5 * (min((slope - mean) ** 2 / total, 1e3) + log(total)))
         best = max(scores)
         return tuple([max(SLOPE_WEIGHT * (score - best), -MAX_SLOPE_PENALTY) for score in scores])

@@ -15,14 +15,10 @@ from operator import is_
 from ...types.attrs import define
 from ...types.vector import GRAVITY
 
-PULSE_ACCELERATION = 0.6
-"""Usual acceleration of an elevator that starts or stops, m/s^2."""
-PULSE_DEVIATION = 0.35
-"""Standard deviation of `PULSE_ACCELERATION` within a pulse and between elevators, m/s^2."""
-HALT_ACCELERATION = 0.15
-"""Usual acceleration of an elevator that has crept on to its floor and stops, m/s^2."""
-HALT_DEVIATION = 0.08
-"""Standard deviation of `HALT_ACCELERATION`, m/s^2."""
+PULSE_ACCELERATION, PULSE_DEVIATION = 0.6, 0.35
+"""Mean and standard deviation of the acceleration of an elevator that starts or stops, m/s^2."""
+HALT_ACCELERATION, HALT_DEVIATION = 0.15, 0.08
+"""Mean and standard deviation of the acceleration of an elevator that has crept on to its floor and stops, m/s^2."""
 FIRST_LEVEL_DEVIATION = 0.4
 """Standard deviation of |acc| of a sensor at rest from 1 g, when nothing else is known of the sensor, m/s^2."""
 MOVED_LEVEL_DEVIATION = 0.08
@@ -32,11 +28,11 @@ LEVEL_WANDER = 1e-5
 SWAY_DEVIATION = 0.03
 """Standard deviation of the mean force over half a second of a standing wearer, m/s^2."""
 OUTLIER_SHARE = 0.03
-"""Share of blocks at rest that deviate by 1 m/s^2, because the wearer shifts weight or lifts a heel."""
+"""Share of blocks at rest with a standard deviation of 1 m/s^2, because the wearer shifts weight or lifts a heel."""
 MOVING_OUTLIER_SHARE = 0.2
 """Share of blocks of moving feet that deviate by `MOVING_OUTLIER`."""
 MOVING_OUTLIER = 8.0
-"""Standard deviation of the blocks of `MOVING_OUTLIER_SHARE`, m/s^2; it is 1 m/s^2 for other moving blocks."""
+"""Standard deviation of these blocks, m/s^2; it is 1 m/s^2 for other blocks of moving feet."""
 DWELL_TIME = 5.0
 """Least usual time between two rides, s: an elevator opens and closes its doors before it sets off again."""
 SHORT_DWELL_COST = 6.0
@@ -47,8 +43,12 @@ PULSE_HEIGHT_ERROR = 0.1
 """Standard deviation of a ride's height that is integrated from its pulses, as a share of the height."""
 AIR_HEIGHT_ERROR = 0.3
 """Standard deviation of a ride's height by air pressure, m, from readings of a second or two at either end."""
-SLOWEST_ELEVATOR_SPEED = 0.4
-"""Speed of the slowest elevator, m/s."""
+SLOWEST_ELEVATOR_SPEED, SPEED_DEVIATION = 0.4, 0.1
+"""Speed of the slowest elevator and its standard deviation, m/s."""
+STOP_ERROR_SHARE, STOP_ERROR = 0.3, 0.1
+"""Standard deviation of the integrated velocity at a stop: share of the top speed, and constant part, m/s."""
+MAX_STOP_PENALTY, MAX_SCORE_PENALTY = 4.0, 8.0
+"""Largest penalties (minus log-likelihood) for the velocity at a stop, and in all."""
 
 
 @define
@@ -76,7 +76,7 @@ RestLevels = tuple[RestLevel, ...]
 class ElevatorEvidence:
     """The forces on both feet in half a second, compared with their levels at rest.
 
-    Most courses share the same `RestLevels` object, so each result is computed once and cached. An instance is used
+    Most paths share the same `RestLevels` object, so each result is computed once and cached. An instance is used
     for one block only and is not part of the state."""
 
     __slots__ = ("_accelerations", "_pulses", "_standing", "_walks", "forces")
@@ -103,6 +103,7 @@ class ElevatorEvidence:
         acceleration, variance = excess
         regular = (1.0 - OUTLIER_SHARE) * _density(acceleration, variance)
         stray = OUTLIER_SHARE * _density(acceleration, variance + 1.0)
+        # the variance of 1e9 keeps a stray block from changing the levels
         return self._update_levels(levels, 0.0, 0.0 if regular > stray else 1e9), log(regular + stray + LEAST_DENSITY)
 
     def add_pulse(self, levels: RestLevels, mean: float, deviation: float) -> tuple[RestLevels, float, float]:
@@ -200,13 +201,13 @@ class ElevatorRide:
     top_speed: float = 0.0
     """Largest speed in this ride so far, m/s."""
     height: float = 0.0
-    """Height gained since the elevator set off, by its acceleration, m."""
+    """Height gained since the elevator set off, integrated from its acceleration, m."""
     duration: float = 0.0
     """Duration of the ride so far, s."""
     has_first_pulse: bool = False
     """Flag: the first pulse was measured."""
     start_height: float | None = None
-    """Height when the elevator set off, by the air pressure, m above any reference."""
+    """Height when the elevator set off, by the air pressure, m above an arbitrary level."""
     standing_time: float = 1e3
     """Time since the last ride ended, s."""
 
@@ -218,18 +219,11 @@ class ElevatorRide:
 
         `start_height` is by air pressure, m; see `move` for `levels` and `acceleration`."""
         velocity = round(0.0 + acceleration * block, 6)
-        return ElevatorRide(
-            levels,
-            velocity,
-            abs(velocity),
-            round(0.0 + 0.5 * velocity * block, 6),
-            block,
-            has_first_pulse,
-            start_height,
-        )
+        height = round(0.0 + 0.5 * velocity * block, 6)
+        return ElevatorRide(levels, velocity, abs(velocity), height, block, has_first_pulse, start_height)
 
     def move(self, levels: RestLevels, acceleration: float, block: float) -> ElevatorRide:
-        """Return the ride after `block` s more: the elevator's acceleration was this, m/s^2, and the levels are new."""
+        """Return the ride after `block` s more with this elevator acceleration, m/s^2, and with new levels."""
         old_velocity = self.velocity
         velocity = round(old_velocity + acceleration * block, 6)
         speed = abs(velocity)
@@ -270,27 +264,25 @@ class ElevatorRide:
         """Return the log-likelihood that the elevator stands now, after the motion of this ride."""
         penalty = 0.0
         if self.top_speed < SLOWEST_ELEVATOR_SPEED:
-            penalty = 0.5 * ((SLOWEST_ELEVATOR_SPEED - self.top_speed) / 0.1) ** 2
+            penalty = 0.5 * ((SLOWEST_ELEVATOR_SPEED - self.top_speed) / SPEED_DEVIATION) ** 2
         if self.has_first_pulse:
-            penalty += min(4.0, 0.5 * (self.velocity / (0.3 * self.top_speed + 0.1)) ** 2)
-        return -min(penalty, 8.0)
+            velocity_error = STOP_ERROR_SHARE * self.top_speed + STOP_ERROR
+            penalty += min(MAX_STOP_PENALTY, 0.5 * (self.velocity / velocity_error) ** 2)
+        return -min(penalty, MAX_SCORE_PENALTY)
 
     def height_gain(self, height: float | None) -> float | None:
         """Return the height of the ride, m; None when neither the first pulse nor air pressure gives it.
 
-        `height` is that by air pressure now, m. The result is the mean, weighted by variance, of the height by air
-        pressure and the height by the pulses. The latter is corrected so that the final velocity is zero."""
+        `height` is the height by air pressure now, m. With both sources the result is their mean, weighted by the
+        inverse variances. The height by the pulses is corrected so that the final velocity is zero."""
         by_pressure = None if height is None or self.start_height is None else height - self.start_height
         if not self.has_first_pulse:
             return by_pressure
         by_pulses = self.height - 0.5 * self.velocity * self.duration
         if by_pressure is None:
             return by_pulses
-        share = (
-            AIR_HEIGHT_ERROR
-            * AIR_HEIGHT_ERROR
-            / (AIR_HEIGHT_ERROR * AIR_HEIGHT_ERROR + (PULSE_HEIGHT_ERROR * by_pressure) ** 2)
-        )
+        air_variance = AIR_HEIGHT_ERROR * AIR_HEIGHT_ERROR
+        share = air_variance / (air_variance + (PULSE_HEIGHT_ERROR * by_pressure) ** 2)
         return by_pressure + share * (by_pulses - by_pressure)
 
 

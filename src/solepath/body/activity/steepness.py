@@ -11,8 +11,8 @@ contradicts its table 1 in two points:
 
 Both points agree with the table when theta is the angle from the horizontal, positive upwards, and H is the length of
 one tread, half a stride ("we can regard alternating feet once as one step"; a tread is 0.30 m by 0.16 m). Then theta is
-atan(0.32 / 0.60), 28.1 degrees, and theta' is 93.6 degrees per metre. Its size lies between both averages, within 0.4
-of their standard deviations."""
+atan(0.32 / 0.60), 28.1 degrees, and theta' is 93.6 degrees per metre. Its size lies between those of both averages, and
+differs from each by at most 0.4 of its standard deviation."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ DOWNSTAIRS_THRESHOLD = 0.5 * (LEVEL_ANGLE + DOWNSTAIRS_ANGLE)
 LEAST_RISE = 0.08
 """Least height change of a stair stride, m: half of a riser.
 
-The angle per metre of a foot that hardly moves is always large; the paper does not mention such feet."""
+A foot that hardly moves always has a large angle per metre, which the paper does not mention."""
 HIGHEST_RISE = 0.88
-"""Largest height change of a stair stride, m: four risers of 0.22 m, two treads at a time with each foot.
+"""Largest height change of a stair stride, m: four risers of 0.22 m, for a wearer who takes two treads at a time.
 
 The Building Regulations 2010, Approved Document K (2013), table 1.1, allow no higher riser."""
 HIGHEST_DEGRADED_RISE = 0.6

@@ -18,6 +18,8 @@ USUAL_STRANGENESS = 6.0
 """Largest strangeness (motion.py) of usual motion; above it, an unknown activity becomes likelier."""
 MOVING_VARIANCE = 1.0
 """Least variance of |acc| of a foot that moves, (m/s^2)^2."""
+VARIANCE_SHARE = 0.05
+"""Share of the variance of |acc| in a block that counts as variance of its mean."""
 MAX_STANDING_FORCE = 40.0
 """Largest mean force of a standing foot, m/s^2."""
 
@@ -43,5 +45,7 @@ def block_force(block: ActivityBlock | None, resolution: float) -> BlockForce | 
     `resolution` is the accelerometer's, m/s^2 per count."""
     if block is None or block.force >= MAX_STANDING_FORCE:
         return None
-    variance = SWAY_DEVIATION * SWAY_DEVIATION + 0.05 * min(block.variance, 1e4) + resolution * resolution / 12.0
+    variance = (
+        SWAY_DEVIATION * SWAY_DEVIATION + VARIANCE_SHARE * min(block.variance, 1e4) + resolution * resolution / 12.0
+    )
     return BlockForce(block.force, variance, block.variance > MOVING_VARIANCE)

@@ -3,15 +3,16 @@
 The world frame starts between the feet. Its x axis is the wearer's first heading, the mean of the first directions of
 both feet. At each stride, the foot that swung is compared with the foot that stood (error_filter.py). The standing foot
 should be beside the middle of the stride, at a lateral distance equal to the walking width, which is estimated. In a
-bend of `turn` rad, the chord of a stride of L m lies L turn / 8 inside the path. Feet that are further apart than legs
-spread are always pulled together.
+bend of `turn` rad, the chord of a stride of L m lies L turn / 8 inside the path. Feet that are further apart than
+`BothFeetSettings.reach` are always pulled together.
 
-In the first metres, the comparison aligns the two tracks for any direction of the first strides (walking_direction.py)
-and leaves the feet unchanged. From then on, corrections go to the feet, to each at its own foot-flat (`Shift`). Live
-position and later strides of both feet then have the same heading. A stride that was reported is not changed.
+In the first metres, the comparison aligns the two tracks, whatever the directions of the first strides are
+(walking_direction.py), and leaves the feet unchanged. From then on, corrections go to the feet, to each at its own
+foot-flat (`Shift`). Live position and later strides of both feet then have the same heading. A stride that was reported
+is not changed.
 
-The corrections are divided between the feet by their variances, so both feet have equal weight in the mean. A foot that
-loses its signal and returns is treated as in `MeanOfFeet`."""
+The corrections are divided between the feet by their variances; both feet then have equal weight in the mean. A foot
+that loses its signal and returns is treated as in `MeanOfFeet`."""
 
 from __future__ import annotations
 
@@ -42,11 +43,11 @@ STANDING_WIDTH, WALKING_WIDTH = 0.18, 0.12
 LATERAL_ERROR, LONGITUDINAL_ERROR = 0.045, 0.15
 """Standard deviations of the standing foot's position relative to the middle of the other foot's stride, m."""
 TURN_ERROR = 0.12
-"""Increase of both standard deviations in a turn, m per m of stride length and rad of turn."""
+"""Additional standard deviation of both in a turn, m per m of stride length and rad of turn."""
 MIN_LENGTH, MAX_TURN, MAX_DIRECTION_DEVIATION = 0.5, 0.8, 0.6
 """Limits for a stride that is compared: length, m; turn, rad; deviation from the foot's usual direction, rad."""
-GATE_LIMIT = 16.0
-"""Largest squared innovation, divided by its variance, of a measurement that is used."""
+GATE_LIMIT, NO_GATE = 16.0, 1e12
+"""Largest squared innovation, divided by its variance, of a measurement that is used; `NO_GATE`: always."""
 MAX_STRIDE_LENGTH = 2.5
 """Longest plausible stride, m; the excess of a longer stride inflates the covariance."""
 ALIGNMENT_DISTANCE = 5.0
@@ -122,7 +123,7 @@ class BothFeet(MeanOfFeet):
         if mean is None or not self.started or left.unplaced or right.unplaced or left.absent or right.absent:
             return mean
         xx, xy, yy = self.errors.mean_covariance()
-        # corrections make the covariance between height and horizontal position unknown: it is set to 0
+        # corrections make the covariance of height and horizontal position unknown: it is set to 0
         return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, mean.covariance[5]))
 
     def _start(self) -> None:
@@ -145,18 +146,18 @@ class BothFeet(MeanOfFeet):
         if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
             self._restart()
             return ()
-        own_place = event.position
+        own_position = event.position
         c, s = cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
         t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
         swing = max(0.0, min(event.t_end - t_toe_off, MAX_PHASE_TIME))
         stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
-        # correct heading and position for the estimated heading drift
+        # correct the drift of the heading, and the displacement by the drift up to mid-swing
         rate = self.errors.rates[index]
-        middle = rate * (stance + 0.5 * swing)
-        this.correct(own_place, rate * (stance + swing), -middle * dy, middle * dx)
-        x, y, _ = this.place(own_place)
+        mid_turn = rate * (stance + 0.5 * swing)
+        this.correct(own_position, rate * (stance + swing), -mid_turn * dy, mid_turn * dx)
+        x, y, _ = this.place(own_position)
         xx, xy, _, yy, _, _ = event.covariance
         cc, ss, cs = c * c, s * s, c * s
         variance = (
@@ -168,14 +169,14 @@ class BothFeet(MeanOfFeet):
         self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, event.degraded or excess > 0.0)
         if excess > 0.0:
             self.errors.inflate(index, excess)
-        self.distance = min(ALIGNMENT_DISTANCE, self.distance + 0.5 * event.length)
+        self.distance = min(ALIGNMENT_DISTANCE, self.distance + 0.5 * event.length)  # the mean of both feet
         x, y, _ = event.displacement
         straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not event.degraded
-        self.strides[index] = DirectedStride(event.t_end, own_place, atan2(y, x) if straight else None)
+        self.strides[index] = DirectedStride(event.t_end, own_position, atan2(y, x) if straight else None)
         if self.distance >= ALIGNMENT_DISTANCE or not self._realign(index, event):
             self._compare_feet(index, event, dx, dy, stance, swing)
             if self.settings.straight_corridors:
-                x, y, z = this.place(own_place)
+                x, y, z = this.place(own_position)
                 self._follow_corridor(index, event, (x - dx, y - dy, z), (x, y, z))
         return self._shift_foot(index, event.foot, takes_shifts)
 
@@ -249,7 +250,7 @@ class BothFeet(MeanOfFeet):
                 self.errors.inflate(1 - index, event.length)
             nx, ny = (qx - ex) / separation, (qy - ey) / separation
             terms = [(other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny)]
-            self._correct(self.errors.correct(terms, self.settings.reach - separation, LONGITUDINAL_ERROR**2, 1e12))
+            self._correct(self.errors.correct(terms, self.settings.reach - separation, LONGITUDINAL_ERROR**2, NO_GATE))
 
     def _correct(self, errors: list[float] | None) -> None:
         """Remove the estimated errors (None: no change) from both tracks."""
@@ -284,15 +285,15 @@ class BothFeet(MeanOfFeet):
         elif stride is not None and self.settings.feedback and takes_shifts:
             place, yaw = this.place(stride.end), this.turn
             this.turn, this.offset = self.placements[index]
-            own_place = this.to_own(place)
-            shift = sub(own_place, stride.end)
+            own_position = this.to_own(place)
+            shift = sub(own_position, stride.end)
             (x, y, z), (dx, dy, dz) = this.newest_place, shift
-            stride.end, this.newest_place = own_place, (x + dx, y + dy, z + dz)
+            stride.end, this.newest_place = own_position, (x + dx, y + dy, z + dz)
             return [Shift(foot, yaw - this.turn, shift)]
         return ()
 
     def _restart(self) -> None:
-        """Restart the error filter, because the estimated relation of the two tracks is useless."""
+        """Restart the error filter, because its estimates or a stride have impossible values."""
         self.errors.start()
         self.strides = [None, None]
         self.corridor.end()

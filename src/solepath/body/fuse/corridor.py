@@ -5,11 +5,11 @@ assume that a nearly straight path is straight. No sensor measures that; it is a
 speed, a bend of 700 m in radius looks like a gyroscope that drifts by 0.1 degrees per second. A wearer who walks such
 bends must not choose this setting.
 
-The path is cut into blocks of both feet's strides. A run is a sequence of blocks in which all strides have nearly one
-direction; the direction of the first block is the reference of the run. A Kalman filter of two states, the heading
-error (rad) since the run started and its drift rate (rad/s), decides how much of a block's difference to the reference
-is drift. A difference that drift does not explain ends the run, so a bend of less than some 300 m in radius is never
-straightened."""
+The path is cut into sections of both feet's strides. Consecutive sections in which all strides have nearly one
+direction form a straight; the direction of the first section is the reference of the straight. A Kalman filter of two
+states, the heading error (rad) since the straight started and its drift rate (rad/s), decides how much of a section's
+difference to the reference is drift. A difference that drift does not explain ends the straight, so a bend of less than
+some 300 m in radius is never straightened."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from ...types import Vec3
 from ...types.attrs import define, field
 
 MAX_STRIDES = 60
-"""Largest number of strides in one block; more in a block's length are not walking."""
-BLOCK_LENGTH = 5.0
-"""Length of a block, m."""
+"""Largest number of strides in one section; more strides in its length are not walking."""
+SECTION_LENGTH = 5.0
+"""Length of a section, m."""
 MAX_DIRECTION_DEVIATION, MAX_TURN = 0.1, 0.17
-"""Largest angle between a stride and its block, and largest turn of a foot in a stride, rad, in a straight run."""
+"""Largest angle between a stride and its section, and largest turn of a foot in a stride, rad, in a straight."""
 MIN_STRIDE_LENGTH = 0.3
 """Shortest stride that counts as walking, m."""
 MAX_PAUSE = 3.0
-"""Longest time between two strides of a run, s."""
+"""Longest time between two strides of a straight, s."""
 DIRECTION_NOISE = 0.005
-"""Standard deviation of a block's direction, rad, because feet land some centimetres to either side."""
+"""Standard deviation of a section's direction, rad, because feet land some centimetres to either side."""
 DRIFT_RATE, DRIFT_MEMORY = 0.0012, 100.0
 """Standard deviation of the drift rate of the heading, rad/s, and its correlation time, s."""
 HEADING_DRIFT = 0.001
@@ -40,20 +40,20 @@ INNOVATION_GATE = 9.0
 
 @define
 class Corridor:
-    """Detects straight runs in the strides of both feet and returns a heading correction at the end of each block."""
+    """Detects straights in the strides of both feet and returns a heading correction at the end of each section."""
 
     starts: list[Vec3 | None] = field(factory=lambda: [None, None], init=False)
-    """Start of the block for the left and the right foot, m, common frame of both tracks."""
+    """Start of the section for the left and the right foot, m, common frame of both tracks."""
     ends: list[Vec3 | None] = field(factory=lambda: [None, None], init=False)
-    """Newest end of a stride in the block for the left and the right foot, m."""
+    """Newest end of a stride in the section for the left and the right foot, m."""
     headings: list[float] = field(factory=list, init=False)
-    """Directions of the strides in the block, rad."""
+    """Directions of the strides in the section, rad."""
     t_start: float = field(default=0.0, init=False)
-    """End of the block's first stride, s."""
+    """End of the section's first stride, s."""
     newest_end: float | None = field(default=None, init=False)
     """End of the newest stride, s."""
     heading: float | None = field(default=None, init=False)
-    """Direction of the first block of the run, rad; None before any."""
+    """Direction of the first section of the straight, rad; None before any."""
     drift_at: float | None = field(default=None, init=False)
     """Time for which `drift` is valid, s."""
     drift: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)
@@ -63,7 +63,7 @@ class Corridor:
         """Add a stride of foot 0 (left) or 1 that ended at `t`, s, with a turn of `turn` rad; return the correction.
 
         `start` and `end` are in the common frame of both tracks, m. The correction has a value to add to the heading,
-        rad, and one to add to its rate, rad/s; it is None while a block is not complete or not straight."""
+        rad, and one to add to its rate, rad/s; it is None unless the stride ends a section of a straight."""
         dx, dy = end[0] - start[0], end[1] - start[1]
         paused = self.newest_end is None or t - self.newest_end > MAX_PAUSE
         self.newest_end = t
@@ -77,23 +77,23 @@ class Corridor:
             self.starts[foot] = start
         self.ends[foot] = end
         x = y = 0.0
-        for block_start, block_end in zip(self.starts, self.ends, strict=True):
-            if block_start is None or block_end is None:
+        for section_start, section_end in zip(self.starts, self.ends, strict=True):
+            if section_start is None or section_end is None:
                 return None
-            x, y = x + 0.5 * (block_end[0] - block_start[0]), y + 0.5 * (block_end[1] - block_start[1])
-        return self._end_block(t, atan2(y, x)) if hypot(x, y) >= BLOCK_LENGTH else None
+            x, y = x + 0.5 * (section_end[0] - section_start[0]), y + 0.5 * (section_end[1] - section_start[1])
+        return self._end_section(t, atan2(y, x)) if hypot(x, y) >= SECTION_LENGTH else None
 
     def end(self) -> None:
-        """End the run; the learnt drift rate stays."""
+        """End the straight; the learnt drift rate stays."""
         self.starts, self.ends, self.headings = [None, None], [None, None], []
         self.heading = None
 
     def reset(self) -> None:
-        """Reset the run and its times, because the clock restarts."""
+        """End the straight and discard its times, because the clock restarts."""
         self.end()
         self.newest_end = self.drift_at = None
 
-    def _end_block(self, t: float, heading: float) -> tuple[float, float] | None:
+    def _end_section(self, t: float, heading: float) -> tuple[float, float] | None:
         middle = 0.5 * (self.t_start + t)
         straight = all([abs(wrap_angle(direction - heading)) < MAX_DIRECTION_DEVIATION for direction in self.headings])
         self.starts, self.headings = [*self.ends], []
@@ -113,6 +113,7 @@ class Corridor:
             return None
         a, b = pp / s, pr / s
         self.drift = ((1.0 - a) * pp, (1.0 - a) * pr, rr - b * pr)
+        # minus: corrections oppose the drift; the heading's is extrapolated from the middle of the section to its end
         return (-a * angle - b * angle * (t - middle), -b * angle)
 
     def _propagate(self, t: float) -> None:

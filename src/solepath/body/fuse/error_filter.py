@@ -15,7 +15,7 @@ Therefore the states x and y are errors of a track that is rotated by its headin
 same for both feet: the end of the newest stride. With xi for these states and p for a position, e = xi + psi c (p -
 centre). It is the invariant error of Barrau and Bonnabel, "The invariant extended Kalman filter as a stable observer",
 IEEE Trans. Automatic Control 62, 2017. A measured difference is divided between the feet by their variances, so that it
-does not move the mean. Such a gain is not optimal, so P is updated in Joseph's form."""
+does not move their weighted mean. Such a gain is not optimal, so P is updated in Joseph's form."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ STATE_COUNT = 9
 MAX_VARIANCE = 1e9
 """Largest variance of a usable filter; above it, rounding errors dominate."""
 FIRST_POSITION_ERROR, FIRST_HEADING_ERROR = 0.06, 0.04
-"""First standard deviations of the relative position of the feet, m (each axis), and of their relative heading, rad."""
+"""Initial standard deviations of the relative position of the feet, m (each axis), and relative heading, rad."""
 FIRST_WIDTH_ERROR = 0.05
-"""First standard deviation of the walking width, m."""
+"""Initial standard deviation of the walking width, m."""
 DRIFT_RATE, DRIFT_MEMORY = 0.0012, 100.0
-"""Standard deviation of a track's heading drift rate, rad/s (0.07 degrees/s), and its correlation time, s.
+"""Standard deviation of a track's heading drift rate, rad/s (0.07 degrees/s), and correlation time, s.
 
 The rate changes with the manner of walking."""
 HEADING_DRIFT = 0.0015
@@ -203,7 +203,7 @@ class TrackErrorFilter:
         yy = p[Y][Y] + p[Y + r][Y + r] + 2.0 * p[Y][Y + r]
         xy = p[X][Y] + p[X + r][Y + r] + p[X][Y + r] + p[X + r][Y]
         xx, yy = max(0.0, xx), max(0.0, yy)
-        bound = sqrt(xx * yy)  # larger only by rounding
+        bound = sqrt(xx * yy)  # |xy| exceeds it only by rounding
         return (0.25 * xx, 0.25 * min(max(xy, -bound), bound), 0.25 * yy)
 
     def _joseph(self, gains: list[float], ph: list[float], s: float) -> None:

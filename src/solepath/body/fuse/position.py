@@ -1,7 +1,7 @@
 """Position of the wearer: the mean of both feet.
 
 A foot without samples would hold the mean back by half of the distance walked, so an absent foot is left out. The mean
-then continues with the other foot, without a jump although the two tracks may have drifted apart. The displacement and
+then continues with the other foot, without a jump, although the two tracks may have drifted apart. The displacement and
 turn of an absent foot are not known when it returns. It stays out until each foot has taken `STRIDES_TO_ALIGN` strides,
 and its track is then rotated and moved beside the other one. A foot whose first sample comes while the other foot walks
 is aligned in the same way. Without absence, no track is rotated or moved."""
@@ -94,7 +94,7 @@ class PlacedTrack:
 class MeanOfFeet(TrackPart):
     """The mean position of the feet that have samples, each in the world frame of its own first heading.
 
-    After an alignment the errors of both feet are equal, so the covariance is that of the foot that was not absent."""
+    After an alignment both feet have the same error, so the covariance is that of the foot that was not absent."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -143,7 +143,7 @@ class MeanOfFeet(TrackPart):
     def reset(self, site: Site) -> None:
         """Reset the times of a foot, so that its next sample counts as its first."""
         if site.foot is not None:
-            placed = self._placed(site.foot)
+            placed = self._track(site.foot)
             placed.t, placed.absent_for = None, 0.0
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
@@ -153,46 +153,43 @@ class MeanOfFeet(TrackPart):
             return None
         poses_used = self._select_poses(poses)
         k = 1.0 / len(poses_used)
-        places = [self._place(foot) for foot in poses_used]
+        places = [self._track(pose.foot).place(pose.position) for pose in poses_used]
         x, y, z = (sum([place[axis] for place in places]) * k for axis in range(3))
         if len(poses_used) == 1:
             dx, dy, dz = self._offset_to_mean(poses_used[0].foot)
             x, y, z = x + dx, y + dy, z + dz
         elif self.placed_last is not None:
-            poses_used = [foot for foot in poses_used if foot.foot is not self.placed_last]
+            poses_used = [pose for pose in poses_used if pose.foot is not self.placed_last]
             k = 1.0 / len(poses_used)
-        covariances = [foot.covariance for foot in poses_used]
+        covariances = [pose.covariance for pose in poses_used]
         xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
         if len(poses_used) == 1:
-            across, up = self._placed(poses_used[0].foot).added_variance
+            across, up = self._track(poses_used[0].foot).added_variance
             xx, yy, zz = xx + across, yy + across, zz + up
-        t = max([foot.t for foot in poses])
+        t = max([pose.t for pose in poses])
         return Position(t, (x, y, z), (xx, xy, xz, yy, yz, zz))
 
     def _select_poses(self, poses: list[FootPose]) -> list[FootPose]:
         """Return the poses of the feet that have moved, are not absent and are placed; at least one pose."""
-        moving = [foot for foot in poses if foot.moved_at is not None]
+        moving = [pose for pose in poses if pose.moved_at is not None]
         if len(moving) < 2:
             return moving or poses
-        newest = max([foot.moved_at for foot in moving if foot.moved_at is not None])
+        newest = max([pose.moved_at for pose in moving if pose.moved_at is not None])
         # check the poses' times too, because samples of one foot may be fed long after the other's of the same time
         present = [
-            foot
-            for foot in moving
+            pose
+            for pose in moving
             if not (
-                self._placed(foot.foot).absent and foot.moved_at is not None and newest - foot.moved_at >= ABSENCE_TIME
+                self._track(pose.foot).absent and pose.moved_at is not None and newest - pose.moved_at >= ABSENCE_TIME
             )
         ]
-        return [foot for foot in present if not self._placed(foot.foot).unplaced] or present or moving
+        return [pose for pose in present if not self._track(pose.foot).unplaced] or present or moving
 
-    def _placed(self, foot: Foot) -> PlacedTrack:
+    def _track(self, foot: Foot) -> PlacedTrack:
         return self.left if foot is LEFT else self.right
 
-    def _place(self, foot: FootPose) -> Vec3:
-        return self._placed(foot.foot).place(foot.position)
-
     def _offset_to_mean(self, foot: Foot) -> Vec3:
-        """Return the offset from this foot to the mean of both feet when both last took strides, m."""
+        """Return the offset from this foot to the mean of both feet at the newest strides, m; 0 if unknown."""
         one, two = self.left.separation, self.right.separation
         if one is None or two is None:
             return ZERO

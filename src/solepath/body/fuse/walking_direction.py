@@ -41,7 +41,7 @@ class WalkingDirection:
     """Mean direction of the foot's strides minus `turn_sum`, rad; None before any stride."""
 
     def add_stride(self, direction: float, turn: float) -> float:
-        """Add a stride with this direction and turn, rad, and return its deviation from the mean direction, rad."""
+        """Add a stride with this direction (common frame) and turn, rad; return its deviation from the mean, rad."""
         middle = self.turn_sum + 0.5 * turn
         self.turn_sum = wrap_angle(self.turn_sum + turn)
         if self.direction_offset is None:
@@ -92,7 +92,7 @@ def align_tracks(
     """Rotate each of two tracks by half the `angle`, rad, between them, and move both by equal distances.
 
     Afterwards the other foot stands beside the middle of the stride: `half_stride`, m, before its end and
-    `lateral_distance`, m, to the right."""
+    `lateral_distance`, m, to the right (negative: to the left)."""
     track.correct(stride.end, -0.5 * angle, 0.0, 0.0)
     other_track.correct(other_stride.end, 0.5 * angle, 0.0, 0.0)
     direction = track.turn + (stride.direction or 0.0)

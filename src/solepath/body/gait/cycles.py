@@ -1,6 +1,6 @@
 """Measurement of every gait cycle of both feet from their events, with running means of the steady cycles.
 
-Latency: see GaitCycleMeasured. Samples without events take almost no time."""
+Latency: see GaitCycleMeasured. Samples without events cost almost no computing time."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class GaitCycles(Part):
 
     @property
     def parameters(self) -> GaitParameters | None:
-        """Running means of walking or running, whichever the newest steady stride was; None before any."""
+        """Running means of walking or of running, by the newest cycle in the means; None before any."""
         return self.means.parameters
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
@@ -71,7 +71,7 @@ class GaitCycles(Part):
             if isinstance(event, HeelStrike):
                 this.add_contact(event.t, event.inferred)
             elif isinstance(event, FootFlat):
-                if this.toe_off is not None:
+                if this.toe_off is not None:  # the heel-strike was not detected
                     this.add_contact(event.t, event.inferred)
                 if this.ended_cycle is not None:
                     this.ended_cycle.foot_was_flat = True
@@ -106,9 +106,7 @@ class GaitCycles(Part):
         return ()
 
     def reset(self, site: Site) -> None:
-        """Reset a foot whose clock restarts.
-
-        The cycle under way has no duration, and earlier times cannot be compared with the other foot's."""
+        """Discard the cycles and the times of a foot whose clock restarts."""
         if site.foot is not None:
             self.means.reset(site.foot)
             if site.foot is Foot.LEFT:
@@ -117,7 +115,7 @@ class GaitCycles(Part):
                 self.right, self.right_progress.t = Footfalls(count=self.right.count), None
 
     def _release(self, known_at: float) -> Sequence[PartOutput]:
-        """Return the cycles whose end is before the newest samples of both feet, or that have waited for `MAX_WAIT`."""
+        """Return the cycles that end before the other foot's newest sample, or that have waited for `MAX_WAIT`."""
         if not self.left.waiting_cycles and not self.right.waiting_cycles:
             self.idle = True
             return ()

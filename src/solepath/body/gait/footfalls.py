@@ -13,11 +13,11 @@ MAX_PHASE_TIME = 2.0
 MIN_CYCLE_TIME = 0.35
 """Shortest gait cycle, also of a runner, s."""
 MAX_STEADY_GAP = 0.1
-"""Longest gap in a steady cycle, s; shorter gaps are allowed because losing 1 packet in 30 affects most cycles."""
+"""Longest gap in a steady cycle, s; with 1 packet in 30 lost, most cycles have shorter gaps, which are allowed."""
 GAP_MARGIN = 0.05
 """Time after a gap in which an event is not trusted, s, because it may have happened in the gap."""
-MAX_CONTACTS = 4
-"""Number of newest contacts, toe-offs and waiting cycles of a foot that are kept."""
+MAX_KEPT = 4
+"""Largest number of contacts, of toe-offs and of waiting cycles of a foot that are kept."""
 
 
 @define
@@ -34,7 +34,7 @@ class PendingCycle:
     unsteady: bool
     """Flag: more samples or events are missing than a steady cycle allows."""
     foot_was_flat: bool = False
-    """Flag: foot-flat was reached after the cycle; without a stride, the wearer then stepped on the spot."""
+    """Flag: a foot-flat followed the cycle; if no stride ended there, the wearer stepped on the spot."""
     stride: StrideTaken | None = None
     """Stride that ends at the foot-flat after the cycle; None when there was none."""
 
@@ -46,7 +46,7 @@ class Footfalls:
     contact: float | None = None
     """Contact at which the cycle under way started, s; None while there is none."""
     toe_off: float | None = None
-    """Newest toe-off, s, while no contact has followed, also when no cycle is under way."""
+    """Toe-off since the newest contact, s, also when no cycle is under way; None without one."""
     follows_cycle: bool = False
     """Flag: the cycle directly before the one under way was accepted."""
     degraded: bool = False
@@ -66,7 +66,7 @@ class Footfalls:
     gap_start: float | None = None
     """Start of the newest gap that is longer than `MAX_STEADY_GAP`, s."""
     gap_end: float | None = None
-    """End of that gap, s."""
+    """End of the same gap, s."""
 
     def add_contact(self, t: float, inferred: bool) -> None:
         """Add a contact of the foot at `t`, s."""
@@ -75,17 +75,17 @@ class Footfalls:
         if start is not None and toe_off is None:
             return  # the foot never left the ground
         if start is not None and toe_off is not None:
-            is_stride = (
+            is_cycle = (
                 toe_off - start <= MAX_PHASE_TIME and t - toe_off <= MAX_PHASE_TIME and t - start >= MIN_CYCLE_TIME
             )
-            if is_stride:
+            if is_cycle:
                 degraded, unsteady = self.degraded or inferred, self.unsteady or inferred
                 self.ended_cycle = PendingCycle(start, toe_off, t, self.follows_cycle, degraded, unsteady)
-            self.follows_cycle = is_stride
+            self.follows_cycle = is_cycle
         self.contact, self.toe_off = t, None
         self.degraded = self.unsteady = inferred
         if not inferred:
-            self.contacts = [*self.contacts[1 - MAX_CONTACTS :], t]
+            self.contacts = [*self.contacts[1 - MAX_KEPT :], t]
 
     def add_toe_off(self, t: float, inferred: bool) -> None:
         """Add a toe-off at `t`, s."""
@@ -93,7 +93,7 @@ class Footfalls:
         self.toe_off = t
         self.degraded, self.unsteady = self.degraded or inferred, self.unsteady or inferred
         if not inferred:
-            self.toe_offs = [*self.toe_offs[1 - MAX_CONTACTS :], t]
+            self.toe_offs = [*self.toe_offs[1 - MAX_KEPT :], t]
 
     def add_gap(self, t: float, duration: float) -> None:
         """Add a gap that starts at `t`, s, and lasts `duration`, s."""
@@ -122,5 +122,5 @@ class Footfalls:
     def close_cycle(self) -> None:
         """Move the finished cycle to the waiting cycles, because all its events have been added."""
         if self.ended_cycle is not None:
-            self.waiting_cycles = [*self.waiting_cycles[1 - MAX_CONTACTS :], self.ended_cycle]
+            self.waiting_cycles = [*self.waiting_cycles[1 - MAX_KEPT :], self.ended_cycle]
             self.ended_cycle = None

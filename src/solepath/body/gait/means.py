@@ -40,14 +40,14 @@ class RunningMean:
         return Figure(self.mean, sd, self.count)
 
 
-def add(figures: Iterable[tuple[RunningMean, float]], memory: int) -> None:
+def add_values(means_and_values: Iterable[tuple[RunningMean, float]], memory: int) -> None:
     """Add a value to each running mean; older values fade after `memory` values."""
-    for figure, value in figures:
-        figure.count = min(figure.count + 1, memory)
-        weight = 1.0 / figure.count
-        deviation = value - figure.mean
-        figure.mean += weight * deviation
-        figure.variance = (1.0 - weight) * (figure.variance + weight * deviation * deviation)
+    for running_mean, value in means_and_values:
+        running_mean.count = min(running_mean.count + 1, memory)
+        weight = 1.0 / running_mean.count
+        deviation = value - running_mean.mean
+        running_mean.mean += weight * deviation
+        running_mean.variance = (1.0 - weight) * (running_mean.variance + weight * deviation * deviation)
 
 
 @frozen
@@ -97,7 +97,7 @@ class StrideFigures:
     def double_support(self) -> float | None:
         """Sum of the means of initial and terminal double support, s.
 
-        It is negative for a runner; its size is then the duration of flight."""
+        For a runner it is minus the time of a stride in which no foot is on the ground."""
         if self.initial_double_support is None or self.terminal_double_support is None:
             return None
         return self.initial_double_support.mean + self.terminal_double_support.mean
@@ -143,8 +143,8 @@ class GaitParameters:
     coordination: float | None
     """Phase coordination index, as a share (0.03 is 3 %); None without both feet.
 
-    It is computed from the phase of the foot with the longer swing: its coefficient of variation, plus twice its mean
-    absolute difference from 0.5 (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04."""
+    It is the coefficient of variation of `phase` of the foot with the longer swing, plus twice the mean of
+    |phase - 0.5| (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04."""
 
     @property
     def cadence(self) -> float | None:
@@ -153,11 +153,11 @@ class GaitParameters:
         return None if time is None else 120.0 / time.mean
 
     def asymmetry(self, name: str) -> float | None:
-        """Return the symmetry index of a parameter, (right - left) / (half of right + left), as a share (0.05 is 5 %).
+        """Return the symmetry index of a parameter, 2 (right - left) / (right + left), as a share (0.05 is 5 %).
 
-        It is 0 for equal feet and positive when the right foot's mean is larger (Robinson et al. 1987, J. Manip.
-        Physiol. Ther. 10). For swing times, |ln(right / left)| of Plotnik et al. 2005 (Ann. Neurol. 57) has nearly the
-        same size. It is None when one foot's mean is not known or the sum of the means is zero."""
+        `right` and `left` are the feet's means (Robinson et al. 1987, J. Manip. Physiol. Ther. 10). For swing times,
+        |ln(right / left)| of Plotnik et al. 2005 (Ann. Neurol. 57) has nearly the same size. The index is None when a
+        foot's mean is not known or the sum of the means is zero."""
         left, right = (getattr(self.feet.get(foot), name, None) for foot in Foot)
         if left is None or right is None or left.mean + right.mean == 0.0:
             return None
@@ -179,14 +179,14 @@ class ParameterMeans:
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
         """Add a stride; older strides fade after `memory` strides."""
         means = self.left if stride.foot is Foot.LEFT else self.right
-        figures: list[tuple[RunningMean, float]] = []
+        means_and_values: list[tuple[RunningMean, float]] = []
         for parameter in MEAN_PARAMETERS:
             value = getattr(stride, parameter.value)
             if value is not None:
-                figures.append((means.setdefault(parameter, RunningMean()), value))
+                means_and_values.append((means.setdefault(parameter, RunningMean()), value))
         if stride.phase is not None:
-            figures.append((means.setdefault(Parameter.OFF_PHASE, RunningMean()), abs(stride.phase - 0.5)))
-        add(figures, memory)
+            means_and_values.append((means.setdefault(Parameter.OFF_PHASE, RunningMean()), abs(stride.phase - 0.5)))
+        add_values(means_and_values, memory)
 
     @property
     def coordination(self) -> float | None:
@@ -221,6 +221,7 @@ class GaitMeans:
     """Newest stride of the right foot."""
     walking_means: ParameterMeans = field(factory=ParameterMeans, init=False)
     running_means: ParameterMeans = field(factory=ParameterMeans, init=False)
+    """Running means of the strides of a runner."""
     running: bool | None = field(default=None, init=False)
     """Flag: the newest stride in the means was a running stride; None before any."""
 

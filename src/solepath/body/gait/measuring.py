@@ -5,10 +5,11 @@ GaitCycleMeasured defines the values. Only steady cycles enter the running means
 - no sample in it clipped, no gap in it is longer than `MAX_STEADY_GAP`, and none of its events is inferred;
 - it follows another cycle without a pause. This leaves out the first three steps of a walk, after which gait is steady
   (Mann et al. 1979, J. Bone Joint Surg. Am. 61): the half stride from standing, and the first cycle;
-- its time and length are those of the cycle before, within a factor of `STEADY_FACTOR`, because a wearer who hesitates
-  does not walk steadily;
+- neither its time nor its length differs from that of the cycle before by a factor of `STEADY_FACTOR` or more, because
+  a wearer who hesitates does not walk steadily;
 - it turns by less than `MAX_TURN`, and its height changes by less than `MAX_SLOPE` of its length;
-- it has a stride, if the foot's position is known, because stepping on the spot is not walking.
+- a stride ends at the foot-flat after it, because stepping on the spot is not walking. This is checked only if the
+  foot's position is known and there is such a foot-flat (a runner may have none).
 
 A steady cycle enters the means when the next cycle of the foot follows, so the last cycle before a stop is left out."""
 
@@ -21,7 +22,7 @@ from .footfalls import Footfalls, PendingCycle
 STEADY_FACTOR = 1.5
 """Largest ratio of the times, and of the lengths, of two consecutive steady cycles."""
 MAX_TURN = 0.2
-"""Largest turn of a steady cycle, rad; straight strides vary by 0.05, and a circle of 7 m turns each stride by 0.2."""
+"""Largest turn of a steady cycle, rad; straight strides vary by 0.05, and on a circle of 7 m radius it is 0.2."""
 MAX_SLOPE = 0.15
 """Largest slope (height change / length) of a steady cycle; ramps for wheelchairs have 1 / 12, stairs have 1 / 2."""
 MAX_VALUE = 1e4
@@ -40,8 +41,9 @@ def measure_cycle(
 ) -> GaitCycleMeasured:
     """Return the measurement of one gait cycle of `foot`.
 
-    `previous` is the foot's previous cycle, and `other` has the other foot's events. `tracked` says that the foot's
-    position is known, `comparable` that the feet's clocks can be compared over the whole cycle."""
+    `number` counts the foot's cycles from 1, `previous` is its previous cycle, and `other` has the other foot's events.
+    `tracked` says that the foot's position is known, `comparable` that the feet's clocks can be compared over the whole
+    cycle."""
     start, toe_off, end, stride = cycle.start, cycle.toe_off, cycle.end, cycle.stride
     time = end - start
     contacts_between = [t for t in other.contacts if start < t < end]
@@ -50,7 +52,7 @@ def measure_cycle(
     if other_contact is not None:
         earlier_toe_offs = [t for t in other.toe_offs if start - 0.5 * time < t < other_contact]
         other_toe_off = earlier_toe_offs[-1] if earlier_toe_offs else None
-    # clearance is negative when the foot-flat height after correction is above all heights of the swing
+    # a clearance is negative, and counts as 0, when the corrected foot-flat height is above all heights of the swing
     length, clearance, off_angle, strike_angle, turning, rise = (
         (None,) * 6
         if stride is None

@@ -18,15 +18,17 @@ from ...types.attrs import define, field, frozen
 from .turning_steps import STRAIGHT_TOLERANCE, TurningStrideFilter
 
 MIN_PAUSE = 2.0
-"""Least time without a foot-flat that ends a turn, s.
+"""Least pause that ends a turn, s: a time without strides and pivots.
 
-After a turning stride that took longer, including the standing before it, the pause is longer, up to `MAX_PAUSE`."""
+A turning stride that took longer, including the standing before it, makes the pause as long, up to `MAX_PAUSE`."""
 MAX_PAUSE = 4.0
-"""Largest time without a foot-flat that ends a turn, s."""
+"""Longest pause that a turn needs to end, s."""
+PAUSE_DECAY = 0.8
+"""Factor by which each turning stride shortens a pause longer than `MIN_PAUSE`."""
 STRAIGHT_STRIDES = 3
 """Number of straight strides that end a turn, counted over both feet when both have samples.
 
-One foot may take two strides on the spot while the other foot turns."""
+Two are too few, because one foot may take two strides on the spot while the other foot turns."""
 
 
 @frozen
@@ -76,9 +78,9 @@ class TurnDetector:
     t_end: float = field(default=0.0, init=False)
     """End of the last turning stride, s."""
     pause: float = field(default=MIN_PAUSE, init=False)
-    """Time without a foot-flat that ends the turn under way, s."""
+    """Pause that ends the turn under way, s."""
     previous_end: float | None = field(default=None, init=False)
-    """End of the last turn that was reported, s."""
+    """End of the previous turn, s; None before any."""
 
     def add_stride(self, event: StrideTaken) -> TurnProcess | None:
         """Add a stride of either foot, in order of `known_at`, and return the turn that it ends."""
@@ -117,7 +119,7 @@ class TurnDetector:
         if self.t_start is not None and t_start - self.t_end > self.pause:
             ended_turn = self._end_turn()
         if self.t_start is None:
-            # the turn started neither long before its first stride ended nor before the previous turn ended
+            # leave out long standing before the first stride, and the time before the end of the previous turn
             start = max(t_start, t_end - MAX_PAUSE)
             self.t_start = self.t_end = (
                 start if self.previous_end is None else max(start, min(self.previous_end, t_end))
@@ -126,11 +128,11 @@ class TurnDetector:
         foot.angle += angle
         foot.straight_strides = other.straight_strides = 0
         self.t_end = max(self.t_end, t_end)
-        self.pause = min(max(MIN_PAUSE, 0.8 * self.pause, t_end - t_start), MAX_PAUSE)
+        self.pause = min(max(MIN_PAUSE, PAUSE_DECAY * self.pause, t_end - t_start), MAX_PAUSE)
         return ended_turn
 
     def advance(self, t: float) -> TurnProcess | None:
-        """Return the turn that has ended at `t`, s, because no stride followed for the pause."""
+        """Return the turn that has ended at `t`, s, because the feet have paused."""
         if self.t_start is None or t - self.t_end <= self.pause:
             return None
         newest = max(-1e12 if foot.stride_end is None else foot.stride_end for foot in (self.left, self.right))
@@ -141,7 +143,7 @@ class TurnDetector:
         return None if self.t_start is None else self._end_turn()
 
     def reset(self, foot: Foot) -> None:
-        """Reset a foot whose clock restarts; a turn under way has no duration and is discarded."""
+        """Reset a foot whose clock restarts, and discard the turn under way."""
         self.t_start = self.previous_end = None
         (self.left if foot is Foot.LEFT else self.right).stride_end = None
 

@@ -13,13 +13,13 @@ from ...types.attrs import define, field
 STRAIGHT_TOLERANCE = 0.12
 """Largest deviation of a straight stride from the usual turn, rad.
 
-The standard deviation of recorded feet is 3 degrees; a circle of 7 m takes 11 degrees per stride."""
+In recordings its standard deviation is 3 degrees. On a circle of 7 m radius a stride turns by 11 degrees."""
 MAX_FILTERED_DEVIATION = 0.35
-"""Largest deviation of a stride that updates the usual turn, rad."""
+"""Limit of the deviation from the usual turn below which a stride updates that turn, rad."""
 STRIDE_WEIGHT = 0.1
 """Weight of one stride in the low-pass filter."""
 MAX_STRAIGHT_TURN = 0.3
-"""Largest estimate of the usual turn, rad."""
+"""Largest size of the estimated usual turn, rad."""
 
 
 @define

@@ -1,10 +1,11 @@
-"""Classification of turns: left, right or about, by a linear classifier on the turns of both feet.
+"""Classification of the wearer's turns as left turns, right turns and about-turns, from the angles of both feet.
 
 Liu et al. 2015, IEEE MASS, section V.E: "we use the degree of both foot as features of the turn, and use SVM". A
-linear classifier on the two angles cannot separate turns about, because they lie beyond both the left and the right
-turns. It can when the sizes of the angles are features too. The features of a turn are left, right, |left|, |right| (in
-rad / pi) and 1. The class is the one whose linear function of the features is largest. The weights come from `python -m
-solepath.lab.train.turns`, which lists the training data. For a foot without samples, the other foot's angle is used."""
+linear classifier on the two angles cannot recognise about-turns, because they have larger angles than the turns to
+either side. It can when the sizes of the angles are features too. The features of a turn are left, right, |left|,
+|right| (in rad / pi) and 1. The class is the one whose linear function of the features is largest. The weights come
+from `python -m solepath.lab.train.turns`, which lists the training data. For a foot without samples, the other foot's
+angle is used."""
 
 from __future__ import annotations
 
@@ -21,9 +22,11 @@ from ..part import Part, PartOutput
 from .turn_detector import TurnDetector, TurnProcess
 
 MIN_CLASSIFIED_TURN = 0.61
-"""Least angle of a turn that has a class, rad; a smaller turn is a bend.
+"""Least mean angle of both feet for a turn that has a class, rad; a smaller turn is a bend.
 
-It is half-way between 0 and 70 degrees, the smallest turns to the side."""
+It is 35 degrees; in the training data the smallest turn to a side is one of 59 degrees."""
+MIN_REPORTED_TURN = 0.5 * MIN_CLASSIFIED_TURN
+"""Angle of a turn above which it is reported, rad."""
 WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
     Turn.LEFT: (2.79, 1.82, -4.51, -5.9, 4.24),
     Turn.RIGHT: (-1.82, -2.79, -5.9, -4.51, 4.24),
@@ -72,7 +75,7 @@ class Turns(Part):
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add a sample of a foot with its events and return the turns that have ended."""
         ended_turns: list[TurnProcess] = []
-        known_at = view.t
+        known_at = view.known_at
         for event in view.events:
             process = None
             if isinstance(event, StrideTaken):
@@ -85,17 +88,15 @@ class Turns(Part):
         if not ended_turns and self.detector.t_start is not None:
             process = self.detector.advance(view.t)
             if process is not None:
-                known_at = view.known_at
                 ended_turns.append(process)
         self.idle = self.detector.t_start is None
-        return [
-            turn_event(process, known_at) for process in ended_turns if abs(process.angle) > 0.5 * MIN_CLASSIFIED_TURN
-        ]
+        return [turn_event(process, known_at) for process in ended_turns if abs(process.angle) > MIN_REPORTED_TURN]
 
     def _add_foot_flat(self, view: FootView, event: FootFlat) -> TurnProcess | None:
         """Add a foot-flat, before which the foot may have pivoted without a stride."""
         previous, attitude = self.last_flat.get(event.foot), view.after.flat_attitude
         self.last_flat[event.foot] = FlatFoot(event.t, attitude)
+        # only a view with a stride has a covariance: check it first, because it is faster
         has_stride = view.after.covariance is not None and any(
             [isinstance(other, StrideTaken) and other.t == event.t for other in view.events]
         )
@@ -106,7 +107,7 @@ class Turns(Part):
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the turn under way, if any, because no more samples come."""
         process = self.detector.finish()
-        return [] if process is None or abs(process.angle) <= 0.5 * MIN_CLASSIFIED_TURN else [turn_event(process, now)]
+        return [] if process is None or abs(process.angle) <= MIN_REPORTED_TURN else [turn_event(process, now)]
 
     def reset(self, site: Site) -> None:
         """Reset a foot whose clock restarts."""

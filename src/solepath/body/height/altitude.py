@@ -8,13 +8,13 @@ second or more:
     height by air pressure  -  height of the foot's track  =  correction + offset of that barometer + noise
 
     after a stride with height change h   the correction's variance grows by the variance of h (not on level ground)
-    after an elevator ride                the correction changes by the ride's height, its variance by that height's
+    after an elevator ride of height h    the correction grows by h, and its variance by the variance of h
     with time                             the variance of each offset grows by `OFFSET_DRIFT`^2 per second
 
 On level ground the variance of the correction does not grow, so changes of pressure are attributed to the offsets. On
 stairs, strides give the height of each tread and air pressure gives the sum. In an elevator, only air pressure gives
 the height, if there is a barometer. A ride is reported after it has ended; the readings since its start are then
-processed again (`KEPT_TIME`, s, of readings are kept). Readings after a ride improve its height while the offsets are
+processed again, if it started in the last `KEPT_TIME`. Readings after a ride improve its height while the offsets are
 known well enough."""
 
 from __future__ import annotations
@@ -39,10 +39,20 @@ READING_INTERVAL = 0.5
 """Shortest interval between two readings of the filter, s; all pressures in between are averaged into one reading."""
 KEPT_TIME = 90.0
 """Time for which inputs are kept, s."""
+MAX_INPUT_RATE = 8.0
+"""Number of inputs per second of `KEPT_TIME` that may be kept."""
+MIN_PRESSURE, MAX_PRESSURE = 2e4, 2e5
+"""Limits of a plausible air pressure, Pa."""
+NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 3.0
+"""Weight of one value in the low-pass filter of `Altitude.noise`, and largest ratio of a value to the filter's."""
+MIN_NOISE = 1e-4
+"""Least variance of a reading, m^2."""
+JUMP_LIMIT = 25.0
+"""Squared innovation, divided by its variance, above which the offset has changed suddenly: a door or a gust."""
 UNKNOWN_VARIANCE = 1e4
 """Variance of an unknown height, m^2."""
 MAX_TRACK_HEIGHT = 1e5
-"""Largest height of a track, and of a ride, that is used, m."""
+"""Largest height of a track, and of a ride, that is used, m; also the largest variance of a stride's height, m^2."""
 LEFT, RIGHT, MOVE = 0, 1, 2
 """Sources of an input: left barometer, right barometer, or a change of the correction by a stride or ride."""
 RIDE_MARGIN = 0.7
@@ -50,7 +60,7 @@ RIDE_MARGIN = 0.7
 LEVEL_LIMIT = 0.02
 """Largest height change of a level stride, m."""
 MAX_STRIDES = 64
-"""Number of newest strides that are kept; a ride with strides in it is not plausible."""
+"""Number of newest strides that are kept; a ride with two strides in it is not plausible."""
 MIN_STRIDE_LENGTH = 0.3
 """Length of the shortest stride that is kept, m; a shorter one may be a shift of weight."""
 OFFSET_DRIFT = 0.03
@@ -99,7 +109,7 @@ class HeightEstimate:
         p[4 * i] = min(p[4 * i] + wander * max(0.0, t - previous), UNKNOWN_VARIANCE)
         innovation = height - x[0] - x[i]
         innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
-        if innovation * innovation > 25.0 * innovation_variance:  # a door or a gust: the offset has changed suddenly
+        if innovation * innovation > JUMP_LIMIT * innovation_variance:
             p[4 * i] = min(p[4 * i] + innovation * innovation, UNKNOWN_VARIANCE)
             innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
         covariances = [p[3 * j] + p[3 * j + i] for j in range(3)]
@@ -160,7 +170,7 @@ class Altitude(Part):
         if pressure is None:
             return ()
         t, z = view.t, view.position[2]
-        if not (2e4 < pressure < 2e5 and abs(z) < MAX_TRACK_HEIGHT):
+        if not (MIN_PRESSURE < pressure < MAX_PRESSURE and abs(z) < MAX_TRACK_HEIGHT):
             return ()
         source = LEFT if view.foot is Foot.LEFT else RIGHT
         side = self.sides[source]
@@ -170,15 +180,15 @@ class Altitude(Part):
             return ()
         height = side.total / side.count
         if side.previous_height is not None:
-            # the variance of consecutive differences is 2 noise + drift^2; limit the effect of a ride or a gust
+            # the variance of consecutive differences is 2 noise + drift^2; a ride or a gust has a limited effect
             square = 0.5 * (height - side.previous_height) ** 2
-            self.noise += 0.05 * (min(square, 3.0 * self.noise) - self.noise)
-            self.noise = max(self.noise, 1e-4)
+            self.noise += NOISE_WEIGHT * (min(square, MAX_NOISE_RATIO * self.noise) - self.noise)
+            self.noise = max(self.noise, MIN_NOISE)
         side.read_at, side.total, side.count, side.previous_height = t, 0.0, 0, height
         return self._add_input((t, source, height, self.noise))
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Add the variance of a stride to the correction, or replace a ride by one with its likeliest height."""
+        """Add a stride's variance to that of the correction, or replace a ride by one with its likeliest height."""
         if isinstance(event, StrideTaken):
             return self._add_stride(event)
         if isinstance(event, LiftRidden):
@@ -259,7 +269,7 @@ class Altitude(Part):
     def _add_input(self, entry: HeightInput) -> Sequence[PartOutput]:
         inputs_kept = self.inputs_kept
         while (oldest := inputs_kept.oldest) is not None and (
-            entry[0] - oldest > KEPT_TIME or inputs_kept.count >= 8.0 * KEPT_TIME
+            entry[0] - oldest > KEPT_TIME or inputs_kept.count >= MAX_INPUT_RATE * KEPT_TIME
         ):
             self._apply_input(self.base, inputs_kept.pop())
         self._apply_input(self.now, inputs_kept.add(entry))

@@ -8,22 +8,24 @@ from math import cos, pi, sin, sqrt
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Start
 from .landings import Landing, find_exits, find_nearest_landing, list_landings
-from .noise import NOISE_ROWS, NOISE_TABLE
+from .noise import NOISE_ENTRIES, NOISE_TABLE
 from .reference import LevelReached
 from .rows import Row
 
-HEADING_ERROR = 0.12
-"""Half of the largest error of a known start heading, rad; the first stride's direction is the track's x axis."""
+MAX_START_SPREAD, SPREAD_FACTOR = 20.0, 1.2
+"""Largest rms error of a start place that is used, m, and ratio of the largest error on each axis to the rms error."""
+START_HEADING_ERROR = 0.24
+"""Largest error of a known start heading, rad, with the error of the first stride's direction (the track's x axis)."""
+START_STRETCH_ERROR = 0.05
+"""Largest deviation of the stretch of a new row from 1."""
 EXIT_ERROR = 0.5
 """Largest distance between a landing and the place at which the wearer leaves it, on each axis, m."""
-TURN_ERROR = 0.07
-"""Largest error of the track's heading that stairs or a ride add, rad."""
+TURN_ERROR, STRETCH_ERROR = 0.07, 0.02
+"""Largest errors of the track's heading, rad, and of its stretch that stairs or a ride add."""
 ON_STAIRS_WEIGHT = 2.0
-"""Ratio of two likelihoods when climbing is reported near stairs: being on them, and walking past them."""
+"""Likelihood of being on stairs divided by that of walking past them, when climbing is reported near stairs."""
 LEAST_OPPOSITE_SHARE = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.01}
-"""Least probability that the wearer's direction is not the reported one.
-
-The motions of a foot on stairs up and down are similar."""
+"""Least probability that the wearer's direction, up or down, is not the reported one: feet move alike in both."""
 
 Scatter = Callable[[int, int], tuple[float, float, float, float]]
 """Function that returns offsets for the k-th of n rows, each from -1 to 1: x, y, heading, stretch."""
@@ -42,46 +44,46 @@ def spread_rows(
 ) -> list[Row]:
     """Return `count` rows around `place` with total `weight`, in all headings when `heading` is None.
 
-    `place` and `spread` are in m, plan frame, `heading` in rad; `origin` is that of the rows."""
+    `place` and `spread` are in m, plan frame, `heading` in rad; `origin` is the origin in each `Row`."""
     x0, y0 = plan.plan.origin
-    radius = min(max(spread, 0.0), 20.0) * 1.2
+    radius = min(max(spread, 0.0), MAX_START_SPREAD) * SPREAD_FACTOR
     rows: list[Row] = []
     for k in range(count):
         ex, ey, eh, es = scatter(k, count)
-        turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading + 2.0 * HEADING_ERROR * eh
+        turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading + START_HEADING_ERROR * eh
         x, y = place[0] + radius * ex, place[1] + radius * ey
         if plan.crosses(level, place[0], place[1], x, y):
             x, y = place
-        stretch = 1.0 + 0.05 * es
+        stretch = 1.0 + START_STRETCH_ERROR * es
         row = (x - x0, y - y0, stretch * cos(turn), stretch * sin(turn), weight / count, level, origin, 0)
         rows.append(row)
     return rows
 
 
 def find_level_changes(plan: FloorPlan, rows: list[Row], kind: ConnectorKind, displacement: Point) -> list[Row]:
-    """Return a row that changes level for each row near stairs or an elevator.
+    """Return a row that changes level for each row near stairs or an elevator, as `kind` says.
 
     `displacement` is that of the track since the change may have started, m."""
-    stops = list_landings(plan)
+    landings = list_landings(plan)
     x0, y0 = plan.origin
     dx, dy = displacement
     changing: list[Row] = []
     for x, y, a, b, w, level, origin, _ in rows:
-        entry = find_nearest_landing(stops, kind, level, x0 + x - (a * dx - b * dy), y0 + y - (b * dx + a * dy))
+        entry = find_nearest_landing(landings, kind, level, x0 + x - (a * dx - b * dy), y0 + y - (b * dx + a * dy))
         if entry is not None:
             changing.append((x, y, a, b, ON_STAIRS_WEIGHT * w * entry[1], level, origin, entry[0].index))
     return changing
 
 
 def rows_at_exits(plan: IndexedPlan, changing: list[Row], arrived: LevelReached, random: int) -> list[Row]:
-    """Return rows at the exits of the rows that changed level, with less weight against the reported direction."""
+    """Return a row at each possible exit of each row that changes level; exits in the other direction weigh less."""
     x0, y0 = plan.plan.origin
-    stops = list_landings(plan.plan)
+    landings = list_landings(plan.plan)
     exit_rows: list[Row] = []
-    for k, (_, _, a, b, w, _, origin, stop) in enumerate(changing):
-        for exit_landing, share in _weigh_exits(plan.plan, stops, stops[stop - 1], arrived):
-            ex, ey, eh, es = NOISE_TABLE[(random + k) % NOISE_ROWS]
-            turn, stretch = TURN_ERROR * eh, 1.0 + 0.02 * es
+    for k, (_, _, a, b, w, _, origin, landing) in enumerate(changing):
+        for exit_landing, share in _weigh_exits(plan.plan, landings, landings[landing - 1], arrived):
+            ex, ey, eh, es = NOISE_TABLE[(random + k) % NOISE_ENTRIES]
+            turn, stretch = TURN_ERROR * eh, 1.0 + STRETCH_ERROR * es
             x, y = exit_landing.place[0] + EXIT_ERROR * ex, exit_landing.place[1] + EXIT_ERROR * ey
             if plan.crosses(exit_landing.level, exit_landing.place[0], exit_landing.place[1], x, y):
                 x, y = exit_landing.place
@@ -93,43 +95,34 @@ def rows_at_exits(plan: IndexedPlan, changing: list[Row], arrived: LevelReached,
 
 
 def rows_at_all_exits(scatter: Scatter, plan: IndexedPlan, arrived: LevelReached, max_rows: int) -> list[Row]:
-    """Return at most about `max_rows` rows at every possible exit: all stairs or elevators, levels and headings."""
-    stops = list_landings(plan.plan)
+    """Return about `max_rows` rows, spread over all exits that `arrived` allows and over all headings."""
+    landings = list_landings(plan.plan)
     weights: dict[int, float] = {}
-    for entered in stops:
+    for entered in landings:
         if entered.kind is arrived.kind:
-            for exit_landing, share in _weigh_exits(plan.plan, stops, entered, arrived):
+            for exit_landing, share in _weigh_exits(plan.plan, landings, entered, arrived):
                 weights[exit_landing.index] = weights.get(exit_landing.index, 0.0) + share
     total, roots = sum(weights.values()), sum([sqrt(weight) for weight in weights.values()])
     rows: list[Row] = []
     for index in sorted(weights):
-        exit_landing = stops[index - 1]
+        exit_landing = landings[index - 1]
         share = weights[index] / total
         count = max(int(max_rows * sqrt(weights[index]) / roots), 8)
-        rows += spread_rows(
-            scatter,
-            plan,
-            exit_landing.level,
-            exit_landing.place,
-            EXIT_ERROR,
-            None,
-            count,
-            exit_landing.connector + 1,
-            share,
-        )
+        level, origin = exit_landing.level, exit_landing.connector + 1
+        rows += spread_rows(scatter, plan, level, exit_landing.place, EXIT_ERROR, None, count, origin, share)
     return rows
 
 
 def _weigh_exits(
-    plan: FloorPlan, stops: list[Landing], entered: Landing, arrived: LevelReached
+    plan: FloorPlan, landings: list[Landing], entered: Landing, arrived: LevelReached
 ) -> list[tuple[Landing, float]]:
     """Return the possible exits after entering at the landing `entered`, each with its probability."""
     opposite = max(arrived.opposite_share, LEAST_OPPOSITE_SHARE[arrived.kind])
     expected = [
         (exit_landing, share * (1.0 - opposite))
-        for exit_landing, share in find_exits(plan, stops, entered, arrived.up, arrived.height)
+        for exit_landing, share in find_exits(plan, landings, entered, arrived.up, arrived.height)
     ]
-    other = find_exits(plan, stops, entered, not arrived.up, arrived.height)
+    other = find_exits(plan, landings, entered, not arrived.up, arrived.height)
     return expected + [(exit_landing, share * opposite) for exit_landing, share in other]
 
 

@@ -28,7 +28,7 @@ class Landing:
     """A landing: the stop of a connector (stairs or elevator) on one level."""
 
     index: int
-    """Index of the stop among all stops of the plan, plus one."""
+    """Index among all landings of the plan, plus one."""
     connector: int
     """Index of the connector in the plan."""
     kind: ConnectorKind
@@ -45,23 +45,23 @@ class Landing:
 def list_landings(plan: FloorPlan) -> list[Landing]:
     """Return all landings, connector by connector, from the lowest up."""
     levels = {level.id: k for k, level in enumerate(plan.levels)}
-    stops: list[Landing] = []
+    landings: list[Landing] = []
     for c, connector in enumerate(plan.connectors):
         for stop in connector.stops:
             k = levels.get(stop.level)
             if k is not None:
                 level = plan.levels[k]
-                number = len(stops) + 1
-                stops.append(Landing(number, c, connector.kind, k, level.ordinal, level.elevation, stop.place))
-    return stops
+                number = len(landings) + 1
+                landings.append(Landing(number, c, connector.kind, k, level.ordinal, level.elevation, stop.place))
+    return landings
 
 
 def find_nearest_landing(
-    stops: list[Landing], kind: ConnectorKind, level: int, x: float, y: float
+    landings: list[Landing], kind: ConnectorKind, level: int, x: float, y: float
 ) -> tuple[Landing, float] | None:
-    """Return the landing nearest to (x, y), m, and its likelihood; None beyond `LANDING_REACH`."""
+    """Return the landing nearest to (x, y), m, plan frame, and its likelihood; None beyond `LANDING_REACH`."""
     best, distance = None, LANDING_REACH
-    for landing in stops:
+    for landing in landings:
         if landing.kind is kind and landing.level == level:
             new_distance = hypot(landing.place[0] - x, landing.place[1] - y)
             if new_distance <= distance:
@@ -70,13 +70,13 @@ def find_nearest_landing(
 
 
 def find_exits(
-    plan: FloorPlan, stops: list[Landing], entered: Landing, up: bool, height: float | None
+    plan: FloorPlan, landings: list[Landing], entered: Landing, up: bool, height: float | None
 ) -> list[tuple[Landing, float]]:
-    """Return the exits after entering at `entered` and a height change of `height`, m (None: any), with likelihoods.
+    """Return the exits after a climb of `height`, m (None: any), from the landing `entered`, with their likelihoods.
 
     When the plan has no heights, all usual heights of a storey are equally likely."""
     exits = []
-    for landing in _list_connector_landings(stops, entered):
+    for landing in _list_connector_landings(landings, entered):
         rise = landing.elevation - entered.elevation
         if rise > 0.0 if up else rise < 0.0:
             low = high = abs(rise)
@@ -92,16 +92,15 @@ def find_exits(
     return [(landing, weight / most) for landing, weight in exits if weight >= MIN_EXIT_LIKELIHOOD * most]
 
 
-def _list_connector_landings(stops: list[Landing], entered: Landing) -> list[Landing]:
-    """Return the landings of the same connector, which are consecutive."""
-    first = last = entered.index - 1
-    while first > 0 and stops[first - 1].connector == entered.connector:
+def _list_connector_landings(landings: list[Landing], entered: Landing) -> list[Landing]:
+    first = last = entered.index - 1  # the landings of a connector are consecutive
+    while first > 0 and landings[first - 1].connector == entered.connector:
         first -= 1
-    while last < len(stops) and stops[last].connector == entered.connector:
+    while last < len(landings) and landings[last].connector == entered.connector:
         last += 1
-    return stops[first:last]
+    return landings[first:last]
 
 
-def is_near_landing(stops: list[Landing], level: int, x: float, y: float) -> bool:
-    """Return whether a wearer at (x, y), m, may already be on stairs or in an elevator."""
-    return any([stop.level == level and hypot(stop.place[0] - x, stop.place[1] - y) < NEAR_LANDING for stop in stops])
+def is_near_landing(landings: list[Landing], level: int, x: float, y: float) -> bool:
+    """Return whether a wearer at (x, y), m, plan frame, may already be on stairs or in an elevator."""
+    return any([one.level == level and hypot(one.place[0] - x, one.place[1] - y) < NEAR_LANDING for one in landings])

@@ -27,13 +27,13 @@ KNOWN_ROWS = 64
 MAX_JUMP = 100.0
 """Longest move of the track between two positions that is used, m."""
 DEGRADED_FACTOR = 1.5
-"""Factor of the errors of a degraded stride, which mostly lacks only a clipped peak, rarely samples."""
+"""Factor of the errors of a degraded stride (mostly a clipped peak, rarely a gap), and of rows that follow a climb."""
 SAME_STAIRS_TIME = 10.0
-"""Time after an arrival, s, in which stairs count as the rest of the same stairs."""
+"""Time after an arrival, s, in which further stairs count as the rest of the same stairs."""
 MIN_LANDING_SHARE = 0.02
-"""Least share of the weight near any landing; with less, the rows were at wrong places."""
+"""Least weight of the rows at exits, as a share of the other rows'; with less, the rows were at wrong places."""
 STAYING_SHARE = {ConnectorKind.STAIRS: 0.85, ConnectorKind.LIFT: 0.5}
-"""Share of the weight that the old rows then keep, because level walking may have been reported as stairs."""
+"""Share of the weight that rows at wrong places keep, because level walking may have been reported as stairs."""
 BOTH_LEVELS_LIMITS = (0.3, 0.8)
 """Limits, as shares of the climb to the next landing, between which the wearer may be on either level."""
 MIN_CERTAINTY = 0.3
@@ -101,11 +101,8 @@ class LevelChanges(PlaceHypotheses):
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
             exit_weight = sum([row[4] for row in exit_rows])
             landing_share = 1.0 - STAYING_SHARE[arrived.kind]
-            k = (
-                total * landing_share / (1.0 - landing_share) / exit_weight
-                if exit_weight > 0.0 and total > 0.0
-                else 1.0
-            )
+            has_weights = exit_weight > 0.0 and total > 0.0
+            k = total * landing_share / (1.0 - landing_share) / exit_weight if has_weights else 1.0
         else:
             k = arrived.certainty / (1.0 - arrived.certainty)
             self.level_uncertain = False
@@ -127,38 +124,41 @@ class LevelChanges(PlaceHypotheses):
         return rows
 
     def assign_levels(self, plan: FloorPlan, rows: list[Row], here: WearerMoved) -> tuple[list[Row], dict[int, float]]:
-        """Return the rows, with rows that change level on the nearer level, and their heights by landing of entry, m.
+        """Return the rows, with a level for those that change level, and the heights of those, m, by landing of entry.
 
-        About half-way, such rows alternate between both levels. Heights are limited to the next landing."""
+        The level is the nearer one; about half-way, rows alternate between both. Heights end at the next landing."""
         entered = {row[7] for row in rows if row[7]}
         if not entered:
             return rows, {}
-        stops = list_landings(plan)
+        landings = list_landings(plan)
         heights: dict[int, float] = {}
         levels: dict[int, tuple[int, int]] = {}
         for index in sorted(entered):
-            stop = stops[index - 1]
-            height, above = self._height_gained(plan, stops, stop, here)
-            heights[index] = stop.elevation + height
-            rise = 0.0 if above is None else abs(above.elevation - stop.elevation)
+            landing = landings[index - 1]
+            height, above = self._height_gained(plan, landings, landing, here)
+            heights[index] = landing.elevation + height
+            rise = 0.0 if above is None else abs(above.elevation - landing.elevation)
             is_near_entry = above is None or abs(height) < BOTH_LEVELS_LIMITS[1] * rise
             is_near_next = above is not None and abs(height) > BOTH_LEVELS_LIMITS[0] * rise
-            next_level = stop.level if above is None else above.level
-            levels[index] = (stop.level if is_near_entry else next_level, next_level if is_near_next else stop.level)
+            next_level = landing.level if above is None else above.level
+            levels[index] = (
+                landing.level if is_near_entry else next_level,
+                next_level if is_near_next else landing.level,
+            )
         rows_with_levels = [
             (*row[:5], levels[row[7]][k % 2], *row[6:]) if row[7] else row for k, row in enumerate(rows)
         ]
         return rows_with_levels, heights
 
     def _height_gained(
-        self, plan: FloorPlan, stops: list[Landing], entered: Landing, here: WearerMoved
+        self, plan: FloorPlan, landings: list[Landing], entered: Landing, here: WearerMoved
     ) -> tuple[float, Landing | None]:
-        """Return the height above the landing `entered` of rows that change level, m, and the next landing."""
+        """Return the wearer's height above the landing `entered`, m, and the next landing; 0 and None if unknown."""
         passage = self.references.passage
         if passage is None:
             return 0.0, None
         up = passage.net_up > 0
-        exits = find_exits(plan, stops, entered, up, None) or find_exits(plan, stops, entered, not up, None)
+        exits = find_exits(plan, landings, entered, up, None) or find_exits(plan, landings, entered, not up, None)
         if not exits:
             return 0.0, None
         above = min([landing for landing, _ in exits], key=lambda landing: abs(landing.elevation - entered.elevation))
@@ -168,6 +168,6 @@ class LevelChanges(PlaceHypotheses):
 
 
 def has_exit(plan: FloorPlan, changing: list[Row], up: bool) -> bool:
-    """Return whether any of the landings that were entered has an exit in this direction."""
-    stops: list[Landing] = list_landings(plan)
-    return any([find_exits(plan, stops, stops[index - 1], up, None) for index in {row[7] for row in changing}])
+    """Return whether a landing at which a row of `changing` started has an exit in this direction."""
+    landings: list[Landing] = list_landings(plan)
+    return any([find_exits(plan, landings, landings[index - 1], up, None) for index in {row[7] for row in changing}])

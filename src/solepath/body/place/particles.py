@@ -9,7 +9,7 @@ from __future__ import annotations
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define
-from .noise import NOISE_ROWS, NOISE_TABLE, next_random
+from .noise import NOISE_ENTRIES, NOISE_TABLE, next_random
 from .placing import Placing
 from .rows import Row, resample_rows
 from .sway import sway_rows
@@ -26,7 +26,7 @@ class Particles(Placing):
 
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
         """Return offsets for the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
-        return NOISE_TABLE[k % NOISE_ROWS]
+        return NOISE_TABLE[k % NOISE_ENTRIES]
 
     def thin(self, rows: list[Row], count: int) -> list[Row]:
         """Return `count` rows, drawn according to their weights."""

@@ -10,8 +10,12 @@ from ...types.attrs import define
 
 RISER_HEIGHT = 0.165
 """Height of one riser of stairs, m, used when the track gives no height."""
-MAX_RUN_RATIO, LANDING_LENGTH = 2.5, 4.0
+MAX_LENGTH_RATIO, LANDING_LENGTH = 2.5, 4.0
 """Largest horizontal length of stairs as a multiple of their height, and additional length for landings, m."""
+MIN_TRACK_SHARE = 0.5
+"""Least height by the track that is used on stairs, as a share of the height by counted risers."""
+MIN_TRACK_HEIGHT, MIN_RIDE_HEIGHT = 0.3, 1.0
+"""Least heights by the track that are used on stairs and after a ride, m."""
 
 
 @define
@@ -42,13 +46,13 @@ class Passage:
         """Return the height, m, not negative, by the track or else by flights or counted risers; None when unknown."""
         track = self._track_height(here)
         if self.kind is ConnectorKind.LIFT:
-            return track if track > 1.0 else None
+            return track if track > MIN_RIDE_HEIGHT else None
         return track if self.is_measured(here) else max(abs(self.flight_height), self._counted_height)
 
     def is_measured(self, here: Vec3) -> bool:
         """Return whether the height of the track can be used for stairs."""
         track = self._track_height(here)
-        return track > 0.5 * self._counted_height and track > 0.3
+        return track > MIN_TRACK_SHARE * self._counted_height and track > MIN_TRACK_HEIGHT
 
     def _track_height(self, here: Vec3) -> float:
         return abs((here if self.end is None else self.end)[2] - self.start[2])
@@ -56,7 +60,7 @@ class Passage:
     @property
     def _counted_height(self) -> float:
         # a stride of one foot climbs two risers; with both feet there is a stride for each riser
-        # strides with the other direction may be wrong or not on stairs: half of them are counted
+        # only strides in the direction of the majority count: the others may be wrong or not on stairs
         strides = 0.5 * (self.left + self.right + abs(self.net_up))
         return RISER_HEIGHT * strides * (1.0 if self.left and self.right else 2.0)
 
@@ -81,4 +85,4 @@ class Passage:
             return False
         end = here if self.end is None else self.end
         distance = hypot(end[0] - self.start[0], end[1] - self.start[1])
-        return distance > MAX_RUN_RATIO * (self.height(end) or 0.0) + LANDING_LENGTH
+        return distance > MAX_LENGTH_RATIO * (self.height(end) or 0.0) + LANDING_LENGTH

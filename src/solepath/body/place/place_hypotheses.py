@@ -1,4 +1,4 @@
-"""Hypotheses of the wearer's place (rows), for any method: their moves at strides, across gaps and on stairs."""
+"""Hypotheses of the wearer's place (rows), for any method: how they move at strides, across gaps and on stairs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define, field, frozen
 from ..part import Part
-from .noise import NOISE_ROWS, NOISE_TABLE, next_random
+from .noise import NOISE_ENTRIES, NOISE_TABLE, next_random
 from .rows import Row, resample_rows, round_rows
 
 MAX_MOVE = 4.0
@@ -19,14 +19,16 @@ OUTSIDE_WEIGHT = 0.25
 ABOUT_TURN_ANGLE = 2.0
 """Least turn whose angle may be very wrong, rad, because a turn on the spot exceeds the range of many gyroscopes."""
 WRONG_TURN_SHARE = 0.1
-"""Share of such turns whose angle is wrong."""
+"""Share of turns above `ABOUT_TURN_ANGLE` whose angle is wrong."""
 HEADING_COUNT, ROWS_PER_HEADING = 12, 8
 """Number of headings that are tried after such a turn, and number of rows for each heading."""
+GAP_ERROR = 0.3
+"""Largest error of a move across a gap on each axis, as a share of its length."""
 
 
 @frozen
 class PlaceSettings:
-    """The settings of any method."""
+    """The settings of every placing method."""
 
     max_rows: int = 260
     """Largest number of rows that are kept."""
@@ -46,7 +48,7 @@ class PlaceHypotheses(Part, ABC):
     def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float) -> list[Row]:
         """Return the rows after a move of the track, m, without rows for which the plan forbids it.
 
-        `error_factor` is a factor of the track's usual errors, `turned` the turn of the wearer, rad, not negative."""
+        `error_factor` is a factor of the track's usual errors, `turned` the size of the wearer's turn, rad."""
 
     @abstractmethod
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
@@ -80,15 +82,15 @@ class PlaceHypotheses(Part, ABC):
         return moved + walking
 
     def _move_across_gap(self, plan: IndexedPlan, rows: list[Row], move: Point) -> list[Row]:
-        """Return the rows after a gap, with ends within the plan; the straight line may cross walls."""
+        """Return the rows after a gap that are within the plan; the straight line to them may cross walls."""
         dx, dy = move
-        move_error = 0.3 * hypot(dx, dy)
+        move_error = GAP_ERROR * hypot(dx, dy)
         x0, y0 = plan.plan.origin
         self.random = next_random(self.random)
         kept: list[Row] = []
         for k, (x, y, a, b, w, level, origin, landing) in enumerate(rows):
             for j in (0, 1):
-                ex, ey, _, _ = NOISE_TABLE[(self.random + 2 * k + j) % NOISE_ROWS]
+                ex, ey, _, _ = NOISE_TABLE[(self.random + 2 * k + j) % NOISE_ENTRIES]
                 nx, ny = x + a * dx - b * dy + move_error * ex, y + b * dx + a * dy + move_error * ey
                 if plan.inside(level, nx + x0, ny + y0):
                     kept.append((nx, ny, a, b, w, level, origin, landing))
@@ -110,7 +112,7 @@ def penalise_outside(plan: IndexedPlan, rows: list[Row]) -> list[Row]:
 def rows_after_wrong_turn(plan: IndexedPlan, rows: list[Row], displacement: Point) -> list[Row]:
     """Return a few rows of low weight in all headings, because the track's angle of an about-turn may be wrong.
 
-    The walls decide between them. `displacement` is that of the track since the turn, m."""
+    The walls decide between them. `displacement` is the track's since the turn, m."""
     dx, dy = displacement
     x0, y0 = plan.plan.origin
     drawn_rows = resample_rows([row for row in rows if not row[7]], ROWS_PER_HEADING, 0.5)

@@ -1,4 +1,4 @@
-"""Place of the wearer on a floor plan: the common part of both methods.
+"""Place of the wearer on a floor plan: the common part of the particle filter and the Snake game.
 
 The shape of the track is known, but its position and heading in the plan are not. Stairs, elevators and a known start
 give a position. Walls do the rest: a placement of the track that leads through walls is wrong (Liu et al. 2015, section
@@ -45,7 +45,7 @@ floors have equal walls, which cannot decide between levels."""
 
 @define
 class Placing(LevelChanges):
-    """The common part of both methods: start, change of level, loss and report of the place."""
+    """The common part of all placing methods: start, change of level, loss and report of the place."""
 
     needs_position: ClassVar[bool] = True
 
@@ -91,7 +91,7 @@ class Placing(LevelChanges):
         return ()
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
-        """Update the rows with events after which the wearer is `here`, and return the place; never raises."""
+        """Update the rows with events after which the wearer is at `here`, and return the place; never raises."""
         outputs: list[Event] = []
         if not all([isfinite(v) for v in (here.t, *here.position)]):
             return outputs
@@ -165,7 +165,7 @@ class Placing(LevelChanges):
         move = (move[0] * self.stride_scale.factor, move[1] * self.stride_scale.factor)
         previous = self.newest_placed
         previous_rows = rows
-        # in a turn of the wearer both feet turn, so the strides of both contain it
+        # both feet make a turn of the wearer: half of each stride's turn counts
         turned = min(0.5 * sum([abs(stride.heading_change) for stride in strides]), pi)
         error_factor = DEGRADED_FACTOR if any([stride.degraded for stride in strides]) else 1.0
         rows = self.move_rows(plan, rows, move, error_factor, turned)
@@ -215,6 +215,7 @@ class Placing(LevelChanges):
                 return PlaceLost(t=here.t, known_at=known_at, what=what)
         else:
             self.strides_outside = 0
+        # one candidate: 8 more rows for each metre of spread
         others = sum([min(1.0, 10.0 * candidate.weight) for candidate in candidates[1:]])
         count = min(
             self.settings.max_rows, KNOWN_ROWS + int(ROWS_PER_CANDIDATE * others if others else 8.0 * min(spread, 5.0))
@@ -252,7 +253,7 @@ class Placing(LevelChanges):
 
 
 def _have_not_moved(rows: list[Row], previous: list[Row]) -> bool:
-    """Return whether all rows have places of the previous rows; the first row is checked first, because it is fast."""
+    """Return whether every row has the place of a previous row; checking the first one first is fast."""
     if rows:
         x, y = rows[0][:2]
         if not any([row[0] == x and row[1] == y for row in previous]):

@@ -1,12 +1,12 @@
-"""References to a floor plan: activities that are possible in few places only, on stairs and in elevators.
+"""References to a floor plan: climbs and rides, which are possible only on its stairs and in its elevators.
 
 Activities, rides, flights and the track give three kinds of references (Liu et al. 2015, section IV.E): the wearer may
 be changing level on stairs or in an elevator (`LevelChangePossible`), was not (`LevelChangeCancelled`), or has come to
 another level (`LevelReached`), with a certainty. A climb of half a storey leads to a half-way landing, and a short
 report of stairs on level ground is a mistake; both have a low certainty or none.
 
-Latency: an elevator ride is known with its event, or without one after two strides or `RIDE_END_TIME`. Stairs are known
-with the next activity, or up to `MAX_WAIT` s or `WAIT_DISTANCE` m later when the height fits no storey."""
+Latency: an elevator ride is known with its event; if there is none, after two strides or `RIDE_END_TIME`. Stairs are
+known with the next activity, or up to `MAX_WAIT` s or `WAIT_DISTANCE` m later when the height fits no storey."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from .passage import Passage
 MAX_WAIT = 8.0
 """Longest wait for the end of stairs whose height fits no storey, s."""
 WAIT_DISTANCE = 3.5
-"""Distance of the wearer from the end of the stairs that ends this wait, m."""
+"""Distance of the wearer from the end of the stairs at which this wait ends, m."""
 FIT_SHARE = 0.24
-"""Largest deviation of a height that fits a storey, as a share of the least storey; a half-way landing does not."""
+"""Largest deviation of a height that fits a storey, as a share of the least storey; half a storey does not fit."""
 COUNTED_SHARE = 0.95
 """Least height by counted risers that counts as a storey without waiting, as a share of the least storey."""
 MIN_STOREY_SHARE, MAX_CLIMB_RATIO = 0.6, 2.0
@@ -40,7 +40,7 @@ RIDE_END_TIME = 4.0
 """Time after the end of an elevator activity at which a ride without an event has ended, s; two strides also end it."""
 SAME_RIDE_TIME = 5.0
 """Largest time between the ends of two reports of the same ride, s."""
-MAX_TRACK_PLACES = 24
+MAX_TRACK_POSITIONS = 24
 """Number of positions of the track that are kept."""
 
 CONNECTOR_OF_ACTIVITY = {
@@ -49,7 +49,7 @@ CONNECTOR_OF_ACTIVITY = {
     Activity.ELEVATOR_UP: (ConnectorKind.LIFT, True),
     Activity.ELEVATOR_DOWN: (ConnectorKind.LIFT, False),
 }
-"""Kind of connector of each activity, with a flag: the activity leads up."""
+"""Kind of connector for each activity, and a flag: the activity leads up."""
 
 
 @frozen
@@ -78,7 +78,7 @@ class LevelReached:
     t: float
     opposite_share: float = 0.0
     """Share of the strides that were reported in the other direction."""
-    certainty: float = 0.97
+    certainty: float = SURE_CERTAINTY
     """Probability that the wearer is on another level now; less than 1."""
 
 
@@ -105,25 +105,25 @@ class References:
     def position_at(self, t: float) -> Vec3:
         """Return the position of the track at `t`, s, in m, by interpolation, or the nearest position that is kept."""
         after: tuple[float, float, float, float] | None = None
-        for place in reversed(self.track):
-            if place[0] <= t:
-                if after is None or after[0] <= place[0]:
-                    return place[1:]
-                k = (t - place[0]) / (after[0] - place[0])
-                (_, x, y, z), (_, x1, y1, z1) = place, after
+        for before in reversed(self.track):
+            if before[0] <= t:
+                if after is None or after[0] <= before[0]:
+                    return before[1:]
+                k = (t - before[0]) / (after[0] - before[0])
+                (_, x, y, z), (_, x1, y1, z1) = before, after
                 return (x + k * (x1 - x), y + k * (y1 - y), z + k * (z1 - z))
-            after = place
+            after = before
         return (0.0, 0.0, 0.0) if after is None else after[1:]
 
     def path_since(self, t: float) -> list[Vec3]:
         """Return the position of the track at `t`, s, and all later positions that are kept, m."""
-        return [self.position_at(t), *(place[1:] for place in self.track if place[0] > t)]
+        return [self.position_at(t), *(position[1:] for position in self.track if position[0] > t)]
 
     def update(self, plan: FloorPlan, events: list[Event], here: WearerMoved) -> list[Reference]:
         """Return the references that follow from `events`; the wearer is at `here` now."""
         x, y, z = here.position
         self.track.append((here.t, round(x, 3), round(y, 3), round(z, 3)))
-        if len(self.track) > MAX_TRACK_PLACES:
+        if len(self.track) > MAX_TRACK_POSITIONS:
             self.track.popleft()
         references: list[Reference] = []
         for event in events:
@@ -145,7 +145,7 @@ class References:
                     self.passage = None
         if self.passage is not None:
             if self.passage.t_left is not None:
-                self._leave(self.passage, self.passage.t_left, plan, here, references)
+                self._decide(self.passage, self.passage.t_left, plan, here, references)
             elif self.passage.leads_away(here.position):
                 self.passage = None
                 references.append(LevelChangeCancelled())
@@ -155,11 +155,11 @@ class References:
         passage = self.passage
         if passage is None:
             return
-        reference = CONNECTOR_OF_ACTIVITY.get(self.activity)
-        if passage.t_left is not None or reference is None:
+        connector = CONNECTOR_OF_ACTIVITY.get(self.activity)
+        if passage.t_left is not None or connector is None:
             passage.strides_since += 1
         elif passage.kind is ConnectorKind.STAIRS:
-            passage.net_up += 1 if reference[1] else -1
+            passage.net_up += 1 if connector[1] else -1
             if foot is Foot.LEFT:
                 passage.left += 1
             else:
@@ -167,8 +167,8 @@ class References:
 
     def _change_activity(self, event: ActivityChanged, references: list[Reference]) -> None:
         self.activity = event.activity
-        reference, passage = CONNECTOR_OF_ACTIVITY.get(event.activity), self.passage
-        if reference is None:
+        connector, passage = CONNECTOR_OF_ACTIVITY.get(event.activity), self.passage
+        if connector is None:
             if passage is not None and passage.t_left is None:
                 if event.t <= passage.t:
                     self.passage = None
@@ -176,7 +176,7 @@ class References:
                 else:
                     passage.t_left, passage.end, passage.strides_since = event.t, self.position_at(event.t), 0
             return
-        kind, up = reference
+        kind, up = connector
         if kind is ConnectorKind.LIFT and self.ride_end is not None and event.t < self.ride_end:
             return
         if passage is not None and passage.kind is kind:
@@ -205,17 +205,17 @@ class References:
         if passage.t_left is not None and event.t > passage.t_left:
             passage.t_left, passage.end = event.t, self.position_at(event.t)
 
-    def _leave(
-        self, passage: Passage, left: float, plan: FloorPlan, here: WearerMoved, references: list[Reference]
+    def _decide(
+        self, passage: Passage, t_left: float, plan: FloorPlan, here: WearerMoved, references: list[Reference]
     ) -> None:
         """Decide whether a passage that was left led to another level, when that is certain or the wait is over."""
         up, height = passage.net_up > 0, passage.height(here.position)
-        waiting_time = here.t - left
+        waiting_time = here.t - t_left
         if passage.kind is ConnectorKind.LIFT:
             if waiting_time > RIDE_END_TIME or passage.strides_since >= 2:
                 self.passage = None
-                self.ride_end = left
-                references.append(LevelReached(passage.kind, up, height, passage.t, left, certainty=RIDE_CERTAINTY))
+                self.ride_end = t_left
+                references.append(LevelReached(passage.kind, up, height, passage.t, t_left, certainty=RIDE_CERTAINTY))
             return
         least, most = storey_heights(plan)
         if height is None or not most > 0.0:
@@ -243,26 +243,26 @@ class References:
             certainty = (SURE_CERTAINTY if fits_plan else FAIR_CERTAINTY if is_storey else HALF_CERTAINTY) * (
                 1.0 - passage.opposite_share
             )
-            arrived = LevelReached(passage.kind, up, height, passage.t, left, passage.opposite_share, certainty)
+            arrived = LevelReached(passage.kind, up, height, passage.t, t_left, passage.opposite_share, certainty)
             references.append(arrived if is_possible else LevelChangeCancelled())
 
 
 def storey_heights(plan: FloorPlan) -> tuple[float, float]:
     """Return the least and the largest climb, m, of the plan's stairs; both 0 without stairs."""
-    references = connector_heights(plan, ConnectorKind.STAIRS)
-    if not references:
+    heights = connector_heights(plan, ConnectorKind.STAIRS)
+    if not heights:
         return (0.0, 0.0)
     if plan.heights_known:
-        return (references[0], references[-1])
+        return (heights[0], heights[-1])
     ordinals = [level.ordinal for level in plan.levels]
     return (MIN_STOREY_HEIGHT, MAX_STOREY_HEIGHT * max(max(ordinals) - min(ordinals), 1))
 
 
 def connector_heights(plan: FloorPlan, kind: ConnectorKind) -> list[float]:
     """Return every height difference, m, between two stops of connectors of this kind, least first."""
-    references = set()
+    heights = set()
     for connector in plan.connectors:
         if connector.kind is kind:
-            floors = [plan.level(stop.level).elevation for stop in connector.stops]
-            references |= {round(abs(b - a), 3) for i, a in enumerate(floors) for b in floors[i + 1 :]}
-    return sorted(references - {0.0})
+            elevations = [plan.level(stop.level).elevation for stop in connector.stops]
+            heights |= {round(abs(b - a), 3) for i, a in enumerate(elevations) for b in elevations[i + 1 :]}
+    return sorted(heights - {0.0})

@@ -1,7 +1,7 @@
 """Rows (hypotheses of the wearer's place), and the candidates that are derived from them.
 
-Each row has the wearer's place, the rotation and scale of the track in the plan, and a weight. Numbers of rows have few
-digits, because there are many rows and a snapshot must be small."""
+Each row has the wearer's place, the rotation and scale of the track in the plan, and a weight. The numbers in a row
+have few digits, because there are many rows and a snapshot must be small."""
 
 from __future__ import annotations
 
@@ -32,11 +32,13 @@ NARROW_RADIUS = 1.5
 MIN_TURN_COSINE = 0.87
 """Cosine of the largest angle between two headings of the track that count as nearly equal."""
 ONE_CANDIDATE_SPREAD = 1.5
-"""Largest rms deviation of all places that form one candidate, m."""
+"""Largest rms deviation of the places of all rows at which they form one candidate, m."""
 MAX_CANDIDATES = 16
 """Largest number of candidates; further rows are added to the nearest candidate."""
 MIN_CANDIDATE_WEIGHT = 0.002
 """Least share of the weight of a candidate; lighter candidates are added to the heaviest."""
+MIN_ROW_WEIGHT = 1e-5
+"""Least weight of a row that is kept, as a share of the largest weight."""
 
 
 def round_rows(rows: list[Row]) -> list[Row]:
@@ -50,7 +52,7 @@ def round_rows(rows: list[Row]) -> list[Row]:
     return [
         (*unpack(pack(x, y, a, b, w * k)), level, origin, landing)
         for x, y, a, b, w, level, origin, landing in rows
-        if -MAX_DISTANCE < x < MAX_DISTANCE and -MAX_DISTANCE < y < MAX_DISTANCE and w * k > 1e-5
+        if -MAX_DISTANCE < x < MAX_DISTANCE and -MAX_DISTANCE < y < MAX_DISTANCE and w * k > MIN_ROW_WEIGHT
     ]
 
 
@@ -84,14 +86,14 @@ def candidates_of(
     rows: list[Row],
     plan: FloorPlan,
     heights: dict[int, float],
-    track: float | None,
+    track_height: float | None,
     limit: float = ONE_CANDIDATE_SPREAD,
 ) -> tuple[tuple[Candidate, ...], float]:
     """Return the candidates, heaviest first, and the rms distance of all rows from the first candidate, m.
 
-    `heights` has the height of rows that change level, m, plan frame, by landing of entry. `track` is the reported
-    height when the plan has no heights, m, else None. All rows are one candidate when their rms deviation is below
-    `limit`, m. There must be a row. Places are rounded to a millimetre, because they are saved."""
+    `heights` has the height of rows that change level, m, plan frame, by landing of entry. `track_height` is the
+    reported height when the plan has no heights, m, else None. All rows are one candidate when their rms deviation is
+    below `limit`, m. There must be a row. Places are rounded to a millimetre, because they are saved."""
     origin = plan.origin
     groups = _group_rows(rows, limit)
     total = sum([group[0] for group in groups])
@@ -102,8 +104,9 @@ def candidates_of(
     for group in kept:
         weight, x, y, a, b, length, level, row_origin, landing = group
         share = (weight + (rest if group is kept[0] else 0.0)) / total if len(kept) > 1 else 1.0
-        floor = track if track is not None else heights.get(landing, 0.0) if landing else plan.levels[level].elevation
-        position = (round(origin[0] + x / weight, 3), round(origin[1] + y / weight, 3), round(floor, 3))
+        by_plan = heights.get(landing, 0.0) if landing else plan.levels[level].elevation
+        height = by_plan if track_height is None else track_height
+        position = (round(origin[0] + x / weight, 3), round(origin[1] + y / weight, 3), round(height, 3))
         heading = round(atan2(b, a), 4) if hypot(a, b) > 0.5 * length else None
         name = plan.connectors[row_origin - 1].name if row_origin else "start"
         candidates.append(Candidate(plan.levels[level].id, position, heading, round(share, 5), name))
@@ -125,7 +128,6 @@ def _weight(group: _Group) -> float:
 def _group_rows(rows: list[Row], limit: float) -> list[_Group]:
     """Return all rows as one group when their rms deviation is below `limit`, m; else grouped by distance."""
     _, _, _, _, _, level, row_origin, landing = rows[0]
-    group = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, level, row_origin, landing)
     square, is_one_level = 0.0, True
     sw = sx = sy = sa = sb = 0.0
     for x, y, a, b, w, row_level, _, _ in rows:
@@ -140,14 +142,13 @@ def _group_rows(rows: list[Row], limit: float) -> list[_Group]:
         square += w * (x * x + y * y)
     if is_one_level and square / sw - (sx * sx + sy * sy) / (sw * sw) < limit * limit:
         # the length of (a, b) is about 1 for all rows
-        group = (sw, sx, sy, sa, sb, sw, level, row_origin, landing)
-        return [group]
+        return [(sw, sx, sy, sa, sb, sw, level, row_origin, landing)]
     groups: list[_Group] = []
     for x, y, a, b, w, row_level, row_origin, landing in sorted(rows, key=_row_weight, reverse=True):
         best, nearest = -1, CANDIDATE_RADIUS * CANDIDATE_RADIUS
         is_full = len(groups) >= MAX_CANDIDATES
         if is_full:
-            nearest = 5.0 * MAX_DISTANCE * MAX_DISTANCE
+            nearest = 5.0 * MAX_DISTANCE * MAX_DISTANCE  # above any distance2 on the same level
         length = w * sqrt(a * a + b * b)
         for k, (gw, gx, gy, ga, gb, gl, level, _, _) in enumerate(groups):
             if level == row_level or is_full:
@@ -170,18 +171,9 @@ def _group_rows(rows: list[Row], limit: float) -> list[_Group]:
                 continue
         gw, gx, gy, ga, gb, gl, level, origin, entry = groups[best]
         if level != row_level:  # the list is full: add the weight of the row, not its place
-            factor = (gw + w) / gw
-            groups[best] = (
-                gw * factor,
-                gx * factor,
-                gy * factor,
-                ga * factor,
-                gb * factor,
-                gl * factor,
-                level,
-                origin,
-                entry,
-            )
+            ratio = (gw + w) / gw
+            gw, gx, gy, ga, gb, gl = gw * ratio, gx * ratio, gy * ratio, ga * ratio, gb * ratio, gl * ratio
+            groups[best] = (gw, gx, gy, ga, gb, gl, level, origin, entry)
         else:
             groups[best] = (gw + w, gx + w * x, gy + w * y, ga + w * a, gb + w * b, gl + length, level, origin, entry)
     return groups

@@ -15,9 +15,9 @@ from ...types.attrs import define, field
 SCALE_GAIN = 0.06
 """Gain of the scale's low-pass filter for one comparison."""
 MIN_DISTANCE, MAX_STRIDE_LENGTH = 0.5, 3.0
-"""Least distance that is compared, m, because less is not walking; and longest plausible stride, m."""
+"""Least distance that is compared, m (less is not walking), and longest plausible stride, m."""
 MAX_TURN = 0.3
-"""Largest turn of a foot in a stride that is compared, rad, because a bend is longer than its chord."""
+"""Largest turn of a foot in a stride that is compared, rad: a bend is longer than its chord."""
 MIN_RATIO, MAX_RATIO = 0.8, 1.6
 """Least and largest ratio of stride length to distance that is used."""
 

@@ -1,4 +1,4 @@
-"""Motion model of the rows: heading, stretch and moves get small errors from a table of numbers (noise.py)."""
+"""Motion model of the rows: heading, stretch and moves get small errors from the table in noise.py."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from math import hypot
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from .landings import Landing, is_near_landing, list_landings
-from .noise import NOISE_ROWS, NOISE_TABLE
+from .noise import NOISE_ENTRIES, NOISE_TABLE
 from .rows import Row
 
 MOVE_ERROR = 0.06
@@ -25,7 +25,7 @@ STRETCH_DECAY = 0.01
 BEND_ANGLES = (0.07, 0.16)
 """Changes of heading that a row tries at a wall, to either side, rad."""
 BEND_WEIGHT = 0.65
-"""Factor of the row's weight for each angle of `BEND_ANGLES` that is tried."""
+"""Factor of the row's weight for each angle of these that is tried."""
 WIDE_BEND_ANGLES = (0.1, 0.25, 0.45)
 """Changes of heading that all rows try when no row is left, rad."""
 STAY_WEIGHT = 0.6
@@ -37,12 +37,12 @@ def sway_rows(
 ) -> list[Row]:
     """Return the rows after a move of the track, m, without rows for which the plan forbids it.
 
-    `error_factor` multiplies the track's usual errors, `turned` is the turn of the wearer, rad, and `random` the first
-    index in the table. With `both_sides`, a row at a wall continues on both sides, not only the free one."""
+    `error_factor` multiplies the track's usual errors, `turned` is the size of the wearer's turn, rad, and `random` the
+    first index in the table. With `both_sides`, a row at a wall continues on both sides, not only the free one."""
     turn = error_factor * (HEADING_NOISE + TURN_NOISE * turned)
-    kept = _sway(plan, rows, move, error_factor, turn, random % NOISE_ROWS, both_sides, BEND_ANGLES)
+    kept = _sway(plan, rows, move, error_factor, turn, random % NOISE_ENTRIES, both_sides, BEND_ANGLES)
     return kept or _sway(
-        plan, rows, move, 2.0 * error_factor, 2.0 * turn, (random + 499) % NOISE_ROWS, both_sides, WIDE_BEND_ANGLES
+        plan, rows, move, 2.0 * error_factor, 2.0 * turn, (random + 499) % NOISE_ENTRIES, both_sides, WIDE_BEND_ANGLES
     )
 
 
@@ -64,7 +64,7 @@ def _sway(
     blocked: list[Row] = []
     for row in rows:
         x, y, a, b, w, level, origin, _ = row
-        k = k + 1 if k < NOISE_ROWS - 1 else 0
+        k = k + 1 if k < NOISE_ENTRIES - 1 else 0
         ex, ey, eh, es = NOISE_TABLE[k]
         s = 1.0 + STRETCH_DECAY * (1.0 - a * a - b * b) + stretch * es
         h = turn * eh
@@ -76,10 +76,10 @@ def _sway(
             kept.append((nx, ny, a1, b1, w, level, origin, 0))
     if not blocked:
         return kept
-    stops: list[Landing] | None = None
+    landings: list[Landing] | None = None
     for row in blocked:
         x, y, a, b, w, level, origin, _ = row
-        k = (k + 367) % NOISE_ROWS
+        k = (k + 367) % NOISE_ENTRIES
         ex, ey, eh, es = NOISE_TABLE[k]
         side, passed = (1.0 if eh > 0.0 else -1.0), False
         for bend in bends:
@@ -97,7 +97,7 @@ def _sway(
             if passed:
                 break
         if not passed:
-            stops = list_landings(plan.plan) if stops is None else stops
-            if is_near_landing(stops, level, x0 + x, y0 + y):
+            landings = list_landings(plan.plan) if landings is None else landings
+            if is_near_landing(landings, level, x0 + x, y0 + y):
                 kept.append((x, y, a, b, row[4] * STAY_WEIGHT, level, origin, 0))
     return kept

@@ -11,15 +11,14 @@ vertical at foot-flat, and left is the axis about which the foot turns over its 
 the foot over the heel, and these axes then make the feet look exchanged. The foot turns further over the toes than over
 the heel, so a stride counts only if the foot turned further before toe-off than after heel-strike.
 
-3. Centre of pressure, with pressure cells and no inertial sensors. Before toe-off it moves inwards, to the big toe.
-This evidence fails when insoles with mirrored cell numbers are exchanged together with their layouts.
+3. Centre of pressure, with pressure cells and no inertial sensors. Before toe-off the centre moves inwards, to the big
+toe. This evidence fails when insoles with mirrored cell numbers are exchanged together with their layouts.
 
-Both feet must agree, over eight strides each. A wearer who shuffles or climbs hardly rolls the feet, and the exchange
-may be detected late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs, 50 to
-200 Hz), none is reported as exchanged. When their feet are exchanged, 51 are reported; all but 9 of the others have
+Both feet must agree, over eight strides each. If a wearer shuffles or climbs, the feet hardly roll, and an exchange may
+be detected late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs, 50 to 200
+Hz), none is reported as exchanged. With left and right exchanged, 51 of them are reported; all but 9 of the others have
 fewer than eight strides of a foot. If the sensor frames of both feet are left-handed (an axis has the wrong sign), the
-motion is mirrored and a left foot looks like a right foot. That is reported as exchanged feet; such data is also wrong.
-"""
+motion is mirrored and a left foot looks like a right foot. That wrong data is also reported as exchanged feet."""
 
 from __future__ import annotations
 
@@ -61,9 +60,13 @@ MAX_CENTRES = 40
 MEAN_SPAN = 24.0
 """Number of strides of one foot that the running means cover."""
 MIN_STRIDES = 8
-"""Least number of strides of each foot before anything is reported."""
+"""Least number of strides of each foot before exchanged feet are reported."""
 ROLL_LIMIT, CENTRE_LIMIT = 0.02, 0.002
-"""Limits above which the feet look exchanged: roll, rad, and movement of the centre of pressure, m."""
+"""Limits of the two means in `SwapEvidence` above which the feet look exchanged: roll, rad, and centre, m."""
+AXIS_WEIGHT = 0.2
+"""Weight of one stride in the low-pass filter of the axis to the left."""
+MIN_CENTRES = 6
+"""Least number of values of the centre of pressure in a stance that counts."""
 
 
 @define
@@ -91,10 +94,10 @@ class RunningAverage:
 
 @define
 class SwapEvidence:
-    """The evidence that a device is worn on the other foot; positive values support it."""
+    """The evidence that the device of a foot is worn on the other foot; positive values support an exchange."""
 
     roll: RunningAverage = field(factory=RunningAverage)
-    """Inward roll of the foot at heel-strike minus its mean over the swing, rad."""
+    """Inward roll of the foot at heel-strike minus its mean inward roll over the swing, rad."""
     centre: RunningAverage = field(factory=RunningAverage)
     """Outward movement of the centre of pressure before toe-off, m."""
     mirrored: bool = False
@@ -104,7 +107,7 @@ class SwapEvidence:
     left_axis: Vec3 | None = None
     """Unit vector to the left, the axis of the foot's turn over its toes, sensor frame; None before any stride."""
     turn_integral: RateIntegral = field(factory=RateIntegral)
-    """Integral of the angular rate over the last stride."""
+    """Integral of the angular rate over the stride under way."""
     centre_at: float | None = None
     """Time of the newest value of the centre of pressure, s."""
     centre_ys: list[float] = field(factory=list)
@@ -135,7 +138,7 @@ class Sides:
                 side.turn_integral.keep_newest()
             elif isinstance(event, ToeOff) and side.centre_ys:
                 evidence_changed = True
-                _add_contact(side, is_left)
+                _add_stance(side, is_left)
         if not evidence_changed:
             return False
         layout = view.after.layout
@@ -195,36 +198,32 @@ def _add_landing(side: SwapEvidence, stride: StrideTaken, up: Vec3) -> None:
     times = rate_integral.times()
     if not times or times[0] > t_toe_off - PUSH_OFF_TIME:
         return
-    toe_off_index, heel_strike_index = (
-        bisect_right(times, t_toe_off + TIME_TOLERANCE),
-        bisect_right(times, t_heel_strike + TIME_TOLERANCE),
-    )
+    toe_off_index = bisect_right(times, t_toe_off + TIME_TOLERANCE)
+    heel_strike_index = bisect_right(times, t_heel_strike + TIME_TOLERANCE)
     if heel_strike_index - toe_off_index < MIN_INSTANTS:
         return
     *_, push_off_turn = rate_integral.turns_between(
         bisect_right(times, t_toe_off - PUSH_OFF_TIME + TIME_TOLERANCE) - 1, toe_off_index
     )
     *_, landing_turn = rate_integral.turns_between(heel_strike_index - 1, len(times))
-    if hypot(*push_off_turn) < MIN_PUSH_OFF_TURN or hypot(*landing_turn) > hypot(
-        *push_off_turn
-    ):  # the second condition: walking backwards
+    turn_angle = hypot(*push_off_turn)
+    if turn_angle < MIN_PUSH_OFF_TURN or hypot(*landing_turn) > turn_angle:  # the second condition: walking backwards
         return
-    k = 1.0 / hypot(*push_off_turn)
+    k = 1.0 / turn_angle
     x, y, z = push_off_turn
     axis = (k * x, k * y, k * z)
     if side.left_axis is not None:
         u, v, w = side.left_axis
-        axis = (u + 0.2 * (axis[0] - u), v + 0.2 * (axis[1] - v), w + 0.2 * (axis[2] - w))
+        axis = (u + AXIS_WEIGHT * (axis[0] - u), v + AXIS_WEIGHT * (axis[1] - v), w + AXIS_WEIGHT * (axis[2] - w))
     side.left_axis = axis
     forward = _forward_axis(axis, up)
     if forward is None:
         return
     a, b, c = forward
-    angles = [
-        a * x + b * y + c * z for x, y, z in rate_integral.turns_between(toe_off_index, heel_strike_index)
-    ]  # positive: the left edge rises
-    outwards = sum(angles) / len(angles) - angles[-1]
-    side.roll.add(-outwards if stride.foot is Foot.LEFT else outwards)
+    turns = rate_integral.turns_between(toe_off_index, heel_strike_index)
+    angles = [a * x + b * y + c * z for x, y, z in turns]  # positive: the left edge rises
+    leftward = sum(angles) / len(angles) - angles[-1]
+    side.roll.add(-leftward if stride.foot is Foot.LEFT else leftward)
 
 
 def _forward_axis(left: Vec3, up: Vec3) -> Vec3 | None:
@@ -248,12 +247,12 @@ def _add_centre(side: SwapEvidence, t: float, centre: tuple[float, float] | None
         del side.centre_ys[: MAX_CENTRES // 2]
 
 
-def _add_contact(side: SwapEvidence, is_left: bool) -> None:
+def _add_stance(side: SwapEvidence, is_left: bool) -> None:
     """Add the lateral movement of the centre of pressure from the middle of the finished stance to its end."""
     ys, side.centre_ys = side.centre_ys, []
     n = len(ys)
-    if n < 6:
+    if n < MIN_CENTRES:
         return
     middle_values, end_values = ys[n // 3 : n - n // 3], ys[n - n // 6 :]
-    left = sum(end_values) / len(end_values) - sum(middle_values) / len(middle_values)
-    side.centre.add(left if is_left else -left)
+    leftward = sum(end_values) / len(end_values) - sum(middle_values) / len(middle_values)
+    side.centre.add(leftward if is_left else -leftward)

@@ -33,7 +33,7 @@ class WearSettings:
     """The settings of `Wear`."""
 
     steps: int = 3
-    """Number of strides that the other foot takes after the last sample of a foot before that foot is silent."""
+    """Number of strides of the other foot, since the last sample of a foot, from which that foot is silent."""
     seconds: float = 3.0
     """Least time since the last sample of a foot before that foot is silent, s."""
 
@@ -43,9 +43,10 @@ class Wear(Part):
     """Detects a silent foot and exchanged feet from the samples of both feet.
 
     A foot that had samples is silent when, since its last sample, the other foot has taken `steps` strides and
-    `seconds` have passed. FootSilent reports that; FootResumed comes with the foot's next sample. Nothing is reported
-    while the wearer stands, or for a foot that never had a sample, because a recording may be of one foot. Recipes of
-    two feet continue with the other foot. FeetSwapped is reported once, when `Sides` detects exchanged feet."""
+    `seconds` have passed. FootSilent reports the silence; FootResumed comes with the foot's next sample. Nothing is
+    reported while the wearer stands, or for a foot that never had a sample, because a recording may be of one foot.
+    Recipes of two feet continue with the other foot. FeetSwapped is reported once, when `Sides` detects exchanged
+    feet."""
 
     needs_samples: ClassVar[bool] = True
 
