@@ -1,7 +1,7 @@
 """Double-foot position calibration: the strides of both feet calibrate each other (recipe kupt-dfpc).
 
 "Smart insole-based indoor localization system for Internet of Things applications", IEEE Internet of Things Journal 6,
-2019, section III.C.4: similarity r of two steps (9), error index EI (10, from the corrector), coefficient (11),
+2019, section III.C.4: similarity r of two strides (9), error index EI (10, from the corrector), coefficient (11),
 calibrated stride length (12), choice of the foot (13). The paper's step of one foot is called a stride here.
 
 The paper leaves these points open:
@@ -12,7 +12,7 @@ The paper leaves these points open:
 - A stride without a normal partner keeps its own length: the coefficient is 1. So does an abnormal stride (which has no
   error index). The same holds for r = 0 and for an undefined r, when a path of the centre of pressure is constant or
   unknown: (11) tends to 1 as r goes to 0.
-- A half stride and a whole one are not similar: fig. 11 has low similarities at the first and the last step of a walk.
+- A half stride and a whole one are not similar: fig. 11 has low similarities at both ends of a walk.
   Paths of the centre of pressure here end at toe-off, too early to show that a stride is the last one of a walk. So
   r = 0 if one stride is shorter than `LENGTH_RATIO` of the other.
 - (11) is computed in the equivalent form EI_other / (EI_other + r EI_own). Its denominator is zero only if both error
@@ -209,7 +209,7 @@ class DoubleFoot(TrackPart):
         other_path.other_strides = min(other_path.other_strides + 1, ABSENT_STRIDES)
 
     def _choose(self, foot: Foot) -> Foot:
-        """Choose the foot whose path is the wearer's now, by the sign of (13)."""
+        """Choose the foot whose path is the wearer's now: by the sign of (13), unless that foot is absent."""
         chosen = self.chosen or foot
         if self.chosen is not None and self.error_balance != 0.0:
             chosen = Foot.RIGHT if self.error_balance > 0.0 else Foot.LEFT

@@ -196,7 +196,6 @@ def fit_modes(
 
 
 def _touchdown_index(mark: ModeMark, downs: list[TouchedDown]) -> int:
-    """Return the index in `downs` of a mark's touchdown."""
     foot_indices = [k for k, down in enumerate(downs) if down.foot is mark.foot]
     if mark.t is not None:
         candidates = [(abs(downs[k].t - mark.t), k) for k in foot_indices if abs(downs[k].t - mark.t) <= MARK_TOLERANCE]
