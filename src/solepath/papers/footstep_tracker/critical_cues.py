@@ -21,7 +21,7 @@ class CriticalCues(Cues):
     """Reports gait events at the critical times of a stride.
 
     Latency: all four are known when the static zone that ends the stride is detected, `loose_length` s after foot-flat
-    (static_zones.py); toe-off, some 0.6 s after it happened. A foot with pressure cells only uses `PressureCues`."""
+    (static_zones.py); toe-off, some 0.6 s after it happened. `PressureCues` handles a foot that has only an insole."""
 
     pressure: PressureCues = field(factory=PressureCues)
 

@@ -16,7 +16,7 @@ a_y = g sin(theta) and a_z = -g cos(theta), so that a_y cos(theta) + a_z sin(the
   starts to rise (g_x from negative to positive), and in phase 4 "the instep [moves] downward" (g_x negative again). So
   liftoff is the first crossing between the heel's fastest rise and the toe's fastest rise. Landing is the last crossing
   after the start of the toe's last rise. There g_x is at most `RATE_DEAD_BAND`, and the rise ended at most
-  `LONGEST_LANDING_DELAY` before, because the shoe goes on shaking. If a_y has no such crossing (at 20 Hz a heel-strike
+  `LONGEST_LANDING_DELAY` earlier, since the shoe goes on shaking. If a_y has no such crossing (at 20 Hz a heel-strike
   falls between two samples; a sensor on the instep lags behind its shoe), liftoff is the start of the toe's first rise,
   and landing is the end of its last rise.
 
@@ -110,7 +110,7 @@ def _liftoff(rows: Sequence[Row], fastest_heel: int, start: int, fastest_toe: in
 
 
 def _landing(rows: Sequence[Row], start: int, end: int) -> float:
-    """Return the landing, s, searched from the end: a_y(t - 1) > 0, a_y(t) < 0; `start` and `end` are of the rise."""
+    """Return the landing, s, searched from the end: a_y(t - 1) > 0, a_y(t) < 0; `start`, `end`: the toe's last rise."""
     toe_rise_end = _crossing(rows, end, 4, 0.0) if end < len(rows) else rows[-1][0]
     for i in range(len(rows) - 1, start, -1):
         if rows[i - 1][2] > 0.0 > rows[i][2] and rows[i][4] <= RATE_DEAD_BAND:

@@ -98,7 +98,7 @@ class Footsteps(TrackPart):
         this.has_samples = True
         turn = taken.heading_change
         heading = 0.5 * (this.heading + other.heading)
-        # the chord of the stride is half of its turn ahead in the own heading, but a quarter ahead in the mean of both
+        # the chord lies halfway through the turn: half of `turn` by the own heading, a quarter by the mean of both feet
         x, y = _rotate((taken.displacement[0], taken.displacement[1]), heading - this.own_heading - 0.25 * turn)
         this.own_heading += turn
         this.heading += turn

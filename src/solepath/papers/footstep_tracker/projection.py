@@ -40,6 +40,8 @@ LONGEST_STRIDE = 3.0
 """Length of the longest stride, m."""
 STRIDE_ERROR, TURN_ERROR, MOST_TURN_ERRORS = 0.1, 0.05, 1000
 """Error of a stride as a share of its length (figure 11), error of its turn, rad, and largest number of such errors."""
+LONGEST_LEVELLING = 0.1
+"""Longest time by which one sample at rest advances the levelling, s."""
 UNSEEN_DISTANCE = 1.0
 """Distance assumed to be walked in a gap that is not integrated, m."""
 
@@ -123,7 +125,7 @@ class Projection(Strapdown):
         elif self.settings.as_printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT_RATE:
             self.attitude = self.rest_attitude
         self.position, self.velocity = self.rest_position, ZERO
-        self._level(min(self.moving_time, 0.1))
+        self._level(min(self.moving_time, LONGEST_LEVELLING))
         self.rest_attitude, self.moving_time = self.attitude, 0.0
         return True
 

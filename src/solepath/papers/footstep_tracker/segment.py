@@ -41,8 +41,8 @@ class FootAxes:
     """Learns the foot's axes, x right and y forward, as unit vectors in the frame of a sensor in any mounting.
 
     Up is the direction of the specific force of a foot at rest. Right is the axis about which the heel's rise at the
-    start of a stride is a negative rotation. Forward is the foot's long axis, the paper's d_f, which the toe-out angle
-    turns from the direction of walking."""
+    start of a stride is a negative rotation. Forward is the foot's long axis, the paper's d_f, which is turned from the
+    direction of walking by the toe-out angle."""
 
     right: Vec3 | None = field(default=None, init=False)
     """Learnt axis to the right, sensor frame; None before the first stride."""

@@ -1,8 +1,8 @@
 """Snake game on the floor plan, after Liu et al. 2015 (IEEE MASS), section IV.E and figure 14.
 
-The paper has traces of the wearer's path, which are rows here (body/place/rows.py). At all stairs and elevators of the
-plan rows start in evenly spaced headings. Each row moves with every stride of the track, and those that run into a wall
-are dropped. The last one left is the wearer's.
+The paper has traces of the wearer's path, which are rows here (body/place/rows.py). Rows start at all stairs and
+elevators of the plan, in evenly spaced headings. Each row moves with every stride of the track, and those that run into
+a wall are dropped. The last one left is the wearer's.
 
 The paper has no more detail. A track errs by some per cent in length and by some degrees in each turn, so even the
 right row would run into a wall before long. Therefore the heading and stretch of each row vary a little at random from
@@ -47,7 +47,7 @@ class SnakeGame(Placing):
         return (0.0, 0.0, 0.0, float(k % 3 - 1))
 
     def thin(self, rows: list[Row], count: int) -> list[Row]:
-        """Return about `count` rows: merge those that are nearly equal, then resample by weight, also to more rows."""
+        """Return about `count` rows: merge those that are nearly equal, then draw by weight, perhaps repeatedly."""
         merged = merge_rows(rows) if len(rows) > count else rows
         return merged if MERGED_SHARE * count < len(merged) <= count else resample_rows(merged, count, 0.5)
 

@@ -10,7 +10,7 @@ points are open in the paper, or are changed because the paper's rule would find
 - Such an accelerometer has an offset of up to 125 mg and a scale within 3 % (KXTJ9), so its error at rest is mostly
   offset. The offset is removed along the axis that is vertical at rest. Other recipes correct the error as a scale.
 - Six samples span five intervals: `length`. At higher rates the mean over `MEAN_TIME` takes the place of the paper's
-  sample. For single samples (128 Hz, foot standing on a treadmill) are off by more than 0.5 m/s^2 in one case of ten.
+  sample. Of the single samples of a foot that stands on a treadmill, at 128 Hz, a tenth is off by more than 0.5 m/s^2.
 - Figure 7 has a static zone in every stride, but many feet do not lie still for six samples. Above some 1.3 m/s a foot
   is flat for less time, and on a hard floor or in a soft shoe it rolls all the time. So a zone is also detected when
   samples lie within `loose_within` for `loose_length` while the foot hardly turns (`low_rate`, not in the paper).
@@ -70,7 +70,7 @@ class StaticRun:
     """Mean specific force of the run, m/s^2."""
 
     def add(self, t: float, acc: Vec3, within: float) -> None:
-        """Add one row with its specific force; it starts another run unless all axes are near the mean, m/s^2."""
+        """Add one row with specific force `acc`; it starts another run unless all axes are near the mean, m/s^2."""
         ax, ay, az = acc
         x, y, z = self.mean
         if self.since is not None and abs(ax - x) <= within and abs(ay - y) <= within and abs(az - z) <= within:

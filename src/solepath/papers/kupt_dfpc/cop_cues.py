@@ -9,7 +9,7 @@ and B of the figure), stays there in the air, and jumps to the heel when the foo
 - Heel-strike (D) is the sample after the largest jump between swing and motion end.
 - A swing is normal if the CoP stayed at the foot's centre for `REST_TIME` s. A stride without a normal swing is
   abnormal (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases follow one another
-  without a heel-strike. It has no `mark` for one, so it does not calibrate anything.
+  without a heel-strike. It has no mark of one, so it does not calibrate anything.
 
 The inertial cues are used while the load is unknown, that is until it has fallen and risen once. A foot that slides
 away without leaving the ground has its toe-off where it became fast, if it stays fast for `SHUFFLE_TIME`. The table of

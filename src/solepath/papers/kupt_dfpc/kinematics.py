@@ -39,7 +39,7 @@ FLAT_TIME = 0.05
 LEAST_HEEL_RISE = 0.35
 """Least tilt of the foot in a push-off from which the direction of the toes is learnt, rad."""
 SWING_BACK_SHARE = 0.8
-"""Share of the largest squared sine of the tilt below which a sample of a push-off does not count."""
+"""Share of the largest squared sine of the tilt in a push-off below which the foot swings back and does not count."""
 MOST_MISFITS, FOLLOW_SHARE, MISFIT_COSINE = 3, 0.2, 0.5
 """Number of consecutive misfits that replace the direction of the toes, weight of a push-off, and cosine of 60 degrees.
 
@@ -136,9 +136,7 @@ class Sagittal:
             self.forward = (nx / level, ny / level)
 
     def add_lift_sample(self, attitude: Quat) -> None:
-        """Add one sample of a push-off, in which the heel lifts.
-
-        Tilts that are clearly smaller than the largest so far do not count: the foot then swings back."""
+        """Add one sample of a push-off, in which the heel lifts; see `SWING_BACK_SHARE`."""
         if self.up is None:
             return
         x, y, z = _up(attitude)

@@ -272,7 +272,7 @@ class ContourVelocity(Detector):
         self.load_phase, self.evidence_t, self.speed = load_phase, t, speed
 
     def _end_landing(self, t: float) -> None:
-        """Keep the slowest speed of the contact of the heel that has ended, and discard the contours."""
+        """End a contact of the heel: keep its slowest speed, and discard the contours."""
         if self.still_t is not None and self.slowest_speed is not None and t - self.landed_t < LONGEST_STANCE:
             self.levels = (*self.levels[1 - KEPT_STANCES :], self.slowest_speed)
         self.standing, self.still_t, self.slowest_speed = False, None, None

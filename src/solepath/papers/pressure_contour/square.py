@@ -187,8 +187,8 @@ def fit_drift(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], to_dri
 def check_laps(drift: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]]) -> None:
     """Raise CalibrationError unless the laps are laps of a square.
 
-    The mean distance of the marks from one lap to the next must be at most what `LARGEST_DRIFT` and `CLOSURE_SHARE` add
-    up to, and the drift at most `LARGEST_DRIFT`."""
+    The mean distance of the marks from one lap to the next must be at most `LARGEST_DRIFT` times the lap's duration
+    plus `CLOSURE_SHARE` times the diagonal, and the drift at most `LARGEST_DRIFT`."""
     marks = [
         np.array([(t, x, y) for t, (x, y, _) in mark_visits]) for mark_visits in visits.values() if len(mark_visits) > 1
     ]

@@ -168,7 +168,7 @@ class Modes(TrackPart):
         return events + self._resolve_pending(t, known_at)
 
     def _is_alone(self, foot: Foot, t: float) -> bool:
-        """Return whether the other foot never sent samples while this one took strides, or is lost."""
+        """Return whether the other foot is lost, or has sent no samples while this one took strides."""
         other = OTHER[foot]
         if other not in self.signs.states:
             return self.signs.evidence[foot].stride_count >= MOST_STRIDES_WITHOUT_SIGN

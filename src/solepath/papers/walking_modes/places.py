@@ -25,7 +25,7 @@ from .touchdown import displace, v_change
 FIRST_DISTANCE = 1.5
 """Distance, m, from the start to the middle between the feet, from which on the first heading is final."""
 LEAST_DIRECTION = 0.15
-"""Length of the sum of both feet's unit vectors below which they are opposite and show no direction of walking."""
+"""Length of the sum of both feet's unit vectors below which they are nearly opposite and show no direction."""
 CLEAR_DISTANCE = 0.15
 """Distance, m, by which one foot must be further from the start than the other for it to have stepped first."""
 LEAST_HEADING_DISTANCE = 0.075

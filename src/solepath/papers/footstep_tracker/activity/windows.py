@@ -37,7 +37,7 @@ gait."""
 LEAST_FORCE = 1.0
 """Length of a window's mean specific force below which it does not show the direction of gravity, m/s^2."""
 QUICK_SHARE, SLOW_SHARE = 0.5, 0.05
-"""Weight of a window in the mean of standing: the least one directly after a movement, and the least one of all."""
+"""Least weight of a window in the mean of standing: directly after a movement, and at other times."""
 
 
 @frozen
