@@ -149,7 +149,7 @@ class CorrectorHarness(FootHarness):
         for name, value in (("position", position), ("velocity", velocity)):
             if len(value) != 3 or not _all_finite(value):
                 yield f"{name} is three finite numbers, not {value}"
-        if not abs(w * w + x * x + y * y + z * z - 1.0) < 2.0 * LENGTH_TOLERANCE:
+        if not abs(w * w + x * x + y * y + z * z - 1.0) < 2.0 * LENGTH_TOLERANCE:  # the square errs twice as much
             yield f"attitude is a unit quaternion, not {(w, x, y, z)}"
         if (
             len(covariance) != 7

@@ -25,9 +25,7 @@ from ..types.vector import IDENTITY
 from .harness import harness_for
 
 LARGEST_STATE_GROWTH = 1.5
-"""Ratio of the largest state in the second half of the samples to that in the first half, above which it grows forever.
-
-Chosen by hand."""
+"""Ratio of the second half's largest state to the first half's above which a state grows forever; chosen by hand."""
 
 
 def broken(
@@ -104,7 +102,7 @@ def _changed_fields(part: Any, restored: Any) -> Iterator[str]:
 
 
 def _run_measured(harness: Any, samples: Sequence[Sample]) -> tuple[list[Any], int]:
-    """Return the outputs and the largest number of values in the state, which is counted about a hundred times."""
+    """Return the outputs, and the largest number of values in the state, counted at about a hundred samples."""
     outputs, largest_size, interval = [], 1, max(1, len(samples) // 100)
     for k, sample in enumerate(samples):
         outputs.append(harness.feed(sample))

@@ -232,10 +232,8 @@ def test_a_rolling_velocity_far_from_one_that_was_zero_a_moment_ago_is_not_used(
     """Raw means are 0.05 and 0.15 m/s: no integration goes wrong by half a metre per second within 0.2 s, but a foot
     that has left the ground, or slides, does not roll."""
     step = ((rolling_stance(v, Phase.PUSH_OFF), None), (rolling_stance(v, Phase.PUSH_OFF), None), *STEP[2:])
-    corrector, plain = (
-        corrector_after(new_corrector(), step),
-        corrector_after(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step),
-    )
+    corrector = corrector_after(new_corrector(), step)
+    plain = corrector_after(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step)
     assert corrector.error_index is None
     assert corrector.position == pytest.approx(plain.position, abs=1e-12)
     live = corrector_after(new_corrector(), step[:2])
@@ -259,10 +257,8 @@ def test_a_heel_that_slides_first_is_compared_once_it_rolls() -> None:
 @pytest.mark.parametrize("left_out", [Cue.CLEAR, Cue.CONTACT])
 def test_a_step_without_both_marks_loses_a_line_over_its_whole_time(left_out: Cue) -> None:
     step = tuple((stance, None if cue is left_out else cue) for stance, cue in STEP)
-    corrector, plain = (
-        corrector_after(new_corrector(), step),
-        corrector_after(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step),
-    )
+    corrector = corrector_after(new_corrector(), step)
+    plain = corrector_after(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step)
     # raw way 0.32, velocity 0.8 gathered evenly over 0.8 s: 0.32 - 0.8 x 0.4 = 0
     assert corrector.position == pytest.approx(plain.position, abs=1e-12)
     assert corrector.position[0] == pytest.approx(0.0, abs=1e-12)
@@ -296,10 +292,8 @@ def test_heights_lose_a_line_over_the_whole_motion_unless_vertical_is_set() -> N
     up = tuple(
         (Stance((0.1, 0.0, 0.3), 0.1, 0.0, stance.hint) if stance.sigma == 0.1 else stance, cue) for stance, cue in STEP
     )
-    plain, known = (
-        corrector_after(new_corrector(), up),
-        corrector_after(SwingDedrift(SwingSettings(slide_time=0.0, tilt_rate=0.0, vertical=True)), up),
-    )
+    plain = corrector_after(new_corrector(), up)
+    known = corrector_after(SwingDedrift(SwingSettings(slide_time=0.0, tilt_rate=0.0, vertical=True)), up)
     assert plain.position[2] == pytest.approx(0.0, abs=1e-12)
     assert known.position[2] > 0.05
     assert plain.position[:2] == known.position[:2]

@@ -1,7 +1,7 @@
 """Cues for heel-off, toe-off, heel-strike and foot-flat at the critical times of a stride (Liu et al. 2015, IEEE MASS).
 
 Algorithm 1 gives the critical times. The detector that cuts the samples into strides (static_zones.StaticZones) passes
-on all four at once. A foot that lies still again without a swing has taken no stride; it gives foot-flat alone."""
+on all four at once. After a motion without a swing only foot-flat is reported."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class CriticalCues(Cues):
     """Reports gait events at the critical times of a stride.
 
     Latency: all four are known when the static zone that ends the stride is detected, `loose_length` s after foot-flat
-    (static_zones.py). Toe-off is known some 0.6 s after it happened. `PressureCues` handles an insole alone."""
+    (static_zones.py); toe-off, some 0.6 s after it happened. `PressureCues` handles a foot that has only an insole."""
 
     pressure: PressureCues = field(factory=PressureCues)
 

@@ -15,10 +15,10 @@ a_y = g sin(theta) and a_z = -g cos(theta), so that a_y cos(theta) + a_z sin(the
   feet it crosses several times as the shoe bounces. Figure 8 shows which crossing is meant: phase 3 starts when the toe
   starts to rise (g_x from negative to positive), and in phase 4 "the instep [moves] downward" (g_x negative again). So
   liftoff is the first crossing between the heel's fastest rise and the toe's fastest rise. Landing is the last crossing
-  during or after the last rise of the toe at which g_x is at most `RATE_DEAD_BAND`. It is at most
-  `LONGEST_LANDING_DELAY` after the end of that rise, because the shoe goes on shaking. Where a_y has no such crossing
-  (at 20 Hz a heel-strike falls between two samples; a sensor on the instep lags behind its shoe), the crossing of g_x
-  itself is taken.
+  after the start of the toe's last rise. There g_x is at most `RATE_DEAD_BAND`, and the rise ended at most
+  `LONGEST_LANDING_DELAY` earlier, since the shoe goes on shaking. If a_y has no such crossing (at 20 Hz a heel-strike
+  falls between two samples; a sensor on the instep lags behind its shoe), liftoff is the start of the toe's first rise,
+  and landing is the end of its last rise.
 
 Numbers without a source were chosen by hand."""
 
@@ -29,7 +29,7 @@ from collections.abc import Sequence
 from ...types.attrs import frozen
 
 Row = tuple[float, float, float, float, float, float, float]
-"""Time t (s), a_x, a_y, a_z (m/s^2), g_x, g_y, g_z (rad/s), in the paper's axes."""
+"""Time t (s), a_x, a_y, a_z (m/s^2), g_x, g_y, g_z (rad/s), in the paper's axes unless another frame is named."""
 
 RATE_DEAD_BAND = 0.2
 """Dead band of g_x about zero, rad/s."""
@@ -110,7 +110,7 @@ def _liftoff(rows: Sequence[Row], fastest_heel: int, start: int, fastest_toe: in
 
 
 def _landing(rows: Sequence[Row], start: int, end: int) -> float:
-    """Return the landing, s, searched from the end: a_y(t - 1) > 0, a_y(t) < 0, at most LONGEST_LANDING_DELAY late."""
+    """Return the landing, s, searched from the end: a_y(t - 1) > 0, a_y(t) < 0; `start`, `end`: the toe's last rise."""
     toe_rise_end = _crossing(rows, end, 4, 0.0) if end < len(rows) else rows[-1][0]
     for i in range(len(rows) - 1, start, -1):
         if rows[i - 1][2] > 0.0 > rows[i][2] and rows[i][4] <= RATE_DEAD_BAND:

@@ -2,11 +2,11 @@
 
 "Double feet based calibration": "If the difference of displacement for each foot is more than one meter, we chose the
 mean of them as the displacement, and restart the estimation process." Each foot's displacement is the sum of its
-strides since the last restart. Each stride is laid in the common direction, the mean of both feet's turns (section
-IV.D). The paper leaves these points open:
+strides since the last such restart. Strides are turned into the common heading, the mean of both feet's headings
+(section IV.D). The paper leaves these points open:
 
-- Before a restart, too, the wearer is at the mean of both paths. So a restart does not move the wearer. It sets the
-  difference to zero, so that old strides no longer count in it.
+- The wearer is at the mean of both paths at all times, so a restart does not move the wearer. It sets the difference
+  to zero, so that old strides no longer count in it.
 - After a stride the foot is half a stride ahead of the other, so the difference of the paths alternates. Therefore the
   mean of the difference after the newest left stride and that after the newest right stride is compared with 1 m.
 - A foot that took no stride while the other took `ABSENT_STRIDES` is absent: it counts as if it had moved with the
@@ -32,7 +32,7 @@ LARGEST_DISTANCE = 1.0
 ABSENT_STRIDES = 3
 """Number of strides of the other foot after which a foot without a stride is absent."""
 
-Flat = tuple[float, float]
+Horizontal = tuple[float, float]
 """Horizontal vector, m."""
 
 
@@ -42,19 +42,19 @@ class FootPath:
 
     has_samples: bool = False
     """Flag: samples of the foot have come."""
-    displacement: Flat = (0.0, 0.0)
+    displacement: Horizontal = (0.0, 0.0)
     """Displacement since the last restart, m."""
     heading: float = 0.0
-    """Sum of the turns of the foot's strides and of those it is taken to have made while absent, rad, left positive."""
+    """Sum of the turns of the foot's strides and of those assumed while it is absent, rad, left positive."""
     own_heading: float = 0.0
     """Heading of the foot's own track, rad: the sum of the turns that were measured on this foot."""
-    lead_displacement: Flat = (0.0, 0.0)
+    lead_displacement: Horizontal = (0.0, 0.0)
     """Displacement since the other foot's last stride, m."""
     lead_turn: float = 0.0
     """Turn since the other foot's last stride, rad."""
     lead_strides: int = 0
     """Number of strides since the other foot's last stride."""
-    difference: Flat = (0.0, 0.0)
+    difference: Horizontal = (0.0, 0.0)
     """Left foot's displacement minus the right foot's after the newest stride of this foot, m."""
     track_position: Vec3 = ZERO
     """Position of this foot by its own track after its newest stride, world frame, m."""
@@ -64,13 +64,13 @@ class FootPath:
 class Footsteps(TrackPart):
     """Tracks the wearer by the strides of both feet.
 
-    Between strides the position moves by half of what each foot's track has moved since that foot's last stride. World
-    frame, height 0. Latency: that of the strides."""
+    Between strides the position moves by the mean of what the tracks of the feet that are not absent have moved since
+    their last strides. World frame, height 0. Latency: that of the strides."""
 
     needs_samples: ClassVar[bool] = True
 
     paths: dict[Foot, FootPath] = field(init=False)
-    restart_position: Flat = field(default=(0.0, 0.0), init=False)
+    restart_position: Horizontal = field(default=(0.0, 0.0), init=False)
     """Position of the wearer at the last restart, m."""
     idle: bool = field(default=False, init=False)
     """Flag: samples of both feet have come, after which `feed` does nothing (`TrackPart`)."""
@@ -98,6 +98,7 @@ class Footsteps(TrackPart):
         this.has_samples = True
         turn = taken.heading_change
         heading = 0.5 * (this.heading + other.heading)
+        # the chord lies halfway through the turn: half of `turn` by the own heading, a quarter by the mean of both feet
         x, y = _rotate((taken.displacement[0], taken.displacement[1]), heading - this.own_heading - 0.25 * turn)
         this.own_heading += turn
         this.heading += turn
@@ -125,7 +126,7 @@ class Footsteps(TrackPart):
                 path.displacement = path.difference = (0.0, 0.0)
             self.restarts += 1
 
-    def _mean(self) -> Flat:
+    def _mean(self) -> Horizontal:
         (lx, ly), (rx, ry) = (path.displacement for path in self.paths.values())
         x, y = self.restart_position
         return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
@@ -152,6 +153,6 @@ class Footsteps(TrackPart):
         return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
 
 
-def _rotate(v: Flat, yaw: float) -> Flat:
+def _rotate(v: Horizontal, yaw: float) -> Horizontal:
     c, s = cos(yaw), sin(yaw)
     return (c * v[0] - s * v[1], s * v[0] + c * v[1])

@@ -6,7 +6,7 @@ stride_length.py has the equations for a stride's length and turn. The paper lea
 - The integrals do not hold for a stride with a gap longer than `LONGEST_GAP`. Such a stride ends where the live
   position is, minus the drift that the remaining velocity at rest implies.
 - A foot that pivots on its sole may seem to be in a static zone. Then its attitude follows the gyroscope.
-- `as_printed` uses the equations as they are printed, without any of these changes.
+- `as_printed` uses the equations without the changes of stride_length.py, and ignores pivots.
 
 Numbers without a source were chosen by hand."""
 
@@ -27,31 +27,35 @@ from .segment import StrideSegment
 from .stride_length import closed_stride_length, stride_length, swing_turn, vertical_turn
 
 LONGEST_GAP = 0.12
-"""Longest gap in a stride for which the integrals hold, s: two of the paper's samples."""
+"""Gap in a stride from which on the integrals do not hold, s: two of the paper's intervals and some tolerance."""
 LONGEST_MOTION = 2.0
 """Time without rest after which the live position is frozen until the next rest, s."""
 PIVOT_RATE = 0.15
 """Rate about the vertical above which a still foot pivots on its sole, rad/s."""
 RANGE_END_SHARE = 0.8
-"""Least ratio of the range's ends on different axes and sides. They differ because the bias is removed already."""
+"""Least ratio of the ends of the gyroscope's range on its axes, on either side; removing the bias has shifted them."""
 AXIS_SHARE = 0.95
-"""Least ratio of a rate about a foot axis to that about the sensor's axis, which is up to 15 degrees off."""
+"""Least ratio of a rate about an axis of the foot to the rate about the sensor's nearest axis, up to 15 degrees off."""
 LONGEST_STRIDE = 3.0
 """Length of the longest stride, m."""
-STRIDE_ERROR, TURN_ERROR = 0.1, 0.05
-"""Error of a stride as a share of its length (the paper's figure 11), and error of its turn, rad."""
+STRIDE_ERROR, TURN_ERROR, MOST_TURN_ERRORS = 0.1, 0.05, 1000
+"""Error of a stride as a share of its length (figure 11), error of its turn, rad, and largest number of such errors."""
+LONGEST_LEVELLING = 0.1
+"""Longest time by which one sample at rest advances the levelling, s."""
+UNSEEN_DISTANCE = 1.0
+"""Distance assumed to be walked in a gap that is not integrated, m."""
 
 
 @frozen
 class ProjectionSettings:
-    """Settings of `Projection`; phi of (1) is `outwards` times `toe_out`."""
+    """Settings of `Projection`; phi of (1) in stride_length.py is `outwards` times `toe_out`."""
 
     toe_out: float = 0.0
     """Toe-out angle phi of this foot, rad, outwards positive."""
     outwards: float = 1.0
     """Sign of the outward direction: 1 for a left foot, -1 for a right one."""
     as_printed: bool = False
-    """Flag: the equations are used as they are printed."""
+    """Flag: the equations for length and turn are used as they are printed."""
 
 
 @define
@@ -121,18 +125,17 @@ class Projection(Strapdown):
         elif self.settings.as_printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT_RATE:
             self.attitude = self.rest_attitude
         self.position, self.velocity = self.rest_position, ZERO
-        self._level(min(self.moving_time, 0.1))
+        self._level(min(self.moving_time, LONGEST_LEVELLING))
         self.rest_attitude, self.moving_time = self.attitude, 0.0
         return True
 
     def _end_stride(self, segment: StrideSegment) -> None:
-        """Move the foot, which lies still again, to the end of the stride."""
         x, y, _ = self.rest_position
         if segment.longest_gap >= LONGEST_GAP:
             x, y = self._dedrifted_end()
         elif segment.times is not None:
             x, y = self._stride_end(segment, segment.times)
-        # without critical times the foot turned on the spot or shook
+        # without critical times the foot turned on the spot or shook, so it stays in place
         x0, y0, _ = self.rest_position
         self.length += hypot(x - x0, y - y0)
         self.stride_count += 1
@@ -168,14 +171,14 @@ class Projection(Strapdown):
         return x0 + k * (x - x0), y0 + k * (y - y0)
 
     def repair(self, yaw: float, position: Vec3) -> None:
-        """Do nothing: `_dedrifted_end` ends a stride with a gap, and no other stride needs a repair."""
+        """Do nothing, because only strides with a gap need a repair, and `_dedrifted_end` ends those."""
 
     def bridge(self, dt: float) -> float:
         if dt <= LONGEST_BRIDGE:
             return dt
         self.velocity = ZERO
         self.force = self.rate = None
-        self.length += 1.0
+        self.length += UNSEEN_DISTANCE
         return 0.0
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
@@ -192,7 +195,7 @@ class Projection(Strapdown):
         x, y, _ = self.position
         x0, y0, _ = self.rest_position
         variance = (STRIDE_ERROR * (self.length + hypot(x - x0, y - y0))) ** 2
-        yaw = TURN_ERROR * TURN_ERROR * min(self.stride_count, 1000)
+        yaw = TURN_ERROR * TURN_ERROR * min(self.stride_count, MOST_TURN_ERRORS)
         return (variance, 0.0, 0.0, variance, 0.0, 0.0, yaw)
 
     def _level(self, dt: float) -> None:
@@ -200,5 +203,5 @@ class Projection(Strapdown):
         if self.force is None:
             return
         fx, fy, _ = self.force
-        share = 0.5 * dt / GRAVITY
+        share = 0.5 * dt / GRAVITY  # `tipped` takes half angles
         self.attitude = tipped(self.attitude, share * fy, -share * fx)

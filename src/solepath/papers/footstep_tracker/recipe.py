@@ -18,4 +18,4 @@ FOOTSTEP_TRACKER = Recipe(
     parts=usual_parts(Footsteps(), TwoSecondWindows()),
     place=SnakeGame(),
 )
-"""Liu et al. 2015: strides between static zones, projected onto the ground; turns; candidate traces on a floor plan."""
+"""Liu et al. 2015: strides between static zones, projected onto the ground; turns; activities; a floor-plan game."""

@@ -13,9 +13,11 @@ from ...types.vector import GRAVITY, ZERO
 from .critical_times import CriticalTimes, Row
 
 MOST_MISFITS = 3
-"""Number of consecutive strides about a different axis after which that axis replaces the learnt one."""
-LEAST_RISE = 0.25
-"""Least rotation of the foot while the heel rises from which the axis is learnt, rad."""
+"""Number of consecutive misfits (`FootAxes.misfits`) after which the newest axis replaces the learnt one."""
+MISFIT_COSINE = 0.5
+"""Cosine of the angle between a stride's axis and the learnt one from which on the stride is a misfit: 60 degrees."""
+LEAST_RISE, RISE_END_SHARE = 0.25, 0.7
+"""Least rotation in a heel's rise that shows the axis, rad, and share of its largest angle at which it has ended."""
 STRIDE_WEIGHT = 0.2
 """Weight of each stride in the learnt axis."""
 
@@ -36,19 +38,19 @@ class StrideSegment:
 
 @define
 class FootAxes:
-    """The mounting of the sensor: y forward and x to the right in the sensor frame, unit vectors.
+    """Learns the foot's axes, x right and y forward, as unit vectors in the frame of a sensor in any mounting.
 
-    Up is the direction of the specific force of a foot at rest. Right is the axis about which the heel rises at the
-    start of a stride. Forward is the foot's long axis, the paper's d_f. The toe-out angle lies between it and the
-    direction of walking. All this holds for any mounting of the sensor."""
+    Up is the direction of the specific force of a foot at rest. Right is the axis about which the heel's rise at the
+    start of a stride is a negative rotation. Forward is the foot's long axis, the paper's d_f, which is turned from the
+    direction of walking by the toe-out angle."""
 
     right: Vec3 | None = field(default=None, init=False)
     """Learnt axis to the right, sensor frame; None before the first stride."""
     misfits: int = field(default=0, init=False)
-    """Number of consecutive strides in which the heel rose about an axis more than 60 degrees off the learnt one."""
+    """Number of consecutive strides whose axis to the right is more than 60 degrees off the learnt one."""
 
     def add_segment(self, rows: Sequence[Row], up: Vec3) -> None:
-        """Add one segment in the sensor frame; `up` is the unit vector upwards while the foot rests."""
+        """Learn from the rows of one segment; `up` is the unit vector upwards at rest. All are in the sensor frame."""
         right = _rise(rows, up)
         if right is None:
             return
@@ -56,7 +58,7 @@ class FootAxes:
             self.right = right
             return
         (x, y, z), (u, v, w) = right, self.right
-        if u * x + v * y + w * z < 0.5:
+        if u * x + v * y + w * z < MISFIT_COSINE:
             self.misfits += 1
             if self.misfits < MOST_MISFITS:
                 return
@@ -66,7 +68,7 @@ class FootAxes:
         self.right = _unit((u + k * (x - u), v + k * (y - v), w + k * (z - w)))
 
     def axes(self, up: Vec3) -> tuple[Vec3, Vec3] | None:
-        """Return the axes (x, y) of a foot at rest whose unit vector upwards is `up`; None while they are not known."""
+        """Return the axes (right, forward) at rest, when `up` points upwards, sensor frame; None while unknown."""
         if self.right is None:
             return None
         right = _unit(_horizontal(self.right, up))
@@ -74,7 +76,7 @@ class FootAxes:
 
 
 def to_foot_axes(rows: Sequence[Row], right: Vec3, forward: Vec3, up: Vec3) -> tuple[Row, ...]:
-    """Convert rows from the sensor frame to the paper's axes, with the paper's sign of a_z."""
+    """Convert rows from the sensor frame, in which the axes are given, to the paper's axes with its sign of a_z."""
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = right, forward, up
     return tuple(
         [
@@ -88,16 +90,16 @@ def to_foot_axes(rows: Sequence[Row], right: Vec3, forward: Vec3, up: Vec3) -> t
 
 
 def scale_to_offset(rows: Sequence[Row], scale: float) -> tuple[Row, ...]:
-    """Return the rows with the error at rest removed as an offset of the vertical axis instead of by a scale factor.
+    """Return the rows without the factor `scale` of their accelerations, and with an offset of a_z in its place.
 
-    The accelerations of `rows` had been multiplied by `scale`, so that they read 1 g at rest."""
+    Either of them makes the specific force at rest 1 g. The rows are in the paper's axes."""
     k = 1.0 / scale
     offset = GRAVITY * (k - 1.0)
     return tuple([(t, k * ax, k * ay, k * az + offset, gx, gy, gz) for t, ax, ay, az, gx, gy, gz in rows])
 
 
 def _rise(rows: Sequence[Row], up: Vec3) -> Vec3 | None:
-    """Return the axis to the right from the segment's first rotation about a level axis, in which the heel rises."""
+    """Return the axis to the right, sensor frame, from the heel's rise: the first rotation about a level axis."""
     rotation, largest, axis = ZERO, 0.0, ZERO
     for before, row in zip(rows, rows[1:], strict=False):
         dt = row[0] - before[0]
@@ -106,8 +108,8 @@ def _rise(rows: Sequence[Row], up: Vec3) -> Vec3 | None:
         x, y, z = _horizontal(rotation, up)
         angle = sqrt(x * x + y * y + z * z)
         if angle > largest:
-            largest, axis = angle, (-x, -y, -z)
-        elif largest > LEAST_RISE and angle < 0.7 * largest:
+            largest, axis = angle, (-x, -y, -z)  # the heel rises about the axis to the left
+        elif largest > LEAST_RISE and angle < RISE_END_SHARE * largest:
             return _unit(axis)
     return None
 

@@ -1,13 +1,13 @@
 """Snake game on the floor plan, after Liu et al. 2015 (IEEE MASS), section IV.E and figure 14.
 
-A trace is one hypothesis of the wearer's path. Traces start at stairs and elevators: one from every place of that kind
-on the plan, in every heading. Each is extended with every stride of the track, and those that run into a wall are
-dropped. The last one left is the wearer's.
+The paper has traces of the wearer's path, which are rows here (body/place/rows.py). Rows start at all stairs and
+elevators of the plan, in evenly spaced headings. Each row moves with every stride of the track, and those that run into
+a wall are dropped. The last one left is the wearer's.
 
 The paper has no more detail. A track errs by some per cent in length and by some degrees in each turn, so even the
-right trace would run into a wall before long. Therefore the heading and length of each trace vary a little at random
-from stride to stride (sway.py). A trace that meets a wall is replaced by two that pass the wall on either side. They
-have less weight, and keep the heading with which they passed. Traces that have become nearly equal are merged.
+right row would run into a wall before long. Therefore the heading and stretch of each row vary a little at random from
+stride to stride (sway.py). A row that meets a wall is replaced by two that pass the wall on either side. They have less
+weight, and keep the heading with which they passed. Rows that have become nearly equal are merged.
 
 Numbers without a source were chosen by hand."""
 
@@ -24,32 +24,32 @@ from ...floorplan.plan import Point
 from ...types.attrs import define
 
 CELL_SIZE = 0.25
-"""Edge length of the square cells of one level, m: traces in one cell may be merged."""
+"""Edge length of the square cells of one level, m: rows in one cell may be merged."""
 HEADING_SECTOR = 0.03
-"""Width of the sectors of heading, rad: traces in one sector may be merged."""
-LENGTH_SHARE = 0.02
-"""Relative difference of the length scale up to which traces may be merged."""
+"""Width of the sectors of heading, rad: rows in one sector may be merged."""
+STRETCH_INTERVAL = 0.02
+"""Width of the intervals of the stretch, which is about 1: rows in one interval may be merged."""
+MERGED_SHARE = 0.8
+"""Least share of the requested number of rows that must be left for the merged rows to be kept as they are."""
 
 
 @define
 class SnakeGame(Placing):
-    """Keeps traces from every stairs and elevator, and drops those that cross walls until one is left."""
+    """Keeps rows from all stairs and elevators, and drops those that find no way past a wall until one is left."""
 
     def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float) -> list[Row]:
-        """Return the traces one move further, without those that cannot go there."""
         self.random = next_random(self.random)
-        extended = sway_rows(plan, rows, move, error_factor, turned, self.random, True)
+        extended = sway_rows(plan, rows, move, error_factor, turned, self.random, both_sides=True)
         max_rows = self.settings.max_rows
         return extended if len(extended) <= max_rows else self.thin(extended, max_rows)
 
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
-        """Return x, y, heading and stretch, each from -1 to 1, for the k-th of `count` new rows."""
         return (0.0, 0.0, 0.0, float(k % 3 - 1))
 
     def thin(self, rows: list[Row], count: int) -> list[Row]:
-        """Return about `count` rows: merge those that are nearly the same, then select by weight."""
+        """Return about `count` rows: merge those that are nearly equal, then draw by weight, perhaps repeatedly."""
         merged = merge_rows(rows) if len(rows) > count else rows
-        return merged if 0.8 * count < len(merged) <= count else resample_rows(merged, count, 0.5)
+        return merged if MERGED_SHARE * count < len(merged) <= count else resample_rows(merged, count, 0.5)
 
 
 def merge_rows(rows: list[Row]) -> list[Row]:
@@ -63,7 +63,7 @@ def merge_rows(rows: list[Row]) -> list[Row]:
             int(x // CELL_SIZE),
             int(y // CELL_SIZE),
             int(atan2(b, a) // HEADING_SECTOR),
-            int((a * a + b * b) // (2.0 * LENGTH_SHARE)),
+            int((a * a + b * b) // (2.0 * STRETCH_INTERVAL)),  # the square varies twice as much as the stretch
         )
         known_row = heaviest.get(key)
         if known_row is None:

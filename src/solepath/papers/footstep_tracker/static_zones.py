@@ -10,7 +10,7 @@ points are open in the paper, or are changed because the paper's rule would find
 - Such an accelerometer has an offset of up to 125 mg and a scale within 3 % (KXTJ9), so its error at rest is mostly
   offset. The offset is removed along the axis that is vertical at rest. Other recipes correct the error as a scale.
 - Six samples span five intervals: `length`. At higher rates the mean over `MEAN_TIME` takes the place of the paper's
-  sample, because of a standing foot's single samples at 128 Hz on a treadmill one in ten is off by more than 0.5 m/s^2.
+  sample. Of the single samples of a foot that stands on a treadmill, at 128 Hz, a tenth is off by more than 0.5 m/s^2.
 - Figure 7 has a static zone in every stride, but many feet do not lie still for six samples. Above some 1.3 m/s a foot
   is flat for less time, and on a hard floor or in a soft shoe it rolls all the time. So a zone is also detected when
   samples lie within `loose_within` for `loose_length` while the foot hardly turns (`low_rate`, not in the paper).
@@ -34,15 +34,15 @@ from .segment import FootAxes, StrideSegment, scale_to_offset, to_foot_axes
 LONGEST_GAP = 0.25
 """Gap in the samples, s, that ends a zone because the foot may have moved in it."""
 COARSEST_COUNT = 0.7
-"""Largest count of an accelerometer, m/s^2: 8 bits for +-8 g are 0.61."""
+"""Largest size of one count of an accelerometer, m/s^2: 8 bits for +-8 g are 0.61."""
 COARSE_COUNT = 0.1
-"""Count above which an accelerometer's error at rest is its offset, not its scale, m/s^2."""
+"""Size of one count from which on an accelerometer's error at rest is its offset, not its scale, m/s^2."""
 LONGEST_WALKING_STRIDE = 1.3
 """Longest stride from rest to rest at a usual or fast speed, s. Slow walkers take longer, but rest long enough."""
 RELAXED_SHARE = 0.4
-"""Share of `loose_length` required after `LONGEST_WALKING_STRIDE`; `loose_within` is then multiplied by 2 - 0.4."""
+"""Share s of `loose_length` required after `LONGEST_WALKING_STRIDE`; `loose_within` is then multiplied by 2 - s."""
 GRAVITY_TOLERANCE = 2.0
-"""Largest difference of a zone's mean from 1 g, m/s^2: offset and scale of cheap chips, an elevator that starts."""
+"""Largest difference of a zone's mean from 1 g, m/s^2: cheap chips err, and an elevator may start."""
 TIME_TOLERANCE = 1e-3
 """Largest deviation of fitted sample times from even spacing, s."""
 LONGEST_SEGMENT = 4.0
@@ -54,6 +54,8 @@ A row is the mean of two samples at 100 Hz and a single sample at 20 Hz. When th
 the older half are averaged."""
 KEPT_ZONE_TIME = 0.25
 """Time at the end of a zone that also belongs to the next segment, s."""
+MOST_AVERAGED = 64
+"""Number of rows of a run from which on its mean is a moving one, in which each row has weight 1/64."""
 
 
 @define
@@ -63,15 +65,16 @@ class StaticRun:
     since: float | None = None
     """Start of the run, s."""
     count: int = 0
+    """Number of rows, at most `MOST_AVERAGED`."""
     mean: Vec3 = ZERO
     """Mean specific force of the run, m/s^2."""
 
     def add(self, t: float, acc: Vec3, within: float) -> None:
-        """Add one row with its specific force, m/s^2. It starts another run unless every axis is near the mean."""
+        """Add one row with specific force `acc`; it starts another run unless all axes are near the mean, m/s^2."""
         ax, ay, az = acc
         x, y, z = self.mean
         if self.since is not None and abs(ax - x) <= within and abs(ay - y) <= within and abs(az - z) <= within:
-            self.count = min(self.count + 1, 64)
+            self.count = min(self.count + 1, MOST_AVERAGED)
             k = 1.0 / self.count
             self.mean = (x + k * (ax - x), y + k * (ay - y), z + k * (az - z))
         else:
@@ -184,10 +187,7 @@ class StaticZones(Detector):
         self.scale = scale
 
     def _learn_resolution(self, acc: Vec3) -> None:
-        """Learn the size of one count from the differences between two samples.
-
-        An axis that repeats a value shows that the readings are counts. The differences on the other axes are then
-        multiples of one count."""
+        """Learn the size of one count: if one axis repeats a value, the others differ by whole counts."""
         ax, ay, az = acc
         x, y, z = self.last_acc
         self.last_acc = acc
@@ -197,7 +197,6 @@ class StaticZones(Detector):
                     self.resolution = min(difference, COARSEST_COUNT)
 
     def _add_to_row(self, t: float, gap: float, acc: Vec3, gyro: Vec3) -> bool:
-        """Add a sample to the unfinished row, and return whether it completes the row."""
         if self.count == 0:
             self.row_t_start = t
             self.sums = (0.0, *acc, *gyro)
@@ -237,7 +236,6 @@ class StaticZones(Detector):
             self.low_rate_since = t
 
     def _is_static(self) -> bool:
-        """Return whether the foot has been still for long enough to be in a static zone."""
         t = self.rows[-1][0]
         if self.strict.duration(t) >= self.settings.length - TIME_TOLERANCE:
             return True

@@ -26,8 +26,8 @@ and signs are those of critical_times.py. The paper leaves these points open:
   foot is flat, and g_z cos(theta) + g_y sin(theta) in general. On four walks with surveyed strides, whose turns were
   178, 175, 1082 and 239 degrees, this gives 183, 200, 1092 and 295 from uplift to rest; (7) as printed gives 333, 352,
   875 and 644.
-- When the wearer turns back, a foot swings round at up to 570 degrees/s. That gyroscope then measures 105 degrees of a
-  turn of 160. Nothing at rest shows the clipped angle. It is estimated as the area between the end of the range and a
+- When the wearer turns back, a foot swings round at up to 570 degrees/s. The paper's gyroscope measures 105 degrees of
+  such a turn of 160. Nothing at rest shows the clipped angle. It is estimated as the area between the range's end and a
   cubic that leaves and reenters the range with the slopes of g_z. The estimate is 40 to 100 % of the clipped angle.
 - The integrals use the trapezoidal rule. Between two samples, where the critical times lie, signals are straight lines.
 
@@ -122,7 +122,7 @@ def vertical_turn(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -
 
 
 def clipped_turn(rows: Sequence[Row], end: float) -> float:
-    """Return the clipped turn, rad, left positive: the area under a cubic over each span of g_z beyond `end`, rad/s."""
+    """Return the clipped turn, rad, left positive: areas of cubics over the spans of g_z beyond `end`, rad/s."""
     total = 0.0
     i, n = 2, len(rows)
     while i < n - 2:

@@ -38,10 +38,10 @@ class ToeOut:
 
 
 def toe_out(items: Iterable[Packet | Sample], distance: float) -> list[ToeOut]:
-    """Return the toe-out of each foot with samples, from a straight walk of `distance` m.
+    """Return the toe-out of each foot with `FEWEST_STRIDES`, from a straight walk of `distance` m.
 
-    Raises CalibrationError when there are too few strides or the angle is too large for a foot, ValueError when the
-    distance is not positive and finite."""
+    Raises CalibrationError when there is no such foot or an angle is too large for a foot, ValueError when the distance
+    is not positive and finite."""
     if not (isfinite(distance) and distance > 0.0):
         raise ValueError(f"distance is {distance}")
     session = Session(FOOTSTEP_TRACKER)

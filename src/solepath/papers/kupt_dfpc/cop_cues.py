@@ -9,7 +9,7 @@ and B of the figure), stays there in the air, and jumps to the heel when the foo
 - Heel-strike (D) is the sample after the largest jump between swing and motion end.
 - A swing is normal if the CoP stayed at the foot's centre for `REST_TIME` s. A stride without a normal swing is
   abnormal (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases follow one another
-  without a heel-strike. It has no mark, so it does not calibrate anything.
+  without a heel-strike. It has no mark of one, so it does not calibrate anything.
 
 The inertial cues are used while the load is unknown, that is until it has fallen and risen once. A foot that slides
 away without leaving the ground has its toe-off where it became fast, if it stays fast for `SHUFFLE_TIME`. The table of
@@ -39,7 +39,7 @@ After the wait a heel-strike is reported even if the foot is not stationary yet.
 SHUFFLE_TIME = 0.25
 """Time, s, after which a foot that stays fast (InertialCues) without being in the air counts as swinging."""
 AREA_ON, AREA_OFF = 0.05, 0.03
-"""Loads for an insole alone, as shares of the full load (that of cells that bear the body, foot/pressure/insole.py).
+"""Loads for an insole alone, as shares of the full load.
 
 Foot-flat starts when both areas exceed the first, and lasts until one falls below the second."""
 LOAD_VALID_TIME = 0.05
@@ -142,7 +142,6 @@ class CopCues(Cues):
         return []
 
     def _add_load(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[TimedCue]:
-        """Return the cues of one sample with a load."""
         last_cop, last_t = self.cop, self.load_t
         self.load_t = t
         ground_cop = last_cop if load.centre is None else load.centre[0]

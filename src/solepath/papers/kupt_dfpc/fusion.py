@@ -1,7 +1,7 @@
 """Double-foot position calibration: the strides of both feet calibrate each other (recipe kupt-dfpc).
 
 "Smart insole-based indoor localization system for Internet of Things applications", IEEE Internet of Things Journal 6,
-2019, section III.C.4: similarity r of two steps (9), error index EI (10, from the corrector), coefficient (11),
+2019, section III.C.4: similarity r of two strides (9), error index EI (10, from the corrector), coefficient (11),
 calibrated stride length (12), choice of the foot (13). The paper's step of one foot is called a stride here.
 
 The paper leaves these points open:
@@ -12,7 +12,7 @@ The paper leaves these points open:
 - A stride without a normal partner keeps its own length: the coefficient is 1. So does an abnormal stride (which has no
   error index). The same holds for r = 0 and for an undefined r, when a path of the centre of pressure is constant or
   unknown: (11) tends to 1 as r goes to 0.
-- A half stride and a whole one are not similar: fig. 11 has low similarities at the first and the last step of a walk.
+- A half stride and a whole one are not similar: fig. 11 has low similarities at both ends of a walk.
   Paths of the centre of pressure here end at toe-off, too early to show that a stride is the last one of a walk. So
   r = 0 if one stride is shorter than `LENGTH_RATIO` of the other.
 - (11) is computed in the equivalent form EI_other / (EI_other + r EI_own). Its denominator is zero only if both error
@@ -134,15 +134,15 @@ class DoubleFoot(TrackPart):
         if site.foot is not None:
             self.paths[site.foot].strides = []
 
-    def add_stride(self, taken: StrideTaken, centre: float | None) -> StrideFused:
+    def add_stride(self, taken: StrideTaken, foot_centre: float | None) -> StrideFused:
         """Add one stride and return its fusion with the other foot's.
 
-        `centre` is the x coordinate of the insole's centre, foot frame, m; None without an insole. While the foot is in
-        the air, the centre of pressure is set to it (section III.C.2)."""
+        `foot_centre` is the x coordinate of the insole's centre, foot frame, m; None without an insole. While the foot
+        is in the air, the centre of pressure is set to it (section III.C.2)."""
         foot = taken.foot
         path, other_path = self.paths[foot], self.paths[OTHER[foot]]
         index = _valid_index(taken.features.error_index)
-        cop_path = () if centre is None or index is None else resample_cop(taken, centre)
+        cop_path = () if foot_centre is None or index is None else resample_cop(taken, foot_centre)
         similarity, coefficient, length = None, 1.0, taken.length
         partner = self._partner(taken, other_path)
         paired = False
@@ -209,7 +209,7 @@ class DoubleFoot(TrackPart):
         other_path.other_strides = min(other_path.other_strides + 1, ABSENT_STRIDES)
 
     def _choose(self, foot: Foot) -> Foot:
-        """Choose the foot whose path is the wearer's now, by the sign of (13)."""
+        """Choose the foot whose path is the wearer's now: by the sign of (13), unless that foot is absent."""
         chosen = self.chosen or foot
         if self.chosen is not None and self.error_balance != 0.0:
             chosen = Foot.RIGHT if self.error_balance > 0.0 else Foot.LEFT
@@ -230,11 +230,11 @@ class DoubleFoot(TrackPart):
         return Position(newest, (x + dx, y + dy, z + dz), (xx + sx * sx, xy + sx * sy, xz, yy + sy * sy, yz, zz))
 
 
-def resample_cop(taken: StrideTaken, centre: float) -> tuple[float, ...]:
+def resample_cop(taken: StrideTaken, foot_centre: float) -> tuple[float, ...]:
     """Return the centre of pressure along the foot (copY of (9)), m, at POINTS instants evenly spaced in time.
 
     Strides have unequal numbers of samples, but (9) needs equal numbers. So each stride is resampled from foot-flat to
-    heel-strike. Until toe-off the values are those of `StrideFeatures.cop`, afterwards they are `centre`. The phase
+    heel-strike. Until toe-off the values are those of `StrideFeatures.cop`, then they are `foot_centre`. The phase
     after heel-strike is left out. The result is empty for a stride without a path or a toe-off."""
     cop, start, toe_off = taken.features.cop, taken.t_start, taken.t_toe_off
     end = taken.t_end if taken.t_heel_strike is None else taken.t_heel_strike
@@ -246,12 +246,12 @@ def resample_cop(taken: StrideTaken, centre: float) -> tuple[float, ...]:
     for k in range(POINTS):
         t = start + (k + 0.5) / POINTS * (end - start)
         if t >= toe_off:
-            path.append(centre)
+            path.append(foot_centre)
             continue
-        place = (t - start) / (toe_off - start) * last
-        i = min(int(place), last)
+        index = (t - start) / (toe_off - start) * last
+        i = min(int(index), last)
         next_x = cop_x[min(i + 1, last)]
-        path.append(cop_x[i] + (place - i) * (next_x - cop_x[i]))
+        path.append(cop_x[i] + (index - i) * (next_x - cop_x[i]))
     return tuple(path)
 
 

@@ -38,10 +38,12 @@ FLAT_TIME = 0.05
 """Time constant with which "up" on the flat foot follows the measured direction, s."""
 LEAST_HEEL_RISE = 0.35
 """Least tilt of the foot in a push-off from which the direction of the toes is learnt, rad."""
-MOST_MISFITS, FOLLOW_SHARE = 3, 0.2
-"""Number of consecutive misfits after which a new direction of the toes is taken, and weight of each push-off.
+SWING_BACK_SHARE = 0.8
+"""Share of the largest squared sine of the tilt in a push-off below which the foot swings back and does not count."""
+MOST_MISFITS, FOLLOW_SHARE, MISFIT_COSINE = 3, 0.2, 0.5
+"""Number of consecutive misfits that replace the direction of the toes, weight of a push-off, and cosine of 60 degrees.
 
-A misfit is a push-off whose direction differs by more than 60 degrees from the learnt one. Any other push-off moves the
+A misfit is a push-off whose direction differs by more than that angle from the learnt one. Any other push-off moves the
 learnt direction towards its own by the weight."""
 
 
@@ -103,7 +105,6 @@ class Sagittal:
     """Direction of the foot, horizontal unit vector in the navigation frame."""
 
     def add_flat_sample(self, dt: float, attitude: Quat) -> None:
-        """Add one sample of a foot that stands flat."""
         x, y, z = _up(attitude)
         if self.up is None:
             self.up = (x, y, z)
@@ -135,9 +136,7 @@ class Sagittal:
             self.forward = (nx / level, ny / level)
 
     def add_lift_sample(self, attitude: Quat) -> None:
-        """Add one sample of a push-off, in which the heel lifts.
-
-        Tilts that are clearly smaller than the largest so far do not count: the foot then swings back."""
+        """Add one sample of a push-off, in which the heel lifts; see `SWING_BACK_SHARE`."""
         if self.up is None:
             return
         x, y, z = _up(attitude)
@@ -145,9 +144,9 @@ class Sagittal:
         along = x * u + y * v + z * w
         x, y, z = x - along * u, y - along * v, z - along * w
         size = x * x + y * y + z * z
-        if along < 0.0:
+        if along < 0.0:  # the tilt exceeds 90 degrees
             size = 1.0
-        if size < 0.8 * self.largest_tilt:
+        if size < SWING_BACK_SHARE * self.largest_tilt:
             return
         self.largest_tilt = max(self.largest_tilt, size)
         a, b, c = self.tilt_sum
@@ -168,7 +167,7 @@ class Sagittal:
             return
         u, v, w = self.toe
         share = FOLLOW_SHARE
-        if u * x + v * y + w * z < 0.5:
+        if u * x + v * y + w * z < MISFIT_COSINE:
             self.misfits += 1
             if self.misfits < MOST_MISFITS:
                 return

@@ -75,7 +75,7 @@ class KnownVelocity(Detector):
     phase: Phase | None = field(default=None, init=False)
     """Phase by the load; None while the load does not show it."""
     position: Vec3 | None = field(default=None, init=False)
-    """Position of the sensor in the last sample relative to the pivot's end of the shoe, navigation frame, m."""
+    """Last position of the sensor, relative to the toe or, in loading, to the heel's end, navigation frame, m."""
     last_load: Load | None = field(default=None, init=False)
     """Last load; None when it is too old."""
     last_load_t: float = field(default=0.0, init=False)
@@ -147,7 +147,6 @@ class KnownVelocity(Detector):
         return Stance(ZERO, inf, statistic, None)
 
     def _from_inertial(self, dt: float, attitude: Quat, inertial: Stance, overdue: bool) -> Stance:
-        """Return the inertial detector's evidence, because there is none from the cells."""
         self.phase = self.position = None
         if inertial.hint is Phase.STATIONARY:
             self.moving_time = 0.0
@@ -161,7 +160,6 @@ class KnownVelocity(Detector):
         return Stance(ZERO, inf, inertial.statistic, None)
 
     def _push_off(self, dt: float, attitude: Quat, statistic: float, on_forefoot: bool) -> Stance:
-        """Return the evidence of a foot between heel-off and toe-off."""
         sagittal = self.sagittal
         if not on_forefoot:
             # the weight is on the heel again: the shoe does not roll over its forefoot
@@ -172,7 +170,6 @@ class KnownVelocity(Detector):
         return self._rolling(Phase.PUSH_OFF, position, dt, statistic)
 
     def _loading(self, dt: float, statistic: float, on_heel: bool) -> Stance:
-        """Return the evidence of a foot between heel-strike and foot-flat."""
         sagittal = self.sagittal
         rolls = on_heel and sagittal.toe is not None and sagittal.pitch > -LARGEST_TOE_DOWN
         return self._rolling(Phase.LOADING, sagittal.heel_position(self.shoe_in_use) if rolls else None, dt, statistic)

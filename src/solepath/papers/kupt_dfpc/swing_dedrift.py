@@ -62,22 +62,22 @@ class SwingDedrift(LinearDedrift):
     between two samples. So they are compared with the mean of the raw velocity over the same interval. The differences,
     the errors of (8), are those in the middle of the last interval before toe-off and, as in (5), of the first one
     after heel-strike. A heel does not roll at once: for `slide_time` it slides and the sole gives way, which (4) does
-    not model. So k_h of (8) is the first sample at least that long after heel-strike; with 0 it is the paper's. While
-    the foot moves, the live position follows the known velocities. In swing it is integrated from the last of them. At
-    motion end it is corrected in one jump.
+    not model. So k_h of (8) is the first sample at least that long after heel-strike; in the paper it is heel-strike
+    itself. While the foot moves, the live position follows the known velocities. In swing it is integrated from the
+    last of them. At motion end it is corrected in one jump.
 
     The vertical rolling velocity is about L_r times the pitch rate, so a pivot that is 1 cm off at toe-off causes an
     error of 8 cm/s. In level walking a linear drift over the whole motion suffices for the height, and is used unless
     `vertical` is set.
 
     The raw velocity is zero at motion start. Some tenths of a second later, when the foot leaves the ground, its error
-    cannot be `LARGEST_ROLLING_ERROR`; in fig. 14, too, it drifts in swing and landing. On recorded insoles whose cells
-    release the load late the foot then moves already and does not roll. So a push-off velocity that differs so much
-    from the raw velocity is not used. If the heel never rolled, the error at motion end is used, and swing lasts until
-    then.
+    cannot reach `LARGEST_ROLLING_ERROR`; in fig. 14, too, it drifts in swing and landing. On recorded insoles whose
+    cells release the load late the foot then moves already and does not roll. So a rolling velocity in push-off that
+    differs so much from the raw one is not used. If the heel never rolled, swing lasts until motion end, and the error
+    is that at motion end.
 
     A motion is abnormal without toe-off or heel-strike, with a gap, or without a usable velocity at toe-off. Then one
-    linear drift over the whole motion is removed, as with ZUPT. Three moments are kept, however long the motion."""
+    linear drift over the whole motion is removed, as with ZUPT. Four moments are kept, however long the motion."""
 
     settings: SwingSettings = SwingSettings()
     motion_start: Vec3 = field(default=ZERO, init=False)

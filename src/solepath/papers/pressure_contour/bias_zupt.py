@@ -1,7 +1,7 @@
-"""Navigation of Bebek et al. 2010, figure 8: zero-velocity resets, accelerometer bias and calibrated drift.
+"""Navigation of Bebek et al. 2010, figure 8: zero-velocity updates, accelerometer bias and calibrated drift.
 
 "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
-2010). The acceleration without its bias is integrated. The velocity is reset to zero while the foot stands. The drift
+2010). The acceleration without its bias is integrated. The velocity is set to zero while the foot stands. The drift
 that calibration laps have shown (papers/pressure_contour/square.py) is subtracted from the position."""
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ class BiasZuptSettings(DedriftSettings):
     frame if the device reports attitudes, otherwise the navigation frame."""
     remove_swing_drift: bool = True
     """Flag: a linear drift of the velocity in swing is removed from the position. The velocity left at the end of a
-    swing is taken to have grown evenly, so half of it times the time since the foot last stood is subtracted from the
-    position. The paper has resets only. Without this a tilt error of a quarter of a degree, the accuracy of its sensor,
-    costs a centimetre per stride."""
+    swing is assumed to have grown evenly, so half of it times the time since the foot last stood is subtracted from the
+    position. The paper only sets the velocity to zero. Then a tilt error of a quarter of a degree, the accuracy of its
+    sensor, costs a centimetre per stride."""
     turn_error: float = 0.0175
     """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 
 
 @define
 class BiasZupt(LinearDedrift):
-    """Corrector: strapdown navigation with zero-velocity resets, an accelerometer bias and a calibrated drift.
+    """Corrector: strapdown navigation with zero-velocity updates, an accelerometer bias and a calibrated drift.
 
     Frame and units are those of `Corrector`. Latency: the position is corrected, in one jump, at the first sample of
     stance.

@@ -4,7 +4,7 @@ Equations (1) and (2) of "Personal navigation via high-resolution gait-corrected
 Trans. Instrum. Meas. 59, 2010). Rays leave a fixed centre, the centroid of the heel's cells, at equal angles. The point
 where the pressure along a ray first falls below a level belongs to that level's contour, at the radius r(theta).
 
-    v(theta) = (r(theta, t) - r(theta, t - dt)) / dt        along the ray r_hat (1), backward instead of forward in time
+    v(theta) = (r(theta, t) - r(theta, t - dt)) / dt        along the ray r_hat (1), as a backward difference
     v_cntr = 1/pi integral of v(theta) r_hat dtheta         (2)
 
 The paper leaves out the factor 1/pi. A contour that moves as a whole with velocity u has v(theta) = u . r_hat, and the
@@ -13,7 +13,7 @@ integral of (u . r_hat) r_hat is pi u. The paper leaves two more points open:
 - Rays end at the outermost cells. A contour that lies partly beyond them has no radius there. The integral is then
   taken over those rays that have a radius, as their opposite rays do, and normalised by least squares; with all rays
   the factor is 1/pi again. An elliptic contour that only grows or shrinks has equal v on opposite rays, which cancel
-  wherever the centre is. Without the opposite rays it would seem to move.
+  wherever the centre is. With a ray whose opposite ray is missing such a contour would seem to move.
 - The pressure levels. The paper's figure 4 has 20 to 70 kPa. But a contour of fixed pressure shrinks, by some cm/s, as
   the weight leaves the heel, and the gains of cells differ by some per cent. On emulated insoles a heel that lies still
   then seems to move at 5 to 20 mm/s. The contours are slower than 4 mm/s in a third of the true stance with 96 cells,
@@ -121,7 +121,7 @@ class Contours:
         return None
 
     def reset(self) -> None:
-        """Discard the radii before the clock restarts."""
+        """Discard the radii of earlier samples."""
         self.history.clear()
 
     def velocity(self, t: float, cells: list[float]) -> tuple[float, float] | None:
@@ -199,7 +199,7 @@ class Contours:
                 contours += 1
                 continue
             displacement = _fit_pairs(present, past)
-            if displacement is None and not self.levels_in_pascals:
+            if displacement is None and not self.levels_in_pascals:  # fixed contours shrink as the weight leaves
                 displacement = _fit_rays(present, past)
             if displacement is not None:
                 sum_x += displacement[0]

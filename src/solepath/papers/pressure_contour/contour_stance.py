@@ -17,8 +17,7 @@ from .contour import Contours
 KEPT_STANCES = 5
 """Number of stances whose median sets a wearer's own threshold."""
 TARE_SAMPLES = 200
-"""Number of samples in the air over which the tare is averaged. It takes several swings: a swung shoe presses unevenly.
-"""
+"""Number of samples in the air that the tare averages: several swings, because a swung shoe presses unevenly."""
 RELEASE_RATIO = 1.6
 """Ratio of the rate to the lowest rate of the stance from which on the foot no longer stands."""
 HEEL_RISE_TIME = 0.4
@@ -60,15 +59,16 @@ class GyroscopeMagnitude(Detector):
     """Detector: the foot stands while the sensor hardly turns.
 
     A stance starts when the angular rate |w| has stayed below a threshold for `lasting`. It ends when |w| rises above
-    `RELEASE_RATIO` times the lowest rate of the stance. The statistic is |w|, rad/s. Latency: `lasting`.
+    `RELEASE_RATIO` times the lowest rate of the stance or `below`, whichever is higher. The statistic is |w|, rad/s.
+    Latency: `lasting`.
 
     The paper says only that angular velocity was used. Published thresholds of |w| are 0.5 rad/s in code after Tunca et
     al. 2017 (Sensors 17, 825) and 0.6 rad/s in the code of Fischer et al. 2013 (IEEE Pervasive Computing 12). Shoes
     differ: in the recordings at hand the rate in the stillest 30 ms of a stance is 0.03 to 0.2 rad/s in a tied shoe and
     0.3 to 1.2 in loose insoles and shoes, while the rate in the swing of smooth walkers falls to 0.3 at moments. So
     each wearer has an own threshold: `margin` times the median of the lowest rates of the last `KEPT_STANCES` stances
-    of walking, limited to `below` ... `ceiling`. Before there are enough stances, `first` counts too. At `below` a
-    sensor 12 cm from the heel's end moves at 3 cm/s.
+    of walking, limited to `below` ... `ceiling`. Before there are enough stances, `first` counts as one more value. At
+    `below` a sensor 12 cm from the heel's end moves at 3 cm/s.
 
     A motion longer than `STANCE_OVERDUE` contains an undetected stance. Then the threshold rises to `margin` times the
     lowest rate of that motion. After `LONGEST_MOTION` this is multiplied by the motion's duration over `LONGEST_MOTION`
@@ -272,7 +272,7 @@ class ContourVelocity(Detector):
         self.load_phase, self.evidence_t, self.speed = load_phase, t, speed
 
     def _end_landing(self, t: float) -> None:
-        """Reset the contours when the heel is no longer loaded."""
+        """End a contact of the heel: keep its slowest speed, and discard the contours."""
         if self.still_t is not None and self.slowest_speed is not None and t - self.landed_t < LONGEST_STANCE:
             self.levels = (*self.levels[1 - KEPT_STANCES :], self.slowest_speed)
         self.standing, self.still_t, self.slowest_speed = False, None, None

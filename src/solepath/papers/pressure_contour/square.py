@@ -39,7 +39,7 @@ FEWEST_LAPS = 3
 FALSE_DRIFT_PROBABILITY = 0.01
 """Probability of using a slope if there is no drift."""
 LARGEST_DRIFT = 0.05
-"""Largest drift of a foot whose velocity is reset at every stride, m/s: about 5 cm per stride."""
+"""Largest drift of a foot whose velocity is set to zero in every stride, m/s: about 5 cm per stride."""
 CLOSURE_SHARE = 0.25
 """Distance by which a mark may move per lap in addition to the drift, as a share of the square's diagonal.
 
@@ -162,21 +162,21 @@ def fit_drift(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], to_dri
     slopes: list[tuple[float, float]] = []
     moves: dict[int, list[tuple[float, float]]] = {}
     used = 0
-    for places in visits.values():
-        t = np.array([at for at, _ in places])
-        if len(places) < FEWEST_LAPS or not np.all(np.diff(t) > 0.0):
+    for mark_visits in visits.values():
+        t = np.array([visit_t for visit_t, _ in mark_visits])
+        if len(mark_visits) < FEWEST_LAPS or not np.all(np.diff(t) > 0.0):
             continue
-        at = np.array([(x, y) for _, (x, y, _) in places])
-        late = t - t.mean()
-        sx, sy = (late @ (at - at.mean(axis=0))) / (late @ late)
+        positions = np.array([(x, y) for _, (x, y, _) in mark_visits])
+        centred_t = t - t.mean()
+        sx, sy = (centred_t @ (positions - positions.mean(axis=0))) / (centred_t @ centred_t)
         slopes.append((float(sx), float(sy)))
-        used += len(places)
-        for lap, (dx, dy) in enumerate(np.diff(at, axis=0) / np.diff(t)[:, None]):
+        used += len(mark_visits)
+        for lap, (dx, dy) in enumerate(np.diff(positions, axis=0) / np.diff(t)[:, None]):
             moves.setdefault(lap, []).append((float(dx), float(dy)))
     if not slopes:
         raise CalibrationError(f"no mark was stood on {FEWEST_LAPS} times")
     x, y = (float(value) for value in np.mean(slopes, axis=0))
-    laps = np.array([np.mean(lap, axis=0) for lap in moves.values()])
+    laps = np.array([np.mean(lap_moves, axis=0) for lap_moves in moves.values()])
     scatter = float(np.sqrt(np.mean(laps.var(axis=0, ddof=1)) / len(laps))) if len(laps) > 1 else inf
     k = len(laps) - 1
     agreed = k > 0 and x * x + y * y > 2.0 * scatter * scatter * k * (FALSE_DRIFT_PROBABILITY ** (-1.0 / k) - 1.0)
@@ -187,17 +187,19 @@ def fit_drift(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], to_dri
 def check_laps(drift: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]]) -> None:
     """Raise CalibrationError unless the laps are laps of a square.
 
-    The mean distance of the marks from one lap to the next must be within `LARGEST_DRIFT` and `CLOSURE_SHARE`, and the
-    drift within `LARGEST_DRIFT`."""
-    marks = [np.array([(t, x, y) for t, (x, y, _) in places]) for places in visits.values() if len(places) > 1]
+    The mean distance of the marks from one lap to the next must be at most `LARGEST_DRIFT` times the lap's duration
+    plus `CLOSURE_SHARE` times the diagonal, and the drift at most `LARGEST_DRIFT`."""
+    marks = [
+        np.array([(t, x, y) for t, (x, y, _) in mark_visits]) for mark_visits in visits.values() if len(mark_visits) > 1
+    ]
     middles = np.array([mark[:, 1:].mean(axis=0) for mark in marks])
     diagonal = float(np.linalg.norm(np.ptp(middles, axis=0)))
     moves: dict[int, list[tuple[float, float]]] = {}
     for mark in marks:
-        for number, (duration, dx, dy) in enumerate(np.diff(mark, axis=0)):
-            moves.setdefault(number, []).append((float(duration), hypot(dx, dy)))
-    for lap in moves.values():
-        duration, distance = np.mean(lap, axis=0)
+        for lap, (duration, dx, dy) in enumerate(np.diff(mark, axis=0)):
+            moves.setdefault(lap, []).append((float(duration), hypot(dx, dy)))
+    for lap_moves in moves.values():
+        duration, distance = np.mean(lap_moves, axis=0)
         if distance > LARGEST_DRIFT * duration + CLOSURE_SHARE * diagonal:
             raise CalibrationError(
                 f"the laps do not close: a mark lies {distance:.1f} m from where it lay a lap before, "

@@ -30,7 +30,7 @@ SHORTEST_STANCE = 0.03
 REPORT_DELAY = 0.05
 """Time after which an uncertain stance is reported even if the previous stance became certain, s."""
 OVERDUE_LIMIT_GROWTH = 10.0
-"""Growth of the speed limit with the square of the time after `LONGEST_SWING`, m/s^3: a wrong attitude has no limit."""
+"""Growth of the speed limit with the square of the time after `LONGEST_SWING`, m/s^3: speeds may err by any amount."""
 HIGHEST_SPEED = 15.0
 """Highest speed of a foot, m/s."""
 LARGEST_LEVEL_HEIGHT = 0.12
@@ -70,24 +70,25 @@ class ShoeSensing(LinearDedrift):
     stance, and once more when an uncertain stance becomes certain.
 
     e~ = (dv2 - dv1) / (t_b - t_a) of section 3.3 is the velocity left when the foot stands again, divided by the time
-    since it last stood. So half of that velocity times that time is subtracted from the position. The height error of
+    since it last stood. So half of the product of both is subtracted from the position. The height error of
     section 3.4.2 is removed likewise: after a level stride the foot stands as high as before. The paper does not say
     how its live track knows e~_s before t_b. Here the live height within a stride (`FootMoved`) has the whole drift
     since t_a. It is corrected in one jump when the foot stands, and earlier heights are not reported again. The paper
     prints V(T) and S_z(T) with `stationary = 1` for the moving foot, but its section 3.1.2 has the opposite. A stride
     is level by its angle per metre (steepness.py).
 
-    Beyond the paper: There are moments without acceleration in mid-swing and before foot-flat, and those of joggers in
-    stance are hardly longer. So evidence without the hint STATIONARY is an uncertain stance: the last stance must have
-    been `SHORTEST_SWING` before, sigma at most `UNCERTAIN_SIGMA`, and the integrated speed low. If more certain
-    evidence follows, the motion is corrected again at that later sample. If the previous stance became certain, an
-    uncertain stance is not reported: every stance of a walker becomes certain, and a jogger's first two strides may
-    become one. The velocity left at the end of a motion also corrects the tilt (`tilt_share`).
+    Beyond the paper: There are moments without acceleration in mid-swing and before foot-flat. The moments without
+    acceleration in the stance of joggers are hardly longer. So evidence without the hint STATIONARY is only an
+    uncertain stance: the last stance must have been `SHORTEST_SWING` before, sigma at most `UNCERTAIN_SIGMA`, and the
+    integrated speed low. If more certain evidence follows, the motion is corrected again at that later sample. After a
+    certain stance an uncertain one is reported only when it has lasted for `REPORT_DELAY`, because every stance of a
+    walker becomes certain. So a jogger's first two strides may become one. The velocity left at the end of a motion
+    also corrects the tilt (`tilt_share`).
 
-    Most of the height error of a level stride comes from a tilt due to an accelerometer bias. It is the same per metre
-    in every stride (25 mg make 3.5 cm in 1.4 m). So the mean of the level strides, `level_slope`, is subtracted from
-    every stride before its angle is computed. A stride that then still ends `LARGEST_LEVEL_HEIGHT` or more above or
-    below its start is not level, whatever its angle. It leads onto or off a stair, and its height is not removed."""
+    Most of the height error of a level stride comes from a tilt due to an accelerometer bias. This error per metre is
+    equal in all strides (25 mg make 3.5 cm in 1.4 m). So its mean over the level strides, `level_slope`, is removed
+    from every stride before the angle is computed. A stride that then still ends `LARGEST_LEVEL_HEIGHT` or more above
+    or below its start is not level, whatever its angle: it leads onto or off a stair, and its height is not removed."""
 
     settings: ShoeSensingSettings = ShoeSensingSettings()
     level_slope: float = field(default=0.0, init=False)
@@ -143,7 +144,7 @@ class ShoeSensing(LinearDedrift):
         self.rate = rate_after = gyro
         attitude = self.attitude
         if self.standing:
-            k = min(self.settings.kp, 0.5 / dt) if dt > 0.0 else 0.0
+            k = min(self.settings.kp, 0.5 / dt) if dt > 0.0 else 0.0  # at most half of the error in one sample
             ex, ey, ez = gravity_error(attitude, self.last_acc)
             ex, ey, ez = k * ex, k * ey, k * ez
             x, y, z = rate_before
@@ -204,7 +205,6 @@ class ShoeSensing(LinearDedrift):
         return self.continued_motion is None or not self.is_certain or self.stance_age >= REPORT_DELAY
 
     def _is_stance(self, stance: Stance) -> bool:
-        """Return whether the foot stands by the evidence and the integrated speed."""
         sigma, is_certain = stance.sigma, stance.hint is Phase.STATIONARY
         if self.standing and self.stance_age < SHORTEST_STANCE:
             return True
@@ -232,7 +232,7 @@ class ShoeSensing(LinearDedrift):
         """End the motion at this position and velocity, because the evidence is the most certain so far."""
         (x, y, z), (vx, vy, vz), (rx, ry, rz) = position, velocity, stance.v_ref
         half = 0.5 * self.continued_time
-        k = 0.5 * self.settings.tilt_share / (GRAVITY * max(self.continued_time, SHORTEST_SWING))
+        k = 0.5 * self.settings.tilt_share / (GRAVITY * max(self.continued_time, SHORTEST_SWING))  # half angles
         self.tilt_correction = (k * (vy - ry), -k * (vx - rx))
         x, y, z = x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half
         if self.settings.eliminate:
@@ -288,6 +288,5 @@ class ShoeSensing(LinearDedrift):
         self._discard_recent_samples()
 
     def _discard_recent_samples(self) -> None:
-        """Discard the last samples and the continued motion."""
         self.continued_motion = None
         self.recent_samples.clear()

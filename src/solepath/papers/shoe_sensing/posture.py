@@ -17,7 +17,7 @@ ITERATIONS = 400
 ITERATION_INTERVAL = 0.01
 """Time step of an iteration, s."""
 GAIN = 2.0
-"""Gain Kp of the iteration, 1/s. The tangent of half the error falls as exp(-Kp t): to a thousandth in fig. 7's 4 s."""
+"""Gain Kp of the iteration, 1/s. The tangent of half the error falls as exp(-Kp t), to 3e-4 in the 4 s of fig. 7."""
 LARGEST_ERROR = 2e-3
 """Error of the attitude after all iterations above which they have not converged, rad."""
 LARGEST_SQUARED_TURN = 1.0
@@ -42,12 +42,12 @@ def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
 
 
 def posture(acc: Vec3) -> Quat:
-    """Return the attitude of a foot at rest, iterated from Q = [1, 0, 0, 0] until the vector product is zero (fig. 6).
+    """Return the attitude of a foot at rest, iterated from Q = [1, 0, 0, 0] towards a vector product of zero (fig. 6).
 
     `acc` is the mean specific force at rest, in any unit. Each iteration turns Q as the feedback in stance would do if
     the gyroscope read zero. The paper does not describe its P, "the solution process of the quaternion", any further.
     For a sensor that is upside down the vector product is zero without giving an axis, so the iteration starts from the
-    closed-form solution."""
+    closed-form solution, which also replaces a result that has not converged."""
     closed_form = levelling(acc)
     q = IDENTITY if abs(closed_form[0]) > 0.1 else closed_form
     for _ in range(ITERATIONS):

@@ -22,7 +22,7 @@ STANDING_DELAY = 1.2
 UNKNOWN_DELAY = 5.0
 """Time of motion without a stride after which the activity is UNKNOWN, s."""
 LARGEST_CLOCK_DIFFERENCE, LONGEST_SILENCE = 5.0, 10.0
-"""Difference of the feet's times from which their clocks differ, s; longest time without samples of a foot, s."""
+"""Difference of the feet's times above which their clocks differ, s; longest time without samples of a foot, s."""
 _ACTIVITY_OF = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}
 """Activity by the direction of a stride (`steepness`)."""
 

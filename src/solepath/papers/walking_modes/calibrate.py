@@ -1,10 +1,10 @@
 """Compensation of a wearer's own touchdowns, from walks over marks on the floor.
 
 After Gong et al. 2023 (Sensors 23, 5417), section 3.3: the wearer steps on marked points, straight ahead and along
-bends of 4 m and 2 m. The compensation of a foot in a mode is the mean of (marked point - measured point). Points are
-taken relative to the other foot's mark or measured place, so errors do not accumulate over steps. The marks may be in
-any frame on the floor; the angle from the session's frame to it is fitted to all steps. A mark is the point of the
-ground below the ankle."""
+bends of 4 m and 2 m. The compensation of a foot in a mode is the mean of (marked point - measured point). Marked points
+are taken relative to the other foot's mark, and measured ones relative to its touchdown, so errors do not accumulate
+over steps. The marks may be in any frame on the floor; the angle from the session's frame to theirs is fitted to all
+steps. A mark is the point of the ground below the ankle."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class ModeMark:
 
 @frozen
 class StepError:
-    """The marked minus the measured position of one step, in the direction of walking half a step before its end."""
+    """The marked minus the measured end of one step; the direction of walking is that half a step before this end."""
 
     foot: Foot
     mode: WalkingMode
@@ -104,7 +104,7 @@ def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None
 
 
 def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[StepError]:
-    """Return the error of every step that ends the fourth of four consecutive marked touchdowns of alternate feet.
+    """Return the error of every step to the last of four consecutive marked touchdowns of alternate feet.
 
     The first two touchdowns serve to compute the direction of walking. Raises CalibrationError when a mark has no
     touchdown, or two marks have the same one."""
@@ -196,7 +196,6 @@ def fit_modes(
 
 
 def _touchdown_index(mark: ModeMark, downs: list[TouchedDown]) -> int:
-    """Return the index in `downs` of a mark's touchdown."""
     foot_indices = [k for k, down in enumerate(downs) if down.foot is mark.foot]
     if mark.t is not None:
         candidates = [(abs(downs[k].t - mark.t), k) for k in foot_indices if abs(downs[k].t - mark.t) <= MARK_TOLERANCE]

@@ -57,7 +57,7 @@ SLOWEST_SPEED, FASTEST_SPEED = 0.7, 1.7
 
 Without the lower limit the noise of a slow step would look like a bend."""
 LEAST_STEP_LENGTH = 0.15
-"""Length L_w below which a step is not walking but dragging, m (table 2)."""
+"""Length L_w of a foot's stride, the paper's step, below which it is not walking but dragging, m (table 2)."""
 STANDING_WEIGHT = 0.7
 """Load of both feet in standing, as a share of the body's weight (table 2)."""
 LONGEST_CONTACT = 1.5
@@ -120,7 +120,7 @@ def at_reference_speed(shares: dict[str, float], speed: float) -> dict[str, floa
 
 
 def decide(foot: Foot, step: float, shares: dict[str, float], forward: float, th: float) -> WalkingMode | None:
-    """Return the mode by table 2 of a contact of `foot` after a step of `step` m, or None if no rule applies.
+    """Return the mode by table 2 of a contact of `foot` after a stride of `step` m, or None if no rule applies.
 
     `shares` are the loads of this foot's regions, as multiples of the mean cell's load, at `REFERENCE_SPEED`. `forward`
     is F1 of both feet minus F2 of both feet. A tight bend has priority over a wide one, and of two edges that with the
@@ -180,7 +180,6 @@ class Contact:
         return self.layout is not None and not self.region_cells
 
     def start(self, t: float) -> None:
-        """Start the contact."""
         self.swing_time = None if self.t_end is None else t - self.t_end
         self.t_start, self.total, self.too_long = t, 0.0, False
         self.sums = dict.fromkeys(self.region_cells, 0.0)
@@ -200,7 +199,7 @@ class Contact:
         return 0.0 if self.t_start is None else t - self.t_start
 
     def speed(self, step: float) -> float:
-        """Return the walking speed, m/s, from the last stride's length `step`, m; `REFERENCE_SPEED` if unknown."""
+        """Return the walking speed, m/s, from the length `step` of the last stride, m; `REFERENCE_SPEED` if unknown."""
         return (
             REFERENCE_SPEED
             if self.swing_time is None or self.swing_time <= 0.0

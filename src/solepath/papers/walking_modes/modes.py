@@ -17,9 +17,9 @@ The paper leaves these points open:
 - The first heading is final when the wearer is 1.5 m from the start; earlier touchdowns are not final.
 - Height. The method is planar, so heights of touchdowns are those of the feet's own tracks. These drift apart. So
   without the chain method I compares the height of each foot above its own last foot-flat.
-- Undetected touchdowns. If a foot becomes the reference after it has moved, a touchdown is reported. The same holds if
-  the reference foot comes down at another place. A foot whose sign fails (evidence.py) comes down with its own strides.
-  If the other foot is absent, it is the only reference and follows its own track.
+- Undetected touchdowns. A touchdown is also reported if a foot becomes the reference after it has moved, or if the
+  reference foot comes down at another place. If a foot's sign fails (evidence.py), its own strides replace the sign. If
+  one foot is absent, the other is the only reference and follows its own track.
 
 Numbers without a source were chosen by hand."""
 
@@ -168,7 +168,7 @@ class Modes(TrackPart):
         return events + self._resolve_pending(t, known_at)
 
     def _is_alone(self, foot: Foot, t: float) -> bool:
-        """Return whether the other foot is silent while this one takes strides, or the other's place is unknown."""
+        """Return whether the other foot is lost, or has sent no samples while this one took strides."""
         other = OTHER[foot]
         if other not in self.signs.states:
             return self.signs.evidence[foot].stride_count >= MOST_STRIDES_WITHOUT_SIGN
@@ -220,13 +220,13 @@ class Modes(TrackPart):
         return events
 
     def _add_touchdown(self, foot: Foot, t: float, known_at: float, by_own_track: bool = False) -> list[Event]:
-        """Add a touchdown; `by_own_track` if the foot was itself the reference, so only its own track has its place."""
+        """Add a touchdown; `by_own_track` if the foot itself is the reference, so that only its track has its place."""
         places = self.places
         side, chain = places.sides[foot], places.chain
         if chain.is_current(t):
-            swing_foot = places.swing_foot(foot)
-            x, y, _ = sub(places.sides[swing_foot].own_position, places.sides[swing_foot].place)
-            chain.add_touchdown(swing_foot, t, atan2(y, x) if places.heading_settled else 0.0)
+            first_step_foot = places.first_step_foot(foot)
+            x, y, _ = sub(places.sides[first_step_foot].own_position, places.sides[first_step_foot].place)
+            chain.add_touchdown(first_step_foot, t, atan2(y, x) if places.heading_settled else 0.0)
         if by_own_track or self._is_alone(foot, t):
             (x, y, _), chained = side.own_position, False
             place = (x, y, side.track[2])
@@ -277,7 +277,7 @@ class Modes(TrackPart):
         return Position(t, (x, y, z), self._covariance(x, y, poses))
 
     def _covariance(self, x: float, y: float, poses: list[FootPose]) -> Covariance3:
-        """Return the covariance from errors of single touchdowns, scale and first heading, m^2; z is the tracks'."""
+        """Return the covariance by errors of touchdowns, scale and first heading, m^2; for z, that of the tracks."""
         variance = STEP_SIGMA**2 * (1 + self.touchdowns)
         scale, turn = SCALE_SIGMA**2, HEADING_SIGMA**2
         xx, yy = variance + scale * x * x + turn * y * y, variance + scale * y * y + turn * x * x

@@ -1,12 +1,12 @@
-"""Places of both feet relative to each other: P_L and P_R, V_change, and the first heading (walking-modes).
+"""Places of both feet from P_L, P_R and the vector V_change between these, and the first heading (walking-modes).
 
 After Gong et al. 2023 (Sensors 23, 5417), equations (1) to (3). P_L and P_R are the ends of the feet in the chain of
 seven attitudes (limbs.py) if it is known. Otherwise they are the positions of the feet's own inertial tracks, which
-start at the distance of the standing feet. A foot that was silent for a while continues beside the other foot when it
-sends samples again (`MeanOfFeet`).
+start `ModesSettings.feet_distance` apart. A foot that was silent for a while is put beside the other foot after some
+strides (`MeanOfFeet`).
 
-The chain gives the end of a foot, but a touchdown is the place below its ankle. `FootPlace.reach` is the vector from
-the latter to the former. Numbers without a source were chosen by hand."""
+By the chain a touchdown is the place below the ankle, from which `FootPlace.reach` points to the end of the foot.
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -24,6 +24,12 @@ from .touchdown import displace, v_change
 
 FIRST_DISTANCE = 1.5
 """Distance, m, from the start to the middle between the feet, from which on the first heading is final."""
+LEAST_DIRECTION = 0.15
+"""Length of the sum of both feet's unit vectors below which they are nearly opposite and show no direction."""
+CLEAR_DISTANCE = 0.15
+"""Distance, m, by which one foot must be further from the start than the other for it to have stepped first."""
+LEAST_HEADING_DISTANCE = 0.075
+"""Distance, m, from the start to the middle between the feet below which it shows no heading."""
 
 
 @define
@@ -37,18 +43,18 @@ class FootPlace:
     reach: tuple[float, float] = (0.0, 0.0)
     """Vector from below the ankle to the end of the foot at the last touchdown, world frame, m."""
     track: Vec3 = ZERO
-    """Position by the foot's own inertial track, m; shifted beside the other foot's after a silence."""
+    """Position by the foot's own inertial track, world frame, m; moved beside the other foot's after a silence."""
     direction: tuple[float, float] = (1.0, 0.0)
     """Unit vector of the direction of walking at the last touchdown, world frame."""
 
     @property
     def own_position(self) -> Vec3:
-        """Present position by the foot's own track alone, world frame, m."""
+        """Last touchdown plus the movement of the foot's own track since then, world frame, m."""
         return displace(self.track, self.offset)
 
     @property
     def moved_distance(self) -> float:
-        """Horizontal distance from the last touchdown, by the foot's own track, m."""
+        """Horizontal distance from the last touchdown to `own_position`, m."""
         x, y, _ = sub(self.own_position, self.place)
         return hypot(x, y)
 
@@ -90,32 +96,30 @@ class FootPlaces:
             self.sides[view.foot].track = placed.place(placed.newest_place)
 
     def _move_track(self, foot: Foot, placed_track: PlacedTrack, offset: Vec3, was_unplaced: bool) -> None:
-        """Move the track of a foot that now lies elsewhere among both than with `offset` before."""
+        """Adapt the place of a foot to the offset of `placed_track`, which was `offset` before, world frame, m."""
         side, other = self.sides[foot], self.sides[OTHER[foot]]
-        if was_unplaced and not placed_track.unplaced:  # back after a silence: the feet stand side by side
+        if was_unplaced and not placed_track.unplaced:  # placed again after a silence, as if the feet stood abreast
             side.track = placed_track.place(placed_track.newest_place)
             x, y = self._side_offset(foot, other)
             side.offset = displace(other.offset, (x, y, 0.0))
             side.place = side.own_position
-        else:  # the foot itself has not moved
+        else:  # the track moves, but not the place of the foot
             shift = sub(placed_track.offset, offset)
             side.offset, side.track = sub(side.offset, shift), displace(side.track, shift)
 
     def _side_offset(self, foot: Foot, other: FootPlace) -> tuple[float, float]:
-        """Return the vector from the other foot to this one when they stand side by side, m.
-
-        They face the direction in which the other foot last moved."""
+        """Return the vector from `other` to `foot`, world frame, m, when both stand abreast, facing its direction."""
         c, s = other.direction
         k = self.settings.feet_distance if foot is Foot.LEFT else -self.settings.feet_distance
         return -s * k, c * k
 
     def is_lost(self, foot: Foot, t: float) -> bool:
-        """Return whether the place of the foot at `t` s is unknown, both by its track and by the chain."""
+        """Return whether neither its track nor the chain gives the place of the foot at `t` s."""
         placed = self.tracks.left if foot is Foot.LEFT else self.tracks.right
         return (placed.absent or placed.unplaced) and not self.chain.is_current(t)
 
     def middle(self, foot: Foot) -> Vec3:
-        """Return the middle between the feet by this foot's own track alone, world frame, m."""
+        """Return the middle between the feet, world frame, m, if the other foot stands beside `own_position`."""
         side = self.sides[foot]
         x, y, _ = side.own_position
         dx, dy = self._side_offset(OTHER[foot], side)
@@ -125,7 +129,7 @@ class FootPlaces:
         """Return the place of `foot`, world frame, m, from the other foot by (1) to (3), and whether the chain is used.
 
         If the chain is unknown and the other foot has moved since it came down, it is no reference. Then the place is
-        that of this foot's own track."""
+        `own_position` of this foot. The height is always that of this foot's own track."""
         chained, reference = self.chain.is_current(t), self.sides[OTHER[foot]]
         if not chained and reference.moved_distance > LEAST_STEP_LENGTH:
             x, y, _ = self.sides[foot].own_position
@@ -143,13 +147,13 @@ class FootPlaces:
         (lx, ly), (rx, ry) = self.chain.forward(Foot.LEFT, t), self.chain.forward(Foot.RIGHT, t)
         x, y = lx + rx, ly + ry
         length = hypot(x, y)
-        return (x / length, y / length) if length > LEAST_STEP_LENGTH else (lx, ly)
+        return (x / length, y / length) if length > LEAST_DIRECTION else (lx, ly)
 
-    def swing_foot(self, foot: Foot) -> Foot:
-        """Return the foot whose own track is clearly further from the start; the method may confuse the feet."""
+    def first_step_foot(self, foot: Foot) -> Foot:
+        """Return the foot that took the first step: `foot`, unless the other is clearly further from the start."""
         other = OTHER[foot]
         (x, y, _), (u, v, _) = self.sides[foot].track, self.sides[other].track
-        return other if hypot(u, v) > hypot(x, y) + LEAST_STEP_LENGTH else foot
+        return other if hypot(u, v) > hypot(x, y) + CLEAR_DISTANCE else foot
 
     def set_down(self, foot: Foot, place: Vec3, chained: bool, t: float) -> None:
         """Set the touchdown of the foot at `t` s to `place`, world frame, m; `chained` if it comes from the chain."""
@@ -165,15 +169,15 @@ class FootPlaces:
         return self.settings.limbs.foot * x, self.settings.limbs.foot * y
 
     def _turn_world(self, chained: bool) -> None:
-        """Turn the world so that x points from the start to the wearer, until the wearer is `FIRST_DISTANCE` away.
+        """Turn the chain's world so that x points from the start to the wearer, until `FIRST_DISTANCE` is reached.
 
-        A single touchdown does not suffice, because it may lie half a foot's width to the left or right. The world of
-        the feet's own tracks already has its x along the first heading."""
+        A single touchdown does not suffice, because it may be several centimetres too far to the left or right. The
+        world of the feet's own tracks is not turned: its x is along the first heading already."""
         if self.heading_settled:
             return
         left, right = self.sides.values()
-        x, y = left.place[0] + right.place[0], left.place[1] + right.place[1]
-        if hypot(x, y) < LEAST_STEP_LENGTH:
+        x, y = left.place[0] + right.place[0], left.place[1] + right.place[1]  # twice the middle
+        if hypot(x, y) < 2.0 * LEAST_HEADING_DISTANCE:
             return
         self.heading_settled = hypot(x, y) > 2.0 * FIRST_DISTANCE
         if not chained or self.chain.facing is None:

@@ -111,7 +111,7 @@ class Recognition:
         return WalkingMode.STANDING if both_loads > STANDING_WEIGHT * weight else None
 
     def _mode_of_ended(self, foot: Foot, both_loads: float) -> WalkingMode | None:
-        """Return the mode of a contact that has ended."""
+        """Return the mode of a contact that has ended, and keep its `forward`."""
         sole = self.soles[foot]
         contact = sole.contact
         shares = contact.shares()

@@ -26,7 +26,7 @@ def v_change(left: Vec3, right: Vec3, reference: Foot) -> Vec3:
 
 
 def displace(reference: Vec3, change: Vec3, compensation: Vec3 = ZERO) -> Vec3:
-    """Return the position of the other foot, m: P_s = P_t + V_change (3), with compensation + epsilon_P (8)."""
+    """Return the sum of the vectors: P_s = P_t + V_change (3) + epsilon_P (8), all in m and in one frame."""
     return (
         reference[0] + change[0] + compensation[0],
         reference[1] + change[1] + compensation[1],
@@ -66,8 +66,7 @@ The paper gives neither A_a nor a filter. The threshold is the half width of the
 Seco, Prieto, Guevara ("A comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU", WISP 2009,
 condition C1) take a foot for still. The time was chosen by hand."""
 RELEASE_SHARE = 0.5
-"""Pressure below which a foot is no longer down, as a share of the threshold; without it a noisy cell would make steps.
-"""
+"""Pressure below which a foot is no longer down, as a share of the threshold: a noisy cell must not make touchdowns."""
 
 
 @define
@@ -159,7 +158,7 @@ class ReferenceFoot:
 
         If both feet come down at once, it is the foot that was not the reference; the first time, the left foot."""
         old_flags, self.down = self.down, flags
-        rose = (flags[0] and not old_flags[0], flags[1] and not old_flags[1])
+        came_down = (flags[0] and not old_flags[0], flags[1] and not old_flags[1])
         if self.foot is None:
             if not any(flags):
                 return None
@@ -167,7 +166,7 @@ class ReferenceFoot:
             return self.foot, False
         other = OTHER[self.foot]
         index = 0 if other is Foot.LEFT else 1
-        if rose[index]:
+        if came_down[index]:
             self.foot = other
             return other, True
         if flags[index] and not flags[1 - index]:

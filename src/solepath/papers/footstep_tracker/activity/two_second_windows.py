@@ -26,8 +26,8 @@ the first moving window, and ended at the start of the first window that does no
 an elevator. A change between walking and stairs is in the middle of the window. The first windows of a movement also
 contain standing, which makes them look like stairs. So the hidden Markov model starts with the first window without
 standing. A movement is reported after one more moving window: a foot that is only put elsewhere within half a second
-has not walked. So a label is known within 0.5 s after the start of a pulse, 2.5 s of movement, 2 s of standing, 1.5 s
-of stairs after walking. A ride in an elevator is not final until its second pulse.
+has not walked. So an activity is known this long after its start: a pulse, 0.5 s; movement, 2.5 s; standing, 2 s;
+stairs after walking, 1.5 s. A ride in an elevator is not final until its second pulse.
 
 Numbers without a source were chosen by hand."""
 
@@ -52,7 +52,7 @@ ELEVATOR_ACTIVITY = {True: Activity.ELEVATOR_UP, False: Activity.ELEVATOR_DOWN}
 UNIFORM_BELIEF = (1.0 / 3.0,) * 3
 """Probabilities of the states before the first window of a movement."""
 LONGEST_SILENCE = 4
-"""Number of half-seconds by which a foot may lag behind the other before its windows are no longer waited for."""
+"""Number of half-seconds by which a foot may lag behind the other before its windows are no longer awaited."""
 LONGEST_GAP = 8
 """Number of half-seconds without a window after which the activity is unknown."""
 LONGEST_PULSE = 10
@@ -162,7 +162,7 @@ class TwoSecondWindows(ActivityPart):
         if self.newest_decided is not None and index - self.newest_decided > LONGEST_GAP:
             events = [] if self.ride is None else self._withdraw_ride(self.ride, known_at)
             self.belief = None
-            events += self._change(self._newest(self.newest_decided) + HOP, Activity.UNKNOWN, known_at)
+            events += self._change(self._block_start(self.newest_decided) + HOP, Activity.UNKNOWN, known_at)
         self.newest_decided = index
         model = self.settings.model or shipped()
         if sum([w.variance for w in windows.values()]) > model.moving * len(windows):
@@ -203,13 +203,13 @@ class TwoSecondWindows(ActivityPart):
         return MOVING_ACTIVITIES[self.belief.index(max(self.belief))]
 
     def _add_moving_window(self, index: int, state: Activity, known_at: float) -> list[Event]:
-        t_start = self._newest(index - self.moving_windows + 1)
+        t_start = self._block_start(index - self.moving_windows + 1)
         events: list[Event] = []
         if self.ride is not None:
             ride = self.ride
             events = self._end_ride(ride, t_start, known_at) if ride.braking else self._withdraw_ride(ride, known_at)
         if self.activity in MOVING_ACTIVITIES:
-            t_start = self._newest(index) + 0.5 * (HOP - WINDOW)  # the middle of the window
+            t_start = self._block_start(index) + 0.5 * (HOP - WINDOW)  # the middle of the window
         return events + self._change(t_start, state, known_at)
 
     def _add_standing_window(
@@ -248,7 +248,7 @@ class TwoSecondWindows(ActivityPart):
                 return events
         if pulse == 0:
             return events + self._change(self._start(index), Activity.STANDING, known_at)
-        t_start = self._not_before_reported(self._newest(index))
+        t_start = self._not_before_reported(self._block_start(index))
         self.ride = ElevatorPulses(t_start, index, pulse > 0, newest=index)
         return events + self._change(t_start, ELEVATOR_ACTIVITY[pulse > 0], known_at, final=False)
 
@@ -283,8 +283,8 @@ class TwoSecondWindows(ActivityPart):
 
     def _start(self, index: int) -> float:
         """Return the start of window `index`, s."""
-        return self._newest(index) + HOP - WINDOW
+        return self._block_start(index) + HOP - WINDOW
 
-    def _newest(self, index: int) -> float:
+    def _block_start(self, index: int) -> float:
         """Return the start of the newest half-second of window `index`, s."""
         return (0.0 if self.origin is None else self.origin) + index * HOP

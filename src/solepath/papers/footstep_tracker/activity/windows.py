@@ -37,7 +37,7 @@ gait."""
 LEAST_FORCE = 1.0
 """Length of a window's mean specific force below which it does not show the direction of gravity, m/s^2."""
 QUICK_SHARE, SLOW_SHARE = 0.5, 0.05
-"""Weight of a window in the mean of standing: directly after a movement, and least weight in the long run."""
+"""Least weight of a window in the mean of standing: directly after a movement, and at other times."""
 
 
 @frozen
@@ -131,7 +131,6 @@ class FootWindows:
         return is_next_block
 
     def _start_block(self, index: int) -> None:
-        """Start another half-second: complete a full window, and estimate the vertical axis."""
         blocks = self.blocks
         if blocks:
             self._level()

@@ -20,7 +20,7 @@ LONGEST_GAP = 0.25
 LEVELLING_TIME = 4.0
 """Time constant of the tilt towards the measured upward direction, s: several strides."""
 LEAST_DISTANCE = 0.4
-"""Distance of a sensor from where the wearer stood, m, from which the direction of walking is computed."""
+"""Distance of a sensor from its place while the wearer stood, m, from which on it shows the direction of walking."""
 
 
 @define

@@ -78,7 +78,7 @@ class LimbSegment:
         """Return the attitude at `t` s, from the segment to the world frame.
 
         `facing` is the wearer's heading in the N-pose in the world that the devices share, rad. `turn` is the angle
-        from there to the x axis of the world frame, rad."""
+        from that heading to the x axis of the world frame, rad, left positive."""
         if self.standing is None:
             return IDENTITY
         wearer_heading = (self.heading or 0.0) if self.own_world else facing
