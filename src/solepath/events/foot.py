@@ -70,7 +70,7 @@ class StrideFeatures:
 class StrideTaken(Happening):
     """One stride: a foot went from a foot-flat to its next foot-flat.
 
-    `t` is the second foot-flat, at which it is reported. Vectors are in the world frame, m."""
+    `t` is the second foot-flat. The stride is known with that FootFlat. Vectors are in the world frame, m."""
 
     foot: Foot
     """Foot that took the stride."""
