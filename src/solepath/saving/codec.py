@@ -16,7 +16,7 @@ from functools import partial
 from math import isfinite
 from typing import Any, TypeVar
 
-from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
+from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, SequenceNode, ScalarNode, TupleNode
 from .schema import is_record, locate_error, record_of
 
 T = TypeVar("T")
@@ -84,10 +84,10 @@ def _codec(node: Node) -> tuple[_Saver, _Loader]:
             return partial(_save_floats, len(items)), partial(_load_floats, tuple, len(items))
         case TupleNode(items):
             return _tuple_codec([_codec(item) for item in items])
-        case RowNode(kind, of) if kind is not deque and _is_float(of):
+        case SequenceNode(kind, of) if kind is not deque and _is_float(of):
             return partial(_save_floats, None), partial(_load_floats, kind, None)
-        case RowNode(kind, of):
-            return _deque_codec(*_codec(of)) if kind is deque else _row_codec(kind, *_codec(of))
+        case SequenceNode(kind, of):
+            return _deque_codec(*_codec(of)) if kind is deque else _sequence_codec(kind, *_codec(of))
         case DictNode(key, of):
             return _dict_codec(*_codec(key), *_codec(of))
         case OpenNode():
@@ -171,7 +171,7 @@ def _tuple_codec(codecs: list[tuple[_Saver, _Loader]]) -> tuple[_Saver, _Loader]
     return (lambda value: [save_item(item) for save_item, item in zip(savers, value, strict=True)]), load_tuple
 
 
-def _row_codec(kind: type, save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
+def _sequence_codec(kind: type, save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
     return (
         lambda value: [save_item(item) for item in value],
         lambda value, classes: kind([load_item(item, classes) for item in _check_list(value)]),

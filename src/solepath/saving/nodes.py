@@ -37,7 +37,7 @@ class TupleNode:
 
 
 @frozen(eq=False)
-class RowNode:
+class SequenceNode:
     """A tuple, list or deque (`kind`) of any length, whose items have the node `of`."""
 
     kind: type
@@ -77,4 +77,4 @@ class RecordNode:
     """Defaults of the fields that are not saved; not used for a record that is made again."""
 
 
-Node = ScalarNode | EnumNode | MaybeNode | TupleNode | RowNode | DictNode | OpenNode | RecordNode
+Node = ScalarNode | EnumNode | MaybeNode | TupleNode | SequenceNode | DictNode | OpenNode | RecordNode

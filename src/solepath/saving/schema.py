@@ -34,7 +34,7 @@ from typing import Any
 import attrs
 
 from ..types.attrs import MADE_AGAIN, NOT_SAVED
-from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
+from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, SequenceNode, ScalarNode, TupleNode
 
 SCALARS = (float, int, bool, str, bytes)
 _RECORDS: dict[tuple[type, bool], RecordNode] = {}
@@ -119,7 +119,7 @@ class _SchemaBuilder:
     """Builds the nodes of a schema from annotations."""
 
     def __init__(self) -> None:
-        self.open_classes: list[type] = []
+        self.enclosing_classes: list[type] = []
 
     def record(self, cls: type, made: bool) -> RecordNode:
         cached = _RECORDS.get((cls, made))
@@ -127,9 +127,9 @@ class _SchemaBuilder:
             return cached
         if not is_record(cls):
             raise TypeError(f"a record is an attrs class, and {cls!r} is none")
-        if cls in self.open_classes:
+        if cls in self.enclosing_classes:
             raise TypeError(f"a {cls.__name__} in a {cls.__name__} cannot be saved")
-        self.open_classes.append(cls)
+        self.enclosing_classes.append(cls)
         fields: dict[str, Node] = {}
         defaults: dict[str, Any] = {}
         for declared in _declared_fields(cls):
@@ -141,7 +141,7 @@ class _SchemaBuilder:
                 defaults[declared.name] = declared.default
             else:
                 fields[declared.name] = node
-        self.open_classes.pop()
+        self.enclosing_classes.pop()
         return _RECORDS.setdefault((cls, made), RecordNode(cls, made, fields, defaults))
 
     def field(self, declared: _DeclaredField, made: bool) -> Node | None:
@@ -166,11 +166,11 @@ class _SchemaBuilder:
         if is_record(hint):
             return self.record(hint, made)
         if origin is tuple and arguments[1:] == (...,):
-            return RowNode(tuple, self.node(arguments[0], made))
+            return SequenceNode(tuple, self.node(arguments[0], made))
         if origin is tuple:
             return TupleNode(tuple([self.node(argument, made) for argument in arguments]))
         if origin in (list, deque):
-            return RowNode(origin, self.node(arguments[0], made))
+            return SequenceNode(origin, self.node(arguments[0], made))
         if origin is dict:
             return DictNode(self.node(arguments[0], made), self.node(arguments[1], made))
         if hint in (tuple, list, deque, dict):
@@ -233,7 +233,7 @@ def describe(*roots: RecordNode) -> dict[str, Any]:
                 return {"maybe": kind(of)}
             case TupleNode(items):
                 return {"tuple": [kind(item) for item in items]}
-            case RowNode(cls, of):
+            case SequenceNode(cls, of):
                 return {"row" if cls is tuple else cls.__name__: kind(of)}
             case DictNode(key, of):
                 return {"dict": [kind(key), kind(of)]}
