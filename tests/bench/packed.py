@@ -32,8 +32,8 @@ from solepath.saving.nodes import (
     Node,
     OpenNode,
     RecordNode,
-    SequenceNode,
     ScalarNode,
+    SequenceNode,
     TupleNode,
 )
 from solepath.saving.schema import record_in

@@ -15,9 +15,9 @@ A loop over fields would take eight times as long. The generated code is straigh
         kinds_0.write(o.corrector, F, N, M, B)
 
 F, N, M and B are the streams to which `write` appends: F floats; N ints, enums (index of the member), lengths and
-kinds; M flags; B bytes. The functions f, n, m and b return the next value of each stream. `o` is the record. `t` is the
-same record as its holder has made it again: fields outside the schema are copied from it by reference. C returns a
-class by its name."""
+kinds; M flags; B bytes. The functions f, n, m and b return the next value of each stream. `o` is the record. `t` is
+this record as its holder made it again: fields outside the schema are copied from it by reference. C returns a class
+by its name."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, SequenceNode, ScalarNode, TupleNode
+from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 from .schema import is_frozen
 
 
@@ -159,7 +159,7 @@ class CodeGenerator:
         return function
 
     def read_expression(self, node: Node, t: str) -> str:
-        """Return the expression that reads a value; `t` is that of the value which its holder has made again."""
+        """Return the expression that reads a value; `t` is the expression of this value as its holder made it again."""
         match node:
             case ScalarNode(kind):
                 return {float: "f()", int: "n()", bool: "m()", bytes: "b(n())", str: "b(n()).decode()"}[kind]

@@ -34,22 +34,22 @@ from typing import Any
 import attrs
 
 from ..types.attrs import MADE_AGAIN, NOT_SAVED
-from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, SequenceNode, ScalarNode, TupleNode
+from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 
 SCALARS = (float, int, bool, str, bytes)
 _RECORDS: dict[tuple[type, bool], RecordNode] = {}
 
 
 def record_of(cls: type, made: bool = False) -> RecordNode:
-    """Return the schema of a class; with `made`, only that of its state.
+    """Return the schema of a class; with `made`, the schema of its state, for a record that its holder makes again.
 
-    Raises TypeError, which names the class and the field, for a type that cannot be saved."""
+    A type that cannot be saved raises TypeError, which names the class and the field."""
     cached = _RECORDS.get((cls, made))
     return _SchemaBuilder().record(cls, made) if cached is None else cached
 
 
 def record_in(node: OpenNode, cls: type) -> RecordNode:
-    """Return the schema of a record of class `cls` in an open node."""
+    """Return the schema of a record of class `cls` that is the value of an open node."""
     return record_of(cls, node.made and (cls in node.known.values() or has_state(cls)))
 
 
@@ -89,7 +89,7 @@ def is_open(cls: Any) -> bool:
 
 @attrs.frozen
 class _Frozen:
-    """A frozen class whose `__setattr__`, which all frozen classes share, is compared."""
+    """A frozen class to compare with, because all frozen classes of attrs share one `__setattr__`."""
 
 
 @attrs.frozen
@@ -210,7 +210,6 @@ def describe(*roots: RecordNode) -> dict[str, Any]:
     numbers: dict[type, int] = {}
 
     def name(cls: type) -> str:
-        """Return the name of the class, with a number if another class has the same name."""
         if cls not in numbers:
             numbers[cls] = 1 + sum([known.__name__ == cls.__name__ for known in numbers])
         return f"{cls.__name__} {numbers[cls]}" if numbers[cls] > 1 else cls.__name__
