@@ -54,10 +54,10 @@ class GaitCycleMeasured(Happening):
     single_support: float | None
     """Time for which only this foot was on the ground, s."""
     phase: float | None
-    """Time of the other foot's contact as a share of the cycle; 0.5 for a symmetric gait. Plotnik et al. 2007, Exp.
-    Brain Res. 181, give it in degrees."""
+    """Time from the start of the cycle to the other foot's contact, as a share of the cycle; 0.5 for a symmetric gait.
+    Plotnik et al. 2007, Exp. Brain Res. 181, give it in degrees."""
     stride_length: float | None
-    """Horizontal distance of the foot-flats before and after the swing, m (Mariani et al. 2010, J. Biomech. 43)."""
+    """Horizontal distance from the foot-flat before the swing to the next, m (Mariani et al. 2010, J. Biomech. 43)."""
     speed: float | None
     """Speed of walking, `stride_length` / `stride_time`, m/s."""
     step_length: float | None
@@ -70,9 +70,9 @@ class GaitCycleMeasured(Happening):
     """Highest rise of the sensor above the higher of the two foot-flats, m. It is not the minimum toe clearance, which
     a sensor on the instep cannot measure (Mariani et al. 2012, IEEE Trans. Biomed. Eng. 59, use the shoe's size)."""
     toe_off_angle: float | None
-    """Pitch of the foot at toe-off against foot-flat, rad; positive when the heel is up."""
+    """Pitch of the foot at toe-off relative to the foot-flat before it, rad; positive when the heel is up."""
     heel_strike_angle: float | None
-    """Pitch of the foot at the contact that ends the cycle, rad; positive when the toe is up, as in heel landing."""
+    """Pitch of the foot at the contact that ends the cycle, relative to the next foot-flat, rad; positive toe up."""
     turning_angle: float | None
     """Turn of the foot about the vertical over the stride, rad, counter-clockwise positive (Mariani et al. 2010)."""
     rise: float | None

@@ -88,7 +88,7 @@ class ClockReset(Happening):
 
 @frozen(kw_only=True)
 class StreamStale(Happening):
-    """Nothing came from a site for longer than its link allows (1 or 2 s, `Profile.stale_after`).
+    """Nothing came from a site for longer than its device allows (`Profile.stale_after`; built-in devices: 1 or 2 s).
 
     `t` is the end of the allowed time. It is reported by the first `Session.advance` or packet of the site after `t`,
     so the latency is the interval between these calls."""
@@ -126,8 +126,8 @@ class Connected(Happening):
 class Disconnected(Happening):
     """The connection to the device is lost; the receiver searches for it.
 
-    `t` is the time at which the receiver noticed it, seconds after the device went out of reach. It is reported at
-    once."""
+    `t` is the time at which the receiver noticed it, some seconds after the device went out of reach. It is reported
+    at once."""
 
     site: Site
 

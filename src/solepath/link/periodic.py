@@ -76,7 +76,7 @@ class PeriodicClock:
     settled_packets: int = 0
     """Number of packets since the fit started, up to SETTLED_PACKETS."""
     rate_start: float = 0.0
-    """Arrival at which the present estimate of the rate started, s."""
+    """Arrival at which the present estimate of the period started, s."""
     rate_packets: int = 0
     """Number of packets since `rate_start`."""
     wide_gaps: int = 0
@@ -164,7 +164,7 @@ class PeriodicClock:
         if elapsed < MAX_FAST_SHARE * expected_time and expected_time - elapsed > MIN_FAST_LEAD:
             self.period = max(0.01, round(elapsed / self.rate_packets, 2))
             return True
-        if self.rate_packets >= 50:  # a short memory, or a quick start would be averaged away
+        if self.rate_packets >= 50:  # a short memory, because older packets would hide a change of the period
             self.rate_start, self.rate_packets = arrival, 0
         if gap < WIDE_GAP_PERIODS * self.period:
             self.wide_gaps = 0

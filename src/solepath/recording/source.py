@@ -25,8 +25,8 @@ class Source:
     """The packets or samples of a recording, in the order in which a session needs them.
 
     Iterating raises RecordingError at data that cannot be used, after all packets or samples before them. A recording
-    of packets that has only a header is no error, but is reported. `total`: size of a recording of packets, bytes, or
-    number of samples in a recording of samples. `done`: part of `total` that was iterated."""
+    of packets that has only a header is no error, but is reported. `foot`, `report`: as in `open_source`. `total`: size
+    of a recording of packets, bytes, or number of samples. `done`: part of `total` that was iterated."""
 
     path: Path
     foot: Foot | None

@@ -107,8 +107,8 @@ class CodeGenerator:
                 self.pending_numbers["N"].append(f"len({variable})")
                 self.add_line("B", f"B.append({variable})")
             case EnumNode(cls):
-                places = {member: k for k, member in enumerate(cls)}
-                self.pending_numbers["N"].append(f"{self.name_object('places', places)}[{value}]")
+                indices = {member: k for k, member in enumerate(cls)}
+                self.pending_numbers["N"].append(f"{self.name_object('indices', indices)}[{value}]")
             case MaybeNode(of):
                 variable = self.assign_name(value)
                 self.pending_numbers["M"].append(f"{variable} is not None")

@@ -42,7 +42,7 @@ class Streams:
 
 
 def write(record: RecordNode, value: Any, lists: Lists) -> None:
-    """Append the values of a record to `lists`; a value that does not fit raises TypeError or ValueError."""
+    """Append the values of a record to `lists`; a value that does not fit raises, for example, TypeError."""
     _functions_of(record).write(value, *lists)
 
 

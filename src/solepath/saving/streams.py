@@ -21,7 +21,8 @@ HEADER = Struct("<4I2d")
 ZERO, SINGLE, DOUBLE, AGAIN, WHOLE, DECIMAL, LEFT, RIGHT = range(8)
 """Classes of a number.
 
-They are, in this order: 0.0; a float32; a float64; the last float64 again; an int16; an int16 divided by 10,000; an int16 times the left unit; an int16 times the right unit."""
+They are, in this order: 0.0; a float32; a float64; the last float64 again; an int16; an int16 divided by 10,000; an
+int16 times the left unit; an int16 times the right unit."""
 LARGE_INT = -(2**63)
 """Placeholder for an int of more than 53 bits, which a float cannot represent exactly."""
 _CLASS_FACTORS = (1 << np.arange(0, 24, 3)).astype("f4")
@@ -74,9 +75,7 @@ def _write_numbers(real: Any, units: Units) -> list[bytes]:
         remaining = (classes == DOUBLE).nonzero()[0]
         remaining_real, remaining_bits = real.take(remaining), bits.take(remaining)
         remaining_classes, remaining_counts = np.full(len(remaining), DOUBLE, np.uint8), np.zeros(len(remaining), "<i2")
-        scales = {DECIMAL: 1e4} | {
-            k: 1.0 / unit for unit, k in {units[1]: RIGHT, units[0]: LEFT}.items() if unit
-        }
+        scales = {DECIMAL: 1e4} | {k: 1.0 / unit for unit, k in {units[1]: RIGHT, units[0]: LEFT}.items() if unit}
         for k, scale in scales.items():
             count = np.rint(remaining_real * scale).astype("<i2")
             exact = _decode_counts(k, count.astype("<f8"), units).view("<i8") == remaining_bits
