@@ -32,8 +32,8 @@ from solepath.saving.nodes import (
     Node,
     OpenNode,
     RecordNode,
-    RowNode,
     ScalarNode,
+    SequenceNode,
     TupleNode,
 )
 from solepath.saving.schema import record_in
@@ -148,7 +148,7 @@ class Account:
             case TupleNode(items):
                 for item, item_value in zip(items, value, strict=True):
                     self.value(item, item_value, field_name)
-            case RowNode(_, of):
+            case SequenceNode(_, of):
                 self.add(field_name, 10)
                 for item_value in value:
                     self.value(of, item_value, field_name)

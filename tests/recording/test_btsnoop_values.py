@@ -136,7 +136,7 @@ def notified_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
         if isinstance(item, LoggedValue) and item.att_value.operation is AttOperation.NOTIFIED
     ]
     assert not listener.flaws
-    return [(value.t, value.link.handle, value.att_value.handle, value.att_value.value) for value in values]
+    return [(value.t, value.connection.handle, value.att_value.handle, value.att_value.value) for value in values]
 
 
 @needs_tshark

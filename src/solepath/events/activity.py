@@ -53,7 +53,7 @@ class FlightClimbed(Happening):
     up: bool
     """True for a flight upwards."""
     steps: int
-    """Number of strides of all feet with data on the flight."""
+    """Number of strides on the flight, counted over all feet that have data."""
     height: float
     """Height of the flight as the feet's tracks measure it, m, positive upwards."""
 

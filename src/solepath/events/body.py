@@ -9,7 +9,7 @@ from .happening import Happening
 
 @frozen(kw_only=True)
 class StrideFused(Happening):
-    """The stride of one foot, whose length is calibrated by the other foot's stride.
+    """A stride of one foot with its length calibrated by a stride of the other foot.
 
     Source: Chen et al. 2019, IEEE Internet of Things Journal, equations (9) to (13), to which the numbers in brackets
     refer. `t` is the foot-flat that ends the stride. It is reported with the StrideTaken of the stride."""
@@ -19,13 +19,13 @@ class StrideFused(Happening):
     number: int
     """Number of the stride (StrideTaken.number)."""
     stride_length: float
-    """Calibrated stride length D of (12), m."""
+    """Calibrated stride length D by (12), m."""
     own_length: float
     """Stride length d that this foot alone measured, m."""
     similarity: float | None
-    """Similarity r of (9) of both feet's strides; None without a stride of the other foot to compare with."""
+    """Similarity r of both feet's strides by (9); None without a stride of the other foot to compare with."""
     error_index: float | None
-    """Error index EI of (10), m/s; None for an abnormal stride, which is not used for calibration."""
+    """Error index EI by (10), m/s; None for an abnormal stride, which is not used for calibration."""
     coefficient: float
     """Share of `own_length` in `stride_length` by (11), 0 to 1."""
     chosen: Foot
@@ -38,11 +38,11 @@ class StrideFused(Happening):
 
 @frozen(kw_only=True)
 class TouchedDown(Happening):
-    """A foot touched down and bears load; the position of the other foot is measured from it until it touches down.
+    """A foot touched down and bears load; the other foot's position is measured from it until that foot touches down.
 
     Source: Gong et al. 2023, Sensors 23, 5417, equations (1) to (3) and (8). `t` is the sample that shows it. It is
-    reported with that sample, or up to 0.06 s later if the attitudes of limb sensors at `t` are still missing. It is
-    final once the wearer's first heading is known, after 1.5 m of walking."""
+    reported with that sample, or up to 0.06 s later if the attitudes of limb sensors at `t` are still missing. From
+    when the wearer's first heading is known, after 1.5 m of walking, these events are final."""
 
     foot: Foot
     """Foot that touched down."""
@@ -58,8 +58,8 @@ class TouchedDown(Happening):
 class WalkingModeChanged(Happening):
     """The walking mode changed (Gong et al. 2023, section 3.3).
 
-    The stance of one foot shows it. `t` is the sample that ends that stance, most of a second after the touchdown, and
-    it is reported with that sample. The event is final."""
+    One stance of a foot shows the change. `t` is the sample that ends this stance, most of a second after the
+    touchdown. The event is reported with that sample, and is final."""
 
     mode: WalkingMode
     """The new walking mode."""

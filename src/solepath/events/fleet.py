@@ -2,7 +2,7 @@
 
 They are not part of `solepath.Event`, because a session never reports them. An item is one Sent: a packet, a tick or an
 end, with its wearer, the run of the phone's app and a number that counts the items of that run from 0. The time of an
-event is that of the newest packet used before it, or 0."""
+event is the time of the newest packet used before it; 0 before any packet."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class SentRejection(Enum):
 class StateRejected(Happening):
     """The saved state of a wearer cannot be used, so a fresh session starts.
 
-    It is damaged, or was saved by a later release, or with another recipe or floor plan. The event is reported with the
-    first item after it."""
+    The state is damaged, or was saved by a later release, or with another recipe or floor plan. The event is reported
+    with the first item that comes after the state."""
 
     detail: str
     """Reason in words."""
@@ -68,7 +68,7 @@ class SentRejected(Happening):
     """Reason in words."""
     count: int = 1
     """Number of items of this run that were rejected as LATE or AFTER_END so far, with this one; 1 for other reasons.
-    Only numbers 1, 2, 4, 8 and so on are reported, until an item of another run is late."""
+    Only the counts 1, 2, 4, 8 and so on are reported, until an item of another run is late."""
 
 
 @frozen(kw_only=True)

@@ -50,10 +50,10 @@ class StrideFeatures:
     in the unit of the samples. `cop`: path (x, y) of the centre of pressure from foot-flat to toe-off, foot frame, m,
     at most 32 points at equal intervals of samples. `error_index`: difference of the integrated velocity from the known
     velocity at toe-off and heel-strike, m/s (Chen et al. 2019, equation (10)); None if the velocity of the rolling shoe
-    was not used. `toe_off_angle`: pitch at toe-off against the foot-flat before, rad, positive with the heel up.
-    `heel_strike_angle`: pitch at heel-strike against the foot-flat after, rad, positive with the toe up. Both angles
-    are about the axis to the wearer's left, which is known after the foot's first push-off. `rise`: height of the
-    stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
+    was not used. `toe_off_angle`: pitch at toe-off relative to the foot-flat before it, rad, positive when the heel
+    is up. `heel_strike_angle`: pitch at heel-strike relative to the foot-flat after it, rad, positive when the toe is
+    up. Both angles are about the axis to the wearer's left, which is known after the foot's first push-off. `rise`:
+    height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
 
     clearance: float
     peak_speed: float

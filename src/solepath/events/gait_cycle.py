@@ -13,11 +13,11 @@ class GaitCycleMeasured(Happening):
 
     Sources: Perry and Burnfield, Gait Analysis, 2nd ed. 2010, chapter 1; Whittle, Gait Analysis, 4th ed. 2007, chapter
     2. A contact is a HeelStrike, or the FootFlat of a foot that lands flat. `t` is the contact that ends the cycle. The
-    event is reported at the next foot-flat, 0.1 to 0.2 s later, or when the other foot's data reach `t`, if that is
-    later, but at most 0.5 s later.
+    event is reported at the next foot-flat, 0.1 to 0.2 s after `t`. If the other foot's data have not reached `t` then,
+    the event waits for them until 0.5 s after `t` at most.
 
-    A value that cannot be measured is None: lengths and angles without an inertial sensor, values between the feet
-    while only one foot has data, step length and width if no part of the recipe puts both feet into one frame.
+    A value that cannot be measured is None: lengths and angles without an inertial sensor; values between the feet
+    while only one foot has data; step length and width if no part of the recipe puts both feet into one frame.
 
     Times between the feet (`step_time`, double and single support, `phase`) compare two devices' clocks. They are None
     if one of the two clocks was not settled during the cycle. A clock is settled 5 s after its stream started or its
@@ -50,30 +50,29 @@ class GaitCycleMeasured(Happening):
     """Time from this foot's first contact until the other foot's toe-off, s; negative in running. A negative value is
     the time for which both feet were in the air (Novacheck 1998, Gait & Posture 7)."""
     terminal_double_support: float | None
-    """Time from the other foot's contact until this foot's toe-off, s; negative in running, as above."""
+    """Time from the other foot's contact until this foot's toe-off, s; negative in running."""
     single_support: float | None
     """Time for which only this foot was on the ground, s."""
     phase: float | None
-    """Time of the other foot's contact as a share of the cycle; 0.5 for a symmetric gait. Plotnik et al. 2007, Exp.
-    Brain Res. 181, give it in degrees."""
+    """Time from the start of the cycle to the other foot's contact, as a share of the cycle; 0.5 for a symmetric gait.
+    Plotnik et al. 2007, Exp. Brain Res. 181, give it in degrees."""
     stride_length: float | None
-    """Horizontal distance of the foot-flats before and after the swing, m (Mariani et al. 2010, J. Biomech. 43)."""
+    """Horizontal distance from the foot-flat before the swing to the next, m (Mariani et al. 2010, J. Biomech. 43)."""
     speed: float | None
     """Speed of walking, `stride_length` / `stride_time`, m/s."""
     step_length: float | None
     """Distance from the other foot's position to this foot's landing position, along this foot's stride, m (Huxham et
-    al. 2006, Gait & Posture 23). It is the distance of the sensors, which is correct if both are mounted alike. It
-    needs a recipe that measures the position of one foot from the other (body/gait/measuring.py); it is None if the
-    recipe only assumes how far apart the two tracks are."""
+    al. 2006, Gait & Posture 23). It is the distance of the sensors, which is correct if both are mounted alike. It is
+    None unless the recipe measures the position of one foot from the other; a recipe may only assume a distance."""
     step_width: float | None
     """Distance of the other foot from the line of this stride, m (Huxham et al. 2006); negative when the feet cross."""
     clearance: float | None
     """Highest rise of the sensor above the higher of the two foot-flats, m. It is not the minimum toe clearance, which
     a sensor on the instep cannot measure (Mariani et al. 2012, IEEE Trans. Biomed. Eng. 59, use the shoe's size)."""
     toe_off_angle: float | None
-    """Pitch of the foot at toe-off against foot-flat, rad; positive when the heel is up."""
+    """Pitch of the foot at toe-off relative to the foot-flat before it, rad; positive when the heel is up."""
     heel_strike_angle: float | None
-    """Pitch of the foot at the contact that ends the cycle, rad; positive when the toe is up, as in heel landing."""
+    """Pitch of the foot at the contact that ends the cycle, relative to the next foot-flat, rad; positive toe up."""
     turning_angle: float | None
     """Turn of the foot about the vertical over the stride, rad, counter-clockwise positive (Mariani et al. 2010)."""
     rise: float | None
@@ -102,7 +101,7 @@ class GaitCycleMeasured(Happening):
 
     @property
     def double_support_share(self) -> float | None:
-        """Initial and terminal double support as a share of the cycle."""
+        """Sum of initial and terminal double support as a share of the cycle; negative for a runner."""
         both = self.double_support
         return None if both is None else both / self.stride_time
 

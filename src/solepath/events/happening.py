@@ -22,7 +22,7 @@ class Happening:
     t: float
     """Time at which the event happened, s."""
     known_at: float
-    """Time at which the event could be reported, s; never earlier than `t`."""
+    """First time at which the event could be reported, s; never earlier than `t`."""
     final: bool = True
     """True if no later event revises this event."""
 

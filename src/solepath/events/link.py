@@ -53,7 +53,7 @@ class SampleRejected(Happening):
 
 @frozen(kw_only=True)
 class PacketsLost(Happening):
-    """Packets never arrived, as the device's counters show, or the times of arrival for a device without counters.
+    """Packets never arrived; the device's counters show it, or the times of arrival if the device has no counters.
 
     `t` is the time of the first missing packet. It is reported at the arrival of the first packet after them."""
 
@@ -88,7 +88,7 @@ class ClockReset(Happening):
 
 @frozen(kw_only=True)
 class StreamStale(Happening):
-    """Nothing came from a site for longer than its link allows (1 or 2 s, `Profile.stale_after`).
+    """Nothing came from a site for longer than its device allows (`Profile.stale_after`; built-in devices: 1 or 2 s).
 
     `t` is the end of the allowed time. It is reported by the first `Session.advance` or packet of the site after `t`,
     so the latency is the interval between these calls."""
@@ -126,8 +126,8 @@ class Connected(Happening):
 class Disconnected(Happening):
     """The connection to the device is lost; the receiver searches for it.
 
-    `t` is the time at which the receiver noticed it, seconds after the device went out of reach. It is reported at
-    once."""
+    `t` is the time at which the receiver noticed it, some seconds after the device went out of reach. It is reported
+    at once."""
 
     site: Site
 
@@ -170,22 +170,22 @@ class LinkTrouble(Happening):
 class ScaleSuspect(Happening):
     """The accelerometer reads over 15 % more or less than 1 g at rest, so the assumed range or scale is wrong.
 
-    It is reported once. `t` is the end of a rest of 1.5 s (in packets) or 0.5 s (in samples), at which it is
-    reported."""
+    It is reported once. `t` is the end of a rest of 1.5 s if the session gets packets, or 0.5 s if it gets samples, at
+    which it is reported."""
 
     site: Site
     magnitude: float
     """Mean |acc| at rest, m/s^2."""
     suggestion: str = ""
-    """Factor to multiply by, or range that the device may have, in words."""
+    """Factor by which to multiply values, or range that the device may have, in words."""
 
 
 @frozen(kw_only=True)
 class LayoutKnown(Happening):
     """The layout of the pressure cells is known from the device or from the calibration.
 
-    A layout of the calibration is used if the samples have as many cells. `t` is the time of the packet with the
-    layout, or of the first such sample, with which it is reported."""
+    A layout of the calibration is used if it has as many cells as the samples. `t` is the time of the packet with the
+    layout, or of the first sample with as many cells, with which it is reported."""
 
     site: Site
     layout: Layout

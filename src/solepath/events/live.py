@@ -46,7 +46,7 @@ class FootPressed(Happening):
     foot: Foot
     values: tuple[float, ...]
     """Value of each cell in the layout's order, in the unit of the samples (N if a calibration converts counts to N).
-    The cell's noise is subtracted, and after the first swing also its value in swing. A failed cell has 0."""
+    The cell's noise is subtracted, and after the first swing also its tare. A failed cell has 0."""
     force: float
     """Sum of `values`, in their unit."""
     centre: tuple[float, float] | None

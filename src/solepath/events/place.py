@@ -16,7 +16,7 @@ class Candidate:
     level: str
     """Level of the candidate, a `Level.id` of the plan."""
     position: Vec3
-    """Position in the plan frame, m; z is the height above the plan's zero, or the track's z if that is unknown."""
+    """Position in the plan frame, m; z is the height above the plan's zero, or if unknown, the track's z."""
     heading: float | None
     """Direction of the track's x axis in the plan frame, rad, counter-clockwise from the plan's x axis; None if
     unknown."""

@@ -26,8 +26,8 @@ class CellFault(Enum):
 class CellsFailed(Happening):
     """Some cells have a fault and are not used from `t` on; it is reported once for each fault and set of cells.
 
-    `t` is the end of the second window of walking in a row that shows the fault, at which it is reported; a window has
-    at least four swings and 3 s. MISSING is reported after 1 s."""
+    `t` is the end of the second of two successive windows of walking that show the fault, at which it is reported; a
+    window has at least four swings and 3 s. MISSING is reported after 1 s."""
 
     site: Site
     fault: CellFault
@@ -40,8 +40,8 @@ class CellsFailed(Happening):
 class InsoleNeverUnloads(Happening):
     """The insole shows load all the time while the foot walks: it is jammed, or the shoe presses on it too hard.
 
-    While that lasts, phases come from the inertial sensor. `t` is the end of the second window of walking in a row in
-    which the load never ended, at which it is reported; a window has at least four swings and 3 s."""
+    While that lasts, phases come from the inertial sensor. `t` is the end of the second of two successive windows of
+    walking in which the load never ended, at which it is reported; a window has at least four swings and 3 s."""
 
     site: Site
     seconds: float
@@ -50,7 +50,7 @@ class InsoleNeverUnloads(Happening):
 
 @frozen(kw_only=True)
 class FeetSwapped(Happening):
-    """The data of the left foot look like those of a right foot, and those of the right foot like a left foot's.
+    """The data of each foot look like those of the other foot, so the sensors or insoles may be on the wrong feet.
 
     It is reported once, and the session does not exchange the feet. `t` is the time at which it is reported: when the
     layouts of both insoles show it, else after at least 8 strides of each foot, by the way in which the feet roll or

@@ -15,8 +15,8 @@ the error is above 0.25 s, up to 2 % is allowed. Assigned times strictly increas
 The times of two clocks are comparable only when both clocks are settled. A fit that starts with a late packet is behind
 until slewing has removed the delay. A clock is settled when its times have been within 5 ms of the line for 5 s of
 device time. Then two clocks of 100 packets a second agree within 5 ms, with up to 50 ms of radio jitter or connection
-interval. A delay that *every* packet of one device has cannot be measured by the receiver. If packets are nearly as far
-apart as the radio's connection events, that delay is up to one connection interval until the two drift apart."""
+interval. The receiver cannot measure a delay that *every* packet of a device has. If the intervals between packets and
+between the radio's connection events are nearly equal, this delay may for long be up to one connection interval."""
 
 from __future__ import annotations
 
@@ -38,8 +38,10 @@ MAX_SLEW, MAX_FAST_SLEW, LARGE_ERROR = 0.005, 0.02, 0.25
 """Largest relative slew, largest relative slew for a large error, and smallest large error (s)."""
 SLEW_TIME = 2.0
 """Time constant with which a small error is corrected, s."""
-MAX_EARLY_ARRIVAL = 0.5
-"""Largest error of the fit, s: a packet may seem to arrive this long before it was measured."""
+MIN_INCREMENT = 1e-6
+"""Smallest difference of two assigned times in a row, s."""
+MAX_EARLY_ARRIVAL, EARLY_ARRIVAL_GROWTH = 0.5, 0.01
+"""Largest time by which a packet may seem to arrive before it was measured, s, and its growth after the last window."""
 SETTLED_ERROR, SETTLING_TIME = 0.005, 5.0
 """Largest distance of a settled clock's times from the line (s), and the time for which it must hold (device s)."""
 JUMP_DELAY, STOPPED_DELAY, STOPPED_DURATION = 30.0, 1.0, 20.0
@@ -76,7 +78,7 @@ class Clock:
     offset: float = 0.0
     """Height of the line at the first packet, relative to `origin`, s."""
     behind_since: float | None = None
-    """Arrival of the first of the newest packets that all came later than STOPPED_DELAY, s; None without any."""
+    """Arrival since which every packet came later than STOPPED_DELAY, s; None if the newest one did not."""
     last_device_time: float | None = None
     """Newest sample that was assigned a time, device seconds since the first packet."""
     last_t: float = 0.0
@@ -100,7 +102,7 @@ class Clock:
         x = (ticks - self.first_tick) / self.rate
         delay = arrival - (self.origin + self.offset + x * (1.0 + self.drift))
         if delay < 0.0:
-            return delay < -(MAX_EARLY_ARRIVAL + 0.01 * max(0.0, x - self.window_times[-1]))
+            return delay < -(MAX_EARLY_ARRIVAL + EARLY_ARRIVAL_GROWTH * max(0.0, x - self.window_times[-1]))
         if delay > JUMP_DELAY:
             return True
         return (
@@ -146,8 +148,8 @@ class Clock:
             max_slew = dx * (MAX_SLEW if -LARGE_ERROR < error < LARGE_ERROR else MAX_FAST_SLEW)
             slew = error * (dx / SLEW_TIME) if dx < SLEW_TIME else error
             t = t_unslewed + max(-max_slew, min(max_slew, slew))
-            if t <= self.last_t:  # the step is below float resolution, or the ticks stand still
-                t = self.last_t + 1e-6
+            if t <= self.last_t:  # the difference is below float resolution, or the ticks stand still
+                t = self.last_t + MIN_INCREMENT
         if self.last_device_time is None or not -SETTLED_ERROR <= fitted - t <= SETTLED_ERROR:
             self.last_off_line_time = x
         if x - self.last_off_line_time < SETTLING_TIME:
@@ -173,14 +175,13 @@ class Clock:
         self.window_residuals = [self.window_residuals[i] for i in lowest]
 
     def _fit(self) -> None:
-        """Fit the line to the windows' earliest arrivals."""
         times, residuals = self.window_times, self.window_residuals
         span = times[-1] - times[0]
         drift = max(-MAX_DRIFT, min(MAX_DRIFT, _support_slope(times, residuals)))
         heights = [r - drift * x for x, r in zip(times, residuals, strict=True)]
-        # The uncertainty of the slope is the points' mean height over the line, divided by the span of their times. Few
-        # points always lie close to a line, hence `spare_points`. A drift below its uncertainty is reduced towards 0; a
-        # drift of 4 % is followed within about two seconds.
+        # The uncertainty of the slope is four times the points' mean height above the line, divided by the span of
+        # their times. Few points always lie close to a line, so `spare_points` enlarge it. A drift below its
+        # uncertainty is reduced towards 0; a drift of 4 % is followed within about two seconds.
         spare_points = len(times) - 4
         drift_error = (
             4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / spare_points)

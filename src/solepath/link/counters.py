@@ -1,8 +1,8 @@
 """Classification of a packet by the device's counters, and the times of its samples.
 
 A packet is the next one, follows lost packets, is a duplicate, is late, or comes from a device that restarted its
-counters (protocol/clock.md, "What a frame is"). A run is the packets between two such restarts. The numbers below are
-those of protocol/clock.md."""
+counters (protocol/clock.md, "What a frame is", has the numbers below). A packet run is the packets between two such
+restarts."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class SampleTimes:
     times: list[float]
     """Time of each sample, s."""
     lost_count: int = 0
-    """Number of packets that were lost directly before this one."""
+    """Number of packets that were lost directly before the packet."""
     t_missing: float = 0.0
     """Time of the first lost packet, s."""
     restarted: bool | None = None
@@ -97,8 +97,7 @@ class PacketRun:
 
         The counter wraps at `modulus`, so the number may include whole rounds: it is the possible value that is nearest
         to `expected`, the number of packets that the time difference suggests."""
-        half = modulus // 2
-        difference = (sequence - self.sequence + half) % modulus - half
+        difference = signed_difference(sequence - self.sequence, modulus)
         return difference, difference + modulus * round((expected - difference) / modulus)
 
     def accept(self, position: PacketPosition, rate: float, arrival: float, new_fit: bool = False) -> SampleTimes:
@@ -136,13 +135,12 @@ class PacketRun:
         return SampleTimes(times, lost_count, t_missing, restarted)
 
     def _start_clock(self, ticks: int, rate: float, t_min: float | None) -> Clock:
-        """Start a new clock at `ticks` whose first assigned time is not before `t_min`, s."""
         self.clock = Clock(rate, t_min=t_min)
         self.ticks, self.accepted_bits = ticks, 1
         return self.clock
 
     def _reject_repeated(self, clock: Clock, position: PacketPosition, arrival: float) -> None:
-        """Raise WireError for a packet that is not newer and is a duplicate or late; otherwise the device restarted."""
+        """Raise WireError if a packet that is not newer is a duplicate or late; return if the device restarted."""
         packets, ticks = position.packets_after, position.ticks_after
         is_same_run = abs(packets * self.packet_ticks - ticks) <= 2 * self.packet_ticks
         was_accepted = is_same_run and -REMEMBERED_PACKETS < packets <= 0 and bool(self.accepted_bits >> -packets & 1)

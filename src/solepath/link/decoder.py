@@ -5,13 +5,13 @@ handles silence, battery and firmware. The first usable packet shows the kind of
 Bytes and clocks are handled in devices/ and, for declared devices, in stream.py; kinds.py has the table of all kinds.
 An app that adds devices passes its own table with every call, because the table holds functions and a decoder is data.
 
-A site is bound to the first device whose address (`Packet.device`) a packet has, unless it was bound when it was made.
-From then on, packets of other devices and packets without an address are rejected. Upper and lower case are the same
-address. A packet of a channel receiver/... may be without an address, because it is about the receiver itself.
+A decoder may be made with the address of its device (`Packet.device`); otherwise the first packet with an address binds
+the site to that device. Then packets of other devices, and packets without an address, are rejected; upper and lower
+case are the same address. Only packets of channels receiver/..., which report on the receiver, need no address.
 
 A packet is rejected when it arrived before the newest one. If twenty such packets come in a row, the receiver's clock
-was set back: the twentieth gives ClockReset, and times restart earlier than before. The count of these packets is the
-only thing that a rejected packet changes. The twenty are those of protocol/clock.md."""
+was set back: the twentieth gives ClockReset, and times restart earlier than before (protocol/clock.md). The count of
+these packets is the only thing that a rejected packet changes."""
 
 from __future__ import annotations
 
@@ -106,7 +106,6 @@ class Decoder:
         return device == self.device or device.upper() == self.device.upper()
 
     def _is_other_device(self, packet: Packet) -> bool:
-        """Return whether a packet is of another device than the one that the site is bound to."""
         if self.device == "" or self.is_bound_to(packet.device):
             return False
         return packet.device != "" or packet.channel.partition("/")[0] != "receiver"
@@ -150,7 +149,6 @@ class Decoder:
         return [*out]
 
     def _read_standard(self, packet: Packet) -> Output:
-        """Read battery and firmware, which any device may have."""
         from ..wire.device import parse_battery, parse_firmware
 
         if packet.channel == "device/battery":
@@ -179,7 +177,7 @@ class Decoder:
         return out
 
     def _restart(self, packet: Packet, kinds: DeviceKinds) -> Output:
-        """Restart times with this packet, because the receiver's clock was set back, unless it cannot be used."""
+        """Restart times with this packet, because the receiver's clock was set back, unless the packet is unusable."""
         trial = deepcopy(self)
         out = trial._reset_times(packet.t)
         try:

@@ -1,4 +1,4 @@
-"""Declaration of a device by data: its profile, and the format and the meaning in SI units of each channel's values.
+"""Declaration of a device by data: its profile, and for each channel the format of its values and a reader to SI units.
 
 A declared device sends plain numbers. A notification holds samples, and perhaps a sequence number and the device's own
 time. For each channel a `Driver` has a construct (see construct.readthedocs.io), which reads and writes the bytes. For
@@ -31,12 +31,11 @@ MAX_COUNTER = 1 << 64
 READING_ERRORS = (ValueError, LookupError, ArithmeticError, StructError)
 """Exceptions by which a construct or a reader rejects a value."""
 FINE_SAMPLE_TICKS = 20.0
-"""Ticks per sample at which a device's time becomes better than its sequence numbers (protocol/clock.md)."""
-
+"""Smallest number of ticks per sample with which a device's time is better than its sequence numbers."""
 MIN_SAMPLE_TICKS = 2.0
-"""Ticks per sample at which a device's time becomes better than arrivals, for a device without sequence numbers.
+"""Smallest number of ticks per sample with which a device's time is better than arrivals.
 
-With fewer ticks, several samples would have the same tick (protocol/clock.md)."""
+It is for devices without sequence numbers. With fewer ticks, samples would have the same tick (protocol/clock.md)."""
 
 
 @frozen
@@ -44,8 +43,8 @@ class Measured:
     """One sample as its device sent it, sensor frame, SI units; a quantity that it does not have is None.
 
     `acc`: specific force, m/s^2. `gyro`: angular rate, rad/s. `mag`: magnetic field, T. `air_pressure`: Pa. `pressure`:
-    of each cell, as in types.Sample. `quat`: attitude, sensor to world, of any length; all zero when the device does
-    not know it. `saturated`: True when a sensor was at the end of its range."""
+    value of each cell, as in types.Sample. `quat`: attitude, sensor to world, as a quaternion of any length; all zero
+    when the device does not know it. `saturated`: True when a sensor was at the end of its range."""
 
     acc: Vec3 | None = None
     gyro: Vec3 | None = None
@@ -65,10 +64,10 @@ class Reading:
     `mag` (T) and `air_pressure` (Pa): values measured separately, which are attached to the next sample.
 
     `battery`: battery level, 0 to 1. `keys`: names of the keys that are down. `foot`: foot that wears the device.
-    `layout`: layout of the pressure cells. `rate`: samples a second from this value on. `period`: s from one
-    notification to the next, for a device without counters. `silent`: True when the device may be silent from now on,
-    because it is off or waits for motion. `known`: numbers that are passed to the readers of later values; "acc_range"
-    is the accelerometer's full scale in g."""
+    `layout`: layout of the pressure cells. `rate`: samples a second from this value on. `period`: time from one
+    notification to the next, s, for a device without counters. `silent`: True when the device may be silent from now
+    on, because it is off or waits for motion. `known`: numbers that are passed to the readers of later values;
+    "acc_range" is the accelerometer's full scale in g."""
 
     samples: tuple[Measured, ...] = ()
     sequence: int | None = None

@@ -10,9 +10,9 @@ and their numbers are those of protocol/clock.md, "Devices without counters":
 - Otherwise the packets are late. But if eight packets in a row are 0.9 periods behind, the eighth reports a loss.
 - A packet that is half a period too early shows that a reported loss was wrong; it does not take a new slot.
 
-A radio may hold packets back for some connection events. If the period is shorter than that, a gap does not show a
-loss. Then only packets that stay behind by that delay for 0.32 s show one. A smaller loss looks like lateness, and the
-fit corrects it.
+A radio may hold packets back for some connection events, up to 40 ms. If the period is shorter, a gap does not show a
+loss: only packets that stay at least 40 ms behind for 0.32 s do. A smaller loss looks like lateness, and the fit
+corrects it.
 
 A period that was not recorded is estimated from the arrivals, when these are clearly faster than the assumed period or
 have six wide gaps in a row."""
@@ -27,12 +27,14 @@ from .counters import SampleTimes
 
 MIN_LOSS_GAP = 1.5
 """Smallest gap between two arrivals that may be a loss, periods."""
-MIN_LATE_PERIODS = 0.9
-"""Smallest delay behind its slot at which a packet may belong to a later slot, periods."""
+MIN_LATE_PERIODS, MIN_UNSETTLED_LATE_PERIODS = 0.9, 0.75
+"""Smallest delay behind its slot at which a packet may belong to a later slot, periods: of a settled and a new fit."""
 MIN_LATE_JITTERS = 5.0
 """Smallest delay behind its slot at which a packet may belong to a later slot, in units of the mean lateness."""
+MIN_EARLY_PERIODS, EARLY_SLOT = 0.5, 0.25
+"""Smallest lead of a packet that shows that none was lost, and distance of its time from the last slot, periods."""
 REVISABLE_PACKETS = 12
-"""Number of packets after a reported loss that may still show that it was wrong."""
+"""Number of packets after a reported loss that may still show that no packet was lost."""
 MAX_EARLY_ARRIVAL = 0.15
 """Largest time by which an assigned time may be after the arrival, s; one period is added."""
 SETTLED_PACKETS = 40
@@ -41,10 +43,10 @@ SLIPPED_PACKETS, SLIPPED_DURATION = 8, 0.32
 """Number of packets in a row, and duration (s), that must be behind their slots to show a loss without a gap."""
 MAX_RADIO_DELAY = 0.04
 """Largest delay that a radio may cause at any time, s; if the period is shorter, a gap does not show a loss."""
-MIN_FAST_LEAD = 0.24
-"""Smallest lead of the arrivals that shows a shorter period, s; radio jitter is smaller."""
-MIN_WIDE_GAPS = 6
-"""Number of gaps in a row that shows a longer period."""
+MIN_FAST_LEAD, MAX_FAST_SHARE = 0.24, 0.6
+"""Smallest lead of arrivals, s (above radio jitter), and largest share of expected time, that show a shorter period."""
+WIDE_GAP_PERIODS, MIN_WIDE_GAPS = 1.4, 6
+"""Smallest gap that is wide, periods, and number of wide gaps in a row that shows a longer period."""
 NEW_PHASE_SILENCE = 5.0
 """Silence after which the slots restart with the next packet, s, because the device may have restarted its timer."""
 
@@ -70,15 +72,15 @@ class PeriodicClock:
     jitter_before_slip: float = 0.0
     """Value of `jitter` before the first of those packets, s."""
     revisable_packets: int = 0
-    """Number of further packets that may show that the newest reported loss was wrong."""
+    """Number of further packets that may show that no packet was lost when a loss was last reported."""
     settled_packets: int = 0
     """Number of packets since the fit started, up to SETTLED_PACKETS."""
     rate_start: float = 0.0
-    """Arrival at which the present estimate of the rate started, s."""
+    """Arrival at which the present estimate of the period started, s."""
     rate_packets: int = 0
     """Number of packets since `rate_start`."""
     wide_gaps: int = 0
-    """Number of gaps in a row that were wider than 1.4 periods."""
+    """Number of wide gaps in a row."""
     wide_gaps_start: float = 0.0
     """Arrival before the first of those gaps, s."""
 
@@ -101,12 +103,12 @@ class PeriodicClock:
         delay = arrival - self.clock.fit_time(self.slot + 1.0)
         settled = self.settled_packets >= SETTLED_PACKETS
         if (
-            delay < -0.5 * period
+            delay < -MIN_EARLY_PERIODS * period
             and (settled or self.revisable_packets)
             or arrival - t_missing < -(MAX_EARLY_ARRIVAL + period)
         ):
             self.revisable_packets = self.slipped_packets = 0
-            return SampleTimes([self.clock.assign_time(self.slot + 0.25)])
+            return SampleTimes([self.clock.assign_time(self.slot + EARLY_SLOT)])
         lost_count = self._count_lost(gap, delay, period)
         self.slot += 1.0 + lost_count
         self.settled_packets = min(self.settled_packets + 1, SETTLED_PACKETS)
@@ -133,7 +135,7 @@ class PeriodicClock:
         if self.settled_packets < SETTLED_PACKETS:  # lateness may still be a slow device; only the gap is evidence
             return (
                 round(gap / period) - 1
-                if gap_is_evidence and gap >= MIN_LOSS_GAP * period and delay >= 0.75 * period
+                if gap_is_evidence and gap >= MIN_LOSS_GAP * period and delay >= MIN_UNSETTLED_LATE_PERIODS * period
                 else 0
             )
         if (
@@ -157,15 +159,14 @@ class PeriodicClock:
         return floor(self.slip_delay / period + 1.0 - MIN_LATE_PERIODS)
 
     def _correct_period(self, arrival: float, gap: float) -> bool:
-        """Correct the period if arrivals show that it is wrong, and return whether they did."""
         self.rate_packets += 1
         expected_time, elapsed = self.rate_packets * self.period, arrival - self.rate_start
-        if elapsed < 0.6 * expected_time and expected_time - elapsed > MIN_FAST_LEAD:
+        if elapsed < MAX_FAST_SHARE * expected_time and expected_time - elapsed > MIN_FAST_LEAD:
             self.period = max(0.01, round(elapsed / self.rate_packets, 2))
             return True
-        if self.rate_packets >= 50:  # a short memory, or a quick start would be averaged away
+        if self.rate_packets >= 50:  # a short memory, because older packets would hide a change of the period
             self.rate_start, self.rate_packets = arrival, 0
-        if gap < 1.4 * self.period:
+        if gap < WIDE_GAP_PERIODS * self.period:
             self.wide_gaps = 0
             return False
         if self.wide_gaps == 0:

@@ -9,10 +9,12 @@ from ..types import Sample, Vec3
 from ..types.attrs import define
 from ..types.vector import GRAVITY
 
-STILL_DURATION = 1.5
-"""Duration of a window without motion that counts as rest, s."""
-MAX_STILL_RANGE = 0.06
-"""Largest range of an axis in a window without motion, as a fraction of the mean |acc|."""
+FULL_SCALE_COUNTS = 32768
+"""Counts that are the full scale of a sensor with 16 bits."""
+STILL_DURATION, MIN_STILL_SAMPLES = 1.5, 8
+"""Duration (s), and number of samples, of a window without motion that counts as rest."""
+MAX_STILL_RANGE, MAX_STILL_COUNTS = 0.06, 2.5
+"""Largest range of an axis in a window without motion: this fraction of the mean |acc|, plus these counts."""
 SCALE_TOLERANCE = 0.15
 """Relative deviation from 1 g above which the scale is suspect; usual ranges differ by factors of two."""
 USUAL_RANGES = (2, 4, 8, 16)
@@ -50,7 +52,7 @@ class RestCheck:
         return [ScaleSuspect(t=t, known_at=known_at, site=sample.site, magnitude=magnitude, suggestion=suggestion)]
 
     def add_acc(self, t: float, acc: Vec3) -> float | None:
-        """Return the mean |acc| of the window without motion, m/s^2, when it shows a wrong scale, else None."""
+        """Add a specific force (m/s^2) at `t` (s); return the mean |acc| at rest if its scale is wrong, else None."""
         x, y, z = acc
         if self.count == 0:
             self._restart_window(t, acc)
@@ -61,10 +63,10 @@ class RestCheck:
         self.acc_sum = sx, sy, sz = (sx + x, sy + y, sz + z)
         self.count += 1
         magnitude = sqrt(sx * sx + sy * sy + sz * sz) / self.count
-        if max(hx - lx, hy - ly, hz - lz) > MAX_STILL_RANGE * magnitude + 2.5 * self.count_size:
+        if max(hx - lx, hy - ly, hz - lz) > MAX_STILL_RANGE * magnitude + MAX_STILL_COUNTS * self.count_size:
             self._restart_window(t, acc)
             return None
-        if t - self.window_start < STILL_DURATION or self.count < 8:
+        if t - self.window_start < STILL_DURATION or self.count < MIN_STILL_SAMPLES:
             return None
         self.is_finished = True
         return magnitude if abs(magnitude - GRAVITY) > SCALE_TOLERANCE * GRAVITY else None
@@ -75,7 +77,7 @@ class RestCheck:
 
 
 def suggest_range(magnitude: float, assumed: float) -> str:
-    """Return a sentence on a reading of `magnitude` m/s^2 at rest with an assumed full scale of `assumed` g."""
+    """Return a text on a mean |acc| of `magnitude` m/s^2 at rest, where a full scale of `assumed` g was assumed."""
     if magnitude < 0.05 * GRAVITY:
         return "reads nothing at rest: is the accelerometer switched on?"
     ratio = magnitude / GRAVITY

@@ -1,11 +1,11 @@
-"""The link of one declared device (driver.py), which turns readings into Samples on one clock and events.
+"""The link of one declared device (driver.py), which turns readings into events, and into Samples on one clock.
 
 Times come from the best source that the device has, by the rules of protocol/clock.md:
 
-- The device's own time, where it has one, as with an insole. Without sequence numbers the ticks show losses, at the
-  rate of the profile or of a value; six packets in a row at another, steady distance show that the rate was wrong.
-- Else its sequence numbers: they count the samples, and the count is the time. A coarse device time beside them, or a
-  silence of 5 s, shows when counting stopped.
+- The device's own time, if its ticks are fine enough. Without sequence numbers, a larger distance between two packets
+  than the rate predicts is a loss; six packets in a row at another, steady distance show that the rate was wrong.
+- Else the device's sequence numbers, which count the samples. If the device also has a coarse time, that time shows
+  when counting stopped; otherwise a silence of 5 s does.
 - Else arrivals alone (periodic.py)."""
 
 from __future__ import annotations
@@ -16,31 +16,32 @@ from ..types.attrs import define, field
 from ..types.vector import GRAVITY, unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
+from .clock import MIN_INCREMENT
 from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
 from .device_link import DeviceLink, Output
 from .driver import MIN_SAMPLE_TICKS, Driver, DriverSignature, Reading, TimeAxis
 from .periodic import PeriodicClock, make_periodic_clock
 from .reading_check import MIN_RATE, check_reading
-from .rest_check import RestCheck
+from .rest_check import FULL_SCALE_COUNTS, RestCheck
 
 MAX_PRESSURE_WAIT = 1.0
 """Time without samples after which air pressure no longer waits for a sample, s."""
 TICKS_PER_SAMPLE = 100
-"""Ticks by which a device that only counts samples advances in one sample; a pause may end between two samples."""
-PAUSE_LEAD = 0.25
-"""Smallest lead of a device's coarse time over its count that shows a pause, s; a tenth of the count is added."""
+"""Ticks that stand for one sample of a device that only counts; more than one, as a pause may end between samples."""
+PAUSE_LEAD, PAUSE_RATIO = 0.25, 1.1
+"""A coarse device time shows a pause when it is over PAUSE_RATIO times the counted time plus PAUSE_LEAD s."""
 MAX_DEVICE_LAG, MAX_DEVICE_LEAD = 2.0, 0.25
-"""Largest time by which a device's coarse time may be behind or ahead of the arrivals, s; beyond it, it was set."""
+"""Largest time by which a device's coarse time may be behind or ahead of the arrivals, s; otherwise it was set."""
 LONG_SILENCE, MIN_DELAY_AFTER_SILENCE, MIN_DELAY_AFTER_CONNECTION = 5.0, 2.5, 0.5
-"""Silence after which the device may have stopped counting, and delay of the next packet that shows it, s.
+"""Silence after which a device may have stopped counting, and delays of the next packet that show that it did, s.
 
-After a new connection, which delivers no old packets, MIN_DELAY_AFTER_CONNECTION shows it without a silence."""
+After a new connection, which delivers no old packets, MIN_DELAY_AFTER_CONNECTION is enough, without a silence."""
 MIN_LOSS_GAP = 1.5
 """Smallest distance of two packets that shows a loss when there are no sequence numbers, in packet intervals."""
 STEADY_PACKETS = 6
 """Number of packets in a row at a steady distance that shows that the rate is wrong."""
 RATE_TOLERANCE = 0.2
-"""Smallest relative error of that distance, and largest relative spread of a steady distance."""
+"""Largest relative deviation of a packet's distance from the predicted one, and of a steady distance from the last."""
 
 
 @define
@@ -63,7 +64,7 @@ class StreamLink(DeviceLink):
     coarse_ticks: int = 0
     """Device time of the newest packet as sent, ticks, for a device that has sequence numbers as well."""
     off_rate_packets: int = 0
-    """Number of packets in a row at another distance than the rate predicts."""
+    """Number of packets in a row at one steady distance that differs from the distance which the rate predicts."""
     off_rate_interval: float = 1.0
     """Distance of the newest of those packets, ticks per sample."""
     periodic: PeriodicClock | None = None
@@ -103,7 +104,7 @@ class StreamLink(DeviceLink):
             self.periodic = make_periodic_clock(self.periodic.period)
 
     def handle_reconnection(self) -> None:
-        """Prepare for counters that restarted, because packets cannot overtake each other across two connections."""
+        """Take counters that go back in the next packet as restarted: no packet is overtaken across two connections."""
         self.packet_run.after_reconnection = True
 
     def flush(self, known_at: float) -> Output:
@@ -129,7 +130,7 @@ class StreamLink(DeviceLink):
             range_before = self._acc_range(driver)
             self.known = {**self.known, **{name: float(value) for name, value in reading.known.items()}}
             if self._acc_range(driver) != range_before:
-                self.rest_check = RestCheck(self._acc_range(driver) * GRAVITY / 32768)
+                self.rest_check = RestCheck(self._acc_range(driver) * GRAVITY / FULL_SCALE_COUNTS)
         if reading.silent is not None:
             self.may_be_silent = reading.silent
         if reading.rate is not None and not reading.samples:
@@ -230,7 +231,7 @@ class StreamLink(DeviceLink):
         return PacketPosition(0, int(reading.ticks), interval, count, packets, packets, ticks)
 
     def _locate_by_count(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> PacketPosition:
-        """Return a packet's position by its sequence number, with whole rounds of the counter by the elapsed time."""
+        """Return a packet's position by its sequence number; the elapsed time gives the counter's whole rounds."""
         run, count = self.packet_run, len(reading.samples)
         if reading.sequence is None:
             raise malformed("no sequence number, which this device has")
@@ -245,7 +246,7 @@ class StreamLink(DeviceLink):
         if (
             packets >= 1
             and device_time is not None
-            and ticks > 1.1 * ticks_after + PAUSE_LEAD * rate * TICKS_PER_SAMPLE
+            and ticks > PAUSE_RATIO * ticks_after + PAUSE_LEAD * rate * TICKS_PER_SAMPLE
         ):
             ticks_after = round(ticks)
         return PacketPosition(int(reading.sequence), 0, TICKS_PER_SAMPLE, count, difference, packets, ticks_after)
@@ -263,7 +264,6 @@ class StreamLink(DeviceLink):
         )
 
     def _correct_rate(self, driver: Driver, reading: Reading, position: PacketPosition) -> None:
-        """Correct the rate when the ticks show that it was wrong."""
         if driver.sequence or reading.interval is not None or position.ticks_after <= 0:
             return
         distance = position.ticks_after / position.samples
@@ -289,12 +289,12 @@ class StreamLink(DeviceLink):
 
     def _make_increasing(self, t: float) -> float:
         if self.last_t is not None and t <= self.last_t:
-            t = self.last_t + 1e-6
+            t = self.last_t + MIN_INCREMENT
         self.last_t = t
         return t
 
 
 def make_stream_link(driver: Driver, built_in: bool, site: Site, firmware: str) -> StreamLink:
     """Return a fresh link of this kind of device at `site`."""
-    rest_check = RestCheck(driver.acc_range * GRAVITY / 32768)
+    rest_check = RestCheck(driver.acc_range * GRAVITY / FULL_SCALE_COUNTS)
     return StreamLink(site, driver.name, driver.signature(built_in), driver.profile.nominal_rate, rest_check)

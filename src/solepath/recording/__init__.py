@@ -1,4 +1,4 @@
-"""Reading and writing of recordings: packets, samples, btsnoop logs, MCAP."""
+"""Recordings: packets are read and written, samples and btsnoop logs are read, MCAP files are written."""
 
 from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
 from .packets import FORMAT, LONGEST_LINE, VERSION, PacketWriter, read_header, read_packets, read_start_time

@@ -13,7 +13,7 @@ from ..types import Foot, Layout, Packet, Sample, Site
 
 @frozen
 class DecodedRecording:
-    """Samples in the order in which they became known, and the layouts that the insoles reported."""
+    """Samples in the order in which they became known, and the newest layout that each foot's insole reported."""
 
     samples: tuple[Sample, ...]
     layouts: dict[Foot, Layout]

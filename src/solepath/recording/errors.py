@@ -9,7 +9,7 @@ from typing import BinaryIO
 
 
 class RecordingError(Exception):
-    """Error for a recording that cannot be used, or not beyond a place; its text has file, place and fault."""
+    """Error for a recording that cannot be used at all, or only up to `where`; its text has file, `where` and fault."""
 
     def __init__(self, path: Path | str, what: str, where: str = "") -> None:
         self.path, self.where, self.what = Path(path), where, what

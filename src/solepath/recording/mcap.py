@@ -43,7 +43,7 @@ MAX_TOPICS = 1000
 MAX_TIME = 1e11
 """Largest magnitude of a time that a session accepts, s (decoder.MAX_ARRIVAL_TIME)."""
 MAX_LOG_TIME = 2**63 - 1
-"""Largest log time, ns; a log time has 64 bits without sign, but readers accept only the lower half."""
+"""Largest log time, ns; a log time has 64 bits without sign, but viewers accept only the lower half."""
 PHASE_NUMBERS = {phase: number for number, phase in enumerate(Phase)}
 """Number of each phase."""
 EPOCH, MICROSECOND = datetime(1970, 1, 1, tzinfo=UTC), timedelta(microseconds=1)
@@ -85,7 +85,7 @@ SCHEMAS: dict[str, dict[str, Any]] = {
 
 
 class _SampleKeepingSession(Session):
-    """A session that collects the samples which it uses in `samples`, until the caller removes them."""
+    """A session that adds every sample that it uses to `samples`, which the caller empties."""
 
     __slots__ = ("samples",)
 
@@ -107,10 +107,10 @@ class McapWriter:
                 writer.write(packet)
 
     An existing file is replaced. `header`: header of the recording that the packets come from. `profiles`: drivers of
-    an app's own devices, as for Session. `count`: number of packets written. `outside`: number of times outside the
-    range of log times, which were replaced by the nearest log time. RecordingError when the file cannot be written,
-    ValueError for a packet whose time is not finite. `close` writes results that were still open, and the index; a file
-    that was never closed has complete chunks but no index."""
+    an app's own devices, as for Session. `count`: number of packets written. `outside`: number of timestamps that were
+    outside the range of log times, and replaced by the nearest log time. RecordingError when the file cannot be
+    written, ValueError for a packet whose time is not finite. `close` writes the session's last results, and the index;
+    a file that was never closed has complete chunks but no index."""
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
         self.path, self.count, self.outside = Path(path), 0, 0
@@ -152,7 +152,7 @@ class McapWriter:
             self._write_results(self._session.feed(packet))
 
     def close(self) -> None:
-        """Write the results that were still open, and the index."""
+        """Write the session's last results, and the index."""
         if self._file.closed:
             return
         try:
@@ -236,7 +236,6 @@ class McapWriter:
 
     @contextmanager
     def _as_recording_error(self) -> Iterator[None]:
-        """Raise an error of the operating system as a RecordingError."""
         try:
             yield
         except OSError as error:

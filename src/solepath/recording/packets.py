@@ -1,7 +1,6 @@
 """Writing and reading of recordings of packets, which are JSON Lines as in protocol/recording.md.
 
-Reading returns all packets before the first damage, then raises an error with one sentence on the damage and its place.
-"""
+Reading yields all packets before the first damage, then raises an error that says in one sentence what is damaged."""
 
 from __future__ import annotations
 
@@ -26,7 +25,7 @@ LONGEST_LINE = 65_536
 
 
 def read_header(path: Path | str) -> dict[str, Any]:
-    """Return the header of a recording, which is its first line; RecordingError when it is none."""
+    """Return the header of a recording, which is its first line; RecordingError when that line is no header."""
     path = Path(path)
     with open_file(path) as file:
         for number, _, line in _read_lines(file):
@@ -40,10 +39,9 @@ def read_header(path: Path | str) -> dict[str, Any]:
 
 
 def read_start_time(header: Mapping[str, Any]) -> tuple[datetime, float | None] | None:
-    """Return the start time (UTC) from a header, and the packets' time `t` (s) at that moment.
+    """Return the start time (UTC) from a header, and the time `t` of the packets (s) at that moment.
 
-    `t` is None if that moment is the first packet's arrival. The result is None when the header has no usable start
-    time."""
+    `t` is None if the start is the first packet's arrival. The result is None without a usable start time."""
     text, t = header.get("began"), header.get("began_t")
     if not isinstance(text, str) or type(t) not in (int, float, type(None)):
         return None
@@ -228,15 +226,14 @@ class PacketWriter:
             while bytes_written < len(encoded):
                 bytes_written += self._file.write(encoded[bytes_written:]) or 0
         except OSError as error:
-            self._truncate()
+            self._remove_torn_line()
             raise RecordingError(self._path, f"{os_error_text(error)}; {self._describe_saved()}") from error
         except BaseException:  # for example KeyboardInterrupt between two parts of a line
-            self._truncate()
+            self._remove_torn_line()
             raise
         self._size += bytes_written
 
-    def _truncate(self) -> None:
-        """Remove an incomplete line from the end of the file."""
+    def _remove_torn_line(self) -> None:
         try:
             if self._file.tell() != self._size:
                 self._file.truncate(self._size)

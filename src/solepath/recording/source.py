@@ -25,8 +25,8 @@ class Source:
     """The packets or samples of a recording, in the order in which a session needs them.
 
     Iterating raises RecordingError at data that cannot be used, after all packets or samples before them. A recording
-    of packets that has only a header is no error, but is reported. `total`: number of bytes of packets, or of samples.
-    `done`: number of these that were iterated."""
+    of packets that has only a header is no error, but is reported. `foot`, `report`: as in `open_source`. `total`: size
+    of a recording of packets, bytes, or number of samples. `done`: part of `total` that was iterated."""
 
     path: Path
     foot: Foot | None
@@ -58,7 +58,7 @@ class Source:
 
 
 def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Source:
-    """Return the recording at `path`, which holds samples if its name ends in .npz or .csv, else packets.
+    """Return the recording at `path`: samples if the file's name ends in .npz or .csv, else packets.
 
     `foot`: for samples that name no foot, the foot that wore the sensor (None: the right foot); for any other
     recording, the only foot to read (None: all). RecordingError when nothing can be used."""

@@ -1,8 +1,8 @@
 """Saving and restoring as JSON: a record becomes an object of its fields (schema.py defines the types of fields).
 
-Tuples, lists and deques become lists, a deque with a maxlen {"maxlen": n, "is": list}, an open record {"kind": name
-of the class, "is": fields}, an enum member its value, and bytes a base64 string. Loaded values are checked against the
-annotations. A "saver" turns a value into JSON, a "loader" reads it; a "codec" here is the pair of both."""
+Tuples, lists and deques become lists; a deque with a maxlen becomes {"maxlen": n, "is": list}, an open record {"kind":
+name of the class, "is": fields}, an enum member its value, and bytes a base64 string. Loaded values are checked against
+the annotations. A saver turns a value into JSON, a loader turns JSON into a value; a codec is the pair of both."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from functools import partial
 from math import isfinite
 from typing import Any, TypeVar
 
-from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
+from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 from .schema import is_record, locate_error, record_of
 
 T = TypeVar("T")
 
 Json = None | bool | int | float | str | list["Json"] | dict[str, "Json"]
 Classes = Callable[[str], type | None]
-"""Function that returns the class of an open record by its name, or None, such as a dict's `get`."""
+"""Function, such as a dict's `get`, that returns the class of an open record by its name, or None."""
 _Saver = Callable[[Any], Json]
 _Loader = Callable[[Any, Classes], Any]
 
 
 class SnapshotError(ValueError):
-    """Raised for a value that is not a snapshot, has another version, or does not fit this release's records."""
+    """Error for a value that is no snapshot, has another version, or does not fit this release's records."""
 
 
 def no_class(name: str) -> None:
@@ -84,10 +84,10 @@ def _codec(node: Node) -> tuple[_Saver, _Loader]:
             return partial(_save_floats, len(items)), partial(_load_floats, tuple, len(items))
         case TupleNode(items):
             return _tuple_codec([_codec(item) for item in items])
-        case RowNode(kind, of) if kind is not deque and _is_float(of):
+        case SequenceNode(kind, of) if kind is not deque and _is_float(of):
             return partial(_save_floats, None), partial(_load_floats, kind, None)
-        case RowNode(kind, of):
-            return _deque_codec(*_codec(of)) if kind is deque else _row_codec(kind, *_codec(of))
+        case SequenceNode(kind, of):
+            return _deque_codec(*_codec(of)) if kind is deque else _sequence_codec(kind, *_codec(of))
         case DictNode(key, of):
             return _dict_codec(*_codec(key), *_codec(of))
         case OpenNode():
@@ -130,7 +130,7 @@ def _is_float(node: Node) -> bool:
 
 
 def _save_floats(count: int | None, values: Any) -> Json:
-    """Save many floats at once, which takes a third of the time of single calls; `count` is the required number."""
+    """Save many floats at once, in a third of the time of single calls; `count` is the required number or None."""
     numbers: list[Json] = [*map(float, values)]
     if count is not None and len(numbers) != count:
         raise SnapshotError(f"{len(numbers)} items of {count}")
@@ -171,7 +171,7 @@ def _tuple_codec(codecs: list[tuple[_Saver, _Loader]]) -> tuple[_Saver, _Loader]
     return (lambda value: [save_item(item) for save_item, item in zip(savers, value, strict=True)]), load_tuple
 
 
-def _row_codec(kind: type, save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
+def _sequence_codec(kind: type, save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
     return (
         lambda value: [save_item(item) for item in value],
         lambda value, classes: kind([load_item(item, classes) for item in _check_list(value)]),
@@ -179,7 +179,7 @@ def _row_codec(kind: type, save_item: _Saver, load_item: _Loader) -> tuple[_Save
 
 
 def _deque_codec(save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
-    """Return a codec that saves a list, or for a deque with a maxlen, which annotations cannot declare, a dict."""
+    """Return a codec that saves a list; for a deque with a maxlen, which annotations cannot declare, a dict."""
 
     def save_deque(value: Any) -> Json:
         items: list[Json] = [save_item(item) for item in value]

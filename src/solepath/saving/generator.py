@@ -15,9 +15,9 @@ A loop over fields would take eight times as long. The generated code is straigh
         kinds_0.write(o.corrector, F, N, M, B)
 
 F, N, M and B are the streams to which `write` appends: F floats; N ints, enums (index of the member), lengths and
-kinds; M flags; B bytes. The functions f, n, m and b return the next value of each stream. `o` is the record. `t` is the
-same record as its holder has made it again: fields outside the schema are copied from it by reference. C returns a
-class by its name."""
+kinds; M flags; B bytes. The functions f, n, m and b return the next value of each stream. `o` is the record. `t` is
+this record as its holder made it again: fields outside the schema are copied from it by reference. C returns a class
+by its name."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
+from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 from .schema import is_frozen
 
 
@@ -45,16 +45,16 @@ class CodeGenerator:
         self.pending_numbers: dict[str, list[str]] = {"F": [], "N": [], "M": []}
         """Expressions of the numbers that the next line of each stream writes."""
         self.name_count = 0
-        self.readers: dict[RecordNode, str] = {}
+        self.read_functions: dict[RecordNode, str] = {}
 
     def generate(self, record: RecordNode) -> tuple[Callable[..., None], Callable[..., Any]]:
         """Generate and return the functions that write and read the record."""
         self.write(record, "o")
         self.flush()
         self.source += ["def write(o, F, N, M, B):", *["    " + line for line in self.lines or ["pass"]]]
-        reader = self.add_reader(record)
+        read_function = self.add_read_function(record)
         exec("\n".join(self.source), self.namespace)
-        return self.namespace["write"], self.namespace[reader]
+        return self.namespace["write"], self.namespace[read_function]
 
     def name_object(self, prefix: str, value: Any) -> str:
         """Return a new name by which the generated code refers to the object `value`."""
@@ -107,8 +107,8 @@ class CodeGenerator:
                 self.pending_numbers["N"].append(f"len({variable})")
                 self.add_line("B", f"B.append({variable})")
             case EnumNode(cls):
-                places = {member: k for k, member in enumerate(cls)}
-                self.pending_numbers["N"].append(f"{self.name_object('places', places)}[{value}]")
+                indices = {member: k for k, member in enumerate(cls)}
+                self.pending_numbers["N"].append(f"{self.name_object('indices', indices)}[{value}]")
             case MaybeNode(of):
                 variable = self.assign_name(value)
                 self.pending_numbers["M"].append(f"{variable} is not None")
@@ -118,8 +118,8 @@ class CodeGenerator:
                 self.lines.append(f"[{', '.join(names)}] = {value}")
                 for item, variable in zip(items, names, strict=True):
                     self.write(item, variable)
-            case RowNode(kind, of):
-                self.write_row(kind, of, self.assign_name(value))
+            case SequenceNode(kind, of):
+                self.write_sequence(kind, of, self.assign_name(value))
             case DictNode(key, of):
                 variable, k, v = self.assign_name(value), self.new_name(), self.new_name()
                 self.pending_numbers["N"].append(f"len({variable})")
@@ -132,7 +132,7 @@ class CodeGenerator:
                 for name, of in fields.items():
                     self.write(of, f"{variable}.{name}")
 
-    def write_row(self, kind: type, of: Node, variable: str) -> None:
+    def write_sequence(self, kind: type, of: Node, variable: str) -> None:
         if kind is deque:
             self.write(MaybeNode(ScalarNode(int)), f"{variable}.maxlen")
         self.pending_numbers["N"].append(f"len({variable})")
@@ -145,11 +145,11 @@ class CodeGenerator:
             item = self.new_name()
             self.add_block(f"for {item} in {variable}:", (of, item))
 
-    def add_reader(self, record: RecordNode) -> str:
+    def add_read_function(self, record: RecordNode) -> str:
         """Return the name of the function that reads the record, and add its code if needed."""
-        if record in self.readers:
-            return self.readers[record]
-        function = self.readers[record] = f"read_{len(self.readers)}"
+        if record in self.read_functions:
+            return self.read_functions[record]
+        function = self.read_functions[record] = f"read_{len(self.read_functions)}"
         form = "put(o, {!r}, {})" if is_frozen(record.cls) else "o.{} = {}"
         lines = [f"def {function}(t, f, n, m, b, F, C):", f"o = new({self.name_object('cls', record.cls)})"]
         for name, default in record.defaults.items():
@@ -159,7 +159,7 @@ class CodeGenerator:
         return function
 
     def read_expression(self, node: Node, t: str) -> str:
-        """Return the expression that reads a value; `t` is that of the value which its holder has made again."""
+        """Return the expression that reads a value; `t` is the expression of this value as its holder made it again."""
         match node:
             case ScalarNode(kind):
                 return {float: "f()", int: "n()", bool: "m()", bytes: "b(n())", str: "b(n()).decode()"}[kind]
@@ -177,7 +177,7 @@ class CodeGenerator:
             case DictNode(key, of):
                 inner = self.read_expression(of, f"{t}[k]")
                 return f"{{(k := {self.read_expression(key, t)}): {inner} for _ in check_count(n())}}"
-            case RowNode(kind, of):
+            case SequenceNode(kind, of):
                 most = "(n() if m() else None)" if kind is deque else ""
                 each = f"check_parts(n(), {t})" if _is_made(of) else "check_count(n())"
                 if _stream(of) == "F":
@@ -193,7 +193,7 @@ class CodeGenerator:
                 made = t if node.made else "None"
                 return f"{self.name_object('kinds', self.open_codec(node))}.read({made}, f, n, m, b, F, C)"
             case RecordNode():
-                return f"{self.add_reader(node)}({t if node.made else 'None'}, f, n, m, b, F, C)"
+                return f"{self.add_read_function(node)}({t if node.made else 'None'}, f, n, m, b, F, C)"
 
 
 def _stream(node: Node) -> str:

@@ -37,7 +37,7 @@ class TupleNode:
 
 
 @frozen(eq=False)
-class RowNode:
+class SequenceNode:
     """A tuple, list or deque (`kind`) of any length, whose items have the node `of`."""
 
     kind: type
@@ -59,9 +59,9 @@ class OpenNode:
     known: dict[str, type]
     """Classes by name."""
     others: bool
-    """Flag: records of other classes are allowed too."""
+    """True if records of other classes are allowed too."""
     made: bool
-    """Flag as in `RecordNode`; a record of another class without state is still saved with all fields."""
+    """True as in `RecordNode`; even then, a record of another class without state is saved with all fields."""
 
 
 @frozen(eq=False)
@@ -70,11 +70,11 @@ class RecordNode:
 
     cls: type
     made: bool
-    """Flag: the holder makes the record again with the same settings, so `fields` has only the state."""
+    """True if the holder makes the record again with the same settings, so that `fields` has only the state."""
     fields: dict[str, Node]
     """Nodes of the saved fields, in the order of the class."""
     defaults: dict[str, Any]
-    """Defaults of the fields that are not saved; not used for a record that is made again."""
+    """Defaults of the fields that are not saved; unused for a record that is made again, which has its own values."""
 
 
-Node = ScalarNode | EnumNode | MaybeNode | TupleNode | RowNode | DictNode | OpenNode | RecordNode
+Node = ScalarNode | EnumNode | MaybeNode | TupleNode | SequenceNode | DictNode | OpenNode | RecordNode

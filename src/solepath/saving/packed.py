@@ -42,12 +42,12 @@ class Streams:
 
 
 def write(record: RecordNode, value: Any, lists: Lists) -> None:
-    """Append the values of a record; raise TypeError or ValueError, for example, for values that do not fit."""
+    """Append the values of a record to `lists`; a value that does not fit raises, for example, TypeError."""
     _functions_of(record).write(value, *lists)
 
 
 def read(record: RecordNode, streams: Streams, classes: Classes, made: Any = None) -> Any:
-    """Return the record that was written; `made` is the record as its holder has made it again, if so."""
+    """Return the record that was written; `made` is this record as its holder made it again, None if it did not."""
     s = streams
     next_of = [stream.__next__ for stream in (s.floats, s.ints, s.flags)]
     return _functions_of(record).read(made, *next_of, s.take, s.floats, classes)
@@ -61,7 +61,6 @@ class _RecordFunctions:
 
 @lru_cache(maxsize=512)
 def _functions_of(record: RecordNode) -> _RecordFunctions:
-    """Return the generated functions of a record."""
     functions: dict[str, Callable[..., Any]]
     functions = {
         "check_widths": _check_widths,
@@ -78,7 +77,7 @@ def _functions_of(record: RecordNode) -> _RecordFunctions:
 class _OpenRecordCodec:
     """Writes and reads open records: first the kind (an index in the known names), then the record.
 
-    The kind of any other class is the number of known names; the name and the checksum of its schema follow."""
+    The kind of any other class is the number of known names; the name and the schema's checksum follow it."""
 
     def __init__(self, node: OpenNode) -> None:
         self.node, self.names = node, list(node.known)
@@ -147,7 +146,6 @@ def _take(floats: Iterator[float], count: int) -> list[float]:
 
 
 def _rows(floats: Iterator[float], count: int, width: int) -> list[tuple[float, ...]]:
-    """Return `count` tuples of `width` floats."""
     return list(zip(*[iter(_take(floats, width * count))] * width, strict=True))
 
 

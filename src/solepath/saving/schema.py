@@ -34,22 +34,22 @@ from typing import Any
 import attrs
 
 from ..types.attrs import MADE_AGAIN, NOT_SAVED
-from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
+from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 
 SCALARS = (float, int, bool, str, bytes)
 _RECORDS: dict[tuple[type, bool], RecordNode] = {}
 
 
 def record_of(cls: type, made: bool = False) -> RecordNode:
-    """Return the schema of a class; with `made`, only that of its state.
+    """Return the schema of a class; with `made`, the schema of its state, for a record that its holder makes again.
 
-    Raises TypeError, which names the class and the field, for a type that cannot be saved."""
+    A type that cannot be saved raises TypeError, which names the class and the field."""
     cached = _RECORDS.get((cls, made))
     return _SchemaBuilder().record(cls, made) if cached is None else cached
 
 
 def record_in(node: OpenNode, cls: type) -> RecordNode:
-    """Return the schema of a record of class `cls` in an open node."""
+    """Return the schema of a record of class `cls` that is the value of an open node."""
     return record_of(cls, node.made and (cls in node.known.values() or has_state(cls)))
 
 
@@ -89,7 +89,7 @@ def is_open(cls: Any) -> bool:
 
 @attrs.frozen
 class _Frozen:
-    """A frozen class whose `__setattr__`, which all frozen classes share, is compared."""
+    """A frozen class to compare with, because all frozen classes of attrs share one `__setattr__`."""
 
 
 @attrs.frozen
@@ -119,7 +119,7 @@ class _SchemaBuilder:
     """Builds the nodes of a schema from annotations."""
 
     def __init__(self) -> None:
-        self.open_classes: list[type] = []
+        self.enclosing_classes: list[type] = []
 
     def record(self, cls: type, made: bool) -> RecordNode:
         cached = _RECORDS.get((cls, made))
@@ -127,9 +127,9 @@ class _SchemaBuilder:
             return cached
         if not is_record(cls):
             raise TypeError(f"a record is an attrs class, and {cls!r} is none")
-        if cls in self.open_classes:
+        if cls in self.enclosing_classes:
             raise TypeError(f"a {cls.__name__} in a {cls.__name__} cannot be saved")
-        self.open_classes.append(cls)
+        self.enclosing_classes.append(cls)
         fields: dict[str, Node] = {}
         defaults: dict[str, Any] = {}
         for declared in _declared_fields(cls):
@@ -141,7 +141,7 @@ class _SchemaBuilder:
                 defaults[declared.name] = declared.default
             else:
                 fields[declared.name] = node
-        self.open_classes.pop()
+        self.enclosing_classes.pop()
         return _RECORDS.setdefault((cls, made), RecordNode(cls, made, fields, defaults))
 
     def field(self, declared: _DeclaredField, made: bool) -> Node | None:
@@ -166,11 +166,11 @@ class _SchemaBuilder:
         if is_record(hint):
             return self.record(hint, made)
         if origin is tuple and arguments[1:] == (...,):
-            return RowNode(tuple, self.node(arguments[0], made))
+            return SequenceNode(tuple, self.node(arguments[0], made))
         if origin is tuple:
             return TupleNode(tuple([self.node(argument, made) for argument in arguments]))
         if origin in (list, deque):
-            return RowNode(origin, self.node(arguments[0], made))
+            return SequenceNode(origin, self.node(arguments[0], made))
         if origin is dict:
             return DictNode(self.node(arguments[0], made), self.node(arguments[1], made))
         if hint in (tuple, list, deque, dict):
@@ -210,7 +210,6 @@ def describe(*roots: RecordNode) -> dict[str, Any]:
     numbers: dict[type, int] = {}
 
     def name(cls: type) -> str:
-        """Return the name of the class, with a number if another class has the same name."""
         if cls not in numbers:
             numbers[cls] = 1 + sum([known.__name__ == cls.__name__ for known in numbers])
         return f"{cls.__name__} {numbers[cls]}" if numbers[cls] > 1 else cls.__name__
@@ -233,7 +232,7 @@ def describe(*roots: RecordNode) -> dict[str, Any]:
                 return {"maybe": kind(of)}
             case TupleNode(items):
                 return {"tuple": [kind(item) for item in items]}
-            case RowNode(cls, of):
+            case SequenceNode(cls, of):
                 return {"row" if cls is tuple else cls.__name__: kind(of)}
             case DictNode(key, of):
                 return {"dict": [kind(key), kind(of)]}

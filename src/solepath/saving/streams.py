@@ -1,8 +1,8 @@
 """Numbers as bytes: each number in the fewest bytes that restore it exactly.
 
 A state has four streams: floats, ints, flags and bytes. Three bits give the class of a float or an int (ZERO to RIGHT
-below); a flag is one bit. All values are little-endian. An int of more than 53 bits, such as a generator's state,
-is written in decimal digits.
+below); a flag is one bit. All values are little-endian. An int of more than 53 bits, such as the state of a random
+number generator, is written in decimal digits.
 
 The code uses numpy, because a loop over two thousand numbers would take longer than all other work."""
 
@@ -21,10 +21,10 @@ HEADER = Struct("<4I2d")
 ZERO, SINGLE, DOUBLE, AGAIN, WHOLE, DECIMAL, LEFT, RIGHT = range(8)
 """Classes of a number.
 
-They are, in this order: 0.0; a float32; a float64; the last float64 again; an int16; an int16 / 10,000; an int16 times
-the left unit; an int16 times the right unit."""
+They are, in this order: 0.0; a float32; a float64; the last float64 again; an int16; an int16 divided by 10,000; an
+int16 times the left unit; an int16 times the right unit."""
 LARGE_INT = -(2**63)
-"""Placeholder for an int that a float cannot represent exactly."""
+"""Placeholder for an int of more than 53 bits, which a float cannot represent exactly."""
 _CLASS_FACTORS = (1 << np.arange(0, 24, 3)).astype("f4")
 
 
@@ -55,7 +55,7 @@ def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list
 
 
 def _decode_counts(k: int, count: Any, units: Units) -> Any:
-    """Return the numbers of class `k` whose int16 are `count`."""
+    """Return the numbers of class `k` that the int16 `count` stand for."""
     return count / 1e4 if k == DECIMAL else count * (1.0 if k == WHOLE else units[k - LEFT])
 
 
@@ -104,7 +104,7 @@ def _pack_classes(classes: Any) -> bytes:
 
 
 def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], bytes]:
-    """Return the arguments of `to_bytes` from its result, with the bytes joined.
+    """Return floats, ints, flags and joined bytes, the arguments of `to_bytes`, from its result.
 
     Raises ValueError (or struct.error) for any other input. The result is never much larger than the input."""
     count, int_count, flag_count, digits_length, *units = HEADER.unpack_from(body)

@@ -215,7 +215,7 @@ class Layout:
 def shared(layout: Layout) -> Layout:
     """Return one object for all layouts that are equal bit for bit.
 
-    It saves memory, because all wearers of one kind of insole then share it for hours."""
+    It saves memory, because all wearers of one kind of insole then share one object."""
     numbers = [layout.length, layout.full_scale, 0.0 if layout.scale is None else layout.scale]
     for cell in layout.cells:
         numbers += (cell.x, cell.y, cell.area)

@@ -12,7 +12,7 @@ GRAVITY = 9.80665
 TIE = 1e-6
 """Tolerance with which durations are compared, s: one that is shorter by less than this counts as long enough.
 
-Samples are often taken at round times. Rounding must not decide which of them ends a duration, otherwise the same walk
+Samples are often taken at round times. Rounding must not decide which sample ends a duration, otherwise the same walk
 at another time of day would give other results."""
 
 IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
@@ -22,15 +22,15 @@ ZERO: Vec3 = (0.0, 0.0, 0.0)
 
 
 SPLIT = 2.0**29 + 1.0
-"""Factor that removes the lower 29 bits of a float of 53 (`single`)."""
+"""Factor with which `single` removes the lower 29 of a float's 53 bits."""
 
 
 def single(x: float) -> float:
     """Return `x` rounded to the 24 bits of a float32, which a packed state writes in half the bytes.
 
     Use it for values that are stored, not for values that are propagated (a covariance, a position). It takes 60 ns.
-    Below 1e-38 it saves no bytes; `x` must be below 1e290 (T. J. Dekker, "A floating-point technique for extending the
-    available precision", 1971)."""
+    A value below 1e-38 saves no bytes; `x` must be below 1e290 (T. J. Dekker, "A floating-point technique for extending
+    the available precision", 1971)."""
     high = SPLIT * x
     return high - (high - x)
 
@@ -92,7 +92,7 @@ def rotate_back(q: Quat, v: Vec3) -> Vec3:
 
 
 def turned(v: Vec3, yaw: float) -> Vec3:
-    """Return v rotated about the vertical by `yaw` rad."""
+    """Return v rotated about the vertical by `yaw` rad, counter-clockwise positive."""
     c, s = cos(yaw), sin(yaw)
     return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
 
@@ -108,7 +108,7 @@ def from_rotation_vector(r: Vec3) -> Quat:
 
 
 def from_yaw(yaw: float) -> Quat:
-    """Return the rotation about the vertical by `yaw` rad."""
+    """Return the rotation about the vertical by `yaw` rad, counter-clockwise positive."""
     return (cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw))
 
 
@@ -132,7 +132,7 @@ def levelling(acc: Vec3) -> Quat:
 
 
 def heading_turned(before: Quat, after: Quat) -> float:
-    """Return the twist about the vertical of the rotation between two attitudes, in (-pi, pi], rad."""
+    """Return the twist about the vertical from `before` to `after`, rad, counter-clockwise positive, in (-pi, pi]."""
     aw, ax, ay, az = after
     w, x, y, z = before
     turn = 2.0 * atan2(-aw * z - ax * y + ay * x + az * w, aw * w + ax * x + ay * y + az * z)

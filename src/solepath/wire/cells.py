@@ -1,6 +1,6 @@
 """Twelve-bit values packed least significant bit first, the format of pressure cells in a frame.
 
-Value i has the bits 12 i to 12 i + 11 of the block, where bit b is bit (b mod 8) of byte b // 8. Two values have three
+Value i has the bits 12 i to 12 i + 11 of the block, where bit b is bit (b mod 8) of byte b // 8. Two values take three
 bytes. If the number of values is odd, the high nibble (four bits) of the last byte is zero."""
 
 from __future__ import annotations

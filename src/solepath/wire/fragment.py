@@ -61,7 +61,7 @@ def build_fragment(fragment: Fragment) -> bytes:
 def split(frame: bytes, payload: int, frame_id: int) -> list[bytes]:
     """Return `frame` as notifications of at most `payload` bytes (ATT MTU - 3): whole if it fits, else as fragments.
 
-    `frame_id` is 0 to 6, and not that of the previous frame. ValueError when 16 fragments do not suffice."""
+    `frame_id` is 0 to 6, and differs from that of the previous frame. ValueError when 16 fragments do not suffice."""
     if len(frame) <= payload:
         return [frame]
     if payload < 2:

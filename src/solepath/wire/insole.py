@@ -55,7 +55,7 @@ class InsoleFrame:
 
 
 class _Samples(Definition):
-    """A construct for all samples of a frame: cells, then IMU and quaternion, if the flags say so.
+    """A construct for all samples of a frame: cells in each sample, then IMU and quaternion as far as `flags` say so.
 
     For parsing, the context has `count` (samples), `cells` (cells in a sample), `cells_size` (their bytes) and `flags`.
     One construct for all samples is fast enough for 100 frames a second."""

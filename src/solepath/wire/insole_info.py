@@ -28,8 +28,8 @@ class InsoleInfo:
 
     `layout`: id of the cell layout. `tick_rate`: nominal ticks per second. `interval`: ticks between samples.
     `acc_scale`: m/s^2 per count. `gyro_scale`: rad/s per count. `pressure_scale`: N per count. A scale of 0 means that
-    there is no such sensor, or that pressure is not calibrated. `length`: heel to toe, m. `cells`: cells in the order
-    of the samples, foot frame: x 0 to 0.4095 m, y -0.2048 to 0.2047 m, area up to 6.5535e-3 m^2, or 0 if unknown."""
+    there is no such sensor, or that pressure is not calibrated. `length`: heel to toe, m. `cells`: in the order of the
+    values in a sample, foot frame: x 0 to 0.4095 m, y -0.2048 to 0.2047 m, area up to 6.5535e-3 m^2, 0 if unknown."""
 
     foot: Foot
     layout: int

@@ -22,7 +22,7 @@ _COUNT = Struct("count" / Int32ul, Terminated)
 
 @frozen
 class ConnectionFrame:
-    """A new connection to a device, which is not yet set up: name of the device, and newest signal strength, dBm."""
+    """A new connection to a device that is not yet set up: its name, and its signal strength, dBm (None: unknown)."""
 
     name: str
     signal: int | None

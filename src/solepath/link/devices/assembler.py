@@ -1,11 +1,11 @@
 """Assembly of CC2541 accelerometer, gyroscope and magnetometer values, which come separately, into Samples.
 
 The sensors do not measure at the same moments. A Sample is made at each accelerometer time, with the gyroscope
-interpolated between the measurements before and after it. So a Sample waits for the next gyroscope packet. Its latency
-is up to one period (100 ms with stock firmware, 50 ms at 20 Hz) plus the radio's delay. When a channel fails:
+interpolated between the measurements before and after that time. A Sample thus waits for the next gyroscope packet: its
+latency is up to one period (100 ms with stock firmware, 50 ms at 20 Hz) plus the radio's delay. When a channel fails:
 
 - After the loss of one gyroscope packet, interpolation spans two periods, and a Sample waits one period longer.
-- After the loss of more, the nearest gyroscope measurement within 0.75 periods is used, else none.
+- After the loss of several, the nearest gyroscope measurement within 0.75 periods is used, else none.
 - If the gyroscope is silent for 2.5 periods, or always, Samples have acc alone and do not wait.
 - If an accelerometer packet is lost, there is no Sample at its time.
 - If the accelerometer is silent for 2.5 periods, or always, Samples have gyro alone, at the gyroscope's times.
@@ -42,7 +42,8 @@ class TimedMeasurement:
 class Assembler:
     """Pairs accelerometer and gyroscope measurements, of which at most four wait.
 
-    Times increase from one call of `add_acc` to the next, and from one call of `add_gyro` to the next."""
+    Times `t` (s) increase from one call of `add_acc` to the next, and from one call of `add_gyro` to the next. `period`
+    is the time between two measurements of the added kind, s. `known_at` is the arrival of the packet, s."""
 
     site: Site
     waiting_acc: list[TimedMeasurement] = field(factory=list)

@@ -111,6 +111,8 @@ COUNTS_PER_G = {
     ("", 2): 32,
     ("", 3): 16,
 }
+FULL_SCALE_ACC_COUNTS = 128.0
+"""Counts that are the full scale of the accelerometer, which has 8 bits."""
 WRITTEN_ACC_CODE = 3
 """Value of AA12 (accelerometer configuration) that the profile writes."""
 
@@ -151,8 +153,8 @@ class BarometerCalibration:
 class Cc2541Link(DeviceLink):
     """The link of a CC2541 at one site.
 
-    `feed` raises WireError for a value that cannot be used, and changes nothing. assembler.py states the latency.
-    Losses of accelerometer and gyroscope packets are estimated from the period (periodic.py), other losses are not."""
+    `feed` raises WireError for a value that cannot be used, and then changes nothing. assembler.py states the latency.
+    Only losses of accelerometer and gyroscope packets are estimated, from the period (periodic.py)."""
 
     name: ClassVar[str] = "cc2541"
 
@@ -241,19 +243,19 @@ class Cc2541Link(DeviceLink):
     def _restart_scale_check(self) -> None:
         self.rest_check = RestCheck(GRAVITY / counts_per_g(self.firmware, self.code))
 
-    def _set_period(self, stream: PeriodicClock, period: float) -> None:
-        if period != stream.period:
-            stream.set_period(period)
+    def _set_period(self, clock: PeriodicClock, period: float) -> None:
+        if period != clock.period:
+            clock.set_period(period)
 
     def _read_acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
         per_g = counts_per_g(self.firmware, self.code)
-        acc = _scale(counts, GRAVITY / per_g)
+        full_scale, acc = FULL_SCALE_ACC_COUNTS / per_g, _scale(counts, GRAVITY / per_g)
         sample_times = self.acc_clock.add_packet(arrival)
         (t,) = sample_times.times
         out: Output = [*sample_times.make_events(self.site, "cc2541/accelerometer", arrival)]
         out += self.assembler.add_acc(t, acc, self.acc_clock.period, arrival)
         if not self.rest_check.is_finished:
-            out += self.rest_check.check(Sample(t, self.site, acc, known_at=max(arrival, t)), 128.0 / per_g)
+            out += self.rest_check.check(Sample(t, self.site, acc, known_at=max(arrival, t)), full_scale)
         return out
 
     def _read_gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:
@@ -272,8 +274,8 @@ class Cc2541Link(DeviceLink):
             return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
         pressure = self.calibration.pascal(temperature, raw)
         if any(
-            s.newest_arrival is not None and arrival - s.newest_arrival <= MAX_PRESSURE_WAIT
-            for s in (self.acc_clock, self.gyro_clock)
+            clock.newest_arrival is not None and arrival - clock.newest_arrival <= MAX_PRESSURE_WAIT
+            for clock in (self.acc_clock, self.gyro_clock)
         ):
             self.assembler.air_pressure = pressure
             return []

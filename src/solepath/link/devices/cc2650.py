@@ -1,4 +1,4 @@
-"""TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification without counters, 10 Hz with stock firmware.
+"""TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification, 10 Hz with stock firmware, no counters.
 
 It also sends air pressure and the state of its keys."""
 
@@ -15,6 +15,7 @@ from ...wire.fields import Definition, Fields
 from ...wire.sensortag import ON_OFF, PERIOD
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
+from ..rest_check import FULL_SCALE_COUNTS
 
 ACC_RANGE = 8.0
 """Full scale of the accelerometer that the profile's setup sets, g."""
@@ -97,7 +98,7 @@ FORMATS: dict[str, Definition] = {
 
 
 def _movement(value: Any, known: Known) -> Reading:
-    a = known.get("acc_range", ACC_RANGE) * GRAVITY / 32768
+    a = known.get("acc_range", ACC_RANGE) * GRAVITY / FULL_SCALE_COUNTS
     ax, ay, az = value.acc
     gx, gy, gz = value.gyro
     mx, my, mz = value.mag

@@ -100,11 +100,12 @@ def _rates(value: Any, known: Known) -> Reading:
 
 
 def _control(value: Any, known: Known) -> Reading:
+    """Read a write that starts or stops a mode; the device is silent when stopped, or when it sends another mode."""
     return Reading(silent=value.action == 0 or value.mode != RATES_MODE)
 
 
 def device_control(value: Any, known: Known) -> Reading:
-    """Return a Reading with the output rate, if the value sets it."""
+    """Return a Reading with the output rate if the value sets the rate, else an empty Reading."""
     return Reading(rate=float(value.rate)) if value.visit & RATE_BIT else Reading()
 
 

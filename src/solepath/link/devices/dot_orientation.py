@@ -19,15 +19,15 @@ QUATERNION_MODE = 5
 """Number of the payload mode: timestamp, orientation as a quaternion."""
 NAME = "dot-orientation"
 MAX_LENGTH_ERROR = 0.01
-"""Largest deviation of a quaternion's length from 1; values of another mode are rejected by it."""
+"""Largest deviation of a quaternion's length from 1, which values of another mode exceed."""
 
 
 def _has_length_one(quat: tuple[float, ...], _: Any) -> bool:
+    # the squared length deviates from 1 by twice as much as the length
     return dot.all_finite(quat, None) and abs(sum([part * part for part in quat]) - 1.0) < 2.0 * MAX_LENGTH_ERROR
 
 
-def _rename_channel(channel: str) -> str:
-    """Return the name of a channel of dot.py under this profile's name."""
+def _replace_prefix(channel: str) -> str:
     return channel.replace(dot.PROFILE.name, NAME, 1)
 
 
@@ -37,7 +37,7 @@ PROFILE = evolve(
     channels=(
         Channel("dot-orientation/quaternion", dot.uuid(0x2000), dot.uuid(0x2004), Access.NOTIFY),
         *[
-            evolve(channel, name=_rename_channel(channel.name))
+            evolve(channel, name=_replace_prefix(channel.name))
             for channel in dot.PROFILE.channels
             if channel.name != "dot/rates"
         ],
@@ -65,6 +65,7 @@ def _quaternion(value: Any, known: Known) -> Reading:
 
 
 def _control(value: Any, known: Known) -> Reading:
+    """Read a write that starts or stops a mode; the device is silent when stopped, or when it sends another mode."""
     return Reading(silent=value.action == 0 or value.mode != QUATERNION_MODE)
 
 

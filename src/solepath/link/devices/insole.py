@@ -20,14 +20,12 @@ from ...wire.fragment import is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
-from ..counters import PacketPosition, PacketRun
+from ..counters import PacketPosition, PacketRun, signed_difference
 from ..device_link import DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
-from ..rest_check import RestCheck
+from ..rest_check import FULL_SCALE_COUNTS, RestCheck
 from .reassembly import Reassembly
 
-FULL_SCALE_COUNTS = 32768
-"""Counts that are the full scale of accelerometer and gyroscope."""
 ASSUMED_ACC_SCALE = 16.0 * GRAVITY / FULL_SCALE_COUNTS
 """Accelerometer scale before INFO comes, m/s^2 per count: 16 g full scale."""
 ASSUMED_GYRO_SCALE = radians(2000.0) / FULL_SCALE_COUNTS
@@ -35,7 +33,7 @@ ASSUMED_GYRO_SCALE = radians(2000.0) / FULL_SCALE_COUNTS
 TICK_RATE = 32768
 """Ticks per second before INFO comes (protocol/clock.md)."""
 SEQUENCE_MODULUS, TICK_MODULUS = 1 << 16, 1 << 32
-"""Numbers of values of a frame's sequence and ticks."""
+"""Values at which a frame's sequence and ticks wrap to 0."""
 WHOLE_FRAME_START = bytes([MAGIC])
 """First byte of a frame that is not fragmented."""
 FULL_PRESSURE_COUNTS = 4095.0
@@ -69,7 +67,7 @@ PROFILE = Profile(
 class InsoleLink(DeviceLink):
     """The link of an insole: channels insole/frame, insole/info and insole/control of one foot.
 
-    `feed` raises WireError for a value that cannot be used, and changes only the incomplete frame. There is no latency.
+    `feed` raises WireError for a value that cannot be used, and then changes nothing. There is no latency.
     Before INFO comes, full scales of 16 g and 2000 degrees/s are assumed, pressure stays in counts, and only frames
     with the layout of the first frame are accepted."""
 
@@ -177,9 +175,7 @@ class InsoleLink(DeviceLink):
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
         run = self.packet_run
-        ticks_after = (
-            frame.ticks - run.ticks + TICK_MODULUS // 2
-        ) % TICK_MODULUS - TICK_MODULUS // 2  # nearest to zero
+        ticks_after = signed_difference(frame.ticks - run.ticks, TICK_MODULUS)
         difference, packets = run.count_packets(frame.sequence, SEQUENCE_MODULUS, ticks_after / run.packet_ticks)
         position = PacketPosition(
             frame.sequence,

@@ -28,6 +28,7 @@ from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, Hex
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import FIRMWARE, Access, Channel, Profile, Write
+from ..rest_check import FULL_SCALE_COUNTS
 
 RATE_BY_HEADER = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
 """Samples a second, by the header (first byte) of a notification.
@@ -81,8 +82,8 @@ def _unused_size(context: Any) -> int:
     return _UNUSED_SIZES[context.header]
 
 
-def _is_short_enough(rest_check: str, _: Any) -> bool:
-    return len(rest_check) <= 2 * (MAX_INFO_SIZE - 10)
+def _is_short_enough(digits: str, _: Any) -> bool:
+    return len(digits) <= 2 * (MAX_INFO_SIZE - 10)  # two digits a byte, after ten bytes of other fields
 
 
 FORMATS = {
@@ -110,7 +111,7 @@ FORMATS = {
 
 
 def _values(value: Any, known: Known) -> Reading:
-    a = known.get("acc_range", 16.0) * GRAVITY / 32768
+    a = known.get("acc_range", 16.0) * GRAVITY / FULL_SCALE_COUNTS
     g = known.get("gyro_range", 2000.0) * GYRO_SCALE
     samples = []
     for sample in reversed(value.samples):  # the newest stands first

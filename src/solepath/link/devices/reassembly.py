@@ -34,7 +34,7 @@ class Reassembly:
         return detail
 
     def feed(self, fragment: Fragment) -> tuple[bytes | None, str | None]:
-        """Return the frame if this fragment completes it, and a description of a frame that was dropped; else None.
+        """Return the frame that this fragment completes, or None, and a description of a dropped frame, or None.
 
         The newest fragment again, with the same body, raises WireError and changes nothing."""
         if fragment == self.newest_fragment:

@@ -59,7 +59,7 @@ FROM_CLIENT = REQUESTS | {AttOpcode.WRITE_COMMAND, AttOpcode.CONFIRMATION, AttOp
 DECLARATION_TYPE = "00002803-0000-1000-8000-00805f9b34fb"
 """Type of an attribute that declares a characteristic."""
 SMALLEST_MTU = 23
-"""Largest PDU of a link before client and server agree on another, bytes."""
+"""Smallest MTU (size of the largest PDU), which holds until client and server agree on another, bytes."""
 
 PDU = Struct("opcode" / Int8ul, "body" / GreedyBytes)
 ERROR_RESPONSE = Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul, Terminated)
@@ -121,10 +121,10 @@ def uuid_text(octets: bytes) -> str:
 
 @define
 class Conversation:
-    """The decoder of the PDUs between one client and one server on one link.
+    """The decoder of the PDUs between one client and one server on one connection.
 
-    `types`: discovered UUIDs by handle, shared by all conversations with the same server. `flaws` counts PDUs that
-    could not be decoded. `mtu`: largest PDU that client and server agreed on, bytes."""
+    `types`: discovered UUIDs by handle, shared by all conversations with this server. `flaws` counts PDUs that could
+    not be decoded. `mtu`: size of the largest PDU that client and server agreed on, bytes."""
 
     types: dict[int, str]
     flaws: Counter[str]
@@ -149,7 +149,7 @@ class Conversation:
         return self._values
 
     def finish(self) -> list[AttValue]:
-        """Return the value of a read in several requests that was still open, at the end of the link."""
+        """Return the value of a read that the end of the connection left incomplete, as far as it was read."""
         self._values = []
         self._end_read()
         return self._values
@@ -207,7 +207,7 @@ class Conversation:
                 self._values.append(AttValue(AttOperation.WRITTEN, request_body.handle, request_body.value))
 
     def _add_types(self, kind: str, answer: Any) -> None:
-        """Add the types of an answer's handles: of declared characteristics, or of values of the type `kind`."""
+        """Add the types in an answer: those of the characteristics that it declares, or `kind` for its values."""
         for entry in answer.entries:
             if kind == DECLARATION_TYPE:
                 declared = parse_whole(DECLARATION, entry.value)

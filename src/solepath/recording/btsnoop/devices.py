@@ -88,7 +88,7 @@ def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Han
 
 
 def _is_compatible(channel_name: str, hint: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
-    """Return whether the attribute may be the channel of this name by its discovery."""
+    """Return whether the attribute's discovery, if any, allows that it is the channel of this name."""
     address, handle = hint
     if device.profile is not None and channel_name not in device.profile.channel_names:
         return False
@@ -119,13 +119,13 @@ def explain_unused(
 
 
 def _channels_of_characteristic(name: str) -> list[Channel]:
-    """Return the channels with the same characteristic as the channel of this name, on the same device."""
+    """Return the channels of the characteristic to which the channel of this name belongs."""
     profile = next(profile for profile in PROFILES if name in profile.channel_names)
     return [channel for channel in profile.channels if channel.characteristic == profile.channel(name).characteristic]
 
 
 def _find_profile(uuids: set[str]) -> Profile | None:
-    """Return the profile with at least one of its streams and most channels in `uuids`; the first of equal ones."""
+    """Return the profile with the most channels in `uuids`, at least one of them a stream; the first of several."""
     best_profile, most_matches = None, 0
     for profile in PROFILES:
         matches = sum(channel.characteristic in uuids for channel in profile.channels)

@@ -27,14 +27,14 @@ Of 2^16 arbitrary values that start with the magic, about one has a correct CRC 
 
 @define
 class ValueEvidence:
-    """A summary of the values of one attribute, which may show that it is an insole's."""
+    """A summary of the values of one attribute, which may show that the attribute is an insole's."""
 
     count: int = 0
     """Number of values that were notified."""
     lengths: set[int] = field(factory=set)
     """Lengths of the values examined, bytes."""
     frame_count: int = 0
-    """Number of values that are a correct insole frame or complete one."""
+    """Number of values that are a correct insole frame, or whose fragment completes one."""
     foot: Foot | None = None
     """Foot that the insole reported; None without an insole."""
     is_info: bool = False

@@ -52,7 +52,7 @@ FIRST_DYNAMIC_CHANNEL = 0x40
 class HciConnection:
     """The record of one connection.
 
-    `number`: position among the connections of the log, from 0. `adapter`: number of the host's Bluetooth adapter.
+    `number`: index among the connections of the log, from 0. `adapter`: number of the host's Bluetooth adapter.
     `handle`: connection handle. `address`: address of the peer; "" if the connection is older than the log."""
 
     number: int
@@ -69,11 +69,11 @@ class HciConnection:
 
 
 @frozen
-class LinkChange:
+class ConnectionChange:
     """The start or the end of a connection at `t`, us since 1970."""
 
     t: int
-    link: HciConnection
+    connection: HciConnection
     connected: bool
 
 
@@ -84,14 +84,14 @@ class Pdu:
     `own_address`: address of the host, "" if the log does not have it."""
 
     t: int
-    link: HciConnection
+    connection: HciConnection
     sent: bool
     data: bytes
     own_address: str
 
 
 def address_text(octets: bytes) -> str:
-    """Return an address as text, with the most significant octet, which is sent last, at the start."""
+    """Return an address as text, which starts with the last of `octets` as sent, the most significant one."""
     return ":".join(f"{octet:02X}" for octet in reversed(octets))
 
 
@@ -102,12 +102,12 @@ class Controller:
     `flaws` counts records that could not be decoded."""
 
     flaws: Counter[str]
-    _links: dict[tuple[int, int], HciConnection] = field(factory=dict)
+    _connections: dict[tuple[int, int], HciConnection] = field(factory=dict)
     _public_addresses: dict[int, str] = field(factory=dict)
     _random_addresses: dict[int, str] = field(factory=dict)
-    _link_count: int = 0
+    _connection_count: int = 0
 
-    def feed(self, record: HciRecord) -> Iterator[LinkChange | Pdu]:
+    def feed(self, record: HciRecord) -> Iterator[ConnectionChange | Pdu]:
         """Yield the changes of connections and the attribute protocol PDUs of one record."""
         if record.kind is not RecordKind.OTHER and not record.whole:
             self.flaws["records that the logger cut short"] += 1
@@ -122,15 +122,15 @@ class Controller:
         except WireError:
             self.flaws["records that are not HCI"] += 1
 
-    def _handle_command(self, record: HciRecord) -> Iterator[LinkChange]:
+    def _handle_command(self, record: HciRecord) -> Iterator[ConnectionChange]:
         command = parse_whole(COMMAND, record.data)
         if command.opcode == RESET:
-            for key in [key for key in self._links if key[0] == record.adapter]:
-                yield LinkChange(record.t, self._links.pop(key), False)
+            for key in [key for key in self._connections if key[0] == record.adapter]:
+                yield ConnectionChange(record.t, self._connections.pop(key), False)
         elif command.opcode == LE_SET_RANDOM_ADDRESS and len(command.parameters) == 6:
             self._random_addresses[record.adapter] = address_text(command.parameters)
 
-    def _handle_event(self, record: HciRecord) -> Iterator[LinkChange]:
+    def _handle_event(self, record: HciRecord) -> Iterator[ConnectionChange]:
         event = parse_whole(EVENT, record.data)
         parameters = event.parameters
         if event.size != len(parameters):
@@ -139,26 +139,30 @@ class Controller:
             complete = parse_whole(LE_CONNECTION_COMPLETE, parameters)
             if complete.status == 0:
                 handle = complete.handle & HANDLE_MASK
-                yield from self._remove_link(record, handle)
-                yield LinkChange(record.t, self._add_link(record, handle, address_text(complete.peer)), True)
+                yield from self._remove_connection(record, handle)
+                yield ConnectionChange(
+                    record.t, self._add_connection(record, handle, address_text(complete.peer)), True
+                )
         elif event.code == DISCONNECTED:
             disconnection = parse_whole(DISCONNECTION_COMPLETE, parameters)
             if disconnection.status == 0:
-                yield from self._remove_link(record, disconnection.handle & HANDLE_MASK)
+                yield from self._remove_connection(record, disconnection.handle & HANDLE_MASK)
         elif event.code == COMMAND_COMPLETE and len(parameters) == READ_ADDRESS_COMPLETE.sizeof():
             completed = parse_whole(READ_ADDRESS_COMPLETE, parameters)
             if completed.opcode == READ_BD_ADDR and completed.status == 0:
                 self._public_addresses[record.adapter] = address_text(completed.address)
 
-    def _add_link(self, record: HciRecord, handle: int, address: str) -> HciConnection:
-        link = self._links[record.adapter, handle] = HciConnection(self._link_count, record.adapter, handle, address)
-        self._link_count += 1
-        return link
+    def _add_connection(self, record: HciRecord, handle: int, address: str) -> HciConnection:
+        connection = self._connections[record.adapter, handle] = HciConnection(
+            self._connection_count, record.adapter, handle, address
+        )
+        self._connection_count += 1
+        return connection
 
-    def _remove_link(self, record: HciRecord, handle: int) -> Iterator[LinkChange]:
-        link = self._links.pop((record.adapter, handle), None)
-        if link is not None:
-            yield LinkChange(record.t, link, False)
+    def _remove_connection(self, record: HciRecord, handle: int) -> Iterator[ConnectionChange]:
+        connection = self._connections.pop((record.adapter, handle), None)
+        if connection is not None:
+            yield ConnectionChange(record.t, connection, False)
 
     def _handle_acl(self, record: HciRecord) -> Iterator[Pdu]:
         if len(record.data) < 4:
@@ -166,18 +170,18 @@ class Controller:
             return
         handle_and_flags, size = ACL_HEADER.parse(record.data)
         handle, boundary, body = handle_and_flags & HANDLE_MASK, handle_and_flags >> 12 & 3, record.data[4:]
-        link = self._links.get((record.adapter, handle))
-        if link is None:
-            link = self._add_link(record, handle, "")
+        connection = self._connections.get((record.adapter, handle))
+        if connection is None:
+            connection = self._add_connection(record, handle, "")
         if len(body) != size:
             if record.whole:
                 self.flaws["records that are not HCI"] += 1
-            self._discard_pieces(link, record.sent)
+            self._discard_pieces(connection, record.sent)
             return
         if boundary != CONTINUING_FRAGMENT:
-            self._discard_pieces(link, record.sent)
-            link.pieces[record.sent] = bytearray()
-        pieces = link.pieces.get(record.sent)
+            self._discard_pieces(connection, record.sent)
+            connection.pieces[record.sent] = bytearray()
+        pieces = connection.pieces.get(record.sent)
         if pieces is None:
             self.flaws["pieces of packets whose beginning is missing"] += 1
             return
@@ -186,23 +190,22 @@ class Controller:
             return
         size, channel = L2CAP_HEADER.parse(bytes(pieces[:4]))
         if len(pieces) > 4 + size:
-            self._discard_pieces(link, record.sent)
+            self._discard_pieces(connection, record.sent)
         elif len(pieces) == 4 + size:
-            del link.pieces[record.sent]
+            del connection.pieces[record.sent]
             if channel == ATT_CHANNEL:
-                yield Pdu(record.t, link, record.sent, bytes(pieces[4:]), self.get_own_address(record.adapter))
-            elif channel >= FIRST_DYNAMIC_CHANNEL and link.address:
+                yield Pdu(record.t, connection, record.sent, bytes(pieces[4:]), self.get_own_address(record.adapter))
+            elif channel >= FIRST_DYNAMIC_CHANNEL and connection.address:
                 self.flaws["packets of channels that are not followed (EATT perhaps)"] += 1
 
-    def _discard_pieces(self, link: HciConnection, sent: bool) -> None:
-        """Discard the pieces of a PDU that will not be completed."""
-        if link.pieces.pop(sent, None) is not None:
+    def _discard_pieces(self, connection: HciConnection, sent: bool) -> None:
+        if connection.pieces.pop(sent, None) is not None:
             self.flaws["packets of which a piece is missing"] += 1
 
     def get_own_address(self, adapter: int) -> str:
         """Return the address that the adapter shows to peers; "" if it is unknown."""
         return self._random_addresses.get(adapter) or self._public_addresses.get(adapter, "")
 
-    def list_links(self) -> list[HciConnection]:
+    def list_connections(self) -> list[HciConnection]:
         """Return the connections that have not ended."""
-        return list(self._links.values())
+        return list(self._connections.values())

@@ -19,7 +19,7 @@ from ..errors import RecordingError, Report, printable, warn
 from .att import AttOperation
 from .devices import CHANNELS, Handles, LoggedDevice, assign_site, explain_unused, name_attributes, with_article
 from .evidence import ValueEvidence
-from .hci import LinkChange
+from .hci import ConnectionChange
 from .records import reject_pipe
 from .values import LoggedValue, ValueListener
 
@@ -57,8 +57,8 @@ class BtsnoopLog:
                         if device is None
                         else device.channels.get((item.att_value.handle, item.att_value.operation))
                     )
-                case LinkChange():
-                    device = self.devices.get(item.link.peer)
+                case ConnectionChange():
+                    device = self.devices.get(item.connection.peer)
                     # the log does not show how the host found the device, so name and signal are unknown
                     channel = "receiver/connected" if item.connected else "receiver/disconnected"
                     data = build_connected(ConnectionFrame("", None)) if item.connected else b""

@@ -23,25 +23,25 @@ VERSION = 1
 TIME_OF_1970 = 0x00DCDDB30F2F8000
 """Time of the start of 1970, us; btsnoop counts from the start of the year 0."""
 MAX_RECORD_SIZE = 0x1_0000 + 64
-"""Largest size of a record, bytes: the longest HCI packet, which is an ACL packet, with its headers."""
+"""Largest size of the packet in a record, bytes: 65,535 bytes of ACL data, with room for the headers before them."""
 
 FILE_HEADER = Struct("magic" / Const(MAGIC), "version" / Int32ub, "datalink" / Int32ub)
 HEADER_SIZE = 16
 
 
 class Datalink(Enum):
-    """Format of the packets in the records."""
+    """Format of the records, which says where a record has the kind of its packet."""
 
     H1 = 1001
     """The record's flags give the kind of packet."""
     H4 = 1002
-    """The first byte gives the kind of packet, as Android, bumble and hcidump write it."""
+    """The packet's first byte gives its kind, as Android, bumble and hcidump write it."""
     MONITOR = 2001
     """The record's flags give the adapter and an opcode, as BlueZ's btmon writes it."""
 
 
 class RecordKind(Enum):
-    """Kind of the packet in a record."""
+    """Kind of the packet in a record; the value is the first byte of an H4 packet of this kind, except for OTHER."""
 
     COMMAND = 1
     ACL = 2
@@ -89,18 +89,18 @@ _KIND_BY_MONITOR_OPCODE = {
     4: (RecordKind.ACL, True),
     5: (RecordKind.ACL, False),
 }
-"""Kind of a record, and True if the host sent it, by btmon's opcode."""
+"""Kind of the packet, and True if the host sent it, by btmon's opcode."""
 
 
 def is_btsnoop(path: Path) -> bool:
-    """Return whether the file starts as a btsnoop log does; RecordingError when it cannot be read, or is a pipe."""
-    reject_pipe(path)  # reading the start of a pipe would remove it
+    """Return whether the file starts as a btsnoop log does; RecordingError for a pipe, or a file that is unreadable."""
+    reject_pipe(path)  # bytes that are read from a pipe here could not be read again
     with open_file(path) as file:
         return file.read(len(MAGIC)) == MAGIC
 
 
 def reject_pipe(path: Path) -> None:
-    """Raise RecordingError for a pipe or a device, which can be read only once."""
+    """Raise RecordingError if `path` is a pipe or a device, because logs are read more than once."""
     if path.exists() and not path.is_file() and not path.is_dir():
         raise RecordingError(path, "is a pipe or a device; it is read more than once, so it has to be a file")
 
@@ -110,8 +110,8 @@ def read_records(
 ) -> Iterator[HciRecord]:
     """Yield the records of a log in order.
 
-    `report` receives a sentence about an incomplete last record. `flaws` counts records that the logger dropped.
-    RecordingError for a file that is no btsnoop log, and for an impossible record after all records before it."""
+    `report` receives a sentence about an incomplete last record. `flaws` counts records that the logger dropped. A file
+    that is no btsnoop log raises RecordingError; a damaged record raises it after all records before were yielded."""
     with open_file(path) as file:
         datalink = _read_datalink(path, file.read(HEADER_SIZE))
         number, bytes_read, drops = 0, HEADER_SIZE, 0

@@ -10,7 +10,7 @@ from attrs import define, field, frozen
 
 from ..errors import RecordingError, Report
 from .att import FROM_CLIENT, AttValue, Conversation
-from .hci import Controller, HciConnection, LinkChange, Pdu
+from .hci import ConnectionChange, Controller, HciConnection, Pdu
 from .records import read_records
 
 
@@ -18,10 +18,10 @@ from .records import read_records
 class LoggedValue:
     """One value of a log.
 
-    `t`: us since 1970. `device`: address of the server, or the name of its connection (HciConnection.peer)."""
+    `t`: us since 1970. `device`: address of the server, or its HciConnection.peer if unknown."""
 
     t: int
-    link: HciConnection
+    connection: HciConnection
     device: str
     att_value: AttValue
 
@@ -38,9 +38,9 @@ class ValueListener:
     flaws: Counter[str] = field(factory=Counter)
     types: dict[str, dict[int, str]] = field(factory=dict)
     _conversations: dict[tuple[int, bool], Conversation] = field(factory=dict)
-    """Conversations by number of the connection, and True if the peer is the server."""
+    """Conversations by number of the connection and by role of the peer, which is True if it is the server."""
 
-    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[LoggedValue | LinkChange]:
+    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[LoggedValue | ConnectionChange]:
         """Yield the values and the changes of connections; RecordingError at damage, after all items before it."""
         controller = Controller(self.flaws)
         t, failure = 0, None
@@ -51,31 +51,31 @@ class ValueListener:
                     match item:
                         case Pdu():
                             yield from self._feed_pdu(item)
-                        case LinkChange():
+                        case ConnectionChange():
                             if not item.connected:
-                                yield from self._finish_link(
-                                    t, item.link, controller.get_own_address(item.link.adapter)
+                                yield from self._finish_connection(
+                                    t, item.connection, controller.get_own_address(item.connection.adapter)
                                 )
                             yield item
         except RecordingError as error:
             failure = error
-        for link in controller.list_links():
-            yield from self._finish_link(t, link, controller.get_own_address(link.adapter))
+        for connection in controller.list_connections():
+            yield from self._finish_connection(t, connection, controller.get_own_address(connection.adapter))
         if failure is not None:
             raise failure
 
     def _feed_pdu(self, pdu: Pdu) -> Iterator[LoggedValue]:
         # the peer is the server if the host sends a PDU of a client, or the peer a PDU of a server
         peer_is_server = pdu.sent == (bool(pdu.data) and pdu.data[0] in FROM_CLIENT)
-        device = pdu.link.peer if peer_is_server else pdu.own_address
-        conversation = self._conversations.get((pdu.link.number, peer_is_server))
+        device = pdu.connection.peer if peer_is_server else pdu.own_address
+        conversation = self._conversations.get((pdu.connection.number, peer_is_server))
         if conversation is None:
             types = self.types.setdefault(device, {})
-            conversation = self._conversations[pdu.link.number, peer_is_server] = Conversation(types, self.flaws)
-        yield from (LoggedValue(pdu.t, pdu.link, device, att_value) for att_value in conversation.feed(pdu.data))
+            conversation = self._conversations[pdu.connection.number, peer_is_server] = Conversation(types, self.flaws)
+        yield from (LoggedValue(pdu.t, pdu.connection, device, att_value) for att_value in conversation.feed(pdu.data))
 
-    def _finish_link(self, t: int, link: HciConnection, own_address: str) -> Iterator[LoggedValue]:
-        for peer_is_server, device in ((True, link.peer), (False, own_address)):
-            conversation = self._conversations.pop((link.number, peer_is_server), None)
+    def _finish_connection(self, t: int, connection: HciConnection, own_address: str) -> Iterator[LoggedValue]:
+        for peer_is_server, device in ((True, connection.peer), (False, own_address)):
+            conversation = self._conversations.pop((connection.number, peer_is_server), None)
             if conversation is not None:
-                yield from (LoggedValue(t, link, device, att_value) for att_value in conversation.finish())
+                yield from (LoggedValue(t, connection, device, att_value) for att_value in conversation.finish())

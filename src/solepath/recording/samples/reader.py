@@ -21,7 +21,7 @@ SAMPLE_SUFFIXES = (".npz", ".csv")
 
 @frozen
 class SampleRecording:
-    """A file of samples that was read, and of which at least the first rows are usable.
+    """The samples of a file, of which at least the first rows are usable.
 
     Iterating gives the samples of all feet in order of time, the left foot first at equal times. A row that cannot be
     used raises RecordingError after all samples before it."""

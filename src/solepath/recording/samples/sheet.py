@@ -1,4 +1,4 @@
-"""Reading of samples from a .csv file, which has the names of the columns in its first line and a row for each time.
+"""Reading of samples from a .csv file, whose first line names the columns, and whose other lines have one time each.
 
     t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z,pressure_0,pressure_1
     t,acc_x_left,...,gyro_z_left,pressure_0_left,...,acc_x_right,...       (or t_left and t_right instead of t)
@@ -47,7 +47,7 @@ class _FootColumns:
 
 
 def read_csv(path: Path, one_foot: Foot, report: Report) -> tuple[list[FootTable], RecordingError | None]:
-    """Return the tables of the feet up to the first row that cannot be used, and the error of that row, or None.
+    """Return the tables of the feet up to the first row that is no row of numbers, and that row's error, or None.
 
     An incomplete last line is reported and left out. It is not detected if only digits of its last column are missing,
     because the row is then complete."""
@@ -131,7 +131,7 @@ def _find_columns(header: list[str], one_foot: Foot) -> list[_FootColumns]:
 
 
 def _guess_content(header: list[str]) -> str:
-    """Return a guess at the content of a first line that names no column that is needed."""
+    """Return a guess at the content of a first line that names none of the required columns."""
     if len(header) == 1 and re.search("[;\t]", header[0]):
         return "its columns are not separated by commas"
     if any(_NUMBER.fullmatch(name) for name in header):

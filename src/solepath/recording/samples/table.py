@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 QUANTITIES = ("acc", "gyro", "pressure")
 """Quantities that a table may have."""
 BLOCK_SIZE = 4096
-"""Number of rows that are converted to samples at a time, so that not all samples are in memory."""
+"""Number of rows that are converted to samples at a time, so that never all samples are in memory."""
 
 MEDIAN_ACC_RANGE = (3.0, 30.0)
 """Allowed range of the median |acc| of a foot, m/s^2; standing, walking and running have 9.4 to 20."""
@@ -53,8 +53,8 @@ class FootTable:
     def __len__(self) -> int:
         return len(self.t)
 
-    def describe_place(self, row: int, quantity: str) -> str:
-        """Return a description of a value's place in the file."""
+    def locate_value(self, row: int, quantity: str) -> str:
+        """Return a text that says where in the file the value of `quantity` in row `row` is."""
         name = self.names[quantity]
         return f"{name}, row {row}" if self.lines is None else f"line {self.lines[row]}, {name}"
 
@@ -91,7 +91,7 @@ def check_table(table: FootTable) -> FootTable:
         raise RecordingError(table.path, "holds no samples", table.names["t"])
     end, fault, quantity = _first_bad_row(table)
     if end < len(table):
-        table.flaw = RecordingError(table.path, fault, table.describe_place(end, quantity))
+        table.flaw = RecordingError(table.path, fault, table.locate_value(end, quantity))
         if end == 0:
             raise table.flaw
         table.t = table.t[:end]
