@@ -7,8 +7,8 @@
     app.run()
 
 A job that is killed at any moment and started again continues at the last commit and delivers later events again. So
-delivery is at least once; a repeated event has the same bytes and the same (wearer, number). A reader of the topic
-detects repeated events with `Once`."""
+delivery is at least once; a repeated event has the same bytes and the same (wearer, number). A program that consumes
+the topic detects repeated events with `Once`."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def gait(frame: StreamingDataFrame, fleet: Fleet, keep: int = 256) -> StreamingD
 
 
 class _GaitStep:
-    """The stateful step.
+    """The stateful step; it also keeps the sessions of some wearers in memory.
 
     A session in memory is used only while the store holds the state that it returned: another process may have had the
     partition in the meantime, or messages may be repeated."""

@@ -80,7 +80,7 @@ class UnusedNumbers:
     def _forget(self, run: int) -> None:
         ranges = sorted([*self.forgotten, (run, run)])
         if len(ranges) > MAX_FORGOTTEN_RANGES:
-            index = min(range(MAX_FORGOTTEN_RANGES), key=lambda place: ranges[place + 1][0] - ranges[place][1])
+            index = min(range(MAX_FORGOTTEN_RANGES), key=lambda i: ranges[i + 1][0] - ranges[i][1])
             (first, end), (_, other_end) = ranges[index : index + 2]
             ranges[index : index + 2] = [(first, max(end, other_end))]
         self.forgotten = ranges
