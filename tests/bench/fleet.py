@@ -28,11 +28,12 @@ MAX_BARE_SESSIONS = 1000
 """Largest number of bare sessions that are run; sessions are independent, so each costs the same in a larger number."""
 SAMPLE_RATE = 2 * 100.0
 """Samples of both feet a second, Hz."""
-NOTE = """\ Each wearer sends {seconds} s of one of the six walks of `solepath fleet-demo`, a second at a time, as fast
-as the engine reads. A snapshot every {every} s (bytewax's default: 10 s) and one at the end. us: processor time,
-microseconds. Bare: without an engine, one wearer after the other. Share: samples/s with the engine divided by samples/s
-of bare sessions in as many processes. Wearers a core: both feet at 100 Hz, in real time, with the engine. kB a wearer:
-growth of memory, with rows in transit; "-" for few wearers, as the engine's own would dominate."""
+NOTE = """\
+Each wearer sends {seconds} s of one of the six walks of `solepath fleet-demo`, a second at a time, as fast as the
+engine reads. A snapshot every {every} s (bytewax's default: 10 s) and one at the end.
+us: processor time, microseconds. Bare: without an engine, one wearer after the other. Share: samples/s with the engine
+divided by samples/s of bare sessions in as many processes. Wearers a core: both feet at 100 Hz, in real time, with the
+engine. kB a wearer: growth of memory, with rows in transit; "-" for few wearers, as the engine's own would dominate."""
 
 
 def measure_row(plan: DemoPlan) -> list[str]:

@@ -1,4 +1,4 @@
-"""Test whether a place on a level with rooms is inside: in a room, a stairwell, a cabin, or on a doorstep."""
+"""Test whether a place on a level with rooms is inside: in a room, a stairwell, an elevator cabin, or on a doorstep."""
 
 from __future__ import annotations
 

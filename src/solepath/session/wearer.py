@@ -90,7 +90,8 @@ class WearerParts:
     def feed(self, sample: Sample, scale_reported: bool) -> list[Event]:
         """Add a sample of any site and return the events.
 
-        `scale_reported` is True when the link checks the scale, since it knows the range; then the foot does not."""
+        `scale_reported` is True when the link checks the scale, since it knows the range; then the foot does not check
+        it."""
         if sample.quat is not None:
             sample = with_sound_attitude(sample)
         foot = sample.site.foot
