@@ -94,10 +94,9 @@ class Search:
             return present[0]  # any of them will do: it reports its site once it is connected
         if len(candidates) > 1:
             addresses = ", ".join(sorted(device.address for device in candidates))
-            text = (
+            self._report_once(
                 f"{len(candidates)} devices answer to {self.config.description} ({addresses}): say which by its address"
             )
-            self._report_once(text)
             return None
         return present[0] if present and settled else None
 

@@ -100,7 +100,6 @@ def _parse_message(wearer: str, value: Any) -> list[Sent | Unreadable]:
     if not 0 < len(lines) <= MAX_LINES:
         return [Unreadable(wearer, f"a message of {len(lines)} lines; 1 to {MAX_LINES} can be read")]
     sent = [read_line(line) for line in lines]
-    mismatched = Unreadable(
-        wearer, "a line of another wearer than its message"
-    )  # without a number, so it takes no place in this wearer's order
+    # without a number, so it takes no place in this wearer's order
+    mismatched = Unreadable(wearer, "a line of another wearer than its message")
     return [row if row.wearer in (wearer, "") else mismatched for row in sent]

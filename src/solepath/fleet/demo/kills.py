@@ -118,9 +118,8 @@ def play_run(create_run: Callable[[], EngineRun], kills: list[Kill], expected: p
         with closing(run):
             if _kill_and_restart(run, kills, marks):
                 run.finish()
-                return Outcome(
-                    _compute_costs(marks, run.starts(), run.reopened()), find_event_differences(expected, run.events)
-                )
+                costs = _compute_costs(marks, run.starts(), run.reopened())
+                return Outcome(costs, find_event_differences(expected, run.events))
         late_kill = kills[len(marks)]
         share = None if late_kill.share is None else late_kill.share * RETRY_FACTOR
         earlier = evolve(late_kill, share=share, after=late_kill.after * RETRY_FACTOR)
@@ -163,9 +162,7 @@ def _compute_costs(marks: list[KillMark], starts: list[dict[str, Any]], reopened
         is_complete = restarts.keys() >= mark.reached.keys() and bool(restarts)
         replayed = sum(reached - restarts[part]["at"] for part, reached in mark.reached.items()) if is_complete else 0
         down = max(start["time"] for start in restarts.values()) - mark.when if is_complete else None
-        share = sum(mark.reached.values()) / size
+        share, replayed_share = sum(mark.reached.values()) / size, replayed / size if is_complete else None
         reopened_since = reopened_by_end - mark.reopened
-        costs.append(
-            Cost(mark.kill, mark.started, share, replayed / size if is_complete else None, down, reopened_since)
-        )
+        costs.append(Cost(mark.kill, mark.started, share, replayed_share, down, reopened_since))
     return costs

@@ -180,7 +180,6 @@ def _process_arguments(processes: int) -> list[tuple[str, ...]]:
 
 
 def _free_ports(count: int) -> list[int]:
-    """Return free ports of this machine."""
     with ExitStack() as stack:
         sockets = [stack.enter_context(socket.socket()) for _ in range(count)]
         for socket_ in sockets:

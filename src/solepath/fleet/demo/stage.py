@@ -152,9 +152,8 @@ class DemoStage:
         results = [json.loads((directory / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
         states = [state for result in results for state in result["states"]]
         snapshot_time = median(seconds for _, _, seconds in states)
-        sizes, held_sizes = (
-            [size for size, held_rows, _ in states if bool(held_rows) is is_held] for is_held in (False, True)
-        )
+        sizes = [size for size, held_rows, _ in states if not held_rows]
+        held_sizes = [size for size, held_rows, _ in states if held_rows]
         rate = sum(samples / result["seconds"] for samples, result in zip(self.samples, results, strict=True))
         cpu = sum(result["cpu"] for result in results)
         self.sessions = Bare(rate, cpu, mean(sizes), max(sizes), max(held_sizes, default=None), snapshot_time)

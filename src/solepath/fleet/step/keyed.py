@@ -148,11 +148,8 @@ class Keyed:
         if isinstance(item, Sent):
             run, number, payload = item.run, item.number, check_payload(item.what)
         elif isinstance(item, Unreadable) and item.number is not None:
-            run, number, payload = (
-                item.run,
-                item.number,
-                RejectedItem(SentRejection.UNREADABLE, item.what[:MAX_DETAIL_LENGTH]),
-            )
+            rejected = RejectedItem(SentRejection.UNREADABLE, item.what[:MAX_DETAIL_LENGTH])
+            run, number, payload = item.run, item.number, rejected
         else:
             return
         if not self._has_numbers:

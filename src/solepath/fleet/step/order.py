@@ -171,11 +171,9 @@ def check_payload(payload: object) -> Payload:
         if t is None:
             return RejectedItem(SentRejection.MALFORMED, "a Tick without a time")
         return Tick(t) if -MAX_TIME <= t <= MAX_TIME else RejectedItem(SentRejection.NOT_FINITE, f"a Tick at {t:g} s")
-    return (
-        End()
-        if isinstance(payload, End)
-        else RejectedItem(SentRejection.MALFORMED, f"a {type(payload).__name__}"[:MAX_DETAIL_LENGTH])
-    )
+    if isinstance(payload, End):
+        return End()
+    return RejectedItem(SentRejection.MALFORMED, f"a {type(payload).__name__}"[:MAX_DETAIL_LENGTH])
 
 
 def _convert_packet(packet: Packet) -> Payload:

@@ -194,15 +194,12 @@ def _join_parts(parts: list[ConnectorPart], numbers: dict[str, int], storeys: di
 
     Parts of one group are joined. Parts that overlap are joined if their levels are at most one storey apart or
     adjacent in the list of levels."""
-    ordered = sorted(
-        parts,
-        key=lambda part: (
-            part.kind.value,
-            numbers[part.level],
-            min(part.ring, default=part.place or (0.0, 0.0)),
-            part.name,
-        ),
-    )
+
+    def sort_key(part: ConnectorPart) -> tuple[str, int, Point, str]:
+        corner = min(part.ring, default=part.place or (0.0, 0.0))
+        return part.kind.value, numbers[part.level], corner, part.name
+
+    ordered = sorted(parts, key=sort_key)
     middles = [find_inner_point(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0) for part in ordered]
     leader = list(range(len(ordered)))
 

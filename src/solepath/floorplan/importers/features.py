@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator
-from math import isfinite
 from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
@@ -190,11 +189,6 @@ def find_anchor(features: Iterable[Feature]) -> Anchor:
 
 
 def parse_number(value: object, what: str) -> float:
-    if (
-        isinstance(value, bool)
-        or not isinstance(value, int | float)
-        or not abs(value) < MAX_NUMBER
-        or not isfinite(value)
-    ):
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < MAX_NUMBER:  # also if NaN
         raise FloorPlanError(f"{what} is {describe(value)}, not a number that can be")
     return float(value)

@@ -212,20 +212,13 @@ def _written(plan: FloorPlan) -> Iterable[dict[str, Any]]:
         for room in level.rooms:
             yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), on_level)
     for i, connector in enumerate(plan.connectors):
-        optional: dict[str, Any] = {
-            "name": connector.name,
-            "connector": str(i),
-            "flights": connector.flights,
-            "rise": connector.rise,
-        }
-        optional = {key: value for key, value in optional.items() if value is not None}
+        counts = {"flights": connector.flights, "rise": connector.rise}
+        known = {key: value for key, value in counts.items() if value is not None}
         for stop in connector.stops:
-            properties = {"level": stop.level, **optional}
+            properties = {"level": stop.level, "name": connector.name, "connector": str(i), **known}
             if stop.outline:
-                closed = [*stop.outline, stop.outline[0]]
-                yield _feature(
-                    connector.kind.value, _geometry("Polygon", [closed]), {**properties, "place": stop.place}
-                )
+                outline = _geometry("Polygon", [[*stop.outline, stop.outline[0]]])
+                yield _feature(connector.kind.value, outline, {**properties, "place": stop.place})
             else:
                 yield _feature(connector.kind.value, _geometry("Point", stop.place), properties)
 

@@ -83,9 +83,8 @@ class _ImdfReader:
         if f"{kind}.geojson" not in files:
             return []
         with _name_file(f"{kind}.geojson"):
-            features_read = list(
-                read_features(parse_json(files[f"{kind}.geojson"]), "feature_type", in_properties=False)
-            )
+            collection = parse_json(files[f"{kind}.geojson"])
+            features_read = list(read_features(collection, "feature_type", in_properties=False))
             for feature in features_read:
                 if feature.kind != kind:
                     feature.fail(f"is a {feature.kind[:30]!r} among the {kind}s")

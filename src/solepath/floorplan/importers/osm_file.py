@@ -104,10 +104,8 @@ def _element(tag: str, attributes: dict[str, str]) -> Element | None:
         raise FloorPlanError(f"a {tag} has no id")
     element = Element(tag, attributes["id"])
     if tag == "node":
-        element.latitude, element.longitude = (
-            _degrees(element, attributes, "lat", 90.0),
-            _degrees(element, attributes, "lon", 180.0),
-        )
+        element.latitude = _degrees(element, attributes, "lat", 90.0)
+        element.longitude = _degrees(element, attributes, "lon", 180.0)
     return element
 
 
