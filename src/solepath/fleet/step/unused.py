@@ -68,7 +68,7 @@ class UnusedNumbers:
         return any([span.run == run and span.first <= number < span.end for span in self.spans])
 
     def may_continue(self, run: int, number: int) -> bool:
-        """Return whether no number of this run from `number` on was used for certain; it is not the current run."""
+        """Return whether surely no number from `number` on was used in this run, which is not the current one."""
         spans = [span for span in self.spans if span.run == run]
         if spans:
             return any([span.is_open and span.first <= number for span in spans])
