@@ -63,7 +63,7 @@ class Recipe:
 
     None stands for Particles, which is imported for such a session only."""
     needs_pressure: bool = False
-    """The recipe reports nothing without pressure cells."""
+    """True for a recipe that reports nothing without pressure cells."""
 
     def exchanged(self, kind: type, by: Part | None, name: str | None = None) -> Recipe:
         """Return the recipe with its part of this kind replaced by `by`, or removed if `by` is None.
@@ -76,7 +76,7 @@ class Recipe:
         return evolve(self, name=self.name if name is None else name, parts=parts)
 
     def order(self) -> str:
-        """Return the names of the parts of the body, one a line, in the order in which they receive events."""
+        """Return the names of the parts of the body, a line for each, in the order in which they receive events."""
         place = "Particles" if self.place is None else type(self.place).__name__
         names = [type(part).__name__ for part in self.parts]
         return "\n".join([*names, f"{place} (with a floor plan)"])
@@ -209,7 +209,7 @@ def own(recipe: Recipe) -> Recipe:
             if copy.text == text:
                 return copy.recipe
     new_copy = _Copy(deepcopy(recipe), extra_state)
-    _copies = (new_copy, *copies[: _MOST_COPIES - 1])
+    _copies = (new_copy, *copies[: _MAX_COPIES - 1])
     return new_copy.recipe
 
 
@@ -233,7 +233,6 @@ class _Copy:
             return None
 
 
-_MOST_COPIES = 16
-"""Number of copies that are stored."""
+_MAX_COPIES = 16
 _copies: tuple[_Copy, ...] = ()
 """The newest copies; a change replaces the whole tuple, so that other threads can continue with the old one."""

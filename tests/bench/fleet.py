@@ -29,11 +29,11 @@ MAX_BARE_SESSIONS = 1000
 SAMPLE_RATE = 2 * 100.0
 """Samples of both feet a second, Hz."""
 NOTE = """\
-Wearers of the six walks of `solepath fleet-demo`, {seconds} s each and sent by the second, as fast as it goes,
-a snapshot every {every} s (bytewax's own: 10 s) and one at the end.
-us: of a processor. Bare: wearer after wearer, packets ready, Session.feed alone on the clock. Share: of the samples/s
-that bare sessions reach in as many processes. Wearers a core: both feet at 100 Hz, in real time, with the engine.
-kB a wearer: memory, with packets on their way; for a few wearers the engine's own would be most of it."""
+Each wearer sends {seconds} s of one of the six walks of `solepath fleet-demo`, a second at a time, as fast as the
+engine reads. A snapshot every {every} s (bytewax's default: 10 s) and one at the end.
+us: processor time, microseconds. Bare: without an engine, one wearer after the other. Share: samples/s with the engine
+divided by samples/s of bare sessions in as many processes. Wearers a core: both feet at 100 Hz, in real time, with the
+engine. kB a wearer: growth of memory, with rows in transit; "-" for few wearers, as the engine's own would dominate."""
 
 
 def measure_row(plan: DemoPlan) -> list[str]:

@@ -17,7 +17,7 @@ IDENTITIES = st.lists(st.tuples(WEARERS, st.integers(0, 12)), max_size=60)
 
 
 def passed(once: Once, delivered: list[tuple[str, int]]) -> list[tuple[str, int]]:
-    return [identity for identity in delivered if once.first(*identity)]
+    return [identity for identity in delivered if once.accept(*identity)]
 
 
 @given(IDENTITIES)
@@ -38,10 +38,10 @@ def test_a_reader_that_was_saved_goes_on_as_if_nothing_had_happened(delivered: l
 @given(st.lists(st.integers(0, 10**9), max_size=300), st.integers(1, 4))
 def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(numbers: list[int], limit: int) -> None:
     once = Once(limit)
-    accepted = [n for n in numbers if once.first("anna", n)]
+    accepted = [n for n in numbers if once.accept("anna", n)]
     assert len(set(accepted)) == len(accepted)
     for wearer in map(str, range(2 * limit)):
-        assert once.first(wearer, 0)
+        assert once.accept(wearer, 0)
     state = once.snapshot()["state"]
     assert isinstance(state, dict) and isinstance(state["_received"], dict)
     assert len(state["_received"]) == limit
@@ -50,31 +50,31 @@ def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(number
 def test_of_many_holes_the_lowest_counts_as_received() -> None:
     once = Once()
     for number in range(1, 2 * MAX_RANGES + 2, 2):
-        assert once.first("anna", number)
-    assert not once.first("anna", 0)
-    assert once.first("anna", 2)
+        assert once.accept("anna", number)
+    assert not once.accept("anna", 0)
+    assert once.accept("anna", 2)
 
 
 def test_of_more_wearers_than_there_is_room_for_the_one_silent_longest_is_forgotten() -> None:
     once = Once(limit=2)
-    assert [once.first(wearer, 0) for wearer in ("anna", "bert", "anna", "carl", "anna", "bert")] == [
+    assert [once.accept(wearer, 0) for wearer in ("anna", "bert", "anna", "carl", "anna", "bert")] == [
         True, True, False, True, False, True,
     ]  # fmt: skip
 
 
 def test_a_reader_restarts_from_the_newest_number_of_each_wearer_that_its_table_holds() -> None:
     once = Once.after({"anna": 7})
-    assert [once.first("anna", number) for number in (0, 6, 7, 8)] == [False, False, False, True]
-    assert once.first("bert", 0)
+    assert [once.accept("anna", number) for number in (0, 6, 7, 8)] == [False, False, False, True]
+    assert once.accept("bert", 0)
 
 
 @pytest.mark.parametrize("wearer, number", [("anna", 1.0), ("anna", True), ("anna", "1"), (None, 1), (b"anna", 1)])
 def test_what_is_no_identity_is_the_callers_mistake(wearer: object, number: object) -> None:
     once = Once()
     with pytest.raises(TypeError, match="identity"):
-        once.first(wearer, number)  # type: ignore[arg-type]
+        once.accept(wearer, number)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="from 0"):
-        once.first("anna", -1)
+        once.accept("anna", -1)
     assert once == Once()
 
 

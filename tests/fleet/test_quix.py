@@ -92,7 +92,7 @@ def once(read_messages: list[Message]) -> dict[str, list[dict[str, Any]]]:
     kept: dict[str, list[dict[str, Any]]] = {}
     for message in read_messages:
         row = json.loads(message.value)
-        if readers.setdefault(message.partition, Once()).first(row["wearer"], row["number"]):
+        if readers.setdefault(message.partition, Once()).accept(row["wearer"], row["number"]):
             kept.setdefault(row["wearer"], []).append(row)
     return kept
 

@@ -20,7 +20,7 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, Sent, StateRejected, Tick, Unreadable
 from solepath.fleet.step.keyed import first_event_number
 from solepath.fleet.step.order import RejectedItem
-from solepath.fleet.step.state import READERS, VERSION, StateHead, read_identity, read_rest, write_state
+from solepath.fleet.step.state import READERS, VERSION, StateHead, read_head, read_rest, write_state
 from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import DEFAULT
 from solepath.session import Session
@@ -55,23 +55,23 @@ def held_as_fields(place: tuple[int, int], what: Any) -> dict[str, Any]:
 @pytest.mark.parametrize("vector", STATES["states"], ids=lambda vector: vector["id"])
 def test_a_state_is_as_in_the_protocol(vector: dict[str, Any]) -> None:
     state = bytes.fromhex(vector["hex"])
-    identity = read_identity(state)
+    head = read_head(state)
     if vector["result"] == "refused":
         known = vector["identity"]
-        assert identity == (None if known is None else StateHead(**known))
+        assert head == (None if known is None else StateHead(**known))
         (first, *_) = FLEET.step(WEARER, state, [shown(300, 7)])[1]
         assert isinstance(first.event, StateRejected)
         assert first.number == (first_event_number(7, 300) if known is None else known["next_event"])
         return
     fields = vector["fields"]
     rest = read_rest(state)
-    assert identity == StateHead(*[fields[name] for name in ("run", "next", "next_event", "known")])
+    assert head == StateHead(*[fields[name] for name in ("run", "next", "next_event", "known")])
     assert (rest.ended, rest.failure, rest.session) == (fields["ended"], fields["failure"], None)
     assert [[span.run, span.first, span.end] for span in rest.unused.spans] == fields["spans"]
     assert [[*runs] for runs in rest.unused.forgotten] == fields["forgotten"]
     assert [*astuple(rest.strays)] == fields["strays"]
     assert [held_as_fields(place, what) for place, what in rest.held_rows.items()] == fields["held"]
-    assert write_state(identity, rest) == state
+    assert write_state(head, rest) == state
     assert FLEET.open(WEARER, state).state() == state
 
 
@@ -130,7 +130,7 @@ def test_a_session_of_another_recipe_or_of_a_building_is_rejected_and_the_number
         after, emitted = fleet.step(WEARER, state, walked().sent[MIDDLE : MIDDLE + 50])
         assert isinstance(emitted[0].event, StateRejected) and emitted[0].event.detail
         assert [one.number for one in emitted] == list(range(before, before + len(emitted)))
-        assert emitted[0].event.t == read_identity(state).known
+        assert emitted[0].event.t == read_head(state).known
         assert fleet.step(WEARER, after, walked().sent[MIDDLE + 50 : MIDDLE + 150])[1], (
             "and the wearer is followed again"
         )
@@ -199,7 +199,7 @@ def test_a_phone_hands_its_wearer_over() -> None:
     sent, whole = walked().sent, Session()
     first = [event for one in sent[:MIDDLE] for event in whole.feed(one.what)]
     state = FLEET.adopt(json.loads(json.dumps(whole.snapshot())))
-    assert read_identity(state).known == whole.now
+    assert read_head(state).known == whole.now
     numbers = count()
     rest = [evolve(one, number=next(numbers), run=3) for one in sent[MIDDLE:]]
     _, emitted = FLEET.step(WEARER, state, rest)

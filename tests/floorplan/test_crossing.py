@@ -145,19 +145,19 @@ def test_a_wall_across_the_largest_plan_is_in_the_cells_along_it_only() -> None:
 def test_outside_is_what_a_walk_over_the_lattice_reaches_without_touching_a_wall(walls: list[Line], most: int) -> None:
     level, solid = Level("0", "", 0, 0.0, tuple(Wall(start, end) for start, end in walls)), Walls(walls)
     enclosure = Enclosure(level, solid, most)
-    places_by_index = {(i, j): enclosure.place(i, j) for i in range(enclosure.columns) for j in range(enclosure.rows)}
-    assume(all(distance(*start, *end, *place) > 1e-6 for start, end in walls for place in places_by_index.values()))
+    points_by_index = {(i, j): enclosure.point(i, j) for i in range(enclosure.columns) for j in range(enclosure.rows)}
+    assume(all(distance(*start, *end, *place) > 1e-6 for start, end in walls for place in points_by_index.values()))
     reached, queue = {(0, 0)}, [(0, 0)]
     for i, j in queue:
         for neighbour in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
             if (
-                neighbour in places_by_index
+                neighbour in points_by_index
                 and neighbour not in reached
-                and not solid.crosses(*places_by_index[i, j], *places_by_index[neighbour])
+                and not solid.crosses(*points_by_index[i, j], *points_by_index[neighbour])
             ):
                 reached.add(neighbour)
                 queue.append(neighbour)
-    assert sorted(enclosure.outside) == sorted(places_by_index[at] for at in reached)
+    assert sorted(enclosure.outside) == sorted(points_by_index[at] for at in reached)
 
 
 def level(level_id: str, elevation: float, **more: object) -> Level:

@@ -17,7 +17,7 @@ class DeviceConfig:
 
     `site` is where it is worn; None for an insole, which reports its own site. `which` is its address, or its name when
     no other device nearby has that name; "" accepts any device of its profile. `profile` is needed when the
-    advertisement does not identify it (20 Hz firmware of a CC2541, a device of your own) and when `which` is "". Raises
+    advertisement does not show it (20 Hz firmware of a CC2541, a device of your own) and when `which` is "". Raises
     ValueError when `which` and `profile` are both missing, or when a device that cannot report its site has none."""
 
     site: Site | None
@@ -57,14 +57,14 @@ def reports_site(profile: Profile | None) -> bool:
 
 
 def check_configs(configs: Sequence[DeviceConfig]) -> None:
-    """Raise ValueError when there is no config, two have one site, or nothing distinguishes two of them."""
+    """Raise ValueError without a config, or if two share a site or may mean one device, or insoles exceed free feet."""
     if not configs:
         raise ValueError("no device is wanted")
     sites = [config.site for config in configs if config.site is not None]
     if len(set(sites)) < len(sites):
         raise ValueError("two devices cannot be at one site")
-    feet = len({*SITE_OF_FOOT.values()} - {*sites})
-    if len(configs) - len(sites) > feet:
+    free_feet = len({*SITE_OF_FOOT.values()} - {*sites})
+    if len(configs) - len(sites) > free_feet:
         raise ValueError("more insoles are wanted than there are feet for them")
     for k, config in enumerate(configs):
         for earlier in configs[:k]:

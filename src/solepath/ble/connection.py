@@ -57,11 +57,11 @@ class Connection:
     """The connection of one configured device, as `Devices` holds it.
 
     An app may read `config`, `site`, `state`, `signal`, `address` and `name`; the last two are "" until they are known.
-    `run` raises no Bluetooth failure: troubles become packets, which the session turns into LinkTrouble.
+    `run` raises no Bluetooth failure: each becomes a packet, which the session turns into LinkTrouble.
 
     Every connection runs in its own task, so no device waits for another. It reports through `emitter`. `pair` requests
     pairing when connected. `patience` is the time until a device that does not advertise is reported, s. `siblings` are
-    all connections of the same owner, this one included; no two of them use the same device or the same site."""
+    all connections of the Devices, this one included; no two of them use the same device or the same site."""
 
     config: DeviceConfig
     backend: Backend
@@ -174,8 +174,8 @@ class Connection:
     async def _connect(self, found: Advertisement, name: str, disconnected: asyncio.Event) -> BleakClient:
         """Connect to the device; `disconnected` is set when the connection is lost. Raises FAILURES."""
         loop = asyncio.get_running_loop()
-        complain_at = max(self._no_stream_since + self.patience, _now() + min(PRESENCE_TIME, self.patience))
-        timer = loop.call_at(complain_at, self.emitter.report_trouble, NO_ANSWER)
+        report_at = max(self._no_stream_since + self.patience, _now() + min(PRESENCE_TIME, self.patience))
+        timer = loop.call_at(report_at, self.emitter.report_trouble, NO_ANSWER)
         try:
             async with bleak_call(CONNECT_TIMEOUT):
                 client = await establish_connection(
@@ -201,10 +201,10 @@ class Connection:
         if site is None:
             raise WrongDevice(f"{name} does not say where it is worn: name a site")
         if requested is not None and site is not requested:
-            raise WrongDevice(f"{name} is a {_place(site)} one: wanted at the {_place(requested)}")
+            raise WrongDevice(f"{name} is a {_describe(site)} one: wanted at the {_describe(requested)}")
         same_site = [other for other in self.siblings if other is not self and other.site is site]
         if any(other.address or other.config.site is not None for other in same_site):
-            raise WrongDevice(f"{name} is one more for the {_place(site)}")
+            raise WrongDevice(f"{name} is one more for the {_describe(site)}")
         for other in same_site:  # both sites are provisional, so they can be exchanged
             other.emitter.site = self.site
         self.emitter.site, self.emitter.address, self.name = site, found.address, found.name
@@ -214,5 +214,5 @@ def _now() -> float:
     return asyncio.get_running_loop().time()
 
 
-def _place(site: Site) -> str:
+def _describe(site: Site) -> str:
     return site.value.replace("_", " ")

@@ -26,9 +26,10 @@ class Devices:
     """The configured devices, connected for the duration of an `async with`; iterate over it for packets.
 
     Every packet has the address of its device and the time of the event loop's clock at its arrival, s (`loop.time()`,
-    usually `time.monotonic()`). It can be taken in the loop's next turn. Besides notifications there are the values
-    that were read and written, and packets of the receiver itself (protocol/receiver.md): connections, troubles as
-    sentences, counts of dropped packets, and ticks while nothing arrives. `Session.feed` turns all of them into events.
+    usually `time.monotonic()`). An app can take a packet in the loop's next turn after its arrival. Besides
+    notifications there are the values that were read and written, and packets of the receiver itself
+    (protocol/receiver.md): connections, troubles as sentences, counts of dropped packets, and ticks while nothing
+    arrives. `Session.feed` turns all of them into events.
 
     `capacity` is the number of notifications that can wait; beyond it the oldest are dropped and a packet reports their
     number. `pair` requests pairing of every device when it is connected. `patience` is the time until a device that
@@ -133,7 +134,7 @@ class Devices:
         return self._next() or Packet(loop.time(), self._connections[0].site, "receiver/tick", b"")
 
     def _next(self) -> Packet | None:
-        """Return the oldest packet that has arrived; None while more may come."""
+        """Return the oldest packet that waits, or None; raise StopAsyncIteration when no more can come."""
         if self._fault is not None:
             self._fault.result()
         packet = self._inbox.take()

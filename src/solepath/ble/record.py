@@ -20,9 +20,9 @@ async def record(
         async for packet in record(devices, "walk.jsonl"):
             session.feed(packet)
 
-    `header` holds further keys of the first line. `began`, the time of day (UTC), and `began_t`, the packets' clock at
-    that time, s, are set by this function. Raises RecordingError when the file cannot be made or written any further
-    (the disk is full); packets already in the file stay intact."""
+    `header` holds further keys of the first line. `began`, the date and time (UTC), and `began_t`, the same moment on
+    the packets' clock, s, are set by this function. Raises RecordingError when the file cannot be made or written any
+    further (the disk is full); packets already in the file stay intact."""
     with PacketWriter(path, {**header, **start_keys()}) as writer:
         async for packet in packets:
             writer.write(packet)
@@ -30,6 +30,6 @@ async def record(
 
 
 def start_keys() -> dict[str, Any]:
-    """Return the header keys of a recording that starts now: time of day (UTC) and packets' clock, s (recording.md)."""
+    """Return the header keys of a recording that starts now: date and time (UTC), and packets' clock, s."""
     now = datetime.now(UTC).isoformat(timespec="milliseconds")
     return {"began": now, "began_t": asyncio.get_running_loop().time()}

@@ -37,7 +37,7 @@ A scan may not survive Bluetooth being switched off and on."""
 WEAKEST_SIGNAL, STRONGEST_SIGNAL = -127, 20
 """Range of the signal strength that a controller may report, dBm (Bluetooth Core, vol 4 part E, 7.7.65.2).
 
-Any other value stands for an unknown signal strength."""
+Any other value means that it is unknown, which is reported as WEAKEST_SIGNAL."""
 
 
 @frozen

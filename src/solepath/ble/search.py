@@ -23,9 +23,10 @@ SAME_NAME_TIME = 30.0
 class Search:
     """A search for one device.
 
-    `address` is the only address to accept once it is known, else "". `is_excluded` is True for devices not to use. If
-    nothing was found `patience` s after `since` (s, loop's clock), `report_trouble` is called once, since the search
-    may take hours. `since` may be before this search; the search then listens up to PRESENCE_TIME before it reports."""
+    `address` is the only address to accept once it is known, else "". `is_excluded` returns True for devices not to
+    use. If nothing was found `patience` s after `since` (s, loop's clock), `report_trouble` is called once, since the
+    search may take hours. `since` may be before this search; the search then listens up to PRESENCE_TIME before it
+    reports."""
 
     scanner: Scanner
     config: DeviceConfig
@@ -42,11 +43,11 @@ class Search:
         """Return the device as soon as it advertises and no other device can be mistaken for it."""
         loop = asyncio.get_running_loop()
         present_since: float | None = None
-        complain_at = max(self.since + self.patience, loop.time() + min(PRESENCE_TIME, self.patience))
+        report_at = max(self.since + self.patience, loop.time() + min(PRESENCE_TIME, self.patience))
         with self.scanner.listening(self._on_advertisement):
             while True:
                 now = loop.time()
-                self._found = {at: one for at, one in self._found.items() if now - one.t < SAME_NAME_TIME}
+                self._found = {k: found for k, found in self._found.items() if now - found.t < SAME_NAME_TIME}
                 candidates = [
                     device
                     for device in self._found.values()
@@ -59,7 +60,7 @@ class Search:
                 )
                 if device_found is not None:
                     return device_found
-                if not self._found and now >= complain_at:
+                if not self._found and now >= report_at:
                     self._report_once(
                         f"no {self.config.description} is heard: switch it on, bring it near, "
                         "and see that no other program or phone holds it"
@@ -93,10 +94,9 @@ class Search:
             return present[0]  # any of them will do: it reports its site once it is connected
         if len(candidates) > 1:
             addresses = ", ".join(sorted(device.address for device in candidates))
-            text = (
+            self._report_once(
                 f"{len(candidates)} devices answer to {self.config.description} ({addresses}): say which by its address"
             )
-            self._report_once(text)
             return None
         return present[0] if present and settled else None
 

@@ -95,7 +95,7 @@ async def device_request(client: BleakClient, emitter: Emitter, failure: str) ->
 
 
 async def read(client: BleakClient, channel: Channel, emitter: Emitter) -> None:
-    """Read the channel and emit its value; without the channel do nothing, and report a rejection."""
+    """Read the channel, if the device has it, and emit its value or report a rejection."""
     characteristic = find_characteristic(client, channel)
     if characteristic is not None:
         async with device_request(client, emitter, f"{channel.name} cannot be read"):
@@ -105,7 +105,7 @@ async def read(client: BleakClient, channel: Channel, emitter: Emitter) -> None:
 async def subscribe(
     client: BleakClient, profile: Profile, make_callback: Callable[[str], NotifyCallback], emitter: Emitter
 ) -> None:
-    """Subscribe to every channel that notifies; raise the rejection of a stream, and report those of other channels."""
+    """Subscribe to every channel that notifies; raise the rejection of a stream, report that of any other channel."""
     for channel in profile.channels:
         if channel.access is not Access.NOTIFY or (characteristic := find_notifying(client, channel)) is None:
             continue

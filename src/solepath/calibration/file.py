@@ -11,7 +11,7 @@ from .records import Calibration, CalibrationError
 
 FORMAT = "solepath-calibration"
 VERSION = 1
-LARGEST_FILE = 8_000_000
+MAX_FILE_SIZE = 8_000_000
 """Largest accepted size of a file, bytes: a hundred times that of two insoles of a thousand cells."""
 
 
@@ -57,14 +57,14 @@ def read_calibration(path: Path | str) -> Calibration:
 
 
 def bounded_text(path: Path, encoding: str = "utf-8") -> str:
-    """Return the text of a file of at most LARGEST_FILE bytes.
+    """Return the text of a file of at most MAX_FILE_SIZE bytes.
 
     CalibrationError is raised when the file is larger or has no end, OSError when it cannot be read, ValueError when it
     is not text."""
     with path.open("rb") as file:
-        data = file.read(LARGEST_FILE + 1)
-    if len(data) > LARGEST_FILE:
+        data = file.read(MAX_FILE_SIZE + 1)
+    if len(data) > MAX_FILE_SIZE:
         raise CalibrationError(
-            f"{path}: is larger than {LARGEST_FILE // 1_000_000} MB, too large for what it should be"
+            f"{path}: is larger than {MAX_FILE_SIZE // 1_000_000} MB, too large for what it should be"
         )
     return data.decode(encoding)

@@ -43,9 +43,9 @@ class InsoleCalibration:
 class ShoeGeometry:
     """Geometry of a shoe, m, as in figs. 5 to 7 of Chen et al. 2019. The defaults are their shoe (10.5 US).
 
-    `heel_radius` is L_r, from the heel's rear end to the point of the sole below the sensor. `height` is H_imu, from
-    that point up to the sensor. `forefoot_radius` and `pivot_to_toe` are L_r and L_p2t as polynomials of the pitch
-    (rad, heel up positive), constant first. They hold from 0 to `steepest` (rad).
+    `heel_radius` is L_r of the heel, from its rear end to the point of the sole below the sensor. `height` is H_imu,
+    from that point up to the sensor. `forefoot_radius` and `pivot_to_toe` are L_r and L_p2t of the forefoot, as
+    polynomials of the pitch (rad, heel up positive), constant first. They hold from 0 to `steepest` (rad).
 
     The paper gives no coefficients for the forefoot. The defaults come from geometry: a shoe of 28.5 cm with the sensor
     12.5 cm in front of the heel's rear end. The sole is flat and rigid up to 19.5 cm. In front of that it is a rocker:
@@ -91,9 +91,10 @@ class Calibration:
 
     `drift` is the rate at which the position of a foot drifts, m/s (x, y). If the device sends its attitude, `drift` is
     in the world frame of the device. Otherwise it is in the navigation frame, whose heading is that of the sensor at
-    the start, so it holds for walks that start with the same heading as the calibration. `weight` is the wearer's, N.
-    `modes` is the compensation of a touchdown by foot and walking mode, (forward, left), m. `toe_out` is the angle from
-    the direction of walking to the foot's long axis, outwards positive, rad (Liu et al. 2015, equation (1))."""
+    the start, so it holds for walks that start with the same heading as the calibration. `weight` is that of the
+    wearer, N. `modes` is the compensation of a touchdown by foot and walking mode, (forward, left), m. `toe_out` is the
+    angle from the direction of walking to the foot's long axis, outwards positive, rad (Liu et al. 2015, equation (1)).
+    """
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)
     shoe: ShoeGeometry | None = None
@@ -111,12 +112,12 @@ class Calibration:
 def merged(known: Calibration, newer: Calibration) -> Calibration:
     """Return `known` with its values replaced by those that `newer` has, field by field and insole by insole.
 
-    Known noise is discarded when `newer` changes the conversion to newtons, because its unit was another one."""
+    Known noise is discarded when `newer` changes the conversion to newtons, because it was measured in another unit."""
     insoles = dict(known.insoles)
     for foot, insole in newer.insoles.items():
         old_insole = insoles.get(foot, InsoleCalibration())
         if insole.newtons is not None and insole.newtons != old_insole.newtons:
-            old_insole = evolve(old_insole, noise=())  # the noise was measured in another unit
+            old_insole = evolve(old_insole, noise=())
         insoles[foot] = _replace_values(old_insole, insole)
     drift = {**known.drift, **newer.drift}
     toe_out = {**known.toe_out, **newer.toe_out}

@@ -6,7 +6,7 @@
     operators.output("files", events, ParquetSink("events"))
 
 A job that is killed at any moment and started again with its recovery store continues at the last snapshot. Source,
-wearers and sink continue at the same position. So the files hold each event once, if the source can go back."""
+wearers and sink go back to the same snapshot, so the files hold each event once if the source can go back."""
 
 from __future__ import annotations
 

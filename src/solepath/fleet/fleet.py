@@ -17,9 +17,9 @@ from .step.state import StateHead, StateRest, write_state
 
 
 class Fleet:
-    """The configuration of a job, the same for all wearers and on every worker; it holds no wearer's data.
+    """The configuration of a job, the same for all wearers and on every worker; it holds no wearer's state.
 
-    `recipe`, `floorplan`, `profiles`, `poses` and `pressures` are those of Session, `parts` is that of Session.restore.
+    `recipe`, `floorplan`, `profiles`, `poses`, `pressures` are arguments of Session, `parts` of Session.restore.
     `calibrations` holds the calibration of each wearer, looked up when a session of that wearer starts. `window` is the
     largest number of rows that may overtake a missing row before that row is given up. The app must keep new versions
     of its own code in `recipe`, `profiles` and `parts` compatible. Raises TypeError and ValueError as Session does.
@@ -67,8 +67,8 @@ class Fleet:
         calls, if the app's parts can be saved at any moment. A part that cannot be saved when a state is taken (since
         it holds an infinity) ends its wearer's session with WearerFailed.
 
-        No row makes it raise. A state that cannot be used gives StateRejected and a new session. It raises TypeError
-        for errors of the job itself, a state that is neither bytes nor None and a `sent` that cannot be iterated, and
+        No row makes it raise. A state that cannot be used gives StateRejected and a new session. Errors of the job
+        itself, a state that is neither bytes nor None or a `sent` that cannot be iterated, raise TypeError. Raises
         MemoryError when memory runs out."""
         keyed = self.open(wearer, state)
         events = keyed.feed(sent)
@@ -81,10 +81,10 @@ class Fleet:
     def adopt(self, snapshot: Any) -> bytes:
         """Return a state that continues a Session.snapshot taken elsewhere.
 
-        With it a phone hands its wearer over to the fleet; its first row has number 0 of a run. Events are numbered
-        from 0. From now on the settings of the job's recipe are used, not those in the snapshot. Raises SnapshotError
-        when the session cannot continue here (Session.unpack) or is finished."""
+        With it a phone hands its wearer over to the fleet; the next row of the phone is number 0 of a run. Events are
+        numbered from 0. From now on the settings of the job's recipe are used, not those in the snapshot. Raises
+        SnapshotError when the session cannot continue here (Session.unpack) or is finished."""
         session = self._sessions.restore_session(snapshot)
         now = session.now
-        identity = StateHead(-1, 0, 0, 0.0 if now is None else now)
-        return write_state(identity, StateRest(session=session.pack()))
+        head = StateHead(-1, 0, 0, 0.0 if now is None else now)
+        return write_state(head, StateRest(session=session.pack()))

@@ -7,8 +7,8 @@
     app.run()
 
 A job that is killed at any moment and started again continues at the last commit and delivers later events again. So
-delivery is at least once; a repeated event has the same bytes and the same (wearer, number). A reader of the topic
-detects repeated events with `Once`."""
+delivery is at least once; a repeated event has the same bytes and the same (wearer, number). A program that consumes
+the topic detects repeated events with `Once`."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def gait(frame: StreamingDataFrame, fleet: Fleet, keep: int = 256) -> StreamingD
 
 
 class _GaitStep:
-    """The stateful step.
+    """The stateful step; it also keeps the sessions of some wearers in memory.
 
     A session in memory is used only while the store holds the state that it returned: another process may have had the
     partition in the meantime, or messages may be repeated."""
@@ -100,7 +100,6 @@ def _parse_message(wearer: str, value: Any) -> list[Sent | Unreadable]:
     if not 0 < len(lines) <= MAX_LINES:
         return [Unreadable(wearer, f"a message of {len(lines)} lines; 1 to {MAX_LINES} can be read")]
     sent = [read_line(line) for line in lines]
-    mismatched = Unreadable(
-        wearer, "a line of another wearer than its message"
-    )  # without a number, so it takes no place in this wearer's order
+    # without a number, so it takes no place in this wearer's order
+    mismatched = Unreadable(wearer, "a line of another wearer than its message")
     return [row if row.wearer in (wearer, "") else mismatched for row in sent]

@@ -170,7 +170,7 @@ def _reject_constant(name: str) -> None:
 
 _DECODER = json.JSONDecoder(parse_constant=_reject_constant)
 _ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
-_FIELDS = json.JSONEncoder(allow_nan=False)
+_FIELDS_ENCODER = json.JSONEncoder(allow_nan=False)
 
 
 def event_row(numbered: NumberedEvent) -> dict[str, Any]:
@@ -182,5 +182,5 @@ def event_row(numbered: NumberedEvent) -> dict[str, Any]:
     if not wearer.isascii():
         wearer = wearer.encode("utf-8", "backslashreplace").decode()
     columns = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}
-    fields = _FIELDS.encode(record)
+    fields = _FIELDS_ENCODER.encode(record)
     return {"wearer": wearer, "number": numbered.number, **columns, "fields": fields}

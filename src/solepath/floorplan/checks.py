@@ -7,8 +7,8 @@ from math import hypot
 
 from ..types.attrs import evolve
 from .crossing import MAX_CELLS, Walls
-from .enclosure import MAX_PLACES, Enclosure
-from .grid import MAX_CELLS_PER_PLAN, MAX_PLACES_PER_PLAN, share_limit
+from .enclosure import MAX_LATTICE_POINTS, Enclosure
+from .grid import MAX_CELLS_PER_PLAN, MAX_LATTICE_POINTS_PER_PLAN, share_limit
 from .plan import Connector, FloorPlan, Level, Point
 from .records import MAX_COORDINATE, describe, find_type_faults
 from .rooms import Rooms
@@ -21,6 +21,13 @@ MIN_BUILDING_WIDTH = 1.0
 MAX_STOREY_HEIGHT = 50.0
 """Largest height from one level to the next, m."""
 
+MAX_BEARING = 10.0
+"""Largest absolute bearing of an anchor, rad: more than a full turn."""
+MAX_LATITUDE = 89.0
+"""Largest absolute latitude of an anchor, degrees: east is not defined at a pole."""
+MIN_RISE, MAX_RISE = 0.02, 0.6
+"""Range of the height of one tread of stairs, m."""
+MAX_FLIGHTS = 100
 MAX_LEVELS = 1000
 MAX_STOPS = 2000
 """Largest number of stops of all stairs and elevators: an elevator of twenty storeys has twenty."""
@@ -59,9 +66,9 @@ def _find_faults(plan: FloorPlan) -> Iterator[str]:
     yield from _faults_of_length(plan)
     anchor = plan.anchor
     if anchor is not None:
-        if not abs(anchor.bearing) <= 10.0:
+        if not abs(anchor.bearing) <= MAX_BEARING:
             yield f"the anchor's bearing is {describe(anchor.bearing)} rad"
-        if not (abs(anchor.latitude) <= 89.0 and abs(anchor.longitude) <= 180.0):
+        if not (abs(anchor.latitude) <= MAX_LATITUDE and abs(anchor.longitude) <= 180.0):
             latitude, longitude = describe(anchor.latitude), describe(anchor.longitude)
             yield f"the anchor is at latitude {latitude}, longitude {longitude}"
 
@@ -122,9 +129,9 @@ def _faults_of_connector(connector: Connector, elevations: dict[str, float]) -> 
         if elevation_below is not None and not elevations[stop.level] > elevation_below:
             yield f"{name}: its stops are not from the lowest to the highest"
         elevation_below = elevations[stop.level]
-    if connector.flights is not None and not 1 <= connector.flights <= 100:
+    if connector.flights is not None and not 1 <= connector.flights <= MAX_FLIGHTS:
         yield f"{name}: has {describe(connector.flights)} flights a storey"
-    if connector.rise is not None and not 0.02 <= connector.rise <= 0.6:
+    if connector.rise is not None and not MIN_RISE <= connector.rise <= MAX_RISE:
         yield f"{name}: its steps rise {describe(connector.rise)} m"
 
 
@@ -163,7 +170,7 @@ def _is_place(point: Point) -> bool:
 def find_warnings(plan: FloorPlan) -> tuple[str, ...]:
     """Return the warnings about a usable plan, one line each; takes about as long as indexing the plan.
 
-    They are the reader's remarks, walls that do not close, and missing stairs and elevators of the plan or a level."""
+    They are the importer's remarks, walls that do not close, and missing stairs and elevators."""
     return (*plan.remarks, *_find_remarks(plan)) if find_fault(plan) is None else ()
 
 
@@ -171,12 +178,10 @@ def _find_remarks(plan: FloorPlan) -> Iterator[str]:
     if not plan.heights_known and len(plan.levels) > 1:
         yield "the plan does not say how high its levels lie"
     count = len(plan.levels)
-    cells, places = (
-        share_limit(MAX_CELLS, MAX_CELLS_PER_PLAN, count),
-        share_limit(MAX_PLACES, MAX_PLACES_PER_PLAN, count),
-    )
+    cells = share_limit(MAX_CELLS, MAX_CELLS_PER_PLAN, count)
+    points = share_limit(MAX_LATTICE_POINTS, MAX_LATTICE_POINTS_PER_PLAN, count)
     for level in plan.levels:
-        yield from _remarks_of_walls(level, cells, places)
+        yield from _remarks_of_walls(level, cells, points)
     if not plan.connectors:
         yield "the plan has no stairs and no lifts: nothing on it shows a level or a place"
     for connector in plan.connectors:
@@ -191,14 +196,14 @@ def _find_remarks(plan: FloorPlan) -> Iterator[str]:
                 yield f"level {level.id!r}: neither stairs nor a lift lead there"
 
 
-def _remarks_of_walls(level: Level, cells: int, places: int) -> Iterator[str]:
+def _remarks_of_walls(level: Level, cells: int, points: int) -> Iterator[str]:
     if not level.walls:
         yield f"level {level.id!r}: has no walls"
         return
-    enclosure = Enclosure(level, Walls([(wall.start, wall.end) for wall in level.walls], cells), places)
+    enclosure = Enclosure(level, Walls([(wall.start, wall.end) for wall in level.walls], cells), points)
     opening: Point | None = enclosure.open_end
     if level.rooms:
-        rooms = Rooms(evolve(level, doors=()), (), places)  # without doors, since a doorstep is no room
+        rooms = Rooms(evolve(level, doors=()), (), points)  # without doors, since a doorstep is no room
         opening = next((place for place in enclosure.outside if rooms.inside(*place)), None)
     if opening is not None:
         yield f"level {level.id!r}: its walls do not close near ({opening[0]:.1f}, {opening[1]:.1f})"

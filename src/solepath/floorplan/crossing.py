@@ -1,4 +1,4 @@
-"""Test whether a straight move crosses a wall, over a uniform grid, for candidates and particles.
+"""Test whether a straight move of a candidate crosses a wall, over a uniform grid.
 
 A cell of the grid lists the walls within MAX_SHORT_MOVE of it and its distance from the nearest wall. A move that is
 shorter than this distance crosses nothing. Other moves up to MAX_SHORT_MOVE are tested against the walls of their first
@@ -28,6 +28,9 @@ CELL_SIZE = 0.5
 MAX_CELLS = 100_000
 
 _MAX_SHORT_MOVE2 = MAX_SHORT_MOVE * MAX_SHORT_MOVE
+
+_PIECE_SHARE = 0.999
+"""Longest piece of a long move, as a share of MAX_SHORT_MOVE: rounding must not make a piece longer than that."""
 
 _SIDE_MARGIN = 1e-6
 """Distance from a wall's line beyond which the side is certain, m: coordinates below 1e7 m are accurate to 1e-8 m."""
@@ -100,14 +103,14 @@ class Walls:
         return [wall[3:] for wall in self._wall_lines]
 
     def has_wall_near(self, x: float, y: float, excluded: tuple[float, float, float, float], within: float) -> bool:
-        """Return whether a wall other than `excluded`, in either direction, is within `within` <= MAX_SHORT_MOVE, m."""
-        same = (excluded, (excluded[2], excluded[3], excluded[0], excluded[1]))
-        return any(wall[3:] not in same and distance(*wall[3:], x, y) <= within for wall in self._walls_at(x, y))
+        """Return whether a wall other than `excluded` is within `within` m, at most MAX_SHORT_MOVE, of (x, y)."""
+        both_ways = (excluded, (excluded[2], excluded[3], excluded[0], excluded[1]))
+        return any(wall[3:] not in both_ways and distance(*wall[3:], x, y) <= within for wall in self._walls_at(x, y))
 
     def _crosses_far(self, x0: float, y0: float, x1: float, y1: float) -> bool:
         if not (isfinite(x0) and isfinite(y0) and isfinite(x1) and isfinite(y1)):
             return True
-        pieces = hypot(x1 - x0, y1 - y0) / (0.999 * MAX_SHORT_MOVE)
+        pieces = hypot(x1 - x0, y1 - y0) / (_PIECE_SHARE * MAX_SHORT_MOVE)
         if pieces > len(self._wall_lines) or max(abs(x0), abs(y0), abs(x1), abs(y1)) > 1e7:
             return any(touch(*wall[3:], x0, y0, x1, y1) for wall in self._wall_lines)
         count = ceil(pieces)

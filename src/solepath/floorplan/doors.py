@@ -17,6 +17,9 @@ A map draws a door on one face of a wall, or between two rooms whose outlines ar
 MIN_PIECE_LENGTH = 1e-3
 """Length of the shortest gap that is cut and of the shortest piece of wall that stays, m."""
 
+MIN_COSINE = 0.7
+"""Smallest cosine of the angle between a wall and an opening along it: at most about 45 degrees."""
+
 _ON_LINE_DISTANCE = 1e-9
 """Distance from a wall's line, m, below which the door's end itself becomes the end of the wall, without projection."""
 
@@ -24,7 +27,7 @@ Line = tuple[Point, Point]
 
 
 class Openings:
-    """The lines that are cut out of walls, indexed by position; `owners` numbers the outline of each line."""
+    """The lines that are cut out of walls, indexed by x; `owners[i]` is the number of the outline that has line i."""
 
     def __init__(self, lines: Sequence[Line], owners: Sequence[int] = ()) -> None:
         order = sorted(range(len(lines)), key=lambda i: _leftmost(lines[i]))
@@ -35,11 +38,11 @@ class Openings:
     def find_near(self, wall: Wall, beside: float, excluded: int | None) -> list[Line]:
         """Return the lines that may lie along a wall, within `beside` m of it, except those of the owner `excluded`."""
         left, right = min(wall.start[0], wall.end[0]) - beside, max(wall.start[0], wall.end[0]) + beside
-        low, high = min(wall.start[1], wall.end[1]) - beside, max(wall.start[1], wall.end[1]) + beside
+        bottom, top = min(wall.start[1], wall.end[1]) - beside, max(wall.start[1], wall.end[1]) + beside
         first, last = bisect_left(self._lefts, left - self._widest), bisect_right(self._lefts, right)
         return [
             line for line, owner in self._lines[first:last]
-            if owner != excluded and not (max(line[0][1], line[1][1]) < low or min(line[0][1], line[1][1]) > high)
+            if owner != excluded and not (max(line[0][1], line[1][1]) < bottom or min(line[0][1], line[1][1]) > top)
         ]  # fmt: skip
 
 
@@ -54,8 +57,8 @@ def cut_openings(
 ) -> tuple[Wall, ...]:
     """Return the pieces of the walls after every opening along one of them is removed.
 
-    An opening lies along a wall when both its ends are within `beside` m of the wall's line and its angle to the wall
-    is less than 45 degrees. Openings of the owner `excluded` leave no gaps."""
+    An opening lies along a wall when both its ends are within `beside` m of the wall's line and the cosine of its angle
+    to the wall is at least MIN_COSINE. Openings of the owner `excluded` leave no gaps."""
     return tuple(
         [piece for wall in walls for piece in _pieces(wall, openings.find_near(wall, beside, excluded), beside)]
     )
@@ -71,34 +74,34 @@ def _pieces(wall: Wall, openings: list[Line], beside: float) -> list[Wall]:
         return [wall]
     (ax, ay), (bx, by) = wall.start, wall.end
     pieces = []
-    cut_to, start = 0.0, wall.start
-    for low, high, end, next_start in gaps:
-        if low - cut_to >= MIN_PIECE_LENGTH:
-            pieces.append(Wall(start, end))
-        if high > cut_to:
-            cut_to, start = high, next_start
+    cut_to, piece_start = 0.0, wall.start
+    for gap_from, gap_to, gap_start, gap_end in gaps:
+        if gap_from - cut_to >= MIN_PIECE_LENGTH:
+            pieces.append(Wall(piece_start, gap_start))
+        if gap_to > cut_to:
+            cut_to, piece_start = gap_to, gap_end
     if hypot(bx - ax, by - ay) - cut_to >= MIN_PIECE_LENGTH:
-        pieces.append(Wall(start, wall.end))
+        pieces.append(Wall(piece_start, wall.end))
     return pieces
 
 
 def _gap(wall: Wall, opening: Line, beside: float) -> tuple[float, float, Point, Point] | None:
-    """Return the start and end of an opening, as distances along the wall, m, and as places; None if not along it."""
+    """Return start and end of an opening, as distances along the wall, m, and as points; None if not along it."""
     (ax, ay), (bx, by) = wall.start, wall.end
     wall_length = hypot(bx - ax, by - ay)
     opening_length = hypot(opening[1][0] - opening[0][0], opening[1][1] - opening[0][1])
     if wall_length < MIN_PIECE_LENGTH or opening_length < MIN_PIECE_LENGTH:
         return None
     ux, uy = (bx - ax) / wall_length, (by - ay) / wall_length
-    places = []
+    ends = []
     for x, y in opening:
         offset = ux * (y - ay) - uy * (x - ax)
-        if not abs(offset) <= beside:
+        if not abs(offset) <= beside:  # also if it is NaN
             return None
         along = ux * (x - ax) + uy * (y - ay)
-        place = (x, y) if abs(offset) <= _ON_LINE_DISTANCE else (ax + along * ux, ay + along * uy)
-        places.append((along, place))
-    (low, start), (high, end) = sorted(places)
-    if high - low < 0.7 * opening_length or min(high, wall_length) - max(low, 0.0) < MIN_PIECE_LENGTH:
+        point = (x, y) if abs(offset) <= _ON_LINE_DISTANCE else (ax + along * ux, ay + along * uy)
+        ends.append((along, point))
+    (first, start), (last, end) = sorted(ends)
+    if last - first < MIN_COSINE * opening_length or min(last, wall_length) - max(first, 0.0) < MIN_PIECE_LENGTH:
         return None
-    return max(low, 0.0), min(high, wall_length), start, end
+    return max(first, 0.0), min(last, wall_length), start, end

@@ -11,11 +11,11 @@ from .plan import Level, Point
 from .segments import side
 
 LATTICE_SPACING = 0.5
-"""Distance between the tested places, m; larger where there would be more than MAX_PLACES.
+"""Distance between the points of the lattice, m; larger where there would be more than MAX_LATTICE_POINTS.
 
 Every gap wider than this is detected in a wall along x or y, and every gap wider than 0.7 m in a slanting wall."""
 
-MAX_PLACES = 30_000
+MAX_LATTICE_POINTS = 30_000
 
 _POST_DISTANCE = MAX_DOOR_OFFSET + 0.05
 """Largest distance of a wall's end from a door's end at which the two are joined by a closing line, m."""
@@ -24,19 +24,19 @@ OPEN_END_DISTANCE = 0.05
 """Distance from all other walls and doors beyond which a wall's end counts as open, m."""
 
 _LATTICE_MARGIN = 1e-9
-"""Distance from a place of the lattice, in units of the spacing, below which a wall counts as going through it."""
+"""Distance from a point of the lattice, in units of the spacing, below which a wall counts as going through it."""
 
 
 class Enclosure:
-    """The area that the walls and closed doors of a level enclose, on a lattice of places.
+    """The area that the walls and closed doors of a level enclose, on a lattice of points.
 
-    Construction takes about 1 us for each place, 15 to 30 ms for a storey of 56 m by 63 m. `walls` are those of the
-    level, `most` is the largest number of places."""
+    Construction takes about 1 us for each point, 15 to 30 ms for a storey of 56 m by 63 m. `walls` are those of the
+    level, `most` is the largest number of points."""
 
     __slots__ = ("_bottom", "_hull", "_left", "_outside", "_closed_doors", "_space", "_walls", "columns", "open_end",
                  "outside_numbers", "rows")  # fmt: skip
 
-    def __init__(self, level: Level, walls: Walls, most: int = MAX_PLACES) -> None:
+    def __init__(self, level: Level, walls: Walls, most: int = MAX_LATTICE_POINTS) -> None:
         self._walls = walls
         doors = [(door.start, door.end) for door in level.doors if door.start != door.end]
         self._closed_doors = Walls(doors + _find_posts(level), min(most, MAX_CELLS))
@@ -50,7 +50,7 @@ class Enclosure:
         self.columns, self.rows = ceil(width / self._space) + 3, ceil(depth / self._space) + 3
         self._outside = bytearray(self.columns * self.rows)
         self.outside_numbers: list[int] = []
-        """Numbers (row times `columns` plus column) of the places outside, in the order of the flood fill."""
+        """Numbers (row times `columns` plus column) of the points outside, in the order of the flood fill."""
         self._flood(*self._find_barriers(lines))
         self.open_end: Point | None = next(self._find_open_ends(), None)
         """End of a wall, m, that is outside and near no other wall; None when there is none."""
@@ -59,17 +59,17 @@ class Enclosure:
 
     @property
     def outside(self) -> Iterator[Point]:
-        """The places outside, m, in the order in which the flood fill reaches them."""
-        return (self.place(at % self.columns, at // self.columns) for at in self.outside_numbers)
+        """The points outside, m, in the order in which the flood fill reaches them."""
+        return (self.point(at % self.columns, at // self.columns) for at in self.outside_numbers)
 
-    def place(self, i: int, j: int) -> Point:
-        """Return a place of the lattice, m: column i counts along x, row j along y."""
+    def point(self, i: int, j: int) -> Point:
+        """Return a point of the lattice, m: column i counts along x, row j along y."""
         return self._left + i * self._space, self._bottom + j * self._space
 
     def _find_barriers(self, lines: list[tuple[float, float, float, float]]) -> tuple[bytearray, bytearray]:
-        """Return for each place whether a wall separates it from its neighbour in +x ("east"), and in +y ("north").
+        """Return for each point whether a wall separates it from its neighbour in +x ("east"), and in +y ("north").
 
-        There is always a barrier after the last place of a row or a column."""
+        There is always a barrier after the last point of a row or a column."""
         columns, rows, per_m = self.columns, self.rows, 1.0 / self._space
         east, north = bytearray(columns * rows), bytearray(columns * rows)
         east[columns - 1 :: columns] = b"\1" * rows
@@ -90,7 +90,7 @@ class Enclosure:
         outside_numbers = self.outside_numbers = [0]
         outside[0] = 1
         for number in outside_numbers:  # the list grows in the loop
-            # number - 1 of a first column is the last place of another row, which has a barrier; rows likewise
+            # number - 1 of the first column is the last point of another row, which has a barrier; rows likewise
             for blocked, neighbour in (
                 (east[number], number + 1),
                 (east[number - 1], number - 1),
@@ -134,7 +134,7 @@ class Enclosure:
             if (
                 0 <= k < self.columns
                 and 0 <= m < self.rows
-                and not any(walls.crosses(x, y, *self.place(k, m)) for walls in (self._walls, self._closed_doors))
+                and not any(walls.crosses(x, y, *self.point(k, m)) for walls in (self._walls, self._closed_doors))
             ):
                 return not self._outside[m * self.columns + k]
         return True

@@ -10,15 +10,16 @@ _ROUNDING = 1e-6
 
 MAX_CELLS_PER_PLAN = 2_000_000
 """Largest number of cells of the grids of all levels of a plan together."""
-MAX_PLACES_PER_PLAN = 500_000
-"""Largest number of places of the lattices (enclosure.py) of all levels of a plan together."""
+MAX_LATTICE_POINTS_PER_PLAN = 500_000
+"""Largest number of points of the lattices (enclosure.py) of all levels of a plan together."""
+_MIN_CELLS = 64
 
 
 def share_limit(limit: int, total_limit: int, count: int) -> int:
-    """Return the largest number of cells for each of `count` grids: `limit`, or less if all exceed `total_limit`.
+    """Return the largest number of cells or points for each of `count` grids: `limit`, or its share of `total_limit`.
 
-    Fewer cells are larger cells: the answers stay the same and take longer."""
-    return max(min(limit, total_limit // max(count, 1)), 64)
+    A grid of fewer, larger cells gives the same answers and takes longer; a coarser lattice misses narrower gaps."""
+    return max(min(limit, total_limit // max(count, 1)), _MIN_CELLS)
 
 
 class Grid:

@@ -1,4 +1,4 @@
-"""A floor plan indexed for queries that occur thousands of times a stride.
+"""A floor plan, indexed for thousands of queries during each stride.
 
 `crosses` takes 2 us for a move of the length of a step (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py).
 Construction takes about 0.1 ms for each wall, some seconds for the largest usable plans. The index is not saved: the
@@ -10,15 +10,15 @@ from math import isfinite
 
 from .checks import find_fault
 from .crossing import MAX_CELLS, Walls
-from .enclosure import MAX_PLACES, Enclosure
-from .grid import MAX_CELLS_PER_PLAN, MAX_PLACES_PER_PLAN, share_limit
+from .enclosure import MAX_LATTICE_POINTS, Enclosure
+from .grid import MAX_CELLS_PER_PLAN, MAX_LATTICE_POINTS_PER_PLAN, share_limit
 from .outlines import Ring
 from .plan import FloorPlan, FloorPlanError
 from .rooms import MAX_CELLS as MAX_ROOM_CELLS
 from .rooms import Rooms
 
 MAX_WALLS_NEAR = 2000
-"""Largest number of walls around one place: a move is tested against all of them."""
+"""Largest number of walls that one cell of the grid lists: a move is tested against all of them."""
 
 
 class IndexedPlan:
@@ -46,18 +46,18 @@ class IndexedPlan:
         for stop in [stop for connector in plan.connectors for stop in connector.stops]:
             outlines[self._numbers[stop.level]].append(stop.outline)
         room_cells = share_limit(MAX_ROOM_CELLS, MAX_CELLS_PER_PLAN, count)
-        places = share_limit(MAX_PLACES, MAX_PLACES_PER_PLAN, sum([not level.rooms for level in plan.levels]))
+        n_enclosures = sum([not level.rooms for level in plan.levels])
+        points = share_limit(MAX_LATTICE_POINTS, MAX_LATTICE_POINTS_PER_PLAN, n_enclosures)
         self._insides: list[Rooms | Enclosure] = [
-            Rooms(level, tuple(level_outlines), room_cells) if level.rooms else Enclosure(level, walls, places)
+            Rooms(level, tuple(level_outlines), room_cells) if level.rooms else Enclosure(level, walls, points)
             for level, walls, level_outlines in zip(plan.levels, self._walls, outlines, strict=True)
         ]
 
     def number(self, level: str) -> int:
         """Return the index in `plan.levels` of the level with this id; raise FloorPlanError when there is none."""
-        index = self._numbers.get(level)
-        if index is None:
+        if level not in self._numbers:
             self.plan.level(level)  # raises, and names the levels that exist
-        return index or 0
+        return self._numbers[level]
 
     def crosses(self, level: int, x0: float, y0: float, x1: float, y1: float) -> bool:
         """Return whether the straight move from (x0, y0) to (x1, y1), m, meets a solid wall of this level.
@@ -69,9 +69,9 @@ class IndexedPlan:
     def inside(self, level: int, x: float, y: float) -> bool:
         """Return whether a person can be at (x, y), m, plan frame, on this level.
 
-        On a level with rooms these places are the rooms, stairwells, cabins and doorsteps. On other levels they are the
-        area that walls and doors enclose, or the hull of all walls if the walls do not close. False on a level without
-        walls and rooms, and for NaN or infinity."""
+        On a level with rooms, a person can be in rooms, stairwells, elevator cabins and doorsteps; on any other level,
+        in the area that walls and doors enclose, or in the hull of all walls if they do not close. False on a level
+        without walls and rooms, and for NaN or infinity."""
         if not (isfinite(x) and isfinite(y)):
             return False
         return self._insides[level].inside(x, y)

@@ -58,7 +58,7 @@ def area(outline: Ring) -> float:
 def find_inner_point(outline: Ring) -> Point:
     """Return a place within the outline, m.
 
-    It is the centroid if that is inside, else the middle of the widest inner stretch along x at the centroid's y."""
+    It is the centroid if that is inside, else the middle of the widest inner interval along x at the centroid's y."""
     lines, (ox, oy) = edges(outline), outline[0]
     x, y = sum(p[0] for p in outline) / len(outline), sum(p[1] for p in outline) / len(outline)
     size = area(outline)
@@ -71,10 +71,10 @@ def find_inner_point(outline: Ring) -> Point:
     if contains(lines, x, y):
         return x, y
     crossings = sorted(ax + (y - ay) * (bx - ax) / (by - ay) for ax, ay, bx, by in lines if (ay > y) != (by > y))
-    stretches = list(zip(crossings[::2], crossings[1::2], strict=False))
-    if not stretches:
+    intervals = list(zip(crossings[::2], crossings[1::2], strict=False))
+    if not intervals:
         return x, y
-    low, high = max(stretches, key=lambda stretch: stretch[1] - stretch[0])
+    low, high = max(intervals, key=lambda interval: interval[1] - interval[0])
     return 0.5 * (low + high), y
 
 

@@ -1,8 +1,8 @@
 """A floor plan as plain records: levels with walls, doors and rooms, and the stairs and elevators that join them.
 
-Plan frame: x and y in m, right handed, z up; a level's z is its `elevation`. Readers of three formats (reading.py) make
-these records; a program can make them too. Walls are solid: a reader cuts every door out of them (doors.py). checks.py
-has the requirements on a plan."""
+Plan frame: x and y in m, right handed, z up; a level's z is its `elevation`. Importers of three formats
+(importers/reading.py) make these records; a program can make them too. Walls are solid: an importer cuts every door out
+of them (doors.py). checks.py has the requirements on a plan."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ class ConnectorKind(Enum):
 class ConnectorStop:
     """The part of a connector on one level.
 
-    `place` is where a person steps on and off. `outline` is that of the stairwell or the cabin on this level, a ring
-    that does not repeat its first point; empty when unknown."""
+    `place` is where a person steps on and off. `outline` is that of the stairwell or the elevator cabin on this level,
+    a ring that does not repeat its first point; empty when unknown."""
 
     level: str
     place: Point
@@ -103,9 +103,9 @@ class FloorPlan:
     """A building with levels and connectors.
 
     `levels` go from the lowest to the highest. `connectors` join them. `anchor` is None when the position on the Earth
-    is unknown; nothing requires it. `heights_known` is False when the file has no elevations and the reader has assumed
+    is unknown; nothing requires it. `heights_known` is False when the file has no elevations and the importer assumed
     the height between levels: then heights must not be corrected by elevations. `remarks` are lines about faults that
-    the reader tolerated; comparisons of plans ignore them."""
+    the importer tolerated; comparisons of plans ignore them."""
 
     name: str
     levels: tuple[Level, ...]

@@ -1,4 +1,4 @@
-"""Test whether a place on a level with rooms is inside: in a room, a stairwell, a cabin, or on a doorstep."""
+"""Test whether a place on a level with rooms is inside: in a room, a stairwell, an elevator cabin, or on a doorstep."""
 
 from __future__ import annotations
 
@@ -75,13 +75,11 @@ class Rooms:
         for west, east in zip(crossings[::2], crossings[1::2], strict=False):
             first, last = [min(max(ceil((x - self._left) * self._per_m - 0.5), 0), self._columns) for x in (west, east)]
             inside[first:last] = b"\1" * (last - first)
-        row_start = row_number * self._columns
+        row = slice(row_number * self._columns, (row_number + 1) * self._columns)
         for cell in crossed_cells:
-            inside[cell - row_start] = 0
-        filled = int.from_bytes(self._cells[row_start : row_start + self._columns], "little") | int.from_bytes(
-            inside, "little"
-        )
-        self._cells[row_start : row_start + self._columns] = filled.to_bytes(self._columns, "little")
+            inside[cell - row.start] = 0
+        filled = int.from_bytes(self._cells[row], "little") | int.from_bytes(inside, "little")
+        self._cells[row] = filled.to_bytes(self._columns, "little")
 
     def inside(self, x: float, y: float) -> bool:
         """Return whether (x, y), m, is inside; a place on an outline is in one of the rooms beside it or in none."""

@@ -19,12 +19,12 @@ def side(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> in
 
     Exact for all finite floats; fractions are used only where floats cannot decide."""
     ux, uy, vx, vy = bx - ax, cy - ay, by - ay, cx - ax
-    left, right = ux * uy, vx * vy
-    turn = left - right
-    error_bound = _ROUNDING * (abs(left) + abs(right)) + _UNDERFLOW
-    if turn > error_bound:
+    u, v = ux * uy, vx * vy
+    cross = u - v
+    error_bound = _ROUNDING * (abs(u) + abs(v)) + _UNDERFLOW
+    if cross > error_bound:
         return 1
-    if turn < -error_bound:
+    if cross < -error_bound:
         return -1
     if (ux == 0.0 or uy == 0.0) and (vx == 0.0 or vy == 0.0):  # a difference is 0 only for equal numbers
         return 0

@@ -41,8 +41,8 @@ class Session:
     live position at every sample, and WearerMoved after every stride. `pressures` emits FootPressed, the loads of an
     insole's cells. `devices` gives the address of the device at a site (`Packet.device`, in upper or lower case); a
     site without an address is bound to the first device that sends. `profiles` are the app's own devices. `floorplan`
-    can be an IndexedPlan that many sessions share. `start` is the first place on it. Raises ValueError for impossible
-    values of these arguments.
+    can be an IndexedPlan that many sessions share. `start` is the wearer's first place on the plan. Raises ValueError
+    for impossible values of these arguments.
 
     `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
     give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
@@ -101,7 +101,7 @@ class Session:
         return events
 
     def advance(self, now: float) -> list[Event]:
-        """Let time pass until `now` (s, packets' clock) and return the events of silence; ValueError if not finite."""
+        """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity."""
         if not isfinite(as_float(now)):
             raise ValueError(f"now is {now}")
         state = self._state
@@ -216,7 +216,7 @@ class Session:
 
     @property
     def gait(self) -> GaitParameters | None:
-        """Means over the steady gait cycles of the newest gait, walking or running; None before the first."""
+        """Means over the steady gait cycles of walking or running, whichever came last; None before the first."""
         gait: GaitParameters | None = self._state.wearer.find_attribute("parameters")
         return gait
 
@@ -274,7 +274,7 @@ class Session:
         """Return a session that continues from packed bytes.
 
         `recipe` must be the one with which the session was packed; the other arguments are those of `restore`. Only the
-        recipe's name and the class of every part are compared. The settings of `recipe` are used from now on, so a
+        recipe's name and the classes of its parts are compared. The settings of `recipe` are used from now on, so a
         tuned recipe can continue. Raises SnapshotError if name or class differs, for other bytes, and where `restore`
         raises it. The checksum detects accidental damage, not manipulation: trust a state as you trust code."""
         from .packed import unpack

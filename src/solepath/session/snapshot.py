@@ -44,7 +44,7 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
 
 
 def check_names(recipe: Recipe) -> None:
-    """Raise TypeError for an app's part that has the name of a part of solepath: it would be restored as the latter."""
+    """Raise TypeError for an app's part that has the name of a part of solepath: it would be restored as that."""
     for part in (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place):
         name = type(part).__name__
         if name in PARTS and part_class(name) is not type(part):

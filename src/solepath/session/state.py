@@ -8,7 +8,7 @@ from ..types.attrs import define, field
 from .wearer import WearerParts
 
 VERSION = 3
-"""Version of the state, increased by 1 with every release that changes state or settings; others are rejected."""
+"""Version of the state, increased by 1 with every release that changes state or settings; no other can be restored."""
 
 
 @define

@@ -90,7 +90,7 @@ class WearerParts:
     def feed(self, sample: Sample, scale_reported: bool) -> list[Event]:
         """Add a sample of any site and return the events.
 
-        `scale_reported` is True when the link checks the scale, since it knows the range; then the foot does not."""
+        `scale_reported` is True when the link, which knows the range, checks the scale instead of the foot."""
         if sample.quat is not None:
             sample = with_sound_attitude(sample)
         foot = sample.site.foot
@@ -116,9 +116,8 @@ class WearerParts:
             for part in self.sampled:
                 if output := part.feed(view):
                     self._apply(output, events)
-                    self._run_parts(
-                        events, view, known_at, 1 + next(number for number, one in enumerate(self.parts) if one is part)
-                    )
+                    number = next(number for number, one in enumerate(self.parts) if one is part)
+                    self._run_parts(events, view, known_at, number + 1)
                     break
         else:
             stride = any([isinstance(event, StrideTaken) for event in events])

@@ -1,6 +1,7 @@
 """Reference run of the walks through sessions without an engine: `python -m solepath.fleet.demo.bare RUN PART`.
 
-It writes the events and the time of `Session.feed`, one wearer after the other, with packets that were made before."""
+RUN is a directory of a stage, PART the index of a partition. The wearers follow one another; the packets of a wearer
+are made before its session is timed."""
 
 from __future__ import annotations
 
@@ -27,23 +28,23 @@ MEASURED_WEARERS = 60
 
 
 def main(run: str, part: int) -> None:
-    """Write the events of partition `part`, and the time that they took, s, into the directory `run`."""
+    """Write the events of the partition, and the times that its sessions took, s, into the directory `run`."""
     end_with_parent()
-    home = Path(run)
-    wearers = Wearers.read(home.parent)
+    directory = Path(run)
+    wearers = Wearers.read(directory.parent)
     fleet = Fleet(wearers.recipe)
-    parts = PartFiles(home / EVENTS, str(part))
+    part_files = PartFiles(directory / EVENTS, str(part))
     freeze_garbage()
     taken = cpu = 0.0
-    for wearer in wearers.of_part(part):
+    for wearer in wearers.of_partition(part):
         seconds_used, cpu_used, events = _run_session(wearers.recipe, wearer.inputs())
         taken += seconds_used
         cpu += cpu_used
-        parts.write(NumberedEvent(wearer.name, number, event) for number, event in enumerate(events))
-    parts.close()
-    states = _measure_states(fleet, wearers.of_part(part)[:MEASURED_WEARERS], wearers.bundles)
+        part_files.write(NumberedEvent(wearer.name, number, event) for number, event in enumerate(events))
+    part_files.close()
+    states = _measure_states(fleet, wearers.of_partition(part)[:MEASURED_WEARERS], wearers.bundles)
     results = {"seconds": taken, "cpu": cpu, "states": states}
-    (home / f"bare-{part}.json").write_text(json.dumps(results), encoding="utf-8")
+    (directory / f"bare-{part}.json").write_text(json.dumps(results), encoding="utf-8")
 
 
 def _run_session(recipe: Recipe, inputs: list[DemoPayload]) -> tuple[float, float, list[Event]]:

@@ -2,7 +2,8 @@
 
     python -m solepath.fleet.demo.job STAGE/RUN SECONDS [NUMBER ADDRESS ADDRESS ...]
 
-STAGE is a prepared directory (wearers.py). Events are written to STAGE/RUN/events, and reports of the run beside it.
+STAGE is a prepared directory (wearers.py), and RUN a directory in it for the events and reports of this run. SECONDS is
+the time between two snapshots. ADDRESS is HOST:PORT of each process, if there are several; NUMBER counts them from 0.
 This module replaces `python -m bytewax.run`, whose interval between two snapshots (-s) is at least 1 s, too long for a
 short run."""
 
@@ -39,8 +40,9 @@ EVENTS, RECOVERY = "events", "recovery"
 REOPENED_PREFIX = "reopened-"
 """Prefix of files, one for each process, with one byte for each wearer who continued from a state."""
 POSITION_FORMAT = Struct("<q")
+"""Format of the files `reached-*`: the number of bundles that were read from a partition."""
 
-Keyed = tuple[str, list[Sent | Unreadable]]
+WearerRows = tuple[str, list[Sent | Unreadable]]
 
 
 def main(run: str, every: float, number: int | None, addresses: list[str]) -> None:
@@ -59,35 +61,35 @@ def main(run: str, every: float, number: int | None, addresses: list[str]) -> No
 def flow(run: str) -> Dataflow:
     """Return the dataflow: phones, sessions, files."""
     end_with_parent()
-    home = Path(run)
-    wearers = Wearers.read(home.parent)
+    directory = Path(run)
+    wearers = Wearers.read(directory.parent)
     report = ProcessReport()
-    atexit.register(partial(report.write, home))
+    atexit.register(partial(report.write, directory))
     dataflow = Dataflow("fleet_demo")
-    sent: Any = operators.input("phones", dataflow, Phones(wearers, home, report))
-    fleet = CountedSessions(wearers.recipe, home)
+    sent: Any = operators.input("phones", dataflow, Phones(wearers, directory, report))
+    fleet = CountedSessions(wearers.recipe, directory)
     events = gait("gait", sent, fleet)
-    operators.output("files", events, ParquetSink(home / EVENTS, wearers.plan.parts))
+    operators.output("files", events, ParquetSink(directory / EVENTS, wearers.plan.parts))
     _warm(Fleet(wearers.recipe), wearers)
     freeze_garbage()
     return dataflow
 
 
 def _warm(fleet: Fleet, wearers: Wearers) -> None:
-    """Do the one-time work of first packets, state and restart now, so that it does not count for a wearer."""
+    """Step through the bundles of one wearer, so that the time to load modules is not measured with a wearer."""
     wearer, state = wearers.all[0], None
     for number in range(wearers.bundles):
         state, _ = fleet.step(wearer.name, state, wearer.bundle(number))
 
 
 class CountedSessions(Fleet):
-    """A fleet that writes one byte to a file for each wearer opened from a state; the killing process counts them."""
+    """A fleet that writes one byte to a file for each wearer opened from a state; `EngineRun.reopened` counts them."""
 
     __slots__ = ("_file",)
 
-    def __init__(self, recipe: Recipe, home: Path) -> None:
+    def __init__(self, recipe: Recipe, directory: Path) -> None:
         super().__init__(recipe)
-        self._file = os.open(home / f"{REOPENED_PREFIX}{os.getpid()}", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+        self._file = os.open(directory / f"{REOPENED_PREFIX}{os.getpid()}", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
 
     def open(self, wearer: str, state: bytes | None) -> keyed.Keyed:
         if state is not None:
@@ -99,9 +101,9 @@ class CountedSessions(Fleet):
 class ProcessReport:
     """Resources that one process of a run used.
 
-    `started` and `ended` are the times of the first bundle and of the end of the work, s, system's clock. `cpu` is the
-    processor time between them, s. `empty` is the memory at the first bundle, `full` the largest until the end, bytes.
-    """
+    A bundle is the rows that a phone sends at once. `started` and `ended` are the times of the first bundle and of the
+    end of the work, s, system's clock. `cpu` is the processor time between them, s. `empty` is the memory at the first
+    bundle and `full` the largest until the end, bytes."""
 
     started: float | None = None
     ended: float | None = None
@@ -110,24 +112,24 @@ class ProcessReport:
     full: int | None = None
 
     def note_start(self) -> None:
-        """Note time, processor time and memory at the first bundle."""
         if self.started is None:
+            # `write` adds the processor time at the end
             self.started, self.cpu, self.empty = time(), -process_time(), memory()
 
-    def write(self, home: Path) -> None:
+    def write(self, directory: Path) -> None:
         """Write the report at the end of the process, when the engine has done all its work."""
         self.cpu += process_time()
         self.ended, self.full = time(), most_memory()
-        (home / f"report-{os.getpid()}.json").write_text(json.dumps(asdict(self)), encoding="utf-8")
+        (directory / f"report-{os.getpid()}.json").write_text(json.dumps(asdict(self)), encoding="utf-8")
 
 
-class Phones(FixedPartitionedSource[Keyed, int]):
+class Phones(FixedPartitionedSource[WearerRows, int]):
     """A source of the bundles of all wearers at full speed: first the first bundle of every wearer, then the second.
 
     It can be read again from any position."""
 
-    def __init__(self, wearers: Wearers, home: Path, report: ProcessReport) -> None:
-        self._wearers, self._home, self._report = wearers, home, report
+    def __init__(self, wearers: Wearers, directory: Path, report: ProcessReport) -> None:
+        self._wearers, self._home, self._report = wearers, directory, report
 
     def list_parts(self) -> list[str]:
         return [str(part) for part in range(self._wearers.plan.parts)]
@@ -136,18 +138,18 @@ class Phones(FixedPartitionedSource[Keyed, int]):
         return CountingPart(self._wearers, int(for_part), resume_state or 0, self._home, self._report)
 
 
-class CountingPart(StatefulSourcePartition[Keyed, int]):
+class CountingPart(StatefulSourcePartition[WearerRows, int]):
     """A partition of the source; its state is the number of bundles that were read."""
 
-    def __init__(self, wearers: Wearers, part: int, at: int, home: Path, report: ProcessReport) -> None:
-        self._wearers, self._report = wearers.of_part(part), report
+    def __init__(self, wearers: Wearers, part: int, at: int, directory: Path, report: ProcessReport) -> None:
+        self._wearers, self._report = wearers.of_partition(part), report
         self._position, self._end_position = at, len(self._wearers) * wearers.bundles
         started = {"part": part, "at": at, "end": self._end_position, "time": time()}
-        with (home / "began.jsonl").open("a", encoding="utf-8") as file:
+        with (directory / "began.jsonl").open("a", encoding="utf-8") as file:
             file.write(json.dumps(started) + "\n")
-        self._position_file = os.open(home / f"reached-{part}", os.O_WRONLY | os.O_CREAT)
+        self._position_file = os.open(directory / f"reached-{part}", os.O_WRONLY | os.O_CREAT)
 
-    def next_batch(self) -> list[Keyed]:
+    def next_batch(self) -> list[WearerRows]:
         self._report.note_start()
         position = self._position
         if position >= self._end_position:
@@ -156,7 +158,7 @@ class CountingPart(StatefulSourcePartition[Keyed, int]):
         wearer = self._wearers[index]
         self._position = position + 1
         os.lseek(self._position_file, 0, os.SEEK_SET)
-        # for the process that kills this one and measures the cost
+        # kills.py reads it, to count the bundles that are read again after a kill
         os.write(self._position_file, POSITION_FORMAT.pack(position + 1))
         bundle = wearer.bundle(number)
         return [(wearer.name, bundle)] if bundle else []

@@ -20,7 +20,7 @@ from .run import CHECK_INTERVAL, EngineRun
 START_KILL_INTERVAL = 5
 """One kill in this many comes at the start of a run or during the recovery from a kill; the others come at reading."""
 READ_SHARES = (0.3, 0.95)
-"""Range of the share of bundles that are read when the other kills come.
+"""Range of the share of bundles that were read before a kill at reading.
 
 By then there is a snapshot to go back to; the engine goes back to the last but one."""
 MAX_DELAY_SHARE = 0.1
@@ -93,7 +93,7 @@ class Outcome:
 def draw(kills: int, starting: float, reading: float, processes: int, rng: Random) -> list[list[Kill]]:
     """Return the kills of each run.
 
-    `starting` is the duration of a run until it reads, `reading` that from then on, s. Most kills come at a random
+    `starting` is the duration of a run until it reads, `reading` the rest of it, s. Most kills come at a random
     moment of reading, each in a separate run."""
     runs: list[list[Kill]] = []
     for number in range(1, kills + 1):
@@ -118,14 +118,13 @@ def play_run(create_run: Callable[[], EngineRun], kills: list[Kill], expected: p
         with closing(run):
             if _kill_and_restart(run, kills, marks):
                 run.finish()
-                return Outcome(
-                    _compute_costs(marks, run.starts(), run.reopened()), find_event_differences(expected, run.events)
-                )
+                costs = _compute_costs(marks, run.starts(), run.reopened())
+                return Outcome(costs, find_event_differences(expected, run.events))
         late_kill = kills[len(marks)]
         share = None if late_kill.share is None else late_kill.share * RETRY_FACTOR
         earlier = evolve(late_kill, share=share, after=late_kill.after * RETRY_FACTOR)
         kills = [*kills[: len(marks)], earlier, *kills[len(marks) + 1 :]]
-        shutil.rmtree(run.home)
+        shutil.rmtree(run.directory)
 
 
 def find_event_differences(expected: pa.Table, events: Path) -> list[str]:
@@ -163,9 +162,7 @@ def _compute_costs(marks: list[KillMark], starts: list[dict[str, Any]], reopened
         is_complete = restarts.keys() >= mark.reached.keys() and bool(restarts)
         replayed = sum(reached - restarts[part]["at"] for part, reached in mark.reached.items()) if is_complete else 0
         down = max(start["time"] for start in restarts.values()) - mark.when if is_complete else None
-        share = sum(mark.reached.values()) / size
+        share, replayed_share = sum(mark.reached.values()) / size, replayed / size if is_complete else None
         reopened_since = reopened_by_end - mark.reopened
-        costs.append(
-            Cost(mark.kill, mark.started, share, replayed / size if is_complete else None, down, reopened_since)
-        )
+        costs.append(Cost(mark.kill, mark.started, share, replayed_share, down, reopened_since))
     return costs

@@ -28,7 +28,7 @@ class RunFailed(Exception):
     """Raised with one sentence when a process of a run ended with an error."""
 
 
-def start(module: str, *arguments: str, home: Path, log: Path) -> subprocess.Popen[bytes]:
+def start(module: str, *arguments: str, directory: Path, log: Path) -> subprocess.Popen[bytes]:
     """Start a Python process that ends when this one ends; it does not receive Ctrl-C."""
     package = Path(__file__).parents[3]
     path = os.pathsep.join([str(package), *filter(None, [os.environ.get("PYTHONPATH")])])
@@ -38,7 +38,7 @@ def start(module: str, *arguments: str, home: Path, log: Path) -> subprocess.Pop
             stdin=subprocess.PIPE,
             stdout=out,
             stderr=subprocess.STDOUT,
-            cwd=home,
+            cwd=directory,
             env={**os.environ, "PYTHONPATH": path},
             start_new_session=True,
         )
@@ -92,34 +92,31 @@ class Children:
 
 @define
 class EngineRun:
-    """A run of the engine.
+    """A run of the engine in a `directory` of a stage; `every` is the time between two snapshots, s."""
 
-    `home` is its directory on a stage, `processes` the number of processes, `every` the time between two snapshots, s.
-    """
-
-    home: Path
+    directory: Path
     processes: int
     every: float
     children: Children = field(factory=Children)
 
     @classmethod
-    def create(cls, home: Path, processes: int, every: float) -> EngineRun:
+    def create(cls, directory: Path, processes: int, every: float) -> EngineRun:
         """Return a new run with empty directories."""
-        (home / RECOVERY).mkdir(parents=True)
-        init_db_dir(home / RECOVERY, processes)  # type: ignore[no-untyped-call]
-        return cls(home, processes, every)
+        (directory / RECOVERY).mkdir(parents=True)
+        init_db_dir(directory / RECOVERY, processes)  # type: ignore[no-untyped-call]
+        return cls(directory, processes, every)
 
     @property
     def events(self) -> Path:
         """Directory of the events."""
-        return self.home / EVENTS
+        return self.directory / EVENTS
 
     def start(self) -> None:
         """Start the job, or continue it from its last snapshot."""
-        job = ("solepath.fleet.demo.job", str(self.home), str(self.every))
+        job = ("solepath.fleet.demo.job", str(self.directory), str(self.every))
         self.children = Children()
         for arguments in _process_arguments(self.processes):
-            child = start(*job, *arguments, home=self.home, log=self.home / "log")
+            child = start(*job, *arguments, directory=self.directory, log=self.directory / "log")
             self.children.running.append(child)
 
     def finish(self) -> list[dict[str, Any]]:
@@ -127,14 +124,14 @@ class EngineRun:
         while not self.ended(END_TIMEOUT):
             pass
         self.children.kill()
-        reports = [self.home / f"report-{child.pid}.json" for child in self.children.running]
+        reports = [self.directory / f"report-{child.pid}.json" for child in self.children.running]
         return [json.loads(report.read_text(encoding="utf-8")) for report in reports]
 
     def ended(self, patience: float) -> bool:
         """Return whether the job ended within `patience` s. Raises RunFailed if it failed."""
         if not self.children.ended(patience):
             return False
-        self.children.check("the job", self.home / "log")
+        self.children.check("the job", self.directory / "log")
         return True
 
     def kill(self, which: int | None) -> None:
@@ -152,7 +149,7 @@ class EngineRun:
     def reached(self) -> dict[int, int]:
         """Return the number of bundles read by now, by partition."""
         counts = {}
-        for path in self.home.glob("reached-*"):
+        for path in self.directory.glob("reached-*"):
             data = path.read_bytes()
             if len(data) == POSITION_FORMAT.size:
                 counts[int(path.name.partition("-")[2])] = POSITION_FORMAT.unpack(data)[0]
@@ -165,11 +162,11 @@ class EngineRun:
 
     def reopened(self) -> int:
         """Return the number of wearers who continued from their states, over all restarts."""
-        return sum(path.stat().st_size for path in self.home.glob(f"{REOPENED_PREFIX}*"))
+        return sum(path.stat().st_size for path in self.directory.glob(f"{REOPENED_PREFIX}*"))
 
     def starts(self) -> list[dict[str, Any]]:
-        """Return each opening of a partition: its `part`, its position `at`, its `end`, and its `time`."""
-        path = self.home / "began.jsonl"
+        """Return the openings of partitions: `part`, `time`, s, position `at` and position at the `end`, bundles."""
+        path = self.directory / "began.jsonl"
         lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
         return [json.loads(line) for line in lines if line.endswith("}")]
 
@@ -183,7 +180,6 @@ def _process_arguments(processes: int) -> list[tuple[str, ...]]:
 
 
 def _free_ports(count: int) -> list[int]:
-    """Return free ports of this machine."""
     with ExitStack() as stack:
         sockets = [stack.enter_context(socket.socket()) for _ in range(count)]
         for socket_ in sockets:

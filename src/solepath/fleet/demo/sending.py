@@ -23,13 +23,15 @@ LATE_SHARE, MAX_DELAY_ROWS = 0.02, 100
 REPEATED_SHARE, MAX_REPEAT_ROWS = 0.02, 400
 """Share of the rows that come a second time, and the largest number of other rows between the two."""
 LOST_ROWS, TOO_LATE_ROWS = 12, 400
-"""Number of rows that are lost, and number of rows after which one of them arrives; more than the fleet's window."""
+"""Number of rows that are lost, and of rows after which one of them arrives; the second exceeds the fleet's window."""
 TICK_INTERVAL = 0.25
 """Time without a packet after which a phone sends the time, s."""
 
 DemoPayload = Packet | Tick | End
 Row = dict[str, Any]
 """A row of a faulty phone: the columns of protocol/fleet.md with any values."""
+INVALID_ROW_SHARE, CHANGED_SHARE = 0.1, 0.5
+"""Shares of a faulty phone's packets that become an invalid row, and that become this or get random bytes."""
 Item = tuple[int, int, DemoPayload | Row]
 """(index of the phone's run, number, payload)."""
 
@@ -95,7 +97,7 @@ def make_poison(packets: Sequence[Packet], every: float, rng: Random) -> Sending
     received, items, remarks, number = list[DemoPayload](), list[Item](), list[Remark](), 0
     for packet in packets:
         draw = rng.random()
-        if draw < 0.1:
+        if draw < INVALID_ROW_SHARE:
             row = _make_bad_row(packet, number, rng)
             is_numbered = row["number"] == number  # other rows have no place in the order
             run, remark_number = (0, number) if is_numbered else (None, None)
@@ -103,7 +105,7 @@ def make_poison(packets: Sequence[Packet], every: float, rng: Random) -> Sending
             number += is_numbered
             items.append((0, number, row))
             continue
-        if draw < 0.5:
+        if draw < CHANGED_SHARE:
             site = rng.choice(list(Site))
             data = rng.randbytes(rng.choice((0, 1, 20, 244, MAX_DATA_LENGTH)))
             packet = Packet(packet.t, site, rng.choice((packet.channel, "insole/frame", "\N{SKULL}")), data)

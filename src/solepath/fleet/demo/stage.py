@@ -139,22 +139,21 @@ class DemoStage:
 
     def bare(self) -> Bare:
         """Run the same walks through sessions without an engine."""
-        home = self.at / "sessions"
-        home.mkdir()
-        parts, log = range(self.plan.parts), home / "log"
+        directory = self.at / "sessions"
+        directory.mkdir()
+        parts, log = range(self.plan.parts), directory / "log"
         with Children() as children:
             for part in parts:
                 module = "solepath.fleet.demo.bare"
-                children.running.append(start(module, str(home), str(part), home=home, log=log))
+                children.running.append(start(module, str(directory), str(part), directory=directory, log=log))
             while not children.ended(1.0):
                 pass
             children.check("the sessions alone", log)
-        results = [json.loads((home / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
+        results = [json.loads((directory / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
         states = [state for result in results for state in result["states"]]
         snapshot_time = median(seconds for _, _, seconds in states)
-        sizes, held_sizes = (
-            [size for size, held_rows, _ in states if bool(held_rows) is is_held] for is_held in (False, True)
-        )
+        sizes = [size for size, held_rows, _ in states if not held_rows]
+        held_sizes = [size for size, held_rows, _ in states if held_rows]
         rate = sum(samples / result["seconds"] for samples, result in zip(self.samples, results, strict=True))
         cpu = sum(result["cpu"] for result in results)
         self.sessions = Bare(rate, cpu, mean(sizes), max(sizes), max(held_sizes, default=None), snapshot_time)
@@ -179,11 +178,11 @@ class DemoStage:
         start_duration = engine.whole - engine.seconds
         planned = draw(kills, start_duration, engine.seconds, self.plan.parts, Random(f"kills {self.plan.seed}"))
         for number, run_kills in enumerate(planned, 1):
-            home = self.at / f"killed-{number}"
-            outcome = play_run(partial(EngineRun.create, home, self.plan.parts, self.every), run_kills, expected)
+            directory = self.at / f"killed-{number}"
+            outcome = play_run(partial(EngineRun.create, directory, self.plan.parts, self.every), run_kills, expected)
             self.outcomes.append(outcome)
             if not keep:
-                shutil.rmtree(home)
+                shutil.rmtree(directory)
             yield outcome
 
 

@@ -199,8 +199,8 @@ class Wearers:
 
     def samples(self, part: int) -> int:
         """Return the number of samples of the wearers of one partition; slow at the first call."""
-        return sum(count_samples(wearer.sending) for wearer in self.of_part(part))
+        return sum(count_samples(wearer.sending) for wearer in self.of_partition(part))
 
-    def of_part(self, part: int) -> list[DemoWearer]:
+    def of_partition(self, part: int) -> list[DemoWearer]:
         """Return the wearers of one partition, which are those of one process."""
         return self.all[part :: self.plan.parts]

@@ -13,7 +13,10 @@ from ...types import Packet
 from .order import MissingNumbers, RejectedItem, RowOrder, check_payload, is_valid
 from .sent import MAX_COUNT, MAX_DETAIL_LENGTH, End, NumberedEvent, Sent, Tick, Unreadable
 from .sessions import Sessions
-from .state import StateError, StateHead, StateRest, read_identity, read_rest, write_state
+from .state import StateError, StateHead, StateRest, read_head, read_rest, write_state
+
+EVENTS_PER_ROW = 64
+"""Largest mean number of events per row of a phone for which identities stay unique (protocol/fleet.md)."""
 
 _Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRejected, WearerFailed)
 
@@ -93,16 +96,16 @@ class Keyed:
         return write_state(StateHead(order.run, order.next_number, self._next_event, known_at), rest)
 
     def _open(self, state: bytes) -> None:
-        identity = read_identity(state)
-        if identity is None:
+        head = read_head(state)
+        if head is None:
             self._pending, self._opened_state = (StateRejected, "nothing of the state can be read"), state
             self._has_numbers = False
             return
-        window, self._next_event, self._known_at = self._sessions.window, identity.next_event, identity.known
-        self._order = RowOrder(window, identity.run, identity.next)
+        window, self._next_event, self._known_at = self._sessions.window, head.next_event, head.known
+        self._order = RowOrder(window, head.run, head.next)
         try:
             rest = read_rest(state)
-            order_state = (identity.run, identity.next, rest.ended, rest.held_rows, rest.unused, rest.strays)
+            order_state = (head.run, head.next, rest.ended, rest.held_rows, rest.unused, rest.strays)
             self._order = RowOrder(window, *order_state)
             if rest.failure:
                 self._pending = (WearerFailed, rest.failure)
@@ -136,7 +139,7 @@ class Keyed:
         )
 
     def _use_in_order(self, item: object, emitted: list[NumberedEvent]) -> None:
-        """Use any row: check it, put it in order, and use the rows whose turn has come."""
+        """Check a row, put it in order, and use the rows whose turn has come."""
         rejection = self._reject_unnumbered(item)
         if rejection is not None:
             if self._has_numbers:
@@ -145,11 +148,8 @@ class Keyed:
         if isinstance(item, Sent):
             run, number, payload = item.run, item.number, check_payload(item.what)
         elif isinstance(item, Unreadable) and item.number is not None:
-            run, number, payload = (
-                item.run,
-                item.number,
-                RejectedItem(SentRejection.UNREADABLE, item.what[:MAX_DETAIL_LENGTH]),
-            )
+            rejected = RejectedItem(SentRejection.UNREADABLE, item.what[:MAX_DETAIL_LENGTH])
+            run, number, payload = item.run, item.number, rejected
         else:
             return
         if not self._has_numbers:
@@ -165,7 +165,7 @@ class Keyed:
                 self._use(row, emitted)
 
     def _reject_unnumbered(self, item: object) -> SentRejected | None:
-        """Return the rejection of a row without a valid run and number or of another wearer; None for other rows."""
+        """Return the rejection of a row of another wearer or without valid run and number; None for any other row."""
         if isinstance(item, Unreadable):
             if _is_count(item.number) and _is_count(item.run) and isinstance(item.what, str):
                 return None
@@ -242,7 +242,7 @@ def first_event_number(run: int, number: int) -> int:
 
     `run` and `number` are those of the next row. The result is larger than all numbers used before (protocol/fleet.md).
     """
-    return 64 * (run + number + 1)
+    return EVENTS_PER_ROW * (run + number + 1)
 
 
 def _is_count(value: object) -> bool:

@@ -1,8 +1,8 @@
-"""Deduplication for readers of events that an engine delivers at least once.
+"""Deduplication for programs that consume events which an engine delivers at least once.
 
 An engine that was killed continues from its last saved state and emits later events again, with the same identities
-(wearer, number). A wearer's numbers have no gaps, so for each wearer one number and a few missing ranges describe all
-received numbers."""
+(wearer, number). An engine numbers a wearer's events without gaps, so for each wearer the next number and a few ranges
+of missing numbers describe all received numbers."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ MAX_RANGES = 16
 class _ReceivedNumbers:
     """The numbers received of one wearer: all below `end` except those in `missing`.
 
-    `missing` holds ranges [first, end) in rising order."""
+    `missing` holds ranges (low, high) of the numbers from `low` to `high` - 1, in rising order."""
 
     end: int = 0
     missing: list[tuple[int, int]] = field(factory=list)
 
-    def first(self, number: int) -> bool:
+    def accept(self, number: int) -> bool:
         if number == self.end:
             self.end += 1
             return True
@@ -36,9 +36,9 @@ class _ReceivedNumbers:
             self.missing = [*self.missing, (self.end, number)][-MAX_RANGES:]
             self.end = number + 1
             return True
-        for index, (first, end) in enumerate(self.missing):
-            if first <= number < end:
-                remaining = [(first, number), (number + 1, end)]
+        for index, (low, high) in enumerate(self.missing):
+            if low <= number < high:
+                remaining = [(low, number), (number + 1, high)]
                 ranges = [*self.missing[:index], *[r for r in remaining if r[0] < r[1]], *self.missing[index + 1 :]]
                 self.missing = ranges[-MAX_RANGES:]
                 return True
@@ -54,17 +54,17 @@ class _ReceivedNumbers:
 
 @define
 class Once:
-    """The record of received identities; it detects repeated deliveries: `if once.first(wearer, number): ...`.
+    """The record of received identities; it detects repeated deliveries: `if once.accept(wearer, number): ...`.
 
     Numbers may come in any order; a missing number is accepted once when it comes. At most 16 missing ranges of one
     wearer are remembered; beyond that the lowest range counts as received. `limit` is the largest number of wearers
     that are remembered; beyond it the wearer that was silent longest is forgotten, and its repeated events are accepted
-    again. Choose `limit` above the number of wearers who send between two commits of the engine. A wearer takes about
-    200 bytes.
+    again. Choose `limit` above the number of wearers who send between two snapshots of the engine: after a crash only
+    their events come again. A wearer takes about 200 bytes.
 
-    Save `snapshot()` together with the result of the events and with the reader's position, in one transaction or one
-    file that is renamed. Use one Once for each partition, and hand it over with the partition. A sink that rejects a
-    second (wearer, number), as a table with that primary key does, needs no Once."""
+    Save `snapshot()` together with the result of the events and with the offset in the stream, in one transaction or
+    one file that is renamed. Use one Once for each partition; a process that takes over a partition restores its Once.
+    A table with the primary key (wearer, number) rejects a repeated event itself and needs no Once."""
 
     limit: int = 100_000
     _received: dict[str, _ReceivedNumbers] = field(factory=dict, init=False)
@@ -73,8 +73,8 @@ class Once:
         if type(self.limit) is not int or self.limit < 1:
             raise ValueError(f"limit is a number of wearers, at least 1, not {self.limit!r}")
 
-    def first(self, wearer: str, number: int) -> bool:
-        """Return whether this is the first delivery of the identity.
+    def accept(self, wearer: str, number: int) -> bool:
+        """Record an identity as received; return True at its first delivery and False at a repeated one.
 
         Raises TypeError or ValueError, and changes nothing, for an invalid identity."""
         if not isinstance(wearer, str) or type(number) is not int:
@@ -85,14 +85,14 @@ class Once:
         self._received[wearer] = received  # at the end, as the most recent wearer
         if len(self._received) > self.limit:
             del self._received[next(iter(self._received))]
-        return received.first(number)
+        return received.accept(number)
 
     @classmethod
     def after(cls, newest: Mapping[str, int], limit: int = 100_000) -> Once:
-        """Return a Once that has received all numbers up to the wearer's highest number in `newest`."""
+        """Return a Once that counts the number in `newest`, and all lower ones, of each wearer as received."""
         once = cls(limit)
         for wearer, number in newest.items():
-            once.first(wearer, number)
+            once.accept(wearer, number)
             once._received[wearer].missing = []
         return once
 

@@ -3,7 +3,7 @@
 A row in its turn passes at once. A row ahead of its turn is held until the missing rows have come, or until more than
 `window` rows or MAX_HELD_BYTES are held: then the missing rows are given up. A row that was used before is dropped
 without a report. More than `window` consecutive rows of a smaller run, or of a run that was left, mean that the phone's
-clock was corrected or that a run's number was wrong: then the reader leaves its run and switches to theirs."""
+clock was corrected or that a run's number was wrong: then the current run is left, and their run becomes current."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ PassedRows = list[tuple[int, int, Payload | MissingNumbers]]
 
 @define
 class RowOrder:
-    """The order of one wearer's rows and the next expected number."""
+    """The state of ordering one wearer's rows; `next_number` is the next expected number of the current run."""
 
     window: int
     run: int = -1
@@ -171,11 +171,9 @@ def check_payload(payload: object) -> Payload:
         if t is None:
             return RejectedItem(SentRejection.MALFORMED, "a Tick without a time")
         return Tick(t) if -MAX_TIME <= t <= MAX_TIME else RejectedItem(SentRejection.NOT_FINITE, f"a Tick at {t:g} s")
-    return (
-        End()
-        if isinstance(payload, End)
-        else RejectedItem(SentRejection.MALFORMED, f"a {type(payload).__name__}"[:MAX_DETAIL_LENGTH])
-    )
+    if isinstance(payload, End):
+        return End()
+    return RejectedItem(SentRejection.MALFORMED, f"a {type(payload).__name__}"[:MAX_DETAIL_LENGTH])
 
 
 def _convert_packet(packet: Packet) -> Payload:

@@ -15,7 +15,7 @@ MAX_COUNT = 2**53 - 1
 MAX_DATA_LENGTH = 4096
 """Longest data of a packet, bytes; a Bluetooth notification has 512 at most."""
 MAX_NAME_LENGTH = 256
-"""Longest name of a channel, address of a device and name of a wearer, characters; the latter is checked in rows."""
+"""Longest name of a channel, address of a device and, in tables and lines, name of a wearer, characters."""
 MAX_DETAIL_LENGTH = 200
 """Longest text that describes an error, characters."""
 MAX_TIME = 1e11
@@ -36,7 +36,7 @@ class End:
 
 @frozen
 class Sent:
-    """An item that the phone of `wearer` sends: a packet as it arrived there, a Tick that time has passed, or the End.
+    """A row that the phone of `wearer` sends: a packet as it arrived there, a Tick for time without data, or the End.
 
     `number` counts 0, 1, 2, ... without gaps within a `run`. A phone that cannot continue its count starts again at 0
     in a larger run (the time in ms, or the last run + 1 if that is more); the session continues."""

@@ -17,7 +17,7 @@ from ...session import Session
 
 @frozen
 class Sessions:
-    """The maker of new and restored sessions; it holds no wearer's data."""
+    """The maker of new and restored sessions; it holds no session."""
 
     recipe: Recipe = field(converter=own)
     """A private copy of the recipe, which never changes, so no session has to check for changes."""
@@ -48,8 +48,8 @@ class Sessions:
         app_code: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
         session = Session.unpack(data, self.recipe, **app_code)
         try:
-            session.feed(())
-        except ValueError as error:  # finished
+            session.feed(())  # raises if the session is finished
+        except ValueError as error:
             raise SnapshotError(str(error)) from None
         return session
 

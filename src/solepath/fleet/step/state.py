@@ -1,8 +1,7 @@
 """The state of one wearer between two calls, as bytes (protocol/fleet.md, "The state").
 
-The first bytes (StateHead) hold the numbers for the identities of events and the order of packets. Their layout is the
-same in every version and they have their own checksum: no identity is used twice, even if the other bytes are damaged
-or of an unknown version."""
+The first bytes (StateHead) hold the next numbers of rows and events. Their layout is the same in every version and they
+have their own checksum: no event number is used twice, even if the other bytes are damaged or of an unknown version."""
 
 from __future__ import annotations
 
@@ -38,7 +37,7 @@ class StateError(ValueError):
 
 @frozen
 class StateHead:
-    """The first part of a state, which every version can read."""
+    """The first part of a state, which every version can read; `run` and `next` say which row is next."""
 
     run: int
     next: int
@@ -63,9 +62,8 @@ class StateRest:
     session: bytes | None = None
 
 
-def write_state(identity: StateHead, rest: StateRest) -> bytes:
-    """Return the bytes of a state."""
-    first = _HEAD_FORMAT.pack(MAGIC, VERSION, identity.run, identity.next, identity.next_event, identity.known)
+def write_state(head: StateHead, rest: StateRest) -> bytes:
+    first = _HEAD_FORMAT.pack(MAGIC, VERSION, head.run, head.next, head.next_event, head.known)
     unused, strays = rest.unused, rest.strays
     other = b"".join(
         [
@@ -76,14 +74,14 @@ def write_state(identity: StateHead, rest: StateRest) -> bytes:
             *[_encode_counts(*runs) for runs in unused.forgotten],
             _encode_counts(strays.run, strays.count, strays.consecutive_rows, strays.number),
             _encode_counts(len(rest.held_rows)),
-            *[_encode_counts(*place) + _encode_payload(rest.held_rows[place]) for place in sorted(rest.held_rows)],
+            *[_encode_counts(*key) + _encode_payload(rest.held_rows[key]) for key in sorted(rest.held_rows)],
             _encode_pieces(_encode_text(rest.failure)),
         ]
     )
     return b"".join([first, _CHECKSUM.pack(crc32(first)), other, _CHECKSUM.pack(crc32(other)), rest.session or b""])
 
 
-def read_identity(state: bytes) -> StateHead | None:
+def read_head(state: bytes) -> StateHead | None:
     """Return the first part of a state of any version; None when it is damaged or no state."""
     end = _HEAD_FORMAT.size
     if (
@@ -121,8 +119,8 @@ def _read_version_1(data: _StateReader) -> StateRest:
     if data.take(4) != _CHECKSUM.pack(crc32(checked)):
         raise StateError("the state was damaged: its checksum is another")
     _, _, run, number, _, _ = _HEAD_FORMAT.unpack_from(data.state)
-    places = [(run, number - 1), *[place for place, _ in held_rows]]
-    if not all(low < high for low, high in pairwise(places)) or any(max(place) > MAX_COUNT for place in places[1:]):
+    keys = [(run, number - 1), *[key for key, _ in held_rows]]
+    if not all(low < high for low, high in pairwise(keys)) or any(max(key) > MAX_COUNT for key in keys[1:]):
         raise StateError("the state holds what cannot be held")
     session = data.state[data.position :] if flags & _SESSION else None
     return StateRest(bool(flags & _ENDED), UnusedNumbers(spans, forgotten), strays, dict(held_rows), failure, session)
@@ -204,4 +202,4 @@ class _StateReader:
 
 
 READERS: Mapping[int, Callable[[_StateReader], StateRest]] = {1: _read_version_1}
-"""Readers of StateRest by version of the layout; the packed session has its own version (session/state.py)."""
+"""Functions that read a StateRest, by version; the packed session has its own version (session/state.py)."""

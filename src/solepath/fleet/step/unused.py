@@ -68,7 +68,7 @@ class UnusedNumbers:
         return any([span.run == run and span.first <= number < span.end for span in self.spans])
 
     def may_continue(self, run: int, number: int) -> bool:
-        """Return whether no number of this run from `number` on was used for certain; it is not the current run."""
+        """Return whether surely no number from `number` on was used in this run, which is not the current one."""
         spans = [span for span in self.spans if span.run == run]
         if spans:
             return any([span.is_open and span.first <= number for span in spans])
@@ -80,7 +80,7 @@ class UnusedNumbers:
     def _forget(self, run: int) -> None:
         ranges = sorted([*self.forgotten, (run, run)])
         if len(ranges) > MAX_FORGOTTEN_RANGES:
-            index = min(range(MAX_FORGOTTEN_RANGES), key=lambda place: ranges[place + 1][0] - ranges[place][1])
+            index = min(range(MAX_FORGOTTEN_RANGES), key=lambda i: ranges[i + 1][0] - ranges[i][1])
             (first, end), (_, other_end) = ranges[index : index + 2]
             ranges[index : index + 2] = [(first, max(end, other_end))]
         self.forgotten = ranges

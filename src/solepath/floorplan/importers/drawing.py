@@ -2,7 +2,7 @@
 
 The outline of a closed space becomes walls. The outline of an open space becomes walls except along another open or
 free space. Doors are cut out of the walls. Stairs and elevators are joined over the levels where they overlap. The
-readers of IMDF and OpenStreetMap add to a Drawing; the plan does not depend on the order in which they add."""
+importers of IMDF and OpenStreetMap add to a Drawing; the plan does not depend on the order in which they add."""
 
 from __future__ import annotations
 
@@ -23,6 +23,9 @@ _MERGE_DISTANCE = 2e-3
 
 SHARED_BORDER_DISTANCE = 0.05
 """Largest distance between borders of two spaces that count as one border, m."""
+
+
+MAX_DOORS, MAX_PARTS = 100_000, 1000
 
 
 class Border(Enum):
@@ -72,7 +75,7 @@ class Storey:
     name: str
     ordinal: int
     order: float
-    """Position in storeys above level 0, which may be fractional; it sorts the levels and gives their heights."""
+    """Height above level 0, storeys, which may be fractional; it sorts the levels and gives their elevations."""
 
 
 @define
@@ -99,8 +102,8 @@ class Drawing:
         drawn = sum(map(len, rings)) + len(self.lines)
         if drawn > MAX_WALLS:
             raise FloorPlanError(f"has more than {MAX_WALLS} walls")
-        if len(self.doors) > MAX_WALLS or len(self.parts) > MAX_LEVELS:
-            raise FloorPlanError(f"has more than {MAX_WALLS} doors or {MAX_LEVELS} stairs and lifts")
+        if len(self.doors) > MAX_DOORS or len(self.parts) > MAX_PARTS:
+            raise FloorPlanError(f"has more than {MAX_DOORS} doors or {MAX_PARTS} stairs and lifts")
         ids = sorted(self.storeys, key=lambda level: (self.storeys[level].order, level))
         levels = [
             Level(level, self.storeys[level].name, self.storeys[level].ordinal, self.storeys[level].order * storey,
@@ -191,15 +194,12 @@ def _join_parts(parts: list[ConnectorPart], numbers: dict[str, int], storeys: di
 
     Parts of one group are joined. Parts that overlap are joined if their levels are at most one storey apart or
     adjacent in the list of levels."""
-    ordered = sorted(
-        parts,
-        key=lambda part: (
-            part.kind.value,
-            numbers[part.level],
-            min(part.ring, default=part.place or (0.0, 0.0)),
-            part.name,
-        ),
-    )
+
+    def sort_key(part: ConnectorPart) -> tuple[str, int, Point, str]:
+        corner = min(part.ring, default=part.place or (0.0, 0.0))
+        return part.kind.value, numbers[part.level], corner, part.name
+
+    ordered = sorted(parts, key=sort_key)
     middles = [find_inner_point(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0) for part in ordered]
     leader = list(range(len(ordered)))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator
-from math import isfinite
 from typing import Any, NoReturn
 
 from ...types.attrs import evolve, frozen
@@ -79,20 +78,20 @@ class Feature:
         ordinal = self.whole_number("ordinal")
         return self.fail("its ordinal is missing") if ordinal is None else ordinal
 
-    def convert_line(self, line: Iterable[Position], place: ToPlan) -> list[Point]:
+    def convert_line(self, line: Iterable[Position], to_plan: ToPlan) -> list[Point]:
         """Return the points of a line of the feature, m, plan frame."""
         try:
-            return [place(position) for position in line]
+            return [to_plan(position) for position in line]
         except FloorPlanError as error:
             self.fail(str(error))
 
-    def polygons(self, place: ToPlan, remark: Callable[[str], None]) -> list[tuple[Ring, ...]]:
+    def polygons(self, to_plan: ToPlan, remark: Callable[[str], None]) -> list[tuple[Ring, ...]]:
         """Return the outline and the holes of each polygon of the feature, m, plan frame."""
         found = []
         for polygon in self.lines:
             rings = []
             for line in polygon:
-                corners, open_by = make_ring(self.convert_line(line, place))
+                corners, open_by = make_ring(self.convert_line(line, to_plan))
                 if len(corners) < 3:
                     self.fail("its outline has fewer than three corners")
                 if open_by > MAX_CLOSING_DISTANCE:
@@ -190,11 +189,6 @@ def find_anchor(features: Iterable[Feature]) -> Anchor:
 
 
 def parse_number(value: object, what: str) -> float:
-    if (
-        isinstance(value, bool)
-        or not isinstance(value, int | float)
-        or not abs(value) < MAX_NUMBER
-        or not isfinite(value)
-    ):
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < MAX_NUMBER:  # also if NaN
         raise FloorPlanError(f"{what} is {describe(value)}, not a number that can be")
     return float(value)

@@ -1,4 +1,4 @@
-"""Reader and writer of the GeoJSON profile of protocol/floorplan.md."""
+"""Import and export of the GeoJSON profile of protocol/floorplan.md."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...types.attrs import evolve
+from ..checks import MAX_BEARING, MAX_LATITUDE
 from ..doors import cut_doors
 from ..outlines import Ring, find_inner_point, join_holes, without_repeats
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Wall
@@ -56,7 +57,9 @@ def _anchor(raw_anchor: object) -> Anchor:
     values = [parse_number(raw_anchor.get(key, 0.0 if key == "bearing" else None), f"the anchor's {key}")
               for key in ("latitude", "longitude", "bearing")]  # fmt: skip
     anchor = Anchor(*values)
-    if not (abs(anchor.latitude) <= 89.0 and abs(anchor.longitude) <= 180.0 and abs(anchor.bearing) <= 10.0):
+    if not (
+        abs(anchor.latitude) <= MAX_LATITUDE and abs(anchor.longitude) <= 180.0 and abs(anchor.bearing) <= MAX_BEARING
+    ):
         raise FloorPlanError(f"its anchor is at latitude {anchor.latitude:g}, longitude {anchor.longitude:g}, "
                              f"bearing {anchor.bearing:g} rad")  # fmt: skip
     return anchor
@@ -65,8 +68,8 @@ def _anchor(raw_anchor: object) -> Anchor:
 class _GeoJsonReader:
     """The conversion of the features of one file into records."""
 
-    def __init__(self, read: list[Feature], anchor: Anchor | None, place: ToPlan) -> None:
-        self._known, self._anchor, self._place = read, anchor, place
+    def __init__(self, read: list[Feature], anchor: Anchor | None, to_plan: ToPlan) -> None:
+        self._known, self._anchor, self._to_plan = read, anchor, to_plan
         self._remarks: list[str] = []
         self._walls: dict[str, list[Wall]] = {}
         self._doors: dict[str, list[Door]] = {}
@@ -119,7 +122,7 @@ class _GeoJsonReader:
                 or feature.lines[0][0][0] == feature.lines[0][0][1]
             ):
                 feature.fail("a door is a LineString of two points")
-            start, end = feature.convert_line(feature.lines[0][0], self._place)
+            start, end = feature.convert_line(feature.lines[0][0], self._to_plan)
             self._doors[level].append(Door(start, end, feature.text("name", "")))
         elif feature.kind == "room":
             if feature.geometry != "Polygon":
@@ -133,7 +136,7 @@ class _GeoJsonReader:
             one.fail("a wall is a LineString, a MultiLineString or a Polygon")
         found = []
         for line in one.lines[0]:
-            points = without_repeats(one.convert_line(line, self._place))
+            points = without_repeats(one.convert_line(line, self._to_plan))
             found += [Wall(a, b) for a, b in zip(points, points[1:], strict=False)]
         if not found:
             one.fail("has no length")
@@ -141,12 +144,12 @@ class _GeoJsonReader:
 
     def _outline(self, feature: Feature, level: str) -> Ring:
         feature_name = f"{feature.name} on level {level!r}"
-        (rings,) = feature.polygons(self._place, lambda what: self._remarks.append(f"{feature_name}: {what}"))
+        (rings,) = feature.polygons(self._to_plan, lambda what: self._remarks.append(f"{feature_name}: {what}"))
         return join_holes(rings)
 
     def _stop(self, feature: Feature, level: str) -> None:
         if feature.geometry == "Point":
-            stop = ConnectorStop(level, feature.convert_line(feature.points, self._place)[0])
+            stop = ConnectorStop(level, feature.convert_line(feature.points, self._to_plan)[0])
         elif feature.geometry == "Polygon":
             outline = self._outline(feature, level)
             place_given = feature.properties.get("place")
@@ -154,7 +157,7 @@ class _GeoJsonReader:
                 stop = ConnectorStop(level, find_inner_point(outline), outline)
             elif isinstance(place_given, list) and len(place_given) == 2:
                 x, y = (parse_number(value, f"{feature.name}: its place") for value in place_given)
-                stop = ConnectorStop(level, feature.convert_line([(x, y)], self._place)[0], outline)
+                stop = ConnectorStop(level, feature.convert_line([(x, y)], self._to_plan)[0], outline)
             else:
                 feature.fail("its place is no position")
         else:
@@ -209,20 +212,13 @@ def _written(plan: FloorPlan) -> Iterable[dict[str, Any]]:
         for room in level.rooms:
             yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), on_level)
     for i, connector in enumerate(plan.connectors):
-        optional: dict[str, Any] = {
-            "name": connector.name,
-            "connector": str(i),
-            "flights": connector.flights,
-            "rise": connector.rise,
-        }
-        optional = {key: value for key, value in optional.items() if value is not None}
+        counts = {"flights": connector.flights, "rise": connector.rise}
+        known = {key: value for key, value in counts.items() if value is not None}
         for stop in connector.stops:
-            properties = {"level": stop.level, **optional}
+            properties = {"level": stop.level, "name": connector.name, "connector": str(i), **known}
             if stop.outline:
-                closed = [*stop.outline, stop.outline[0]]
-                yield _feature(
-                    connector.kind.value, _geometry("Polygon", [closed]), {**properties, "place": stop.place}
-                )
+                outline = _geometry("Polygon", [[*stop.outline, stop.outline[0]]])
+                yield _feature(connector.kind.value, outline, {**properties, "place": stop.place})
             else:
                 yield _feature(connector.kind.value, _geometry("Point", stop.place), properties)
 

@@ -1,4 +1,4 @@
-"""Reader of the Indoor Mapping Data Format (IMDF) 1.0.0 (OGC 20-094).
+"""Import of the Indoor Mapping Data Format (IMDF) 1.0.0 (OGC 20-094).
 
 An IMDF plan is an archive, or a folder, of GeoJSON files, one for each kind of feature. protocol/floorplan.md describes
 their conversion. IMDF has units (rooms and other spaces) but no walls and no heights: the outlines of units become
@@ -76,16 +76,15 @@ class _ImdfReader:
         buildings = self._read_features(files, "building") + self._read_features(files, "venue")
         self._drawing = Drawing(next((name for feature in buildings if (name := self._label(feature, "name"))), ""))
         self._anchor = find_anchor(self._levels + self._units)
-        self._place = Tangent(self._anchor).place
+        self._to_plan = Tangent(self._anchor).place
         self._names: dict[str, str] = {}
 
     def _read_features(self, files: Mapping[str, bytes], kind: str) -> list[Feature]:
         if f"{kind}.geojson" not in files:
             return []
         with _name_file(f"{kind}.geojson"):
-            features_read = list(
-                read_features(parse_json(files[f"{kind}.geojson"]), "feature_type", in_properties=False)
-            )
+            collection = parse_json(files[f"{kind}.geojson"])
+            features_read = list(read_features(collection, "feature_type", in_properties=False))
             for feature in features_read:
                 if feature.kind != kind:
                     feature.fail(f"is a {feature.kind[:30]!r} among the {kind}s")
@@ -148,7 +147,7 @@ class _ImdfReader:
         value = feature.properties.get("display_point")
         if not isinstance(value, dict) or value.get("type") != "Point":
             return None
-        return feature.convert_line([parse_positions(value.get("coordinates"), feature)], self._place)[0]
+        return feature.convert_line([parse_positions(value.get("coordinates"), feature)], self._to_plan)[0]
 
     def _space(self, feature: Feature, level: str, border: Border) -> None:
         self._drawing.spaces += [Space(level, rings, border) for rings in self._rings(feature)]
@@ -157,7 +156,7 @@ class _ImdfReader:
         level = self._level(feature)
         if feature.geometry != "LineString":
             feature.fail("an opening is a LineString")
-        points = without_repeats(feature.convert_line(feature.lines[0][0], self._place))
+        points = without_repeats(feature.convert_line(feature.lines[0][0], self._to_plan))
         name = self._label(feature, "name")
         self._drawing.doors += [(level, a, b, name) for a, b in zip(points, points[1:], strict=False)]
 
@@ -165,4 +164,4 @@ class _ImdfReader:
         """Return the outline and the holes of each polygon."""
         if feature.geometry not in ("Polygon", "MultiPolygon"):
             feature.fail(f"is no Polygon but a {feature.geometry}")
-        return feature.polygons(self._place, lambda what: self._drawing.remarks.append(f"{feature.name}: {what}"))
+        return feature.polygons(self._to_plan, lambda what: self._drawing.remarks.append(f"{feature.name}: {what}"))

@@ -1,4 +1,4 @@
-"""Reader of OpenStreetMap's Simple Indoor Tagging.
+"""Import of OpenStreetMap's Simple Indoor Tagging.
 
 Sources: wiki.openstreetmap.org, Simple_Indoor_Tagging, Key:indoor, Key:repeat_on, Tag:highway=elevator.
 protocol/floorplan.md describes the conversion of each tag. The tags draw rooms, not walls, and have no heights: walls
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from math import floor
 
+from ..checks import MAX_RISE, MIN_RISE
 from ..doors import Line, Openings
 from ..outlines import Ring, contains, edges, without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Wall
@@ -112,7 +113,7 @@ class _OsmReader:
     def _connector(self, element: Element, kind: ConnectorKind, level_ids: list[str], shapes: list[list[Refs]],
                    lines: list[Refs]) -> None:  # fmt: skip
         rise = parse_length(element.tags.get("step:height"))
-        rise = rise if rise is not None and 0.02 <= rise <= 0.6 else None
+        rise = rise if rise is not None and MIN_RISE <= rise <= MAX_RISE else None
         for rings in self._outlines(shapes):
             parts = self._drawing.parts
             parts += [
@@ -127,7 +128,7 @@ class _OsmReader:
                 self._drawing.parts.append(ConnectorPart(kind, label_of(element), level, place, (), element.name, rise))
 
     def _outlines(self, shapes: list[list[Refs]]) -> list[tuple[Ring, ...]]:
-        """Return the outline and the holes of each shape."""
+        """Return the outline and the holes of each shape, m, plan frame."""
         outlines = []
         for shape in shapes:
             rings = [tuple(without_repeats([self._places[ref] for ref in refs])) for refs in shape]

@@ -57,10 +57,8 @@ def door_beside(place: Point, walls: list[Line], width: float | None) -> Line | 
         distance = hypot(point[0] - place[0], point[1] - place[1])
         if distance <= nearest_distance:
             half = 0.5 * _door_width(width)
-            nearest_distance, door = (
-                distance,
-                (_move(point, dx / length, dy / length, -half), _move(point, dx / length, dy / length, half)),
-            )
+            nearest_distance = distance
+            door = _move(point, dx / length, dy / length, -half), _move(point, dx / length, dy / length, half)
     return door
 
 

@@ -12,7 +12,7 @@ from xml.parsers import expat
 from ...types.attrs import define, field
 from ..plan import FloorPlanError
 
-MAX_ELEMENTS = 500_000
+MAX_XML_ELEMENTS = 2_000_000
 
 
 @define
@@ -77,8 +77,8 @@ class _OsmFileReader:
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         self._depth += 1
         self._count += 1
-        if self._count > 4 * MAX_ELEMENTS:
-            raise FloorPlanError(f"has more than {4 * MAX_ELEMENTS} elements")
+        if self._count > MAX_XML_ELEMENTS:
+            raise FloorPlanError(f"has more than {MAX_XML_ELEMENTS} elements")
         if self._depth == 1:
             if tag != "osm":
                 raise FloorPlanError(f"is XML, but not of OpenStreetMap: its root is {tag[:40]!r}")
@@ -104,10 +104,8 @@ def _element(tag: str, attributes: dict[str, str]) -> Element | None:
         raise FloorPlanError(f"a {tag} has no id")
     element = Element(tag, attributes["id"])
     if tag == "node":
-        element.latitude, element.longitude = (
-            _degrees(element, attributes, "lat", 90.0),
-            _degrees(element, attributes, "lon", 180.0),
-        )
+        element.latitude = _degrees(element, attributes, "lat", 90.0)
+        element.longitude = _degrees(element, attributes, "lon", 180.0)
     return element
 
 

@@ -1,6 +1,6 @@
-"""Reader of floor plan files, which recognises the format by the content.
+"""Import of floor plan files, whose format is recognised by the content.
 
-The readers of the formats and their libraries are loaded with the first file, since most apps read none."""
+The importers of the formats and their libraries are loaded with the first file, since most apps read none."""
 
 from __future__ import annotations
 
