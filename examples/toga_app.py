@@ -26,7 +26,6 @@ FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m",
 
 async def sensors() -> AsyncIterator[Packet]:
     from solepath.ble import DeviceConfig, Devices
-
     async with Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]) as devices:
         async for packet in devices:
             yield packet
@@ -34,7 +33,6 @@ async def sensors() -> AsyncIterator[Packet]:
 
 async def emulated(speed: float = 1.0) -> AsyncIterator[Packet]:
     from solepath.emulate import Route, emulate
-
     loop = asyncio.get_running_loop()
     started_at = loop.time()
     for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2), seed=1).packets:
