@@ -1,7 +1,7 @@
 """Scores the position on the floor plan for a wearer in the emulated building.
 
 Only strides on a floor are scored. Stairs and elevator rides are left out, because the wearer is on neither of the two
-levels there. The next `UNSCORED_TIME` is left out as well, because no method can know at once that they are over."""
+levels there. So is the UNSCORED_TIME after them, because no method can know at once that they are over."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ class PlaceScore:
     path: Points = field(default=(), repr=False)
     """True positions of the wearer."""
     track: Points = field(default=(), repr=False)
-    """Estimated positions from the first time on at which the true candidate was the only one."""
+    """Estimated positions since the true candidate was the only one for the first time."""
     before: Points = field(default=(), repr=False)
-    """All candidates before that time."""
+    """Positions of all candidates before that."""
 
 
 def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Event]) -> PlaceScore:

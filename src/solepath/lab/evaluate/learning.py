@@ -81,7 +81,7 @@ class TrainingSource:
     """Number of the wearer in hugadb; None for other data."""
 
     def features(self) -> Any:
-        """Return the source's features; None when it cannot be read, which is reported when it is scored."""
+        """Return the source's features; None when it cannot be read, which its scorer reports."""
         try:
             return LEARNERS[self.kind].features(self.source)
         except RecordingError:

@@ -75,7 +75,7 @@ class ActivityScore:
 
     @property
     def table(self) -> dict[str, dict[str, int]]:
-        """Confusion matrix {true: {reported: samples}} by name, in the order of the enum.
+        """Confusion matrix {true: {reported: samples}} by name, in the order of Activity.
 
         Activities that never occur are left out."""
         reported = [activity for activity in Activity if any(answer is activity for _, answer in self.samples)]
