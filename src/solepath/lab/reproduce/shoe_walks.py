@@ -44,7 +44,9 @@ STATES = ("walking", "jogging", "upstairs", "downstairs")
 LAST_STRIDES = 9
 """Number of strides at the end of a walk whose directions give the heading error."""
 PARTIAL_STRIDES = 1.5
-"""Length of the shorter strides at the start and the end of a walk together, in whole strides."""
+"""Total length of the shorter strides at the start and at the end of a walk, in whole strides."""
+TWO_RISERS = 0.25
+"""Height change that only a stride over two risers of 0.16 m exceeds, m."""
 
 
 @frozen
@@ -182,8 +184,8 @@ def score_strides(events: Sequence[Event], truth: Truth, state: str) -> StrideEr
     matches = matched(strides, truth.strides(FOOT))
     stairs = state in ("upstairs", "downstairs")
     direction = {"upstairs": 1, "downstairs": -1}.get(state, 0)
-    counted = [(stride, true) for stride, true in matches if not stairs or abs(true.displacement[2]) > 0.25]
-    expected = [true for true in truth.strides(FOOT) if not stairs or abs(true.displacement[2]) > 0.25]
+    counted = [(stride, true) for stride, true in matches if not stairs or abs(true.displacement[2]) > TWO_RISERS]
+    expected = [true for true in truth.strides(FOOT) if not stairs or abs(true.displacement[2]) > TWO_RISERS]
     matched_strides = [stride for stride, _ in matches]
     counted_strides = [
         stride for stride in strides if not stairs or any(true.t_start < stride.t < true.t_end for true in expected)
@@ -204,17 +206,17 @@ def score_strides(events: Sequence[Event], truth: Truth, state: str) -> StrideEr
     )
 
 
-def matched(steps: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
+def matched(found: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
     """Return the pairs of a found and a true stride whose ends are at most MATCHING_TIME apart, one to one."""
-    ends = [one.t_end for one in true], [step.t_end for step in steps]
-    return [(steps[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
+    ends = [one.t_end for one in true], [stride.t_end for stride in found]
+    return [(found[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
 
 
 def _courses(matches: Sequence[tuple[StrideTaken, TrueStride]]) -> tuple[float, ...]:
     """Return the direction of each stride minus the true one, degrees, after alignment over the first two metres."""
     if len(matches) < 2:
         return ()
-    ours = np.cumsum([step.displacement[:2] for step, _ in matches], axis=0)
+    ours = np.cumsum([stride.displacement[:2] for stride, _ in matches], axis=0)
     true = np.cumsum([one.displacement[:2] for _, one in matches], axis=0)
     far = np.linalg.norm(true, axis=1)
     ours, true = (np.vstack([np.zeros(2), track[far < HEADING_LENGTH]]) for track in (ours, true))

@@ -54,7 +54,7 @@ def weights(classes: Numbers, wearers: Numbers) -> Floats:
 def fit_networks(features: Floats, classes: Numbers, wearers: Numbers) -> tuple[Network, Network]:
     """Return the network for feet with a gyroscope, and the network that needs only the accelerometer.
 
-    `features` (n, COUNT), `classes` (n,) (numbers of CLASSES) and `wearers` (n,) have a row for each block."""
+    `features` (n, FEATURE_COUNT), `classes` (n,) (numbers of CLASSES) and `wearers` (n,) have a row for each block."""
     has_gyro = features[:, FIRST_GYRO_FEATURE] > 0.0
     full_network = fit_network(features[has_gyro], classes[has_gyro], wearers[has_gyro])
     return full_network, fit_network(features[:, :FIRST_GYRO_FEATURE], classes, wearers)

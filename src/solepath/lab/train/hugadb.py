@@ -65,7 +65,7 @@ def labels(path: Path) -> tuple[Sequence[float], list[Activity | None]]:
 FOLDS: tuple[frozenset[int], ...] = tuple(frozenset(wearers) for wearers in ((1, 12), (3, 15), (6,), (8,), (10,)))
 """Wearers (`subject` in dataset.json) of each fold. Scores on a fold come from training on the other four.
 
-No wearer is in two folds, because a part recognises a gait that it was trained on too easily. Five wearers have all but
+No wearer is in two folds, because a part recognises too easily a gait that it was trained on. Five wearers have all but
 46 s of the recordings, so each fold has one of them. The other two are added where they change least. Wearer 12, with
 one elevator ride down, is with wearer 1, who takes no elevator. Wearer 15, with 30 s of sitting and standing, is with
 wearer 3, who has the fewest minutes after wearer 10. The folds are fixed, so that later scores can be compared."""
@@ -80,7 +80,7 @@ def fold_of(subject: int) -> int:
 
 
 def spans(t: Sequence[float], labels: Sequence[Activity | None]) -> list[Span]:
-    """Return the spans from the first to the last of consecutive samples with the same label."""
+    """Return the spans of consecutive samples with the same label, each from its first to its last sample."""
     found: list[Span] = []
     for k, (time, activity) in enumerate(zip(t, labels, strict=True)):
         if activity is not None:
