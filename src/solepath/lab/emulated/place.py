@@ -42,8 +42,8 @@ class PlaceScore:
     """Number of scored strides, after the first placed one, without the true candidate."""
     wrong: int
     """Number of scored strides with a single candidate that was not the true one."""
-    steps: int
-    """Number of scored strides that were placed."""
+    strides: int
+    """Number of scored strides."""
     path: Points = field(default=(), repr=False)
     """True positions of the wearer."""
     track: Points = field(default=(), repr=False)
@@ -62,7 +62,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     track: list[tuple[float, float]] = []
     before: list[tuple[float, float]] = []
     decided: int | None = None
-    dropped = wrong = steps = 0
+    dropped = wrong = strides = 0
     places = way.places(walker, np.array([one.t for one in placed])) if placed else []
     for k, (one, (level, x, y)) in enumerate(zip(placed, places, strict=True)):
         is_true = [
@@ -76,7 +76,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
             track.append((one.position[0], one.position[1]))
         if not is_on_floor(truth, one.t):
             continue
-        steps += 1
+        strides += 1
         dropped += not any(is_true)
         wrong += is_true == [False]
         if one.t >= t_second_turn:
@@ -84,7 +84,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
             off.append(hypot(one.position[0] - x, one.position[1] - y, height_error))
     dropped += sum([is_on_floor(truth, t) for t in lost])
     path = tuple((x, y) for _, x, y in places)
-    return PlaceScore(tuple(off), decided, dropped, wrong, steps, path, tuple(track), tuple(before))
+    return PlaceScore(tuple(off), decided, dropped, wrong, strides, path, tuple(track), tuple(before))
 
 
 def is_on_floor(truth: Truth, t: float) -> bool:

@@ -137,10 +137,8 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     for foot, foot_run in result.feet.items():
         rows = truth["gt_foot"] == (0 if foot is Foot.LEFT else 1)
         strike_times = truth["gt_hs_t"][rows]
-        heel_strikes[foot], toe_offs[foot] = (
-            strike_times.tolist(),
-            (strike_times + truth["gt_contact_s"][rows]).tolist(),
-        )
+        heel_strikes[foot] = strike_times.tolist()
+        toe_offs[foot] = (strike_times + truth["gt_contact_s"][rows]).tolist()
         # gt_stride_len[k] is of the stride that ends with heel-strike k; the found one ends at the foot-flat after that
         strides += stride_score(
             strike_times, truth["gt_stride_len"][rows][:-1], foot_run.stride_lengths, end_tolerance=-TOLERANCE

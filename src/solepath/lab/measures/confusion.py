@@ -49,11 +49,8 @@ class ActivityScore:
     def accuracy(self) -> float | None:
         """Share of labelled samples for which the right activity was reported."""
         total = sum(self.samples.values())
-        return (
-            sum([count for (was, reported), count in self.samples.items() if was is reported]) / total
-            if total
-            else None
-        )
+        right = sum([count for (was, reported), count in self.samples.items() if was is reported])
+        return right / total if total else None
 
     @property
     def most_frequent(self) -> float | None:

@@ -77,7 +77,7 @@ class FootstepResults:
     """Scores of the positions on the floor plan, on the path of the paper's case study and on another path."""
 
 
-def walked(seed: int) -> FootstepResults:
+def score_wearer(seed: int) -> FootstepResults:
     """Return the results of all walks of one wearer."""
     wearer_data = WearerData(*random_wearer(np.random.default_rng([seed, 17])))
     calibration = _calibrate(wearer_data, seed)

@@ -30,7 +30,7 @@ FOOT = Foot.RIGHT
 """Foot that wears the sensor ("attached to one of the user's shoes"); the side is assumed."""
 WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
 """Walking and jogging speed, m/s: assumed, so that strides are about as long as the paper's 1.20 m and 1.60 m."""
-STEPS = 100
+STRIDES = 100
 """Number of strides of each level walk (section 4.2.3)."""
 HEADING_LENGTH = 19.2
 """Length over which the directions of strides are compared, m (section 4.2.5)."""
@@ -140,9 +140,9 @@ def route_of(state: str) -> Route:
     """Return a hundred strides on the level, or two flights with a landing between."""
     route = Route().stand(4.0)
     if state == "walking":
-        return route.walk((STEPS + PARTIAL_STRIDES) * 1.22, WALKING_SPEED).stop(2.0)
+        return route.walk((STRIDES + PARTIAL_STRIDES) * 1.22, WALKING_SPEED).stop(2.0)
     if state == "jogging":
-        return route.jog((STEPS + PARTIAL_STRIDES) * 1.60, JOGGING_SPEED).stop(2.0)
+        return route.jog((STRIDES + PARTIAL_STRIDES) * 1.60, JOGGING_SPEED).stop(2.0)
     up = state == "upstairs"
     route = route.walk(4.0, 1.2)
     return route.stairs(RISERS, up=up).turn(radians(180), 0.7).stairs(RISERS, up=up).walk(4.0).stop(2.0)
@@ -160,19 +160,19 @@ def tour_route() -> Route:
     return route.stop(3.0)
 
 
-def walked(seed: int) -> ShoeResults:
+def score_wearer(seed: int) -> ShoeResults:
     """Return the results of all walks of one wearer."""
     plain = evolve(SHOE_SENSING, corrector=ShoeSensing(ShoeSensingSettings(eliminate=False)))
     energy, before, magnitude = {}, {}, {}
     for k, state in enumerate(STATES):
-        samples, truth = worn(route_of(state), 10 * seed + k)
+        samples, truth = sample_walk(route_of(state), 10 * seed + k)
         energy[state] = score_strides(run_session(SHOE_SENSING, samples), truth, state)
         before[state] = score_strides(run_session(plain, samples), truth, state)
         magnitude[state] = score_strides(run_session(SHOE_MAGNITUDE, samples), truth, state)
     return ShoeResults(energy, before, magnitude, score_tour(10 * seed + len(STATES)))
 
 
-def worn(route: Route, seed: int) -> tuple[list[Sample], Truth]:
+def sample_walk(route: Route, seed: int) -> tuple[list[Sample], Truth]:
     """Return the samples of the sensor on a walk along `route`, and the truth."""
     walker = Walker(route, seed=seed)
     return walker.samples(FOOT, 100.0, MPU6050, mounting=ON_INSTEP), walker.truth({FOOT: ON_INSTEP})
@@ -235,7 +235,7 @@ def _direction_errors(ours: Floats, true: Floats) -> Floats:
 
 def score_tour(seed: int) -> TourErrors:
     """Score the recipe on the walk of five minutes."""
-    samples, truth = worn(tour_route(), seed)
+    samples, truth = sample_walk(tour_route(), seed)
     events = run_session(SHOE_SENSING, samples)
     strides = [event for event in events if isinstance(event, StrideTaken)]
     ours = np.array([(0.0, 0.0, 0.0), *(stride.position for stride in strides)])

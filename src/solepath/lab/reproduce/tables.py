@@ -40,7 +40,7 @@ class FloorPanel:
 
 @frozen
 class BoxPlots:
-    """A panel with box plots of the table's `rows`, ours beside the paper's; `target` is the true value."""
+    """A panel with box plots of `rows`, ours beside the paper's; `label` is of the y axis, `target` the true value."""
 
     title: str
     rows: tuple[str, ...]

@@ -32,7 +32,7 @@ def comparison_table(comparisons: Sequence[FootComparison]) -> str:
 def place_table(score: PlaceScore) -> str:
     """Return the table of the score of positions on the floor plan."""
     rows = [
-        ["steps placed", str(score.steps)],
+        ["steps placed", str(score.strides)],
         ["one candidate, the true one, after steps", "-" if score.decided is None else str(score.decided)],
         ["steps with one candidate, a wrong one", str(score.wrong)],
         ["steps without the true candidate", str(score.dropped)],

@@ -2,7 +2,7 @@
 
 `Activities` detects a change in the block of half a second in which the samples fit the new activity better. People
 label the same change by other signs (the foot on the first stair, the doors of the elevator). The time shift of a
-change is the median of labelled minus detected time (see `shifts`). A course is the sequence of activities in a recording.
+change is the median of labelled minus detected time (see `shifts`). A course is the activities of a recording.
 
 Numbers without a source were chosen by hand; no sweep of them is recorded."""
 

@@ -36,19 +36,19 @@ SPAN_GAP = 0.5
 
 
 @frozen
-class Labelled:
+class LabelledRecording:
     """One recording and its wearer."""
 
     path: Path
     subject: int
 
 
-def recordings(folder: Path) -> list[Labelled]:
+def recordings(folder: Path) -> list[LabelledRecording]:
     """Return the recordings in the folder of hugadb, sorted by name. Raise RecordingError when they are not listed."""
     about = folder / "dataset.json"
     try:
         entries = json.loads(about.read_text(encoding="utf-8"))["recordings"]
-        found = [Labelled(folder / f"{name}.npz", int(entries[name]["subject"])) for name in sorted(entries)]
+        found = [LabelledRecording(folder / f"{name}.npz", int(entries[name]["subject"])) for name in sorted(entries)]
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise RecordingError(about, "does not say which recordings there are and who wore them") from error
     return [one for one in found if one.path.is_file()]
