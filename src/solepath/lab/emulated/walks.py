@@ -9,7 +9,7 @@ origin of a track are arbitrary, so the track is turned about the vertical and s
 over the first ALIGNED_LENGTH m. A heading error after that counts over the rest of the walk. The figures are:
 
 - `position_end`, `position_max`: horizontal distance from the truth at the end, and the largest one, m
-- `end_relative`, `largest_relative`: the same two distances as shares of the path length
+- `end_relative`, `largest_relative`: these two distances as shares of the path length
 - `rms_2d`: horizontal RMS error after the best turn and shift over the whole walk, m, as for a VICON track
 - `height_end`, `height_max`: error at the end, and the largest error, of the height above the first position, m"""
 

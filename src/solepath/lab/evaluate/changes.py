@@ -1,4 +1,4 @@
-"""Compares every figure with an earlier evaluation, which is read from its JSON file.
+"""Compares the figures of an evaluation with those in the JSON file of an earlier one.
 
 The better direction depends on the figure. Errors, spreads and numbers of invented events should be small. Biases
 should be near zero. F1 and shares found should be large. Numbers of true events, path lengths and other people's

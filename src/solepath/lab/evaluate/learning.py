@@ -21,7 +21,7 @@ from ..train.hugadb import FOLDS, fold_of, recordings
 from .run import Meta
 
 Sources = Sequence[tuple[Any, int | None]]
-"""Pairs of a source of training data and its wearer in hugadb; None for other data, which are used in every fold."""
+"""Pairs of a source of training data and its wearer in hugadb. Other data have None and are used in every fold."""
 
 
 @frozen

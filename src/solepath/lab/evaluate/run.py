@@ -32,7 +32,7 @@ class RunSettings:
     recipe: Recipe
     calibration: Calibration = Calibration()
     activity: ActivityPart | None = None
-    """Activity part that replaces the recipe's own: the same part trained on other wearers."""
+    """Activity part that replaces the recipe's own: a part of the same class, trained on other wearers."""
 
 
 @frozen(eq=False)

@@ -148,7 +148,7 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 
 
 def score_switches(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score inertial samples against heel and toe switches under the foot, which the session does not receive."""
+    """Score a session that receives only inertial samples, against the heel and toe switches under the foot."""
     return _against_switches(path, meta, run(path, settings, without_pressure=True))
 
 

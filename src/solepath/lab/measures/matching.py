@@ -93,6 +93,7 @@ def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> li
     The closest pairs are taken first, and no time is in two pairs. Both inputs must be in order of time."""
     candidates: list[tuple[float, int, int]] = []
     for i, t in enumerate(true):
+        # wider than `tolerance`, so that rounding leaves no pair out
         around = range(bisect_left(found, t - 2.0 * tolerance), bisect_right(found, t + 2.0 * tolerance))
         candidates += [(abs(found[j] - t), i, j) for j in around if abs(found[j] - t) <= tolerance]
     candidates.sort()

@@ -1,4 +1,4 @@
-"""Scores strides against surveyed ones, for which each footprint was measured on the floor.
+"""Scores found strides against a survey, in which every footprint was measured on the floor.
 
 `times[k]` is the end of a stance, s, and `places[k]` the surveyed point on which the foot stood then. A surveyed
 stride lasts from times[k] to times[k + 1]. A found stride ends at foot-flat, early in the stance that ends at

@@ -148,7 +148,7 @@ def walk(job: ContourJob) -> ContourResults:
     walked = emulate(whole, devices={SITE_OF_FOOT[FOOT]: boot(FOOT, RATE)}, seed=job.seed)
     t_halt = find_halt(walked.walker, laps)
     parts = cut_walk(walked, t_halt)
-    ends = [stride.t_end for stride in walked.truth.strides(FOOT) if stride.t_end > t_halt]
+    ends = [one.t_end for one in walked.truth.strides(FOOT) if one.t_end > t_halt]
     path = thin_out(_true_positions(walked, np.array([t_halt, *ends])))
     closing_errors, tracks = {}, [PictureTrack("true path", path, DrawStyle.TRUTH)]
     for name, recipe in RECIPES.items():

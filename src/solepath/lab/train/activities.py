@@ -84,8 +84,8 @@ DEVICES: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
 """Sensors of the emulated wearers, in rotation: rate in Hz, inertial sensor and mounting, or a device as it is sold."""
 EMULATED_WEARER = 2000
 """Wearer number that all emulated wearers share."""
-STILLNESS_LIMIT = 0.0
-"""Value of feature 1 (log variance of |acc| in the stillest of five blocks) above which a foot walks all the time.
+STILLNESS_FEATURE, STILLNESS_LIMIT = 1, 0.0
+"""Index of the log variance of |acc| in the stillest of five blocks, and its value above which a foot always moves.
 
 0 stands for a variance of 1 (m/s^2)^2."""
 MIN_LABEL_SHARE = 0.9
@@ -127,7 +127,7 @@ def blocks_of(
         for index, features, force in _features(foot, foot_samples, t_start, recipe):
             evidence.setdefault(index, {})[foot] = features, force
             activity = _block_label(label, t_start + index * BLOCK_DURATION)
-            with_stride = features[FIRST_STRIDE_FEATURE] and features[1] > STILLNESS_LIMIT
+            with_stride = features[FIRST_STRIDE_FEATURE] and features[STILLNESS_FEATURE] > STILLNESS_LIMIT
             if activity is not None and (with_stride or not only_strides):
                 rows.append(features)
                 classes.append(CLASSES[activity])

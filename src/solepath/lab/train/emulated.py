@@ -63,7 +63,6 @@ def _uniform(rng: np.random.Generator, low: float, high: float) -> float:
 
 
 def _add_corridor(route: Route, rng: np.random.Generator) -> Route:
-    """Add a corridor with a corner."""
     corner = pi / 2.0 if rng.uniform() < 0.5 else -pi / 2.0
     return route.walk(_uniform(rng, 8.0, 20.0)).turn(corner, _uniform(rng, 0.0, 1.5)).walk(_uniform(rng, 6.0, 15.0))
 

@@ -49,10 +49,13 @@ WALK_COUNT = 12
 STILL_VARIANCE = 10.0
 """Variance of a_z, m^2/s^4, above which nobody stands; used only to learn the threshold of elevator pulses."""
 
+DEFAULT_PULSE = 1.0
+"""Pulse that stands for those of rides when the data have no ride, m/s^2."""
+
 
 @frozen
 class LabelledWindow:
-    """The windows of both feet, or of the one with samples, at the same time."""
+    """The windows at one time of both feet, or of the only foot with samples."""
 
     index: int
     """Number of the window in the recording."""
@@ -127,7 +130,7 @@ def train(examples: Sequence[RecordingWindows], trained_on: str) -> WindowModel:
 
 
 def threshold(below: Sequence[float], above: Sequence[float]) -> float:
-    """Return the value at which the two cumulative distributions are furthest apart; the middle one of several."""
+    """Return the value at which the two cumulative distributions are furthest apart, the middle one of several."""
     low, high = np.sort(below), np.sort(above)
     places = np.unique(np.concatenate([low, high]))
     middles = 0.5 * (places[1:] + places[:-1])
@@ -165,7 +168,7 @@ def _pulses(examples: Sequence[RecordingWindows]) -> tuple[list[float], list[flo
                 ride_indices = list(ride)
                 values = deviations[max(0, ride_indices[0] - RIDE_MARGIN) : ride_indices[-1] + RIDE_MARGIN + 1]
                 riding.append(min(max(values), -min(values)))
-    return standing, riding or [1.0]
+    return standing, riding or [DEFAULT_PULSE]
 
 
 def _mixtures(examples: Sequence[RecordingWindows]) -> dict[Activity, tuple[Gaussian, ...]]:

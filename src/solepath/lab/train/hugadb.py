@@ -32,7 +32,7 @@ LABELS: dict[int, Activity] = {
 Span = tuple[float, float, Activity]
 """Start (s), end (s) and activity of a span of time."""
 SPAN_GAP = 0.5
-"""Time between two samples of the same activity from which they belong to two spans, s."""
+"""Smallest time between two samples of one activity that parts them into two spans, s."""
 
 
 @frozen
