@@ -4,7 +4,7 @@
     python examples/toga_app.py             one button for two insoles nearby, one for an emulated wearer
 
 `solepath.ble.Devices` runs in Toga's asyncio loop. Briefcase packs the app for a phone (not tried yet), without numpy
-(`--no-deps`) and with the permission to use Bluetooth. On iOS a queue takes the place of bleak (thread_and_queue.py)."""
+(`--no-deps`) and with the permission to use Bluetooth. On iOS a queue replaces bleak (thread_and_queue.py)."""
 
 import asyncio
 from collections import deque
