@@ -81,10 +81,10 @@ STAIR_SPANS: dict[str, tuple[Span, ...]] = {
 }
 """Spans of time, s, in which the wearer was certainly on stairs or certainly walking on the level, by recording.
 
-Nobody labelled these recordings. The description of the data names the activity of each. In recordings with
-stairs and level ways the strides show the border. A stride over two risers is 0.3 m high and 0.65 m long, a stride over
-one riser of the spiral stairs 0.2 m high and 0.3 m long. Level strides are longer and do not rise. The first and last
-stride of a flight, with one foot on the level, are left out."""
+Nobody labelled these recordings. The description of the data names the activity of each. In recordings with stairs and
+level ways the strides show where stairs start and end. A stride over two risers is 0.3 m high and 0.65 m long, a stride
+over one riser of the spiral stairs 0.2 m high and 0.3 m long. Level strides are longer and do not rise. The first and
+last stride of a flight, with one foot on the level, are left out."""
 
 
 def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:

@@ -100,10 +100,9 @@ def _turn_figures(span: list[float], result: RecordingRun) -> Figures:
 def score_borders(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score heel-strikes and stride times, which are known only while the cameras see the walker, and legs.
 
-    The walk has four legs to and fro. The times of the U-turns are not known, so each track is cut at its own
-    turns (legs.turn_times). The protocol says that a leg is 10 m; nobody measured it. `leg_spread` does not
-    depend on that length: it is the standard deviation of a foot's four legs relative to their mean, averaged over
-    the feet."""
+    The walk has four legs to and fro. The times of the U-turns are not known, so each track is cut at its own turns
+    (legs.turn_times). The protocol says that a leg is 10 m; nobody measured it. `leg_spread` does not depend on that
+    length: it is the standard deviation of a foot's four legs relative to their mean, averaged over the feet."""
     truth, result = truth_of(path), run(path, settings, body=True)
     heel_strike, stride_times = Matching(), Errors()
     for foot, foot_run in result.feet.items():

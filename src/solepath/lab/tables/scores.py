@@ -95,7 +95,7 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
 ARMSE2d is the RMS 2D error / sqrt 2. `relative` is the error (RMS 2D, mean or end error) as a share of the path length.
 `end_error` is the distance between the ends of a closed loop, `position_end` that from the estimated to the true end.
 `authors` is the mean error of the system of the data set's authors. `stride_error_track` is the mean stride length
-error by the live positions. `off` is the median magnitude of the offsets. Invented U-turns are counted a recording."""
+error by the live positions. `off` is the median magnitude of the offsets. `uturn_invented` is a number a recording."""
 
 
 def score_table(result: Result) -> str:
