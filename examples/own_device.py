@@ -53,8 +53,8 @@ ACC, GYRO = 8 * 9.80665 / 32768, radians(1 / 16)
 def motion(frame, settings):
     """Return one notification in SI units. `settings` has values that the device sent earlier, such as its range."""
     sample = Measured(acc=tuple(v * ACC for v in frame.acc), gyro=tuple(v * GYRO for v in frame.gyro))
-    first = frame.number % 1000 == 0
-    return Reading((sample,), sequence=frame.number, battery=frame.battery / 1000 if first else None)
+    with_battery = frame.number % 1000 == 0  # the battery level is of interest only every ten seconds
+    return Reading((sample,), sequence=frame.number, battery=frame.battery / 1000 if with_battery else None)
 
 
 DRIVER = Driver(PROFILE, FORMATS, readers={"shoe/motion": motion}, sequence=1 << 15, acc_range=8.0)

@@ -28,7 +28,7 @@ def main() -> None:
     parser.add_argument("--files", type=int, default=100, help="files that are read at a time, at most")
     args = parser.parse_args()
 
-    # without it the workers use the python3 of the PATH, in which solepath may not be installed
+    # without this variable the workers use the python3 of the PATH, in which solepath may not be installed
     os.environ.setdefault("PYSPARK_PYTHON", sys.executable)
     spark = SparkSession.builder.appName("solepath").config(map=STORE).getOrCreate()
     spark.sparkContext.setLogLevel("ERROR")

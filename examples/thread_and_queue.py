@@ -33,7 +33,7 @@ class Clock:
         self.speed, self.t_start, self.t, self.started_at = speed, t_start, t_start, time.monotonic()
         self.app_waits = threading.Event()
 
-    def go_on(self, t: float) -> None:
+    def advance_to(self, t: float) -> None:
         if self.speed == inf:  # as fast as the app consumes packets
             self.app_waits.wait()
             self.app_waits.clear()
@@ -53,7 +53,7 @@ class Receiver(threading.Thread):
     def run(self) -> None:
         for packet in self.packets:
             while self.clock.t < packet.t and not self.stopped:
-                self.clock.go_on(min(packet.t, self.clock.t + 0.2))
+                self.clock.advance_to(min(packet.t, self.clock.t + 0.2))
             if self.stopped:
                 break
             if packet.t >= self.listening_since:  # otherwise it was sent while the app was in the background
@@ -84,7 +84,7 @@ class App:
         self.receiver = Receiver(self.packets, self.clock, capacity=200)  # one second of two insoles
         self.receiver.start()
 
-    def turn(self) -> bool:
+    def run_once(self) -> bool:
         """Run the loop once; return False when the receiver has ended and the queue is empty."""
         inbox = self.receiver.inbox
         if inbox.empty():
@@ -104,7 +104,7 @@ class App:
     def stop(self) -> str:
         """Return the state as text, for a file, when the app goes to the background or ends."""
         self.receiver.stopped = True
-        while self.turn():
+        while self.run_once():
             pass  # the remaining packets are used; then the receiver's thread has ended
         return json.dumps(self.session.snapshot())
 
@@ -118,8 +118,8 @@ def show(event: Event) -> None:
     match event:
         case StrideTaken(t=t, foot=foot, length=length, degraded=degraded, number=number):
             print(f"{t:6.2f} s  {foot.value} step of {length:.2f} m{', with a gap in it' if degraded else ''}")
-            idle_from = app.clock.t + 1.6 if number == 2 and foot is Foot.LEFT else 0.0  # the screen is busy
-            while app.clock.t < idle_from and app.receiver.is_alive() and not app.receiver.must_wait:
+            blocked_until = app.clock.t + 1.6 if number == 2 and foot is Foot.LEFT else 0.0  # the screen is busy
+            while app.clock.t < blocked_until and app.receiver.is_alive() and not app.receiver.must_wait:
                 app.clock.app_waits.set()
                 time.sleep(0.001)
         case PacketsDropped(t=t, site=site, count=count):
@@ -136,12 +136,12 @@ else:
 app, background_at = App(iter(sent), Clock(speed, sent[0].t), show), sent[0].t + 11.0
 app.listen()
 try:
-    while app.turn():
+    while app.run_once():
         if app.clock.t > background_at:
             background_at, text = inf, app.stop()
             print(f"{app.clock.t:6.2f} s  paused, {len(text) / 1000:.0f} kB of state")
             app.clock.app_waits.set()
-            app.clock.go_on(app.clock.t + 2.4)
+            app.clock.advance_to(app.clock.t + 2.4)
             app.listen(text)
 except KeyboardInterrupt:
     pass

@@ -3,10 +3,8 @@
     pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
     python examples/toga_app.py             one button for two insoles nearby, one for an emulated wearer
 
-`solepath.ble.Devices` runs in Toga's asyncio loop; widgets are updated ten times a second. For a phone (not tried yet)
-Briefcase packs it, with the permission to use Bluetooth; `--no-deps` leaves out numpy, which listening does not need.
-bleak has a backend for Android and none for iOS, whose Bluetooth has to fill a queue, as in thread_and_queue.py.
-"""
+`solepath.ble.Devices` runs in Toga's asyncio loop. Briefcase packs the app for a phone (not tried yet), without numpy
+(`--no-deps`) and with the permission to use Bluetooth. On iOS a queue replaces bleak (thread_and_queue.py)."""
 
 import asyncio
 from collections import deque

@@ -30,7 +30,7 @@ def scores(evaluated: Evaluated, data_set: str) -> tuple[dict[str, Scored], Summ
 
 @pytest.mark.soak
 def test_vicon_tracks_of_28_trials_with_one_causal_configuration(evaluated: Evaluated) -> None:
-    """The threshold tuned per trial on the truth, an oracle, comes to a mean of 0.056 m."""
+    """Thresholds tuned on the truth of each trial have a mean of 0.056 m."""
     trials, summary = scores(evaluated, "pyshoe_vicon")
     assert len(trials) == 28
     assert summary.mean["armse_2d"] <= 0.13
@@ -98,7 +98,7 @@ def f1(result: Result, kind: str) -> float:
 
 
 def rms(result: Result) -> float:
-    """Return the mean position error of all recordings, m."""
+    """Return the mean ARMSE2d of all recordings, m."""
     value = result.summaries[0].mean["armse_2d"]
     assert value is not None
     return value

@@ -115,11 +115,11 @@ TIMES = np.array([1.0, 2.0, 3.0, 4.0])
 PLACES = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0]])
 
 
-def test_each_step_belongs_to_the_stride_in_which_it_ends():
-    # 0.9 and 1.1: before the survey and its slack of 0.15 s; 1.8 and 2.1: the first stride; none: the second; 3.7: the
-    # third; 4.2: after the survey
-    steps = [(0.9, 1.0), (1.1, 1.0), (1.8, 0.25), (2.1, 1.125), (3.7, 1.5), (4.2, 1.0)]
-    score = stride_score(TIMES, np.array([1.0, 1.0, 2.0]), steps)
+def test_each_found_stride_belongs_to_the_true_one_in_which_it_ends():
+    # 0.9 and 1.1 end before the survey starts (1.0 plus END_TOLERANCE), 4.2 after its end; 1.8 and 2.1 are of the first
+    # stride, 3.7 is of the third
+    found = [(0.9, 1.0), (1.1, 1.0), (1.8, 0.25), (2.1, 1.125), (3.7, 1.5), (4.2, 1.0)]
+    score = stride_score(TIMES, np.array([1.0, 1.0, 2.0]), found)
     assert (score.n_true, score.n_found, score.n_invented) == (3, 2, 1)
     assert score.errors.values == (0.125, -0.25)
     assert score.errors.mean == 0.1875 and score.errors.median == 0.1875
@@ -163,7 +163,7 @@ def switch(*spans: tuple[float, float], height: float = 1000.0) -> tuple[np.ndar
     return t, counts
 
 
-def test_a_switch_closes_and_opens_once_a_step():
+def test_a_switch_closes_and_opens_once_a_stride():
     spans = [(1.0, 1.6), (2.1, 2.7), (3.2, 3.8)]
     assert_allclose(switch_contacts(*switch(*spans)), spans)
 

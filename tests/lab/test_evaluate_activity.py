@@ -24,7 +24,7 @@ STAIRS_UP, UP, DOWN = Activity.STAIRS_UP, Activity.ELEVATOR_UP, Activity.ELEVATO
 
 
 def timeline(*changes):
-    """(t, activity) or (t, activity, what it revises)."""
+    """Return the timeline of changes (t, activity) or (t, activity, t of the change that it revises)."""
     found = Timeline()
     for t, activity, *revises in changes:
         found.add(

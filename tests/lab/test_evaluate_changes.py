@@ -72,7 +72,7 @@ def test_recordings_and_data_sets_on_one_side_only_are_listed():
     (changes,) = [found for found in compare_scores(OLD, present) if found.data_set == "loops"]
     assert (changes.removed, changes.new) == (("b",), ("c",))
     assert {(c.row, c.figure, c.verdict) for c in changes.changes if c.verdict is not Verdict.SAME} == {
-        ("a", "end_error", Verdict.BETTER), ("together", "heel_strike_bias", Verdict.WORSE),
+        ("a", "end_error", Verdict.BETTER), ("pooled", "heel_strike_bias", Verdict.WORSE),
     }  # fmt: skip
     assert names_missing(OLD, present) == ["default: walks"] and names_missing(present, OLD) == ["default: climbs"]
     tables = comparison_tables(OLD, present)

@@ -44,7 +44,7 @@ def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: 
     for seed, score in enumerate(scores, 1):
         print(
             seed,
-            score.steps,
+            score.strides,
             score.decided,
             score.dropped,
             score.wrong,
@@ -56,6 +56,6 @@ def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: 
         f"{recipe}: {dropped} of {walks} dropped; from the second turn on {median(distances):.2f} m in the median walk,"
     )
     print(f"{sum(distances) / len(distances):.2f} m on average, at most 1 m in {near}")
-    assert sum(score.steps > 0 for score in scores) == walks
+    assert sum(score.strides > 0 for score in scores) == walks
     assert median(distances) <= 1.0 and near >= 0.75 * walks
     assert dropped <= most

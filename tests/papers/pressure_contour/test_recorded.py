@@ -9,7 +9,7 @@ from walks import of, run_session
 
 from solepath import StrideTaken
 from solepath.calibration import Calibration
-from solepath.lab.evaluate.insoles import in_dataset
+from solepath.lab.evaluate.insoles import smart_insole
 from solepath.papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.samples import load_samples
@@ -29,7 +29,7 @@ def test_hardly_a_stride_is_lost_in_feet_that_never_quite_rest(
     data_dir: Path, recipe: Recipe, name: str, with_layout: bool
 ) -> None:
     file = data_dir / "smart_insole_35" / f"{name}.npz"
-    known = in_dataset(file) if with_layout else Calibration()
+    known = smart_insole(file) if with_layout else Calibration()
     usual, found = strides_of(DEFAULT, file, known), strides_of(recipe, file, known)
     assert abs(len(found) - len(usual)) <= len(usual) // 10
     assert max(one.length for one in found) < LONGEST_STRIDE

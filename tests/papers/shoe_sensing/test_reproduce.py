@@ -11,7 +11,7 @@ from solepath.events import StrideTaken
 from solepath.lab.reproduce import shoe_sensing, shoe_walks
 from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
 from solepath.lab.reproduce.published import TABLE_2_DIVISOR
-from solepath.lab.reproduce.shoe_walks import FOOT, STATES, matched, route_of, score_strides, tour_route, worn
+from solepath.lab.reproduce.shoe_walks import FOOT, STATES, matched, route_of, sample_walk, score_strides, tour_route
 from solepath.lab.reproduce.walks import run_session
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
 
@@ -34,8 +34,8 @@ def test_the_nearest_is_matched_though_an_earlier_one_is_near_too() -> None:
 
 
 def test_two_steps_found_as_one_are_a_merged_one_that_is_off_by_a_whole_step(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(shoe_walks, "STEPS", 10)
-    samples, truth = worn(route_of("walking"), 1)
+    monkeypatch.setattr(shoe_walks, "STRIDES", 10)
+    samples, truth = sample_walk(route_of("walking"), 1)
     steps = [event for event in run_session(SHOE_SENSING, samples) if isinstance(event, StrideTaken)]
     first, second = steps[4:6]
     both = evolve(second, t_start=first.t_start, length=first.length + second.length)
@@ -61,17 +61,17 @@ def test_table_2_is_the_mean_error_over_the_length_divided_by_22_5() -> None:
 
 def test_strides_are_about_as_long_as_the_papers() -> None:
     for state, length in (("walking", 1.20), ("jogging", 1.60), ("upstairs", 0.60), ("downstairs", 0.60)):
-        _, truth = worn(route_of(state), 1)
+        _, truth = sample_walk(route_of(state), 1)
         lengths = [one.length for one in truth.strides(FOOT) if state in STATES[:2] or abs(one.displacement[2]) > 0.25]
         assert sorted(lengths)[len(lengths) // 2] == pytest.approx(length, rel=0.08)
 
 
 def test_five_minutes_are_five_minutes() -> None:
-    assert 240.0 < worn(tour_route(), 1)[1].duration < 360.0
+    assert 240.0 < sample_walk(tour_route(), 1)[1].duration < 360.0
 
 
 def test_on_the_stairs_those_strides_count_that_climb_two_risers() -> None:
-    samples, truth = worn(route_of("upstairs"), 1)
+    samples, truth = sample_walk(route_of("upstairs"), 1)
     steps = score_strides(run_session(SHOE_SENSING, samples), truth, "upstairs")
     climbed = [one for one in truth.strides(FOOT) if one.displacement[2] > 0.25]
     assert steps.found + steps.not_found == len(climbed)
@@ -80,7 +80,7 @@ def test_on_the_stairs_those_strides_count_that_climb_two_risers() -> None:
 
 
 def test_a_row_stands_for_every_figure_of_the_paper(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(shoe_walks, "STEPS", 10)
+    monkeypatch.setattr(shoe_walks, "STRIDES", 10)
     monkeypatch.setattr(shoe_walks, "LAPS", 0)
     done = shoe_sensing.reproduce(1, 1)
     assert set(PAPER) <= set(done.table)

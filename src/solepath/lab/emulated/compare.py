@@ -68,6 +68,6 @@ def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
 def _end_error(truth: FootTruth, run: FootRun) -> float | None:
     if len(truth.strides) < 2 or not len(run.t):
         return None
-    t_stances = np.array([truth.strides[0].t_start, *(step.t_end for step in truth.strides), run.t[-1]])
+    t_stances = np.array([truth.strides[0].t_start, *(stride.t_end for stride in truth.strides), run.t[-1]])
     true_positions = truth.pose(t_stances).position[:, :2]
     return float(position_errors(t_stances, true_positions, run.t, run.positions)[-1])

@@ -34,7 +34,7 @@ class Demo:
     way: BuildingWalk | None = None
     """Walk through the emulated building; None when the walk is not in the building."""
     plan: IndexedPlan | None = None
-    """FloorPanel plan of that building; None when the walk is not in the building."""
+    """Floor plan of that building; None when the walk is not in the building."""
     observer: Observer = field(factory=Observer)
     collection: EventCollection = field(factory=EventCollection)
     _place_events: list[Event] = field(factory=list)

@@ -1,7 +1,7 @@
 """Scores the position on the floor plan for a wearer in the emulated building.
 
 Only strides on a floor are scored. Stairs and elevator rides are left out, because the wearer is on neither of the two
-levels there. The next `UNSCORED_TIME` is left out as well, because no method can know at once that they are over."""
+levels there. So is the UNSCORED_TIME after them, because no method can know at once that they are over."""
 
 from __future__ import annotations
 
@@ -42,14 +42,14 @@ class PlaceScore:
     """Number of scored strides, after the first placed one, without the true candidate."""
     wrong: int
     """Number of scored strides with a single candidate that was not the true one."""
-    steps: int
-    """Number of scored strides that were placed."""
+    strides: int
+    """Number of scored strides."""
     path: Points = field(default=(), repr=False)
     """True positions of the wearer."""
     track: Points = field(default=(), repr=False)
-    """Estimated positions from the first time on at which the true candidate was the only one."""
+    """Estimated positions since the true candidate was the only one for the first time."""
     before: Points = field(default=(), repr=False)
-    """All candidates before that time."""
+    """Positions of all candidates before that."""
 
 
 def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Event]) -> PlaceScore:
@@ -62,7 +62,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     track: list[tuple[float, float]] = []
     before: list[tuple[float, float]] = []
     decided: int | None = None
-    dropped = wrong = steps = 0
+    dropped = wrong = strides = 0
     places = way.places(walker, np.array([one.t for one in placed])) if placed else []
     for k, (one, (level, x, y)) in enumerate(zip(placed, places, strict=True)):
         is_true = [
@@ -76,7 +76,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
             track.append((one.position[0], one.position[1]))
         if not is_on_floor(truth, one.t):
             continue
-        steps += 1
+        strides += 1
         dropped += not any(is_true)
         wrong += is_true == [False]
         if one.t >= t_second_turn:
@@ -84,7 +84,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
             off.append(hypot(one.position[0] - x, one.position[1] - y, height_error))
     dropped += sum([is_on_floor(truth, t) for t in lost])
     path = tuple((x, y) for _, x, y in places)
-    return PlaceScore(tuple(off), decided, dropped, wrong, steps, path, tuple(track), tuple(before))
+    return PlaceScore(tuple(off), decided, dropped, wrong, strides, path, tuple(track), tuple(before))
 
 
 def is_on_floor(truth: Truth, t: float) -> bool:

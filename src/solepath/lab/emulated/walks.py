@@ -9,7 +9,7 @@ origin of a track are arbitrary, so the track is turned about the vertical and s
 over the first ALIGNED_LENGTH m. A heading error after that counts over the rest of the walk. The figures are:
 
 - `position_end`, `position_max`: horizontal distance from the truth at the end, and the largest one, m
-- `end_relative`, `largest_relative`: the same two distances as shares of the path length
+- `end_relative`, `largest_relative`: these two distances as shares of the path length
 - `rms_2d`: horizontal RMS error after the best turn and shift over the whole walk, m, as for a VICON track
 - `height_end`, `height_max`: error at the end, and the largest error, of the height above the first position, m"""
 
@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from ...emulate.routes.path import ahead
-from ...emulate.routes.route import Route
+from ...emulate.routes.route import TIGHT_TURN, Route
 from ...emulate.sensors.insole_device import Insole
 from ...emulate.walk import sampled
 from ...emulate.wearers.gait import Wearer
@@ -97,7 +97,7 @@ def _random_route(seed: int, is_complete: Callable[[float, float], bool]) -> Rou
         angle = float(rng.choice((0.5, 0.25, 1.0), p=(0.6, 0.2, 0.2)) * rng.choice((pi, -pi)))
         radius = float(rng.uniform(0.6, 2.5))
         route, length = route.turn(angle, radius), length + abs(angle) * radius
-        seconds += abs(angle) * radius / (speed if radius >= 1.0 else min(speed, 0.8))
+        seconds += abs(angle) * radius / (speed if radius >= 1.0 else min(speed, TIGHT_TURN))
 
 
 def insoles_of(seed: int) -> dict[Site, Insole]:

@@ -35,7 +35,7 @@ def score_rides(true: Sequence[Span], rides: Sequence[LiftRidden]) -> ActivitySc
     """Return the score of reported elevator rides against the labelled ones.
 
     A labelled ride counts as found when a reported ride in the same direction overlaps it by at least half of the
-    shorter ride's duration. Each ride counts once. Reported rides without a labelled one are invented."""
+    duration of the shorter of the two. Each ride counts once. Reported rides without a labelled one are invented."""
     labelled = [(start, end, ELEVATOR_IS_UP[activity]) for start, end, activity in true if activity in ELEVATOR_IS_UP]
     unmatched = list(rides)
     n_found = 0
@@ -67,8 +67,7 @@ def score_labelled(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     result = run(path, settings, poses=False)
     t, true = labels(path)
     score = score_samples(t, true, result.collection.timeline) + score_rides(spans(t, true), result.collection.rides)
-    number = fold_of(int(meta["subject"]))
-    wearers = ", ".join(map(str, sorted(FOLDS[number])))
+    wearers = ", ".join(map(str, sorted(FOLDS[fold_of(int(meta["subject"]))])))
     return scored(path, result, activity=score, groups=("all", f"of wearers {wearers}"))
 
 
@@ -82,10 +81,10 @@ STAIR_SPANS: dict[str, tuple[Span, ...]] = {
 }
 """Spans of time, s, in which the wearer was certainly on stairs or certainly walking on the level, by recording.
 
-Nobody labelled these recordings. The description of the data names the activity of each. Recordings with stairs and
-level parts were divided by their strides. A stride over two risers is 0.3 m high and 0.65 m long. A stride over one
-riser of the spiral stairs is 0.2 m high and 0.3 m long. Level strides are longer and do not rise. The first and last
-stride of a flight, with one foot on the level, are left out."""
+Nobody labelled these recordings. The description of the data names the activity of each. In recordings with stairs and
+level ways the strides show where stairs start and end. A stride over two risers is 0.3 m high and 0.65 m long, a stride
+over one riser of the spiral stairs 0.2 m high and 0.3 m long. Level strides are longer and do not rise. The first and
+last stride of a flight, with one foot on the level, are left out."""
 
 
 def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -102,7 +101,7 @@ def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 
 
 def stairs_figures(score: ActivityScore) -> Figures:
-    """Return the shares of time on stairs with stairs, and with stairs up, reported, and of level time with stairs."""
+    """Return the shares of stairs time reported as stairs and as stairs up, and of level time reported as stairs."""
     stairs = score.reported_for(Activity.STAIRS_UP)
     level = score.reported_for(Activity.WALKING)
     n_stairs, n_level = sum(stairs.values()), sum(level.values())

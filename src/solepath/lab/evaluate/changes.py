@@ -1,4 +1,4 @@
-"""Compares every figure with an earlier evaluation, which is read from its JSON file.
+"""Compares the figures of an evaluation with those in the JSON file of an earlier one.
 
 The better direction depends on the figure. Errors, spreads and numbers of invented events should be small. Biases
 should be near zero. F1 and shares found should be large. Numbers of true events, path lengths and other people's
@@ -80,7 +80,7 @@ class Change:
     """The earlier and present value of one figure."""
 
     row: str
-    """Name of a recording, or "mean", "median" or "together" (pooled figures) with the name of a group."""
+    """Name of a recording, or a key of SUMMARY_ROWS with the name of a group."""
     figure: str
     """Name of the figure in JSON."""
     earlier: float | None
@@ -107,6 +107,8 @@ class Changes:
 
 Scores = dict[str, dict[str, Any]]
 """Scores of an evaluation in the form that report.as_json returns."""
+SUMMARY_ROWS = {"mean": "mean", "median": "median", "pooled": "together"}
+"""Key in JSON of each row of a group's summary."""
 
 
 def read_scores(path: Path) -> Scores:
@@ -133,8 +135,8 @@ def _rows(part: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, float | N
     """Yield name and figures of each row of one data set: first the groups, then the recordings."""
     for group, summary in part["summary"].items():
         of = "" if group == "all" else f" {group}"
-        for kind in ("mean", "median", "together"):
-            yield f"{kind}{of}", summary[kind]
+        for row, key in SUMMARY_ROWS.items():
+            yield f"{row}{of}", summary[key]
     yield from part["recordings"].items()
 
 
@@ -159,10 +161,10 @@ def compare_scores(earlier: Scores, present: Scores) -> list[Changes]:
     return found
 
 
-def names_missing(of: Scores, other: Scores) -> list[str]:
-    """Return the recipes and data sets of `of` that `other` lacks, as `recipe` or `recipe: data set`."""
+def names_missing(scores: Scores, other: Scores) -> list[str]:
+    """Return the recipes and data sets of `scores` that `other` lacks, as `recipe` or `recipe: data set`."""
     found: list[str] = []
-    for recipe, data_sets in of.items():
+    for recipe, data_sets in scores.items():
         if recipe not in other:
             found.append(recipe)
         else:

@@ -1,4 +1,4 @@
-"""Collects the events of a session that the scores need, by foot, and those about the wearer's activity."""
+"""Collects the events of a session that scores need: those of each foot, activities, elevator rides and turns."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class FootRun:
 
     @property
     def stride_lengths(self) -> list[tuple[float, float]]:
-        """Pairs of the end of each stride, s, and its length, m."""
+        """End (s) and length (m) of each stride."""
         return [(stride.t_end, stride.length) for stride in self.strides]
 
 

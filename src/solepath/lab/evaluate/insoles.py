@@ -20,8 +20,8 @@ FORCE_SENSORS = (
 )  # fmt: skip
 """Sensors L1 to L8 below the left foot of gaitpdb: x to the wearer's right, y to the toe, in an unknown unit.
 
-The source is "Gait in Parkinson's Disease", PhysioNet, description of the format. The right foot is the mirror image.
-"""
+The source is "Gait in Parkinson's Disease", PhysioNet, description of the format. The sole is taken to reach from y =
+-1000 to 1000, with its midline at x = -500. The right foot is the mirror image."""
 
 
 def switches() -> Calibration:
@@ -41,7 +41,7 @@ def force_sensors(length: float = 0.26) -> Calibration:
     return _calibration(layouts)
 
 
-def in_dataset(path: Path) -> Calibration:
+def smart_insole(path: Path) -> Calibration:
     """Return the calibration of smart_insole_35 from the entry cell_xy_mm of the dataset.json beside `path`.
 
     In cell_xy_mm y is smallest at the toes, the wide end with the slanted row of cells, and x is smallest at the big

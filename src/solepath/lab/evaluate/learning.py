@@ -21,7 +21,7 @@ from ..train.hugadb import FOLDS, fold_of, recordings
 from .run import Meta
 
 Sources = Sequence[tuple[Any, int | None]]
-"""Pairs of a source of training data and its wearer in hugadb; None for other data, which are used in every fold."""
+"""Pairs of a source of training data and its wearer in hugadb. Other data have None and are used in every fold."""
 
 
 @frozen
@@ -81,7 +81,7 @@ class TrainingSource:
     """Number of the wearer in hugadb; None for other data."""
 
     def features(self) -> Any:
-        """Return the source's features; None when it cannot be read, which is reported when it is scored."""
+        """Return the source's features; None when it cannot be read, which its scorer reports."""
         try:
             return LEARNERS[self.kind].features(self.source)
         except RecordingError:

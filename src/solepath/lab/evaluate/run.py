@@ -32,7 +32,7 @@ class RunSettings:
     recipe: Recipe
     calibration: Calibration = Calibration()
     activity: ActivityPart | None = None
-    """Activity part that replaces the recipe's own: the same part trained on other wearers."""
+    """Activity part that replaces the recipe's own: a part of the same class, trained on other wearers."""
 
 
 @frozen(eq=False)
@@ -70,7 +70,7 @@ def run(
 ) -> RecordingRun:
     """Run the recording at `path` through a session, sample by sample.
 
-    `without_pressure` hides the pressure from the session where the truth was made from it. `calibration` has the
+    `without_pressure` hides from the session the pressure from which the truth was made. `calibration` has the
     positions of the cells. `poses` requests each foot's live position at every sample, `body` the wearer's position."""
     known = settings.calibration if calibration is None else merged(settings.calibration, calibration)
     recipe = (
@@ -91,7 +91,7 @@ def run_timed(
 ) -> tuple[EventCollection, ScoredTrack | None, float]:
     """Return the session's events for the samples, the wearer's track and the wall time, s.
 
-    The track has a position every `interval` s. With 0 it has one after every sample, with None there is no track."""
+    The track has a position every `interval` s, or after every sample when that is 0. With None there is no track."""
     outputs: list[list[Event]] = []
     positions: list[tuple[float, Vec3]] = []
     started_at = perf_counter()

@@ -1,6 +1,6 @@
 """The main figures with each number of the default recipe at half and at twice its value.
 
-    python -m solepath.lab.evaluate.sensitivity DIR [--processes N] [--only NAME]
+    python -m solepath.lab.evaluate.sensitivity DIR [--processes N] [--only NAME] [--number NAME]
 
 prints the table of docs/settings.md as Markdown. DIR holds recorded data with a reference. The numbers are the settings
 of the detector (`CycleSettings`), the settings of the filter (`ErrorStateSettings`) and the constants of the inertial
@@ -138,7 +138,7 @@ class SensitivityJob:
 
 
 def columns(names: Sequence[str] = ()) -> list[Column]:
-    """Return the columns of the table: those of the data sets `names`, or all when it is empty."""
+    """Return the columns of the table: those of the data sets `names`, or all when `names` is empty."""
     return [column for column in TABLE_COLUMNS if not names or column.data_set in names]
 
 
@@ -157,14 +157,14 @@ def evaluate(
         run_settings = RunSettings(recipe, Calibration(), None)
         jobs += [
             SensitivityJob(EvaluationJob(data_set.score, run_settings, path, meta), constants)
-            for data_set, part in data_sets
-            for path, meta in part
+            for data_set, recorded in data_sets
+            for path, meta in recorded
         ]
     outcomes = run_jobs(SensitivityJob.run, jobs, processes=processes)
     for number, factor in variants:
         results = []
-        for data_set, part in data_sets:
-            outcomes_of_set = list(islice(outcomes, len(part)))
+        for data_set, recorded in data_sets:
+            outcomes_of_set = list(islice(outcomes, len(recorded)))
             scores = tuple([one for one in outcomes_of_set if isinstance(one, Scored)])
             results.append(Result(data_set, "", scores, ()))
         yield number, factor, [column.find_figure(results, "") for column in shown]
@@ -188,7 +188,7 @@ def _change(column: Column, value: float | None, default: float | None) -> str:
 
 
 def table(rows: Iterator[tuple[Number | None, float, list[float | None]]], shown: Sequence[Column]) -> Iterator[str]:
-    """Yield the lines of the Markdown table: for each number the changes at half and at twice its value."""
+    """Yield the lines of the Markdown table from the rows of `evaluate`, one line for each number."""
     _, _, default = next(rows)
     yield f"| number | default | meaning | {' | '.join(column.title for column in shown)} |"
     yield "|" + "---|" * (3 + len(shown))

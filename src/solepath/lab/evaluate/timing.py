@@ -24,8 +24,8 @@ LEG_LENGTH = 10.0
 """Length of a leg in ipol_10m_uturn and gaitmap_examples, m."""
 LEG_COUNT = 4
 """Number of legs in gaitmap_examples."""
-LONGEST_STRIDE = 2.5
-"""Longest stride, s. Between heel-strikes further apart the foot stood still, or strides were not labelled."""
+LONGEST_STRIDE_TIME = 2.5
+"""Longest stride time, s. Between heel-strikes further apart the foot stood still, or strides were not labelled."""
 
 
 def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -33,10 +33,10 @@ def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 
     The first leg goes from the start of the walk to the middle of the turn, the second one from there to the end. Legs
     are measured for each foot (leg) and for the wearer's position (body_leg). The wearer's position ends where it
-    started. A foot does not: the wearer faces the other way at the end, so each foot stands beside its start."""
+    started. A foot does not: at the end the wearer faces the other way, so the feet have exchanged their places."""
     truth, result = truth_of(path), run(path, settings, body=True)
     swings = {foot: truth[f"gt_{foot.value}"] for foot in result.feet}
-    heel_strikes = {foot: of[:, 1].tolist() for foot, of in swings.items()}
+    heel_strikes = {foot: labels[:, 1].tolist() for foot, labels in swings.items()}
     t_start, t_end = truth["gt_trial"].tolist()
     times, body = [t_start, float(truth["gt_uturn"].mean()), t_end], result.body
     legs = [
@@ -47,7 +47,7 @@ def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         path,
         result,
         figures=_turn_figures(truth["gt_uturn"].tolist(), result) | _closing_figures(result, t_start, t_end),
-        events=_contact_matches(result, heel_strikes, {foot: of[:, 0].tolist() for foot, of in swings.items()}),
+        events=_contact_matches(result, heel_strikes, {foot: labels[:, 0].tolist() for foot, labels in swings.items()}),
         errors={
             "leg": sum(legs, Errors()),
             "body_leg": of_body,
@@ -61,18 +61,18 @@ EventTimes = Mapping[Foot, list[float]]
 
 
 def _contact_matches(result: RecordingRun, heel_strikes: EventTimes, toe_offs: EventTimes) -> dict[str, Matching]:
-    strike_times = [match(true, result.feet[foot].times[HeelStrike]) for foot, true in heel_strikes.items()]
-    left = [match(true, result.feet[foot].times[ToeOff]) for foot, true in toe_offs.items()]
-    return {"heel_strike": sum(strike_times, Matching()), "toe_off": sum(left, Matching())}
+    strikes = [match(true, result.feet[foot].times[HeelStrike]) for foot, true in heel_strikes.items()]
+    offs = [match(true, result.feet[foot].times[ToeOff]) for foot, true in toe_offs.items()]
+    return {"heel_strike": sum(strikes, Matching()), "toe_off": sum(offs, Matching())}
 
 
 def _stride_time_errors(result: RecordingRun, heel_strikes: EventTimes) -> Errors:
     found = [(true, result.feet[foot].times[HeelStrike]) for foot, true in heel_strikes.items()]
-    return sum([interval_errors(true, ours, longest=LONGEST_STRIDE) for true, ours in found], Errors())
+    return sum([interval_errors(true, ours, longest=LONGEST_STRIDE_TIME) for true, ours in found], Errors())
 
 
 def _closing_figures(result: RecordingRun, t_start: float, t_end: float) -> Figures:
-    """Return the distance between the wearer's first and last position, horizontal and in height, m."""
+    """Return the distance between the wearer's positions at `t_start` and `t_end` s, horizontal and in height, m."""
     if result.body is None:
         return {}
     first, last = at_times(result.body.t, result.body.positions, np.array([t_start, t_end]))
@@ -83,8 +83,8 @@ def _turn_figures(span: list[float], result: RecordingRun) -> Figures:
     """Return the figures of the one U-turn that the wearer makes in the labelled `span`, s.
 
     The U-turn counts as found when a reported U-turn overlaps the span. The angle error, rad, is the difference
-    between pi and the largest angle of a turn that overlaps the span (0 when there is none). Reported U-turns that do
-    not overlap the span are invented."""
+    between pi and the largest angle of a turn that overlaps the span, or pi without such a turn. Reported U-turns that
+    do not overlap the span are invented."""
     t_start, t_end = span
     overlapping = [turn for turn in result.collection.turns if turn.t >= t_start and turn.t_start <= t_end]
     n_about = sum(turn.turn is Turn.ABOUT for turn in result.collection.turns)
@@ -98,21 +98,20 @@ def _turn_figures(span: list[float], result: RecordingRun) -> Figures:
 
 
 def score_borders(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score the times from heel-strike to heel-strike, which are known only while the cameras see the walker.
+    """Score heel-strikes and stride times, which are known only while the cameras see the walker, and legs.
 
-    The walk has four legs to and fro. The times of the U-turns are not known, so each track is cut where the track
-    itself turns (legs.turn_times). The protocol says that a leg is 10 m; nobody measured it. `leg_spread` does not
-    depend on that length: it is the standard deviation of a foot's four legs relative to their mean, averaged over
-    the feet."""
+    The walk has four legs to and fro. The times of the U-turns are not known, so each track is cut at its own turns
+    (legs.turn_times). The protocol says that a leg is 10 m; nobody measured it. `leg_spread` does not depend on that
+    length: it is the standard deviation of a foot's four legs relative to their mean, averaged over the feet."""
     truth, result = truth_of(path), run(path, settings, body=True)
-    heel_strike, strides = Matching(), Errors()
+    heel_strike, stride_times = Matching(), Errors()
     for foot, foot_run in result.feet.items():
         borders = [(float(a), float(b)) for a, b in truth[f"gt_borders_{foot.value}"]]
         visible = merged(borders)
         # a border that two strides share is one heel-strike
         heel_strikes = [at for at, _ in merged([(at, at) for border in borders for at in border])]
         heel_strike += match(heel_strikes, foot_run.times[HeelStrike], windows=visible)
-        strides += interval_errors(heel_strikes, foot_run.times[HeelStrike], longest=LONGEST_STRIDE)
+        stride_times += interval_errors(heel_strikes, foot_run.times[HeelStrike], longest=LONGEST_STRIDE_TIME)
     tracks = [track for track in (*result.feet.values(), result.body) if track is not None and len(track.t)]
     legs = [
         leg_errors(turn_times(one.t, one.positions, LEG_COUNT), [LEG_LENGTH] * LEG_COUNT, one.t, one.positions)
@@ -123,7 +122,7 @@ def score_borders(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     figures: Figures = {"leg_spread": fmean(spreads) if spreads else None}
     if result.body is not None:
         figures |= _closing_figures(result, float(result.body.t[0]), float(result.body.t[-1]))
-    errors = {"leg": sum(foot_legs, Errors()), "body_leg": body_legs, "stride_time": strides}
+    errors = {"leg": sum(foot_legs, Errors()), "body_leg": body_legs, "stride_time": stride_times}
     return scored(path, result, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
 
 
@@ -137,11 +136,9 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     for foot, foot_run in result.feet.items():
         rows = truth["gt_foot"] == (0 if foot is Foot.LEFT else 1)
         strike_times = truth["gt_hs_t"][rows]
-        heel_strikes[foot], toe_offs[foot] = (
-            strike_times.tolist(),
-            (strike_times + truth["gt_contact_s"][rows]).tolist(),
-        )
-        # a found stride ends at the foot-flat after the heel-strike that ends the true one, well before the next one
+        heel_strikes[foot] = strike_times.tolist()
+        toe_offs[foot] = (strike_times + truth["gt_contact_s"][rows]).tolist()
+        # gt_stride_len[k] is of the stride that ends with heel-strike k; the found one ends at the foot-flat after that
         strides += stride_score(
             strike_times, truth["gt_stride_len"][rows][:-1], foot_run.stride_lengths, end_tolerance=-TOLERANCE
         )
@@ -150,7 +147,7 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 
 
 def score_switches(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score inertial samples against heel and toe switches under the foot, which the session does not receive."""
+    """Score a session that receives only inertial samples, against the heel and toe switches under the foot."""
     return _against_switches(path, meta, run(path, settings, without_pressure=True))
 
 
@@ -163,7 +160,7 @@ def _against_switches(path: Path, meta: Meta, result: RecordingRun) -> Scored:
     """Score against the switches and, on a straight walk, against its length.
 
     The leg of a foot goes from its first to its last position. The wearer stood at both ends of the walk, but nobody
-    recorded how near to the lines."""
+    recorded how near to the ends of the measured way."""
     truth = truth_of(path)
     heel_strikes, toe_offs, legs = dict[Foot, list[float]](), dict[Foot, list[float]](), Errors()
     for foot, foot_run in result.feet.items():
@@ -184,6 +181,6 @@ def score_force(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     truth, result = truth_of(path), run(path, settings, calibration=force_sensors())
     forces = {foot: truth[f"pressure_{foot.value}"].sum(axis=1) for foot in result.feet}
     spans = {foot: force_contacts(truth["t"], force) for foot, force in forces.items()}
-    heel_strikes = {foot: [start for start, _ in of] for foot, of in spans.items()}
-    toe_offs = {foot: [end for _, end in of] for foot, of in spans.items()}
+    heel_strikes = {foot: [start for start, _ in contacts] for foot, contacts in spans.items()}
+    toe_offs = {foot: [end for _, end in contacts] for foot, contacts in spans.items()}
     return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs))

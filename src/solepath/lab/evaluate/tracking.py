@@ -14,7 +14,7 @@ from ..measures.matching import Errors
 from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore, marker_stances, position_errors, surveyed_score
 from .gathered import FootRun
-from .insoles import in_dataset
+from .insoles import smart_insole
 from .run import Arrays, Meta, RunSettings, run, scored, truth_of
 
 
@@ -30,7 +30,7 @@ def score_vicon(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 
 def score_optitrack(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score against a marker with its own clock, over the time in which both marker and samples were recorded."""
-    truth, result = truth_of(path), run(path, settings, calibration=in_dataset(path))
+    truth, result = truth_of(path), run(path, settings, calibration=smart_insole(path))
     in_both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
     t, places, foot = truth["gt_t"][in_both], truth["gt_pos"][in_both], result.feet[Foot.RIGHT]
     times, stances = marker_stances(t, places)
@@ -78,7 +78,7 @@ AUTHORS_ERRORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "e
 """Mean position error of the authors' own system at the surveyed strides, m.
 
 The system is an INS with an LSTM as zero-velocity detector (log in the repository mtahakoroglu/LLIO-aided-iPyShoe).
-Trials of which it lost strides are not listed."""
+Trials in which it lost strides are not listed."""
 
 
 def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:

@@ -57,8 +57,8 @@ def path_length(points: NDArray[Any]) -> float:
 
 def distances(points: NDArray[Any]) -> Floats:
     """Return the horizontal distance from the first of `points` to each, along the polyline through them, m."""
-    steps = np.linalg.norm(np.diff(np.asarray(points, np.float64)[:, :2], axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+    lengths = np.linalg.norm(np.diff(np.asarray(points, np.float64)[:, :2], axis=0), axis=1)
+    return np.concatenate([[0.0], np.cumsum(lengths)])
 
 
 def aligned_at_start(track: NDArray[Any], truth: NDArray[Any], over: float) -> Floats:
@@ -69,7 +69,7 @@ def aligned_at_start(track: NDArray[Any], truth: NDArray[Any], over: float) -> F
 
 @frozen
 class TrackError:
-    """Distance of a track from the truth over a trial after the best turn and shift, m."""
+    """Distance of a whole track from the truth after the best turn and shift, m."""
 
     rms_2d: float
     """Root mean square of the horizontal Euclidean distance, m."""
@@ -80,7 +80,7 @@ class TrackError:
 
     @property
     def armse_2d(self) -> float:
-        """Horizontal error as the data set pyshoe gives it, m: RMS over samples and both axes, `rms_2d` / sqrt 2."""
+        """Horizontal error as pyshoe defines it, m: RMS over the samples of both axes, which is `rms_2d` / sqrt 2."""
         return self.rms_2d / sqrt(2.0)
 
 
@@ -96,5 +96,5 @@ def track_error(track: NDArray[Any], truth: NDArray[Any]) -> TrackError:
 
 
 def at_times(t: Floats, positions: Floats, times: NDArray[Any]) -> Floats:
-    """Return positions at `times` (m,), linear between `positions` (n,3) at `t` (n,), constant before and after."""
+    """Return positions at `times`, s: linear between `positions` (n,k) at `t` (n,), s; constant before and after."""
     return np.column_stack([np.interp(times, t, positions[:, axis]) for axis in range(positions.shape[1])])

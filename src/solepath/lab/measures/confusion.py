@@ -49,11 +49,8 @@ class ActivityScore:
     def accuracy(self) -> float | None:
         """Share of labelled samples for which the right activity was reported."""
         total = sum(self.samples.values())
-        return (
-            sum([count for (was, reported), count in self.samples.items() if was is reported]) / total
-            if total
-            else None
-        )
+        right = sum([count for (was, reported), count in self.samples.items() if was is reported])
+        return right / total if total else None
 
     @property
     def most_frequent(self) -> float | None:
@@ -75,7 +72,7 @@ class ActivityScore:
 
     @property
     def table(self) -> dict[str, dict[str, int]]:
-        """Confusion matrix {true: {reported: samples}} by name, in the order of the enum.
+        """Confusion matrix {true: {reported: samples}} by name, in the order of Activity.
 
         Activities that never occur are left out."""
         reported = [activity for activity in Activity if any(answer is activity for _, answer in self.samples)]

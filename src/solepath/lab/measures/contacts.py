@@ -1,4 +1,4 @@
-"""Finds true contacts of a foot with the ground in the signals of switches and force sensors, and joins labels.
+"""Finds true contacts of a foot with the ground in the signals of switches and force sensors, and joins spans.
 
 The thresholds were chosen by hand; no sweep of them is recorded."""
 
@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 
 MIN_SWITCH_RANGE = 150.0
 """Smallest difference between a working switch's loaded and unloaded reading, counts of its converter."""
+UNLOADED_PERCENTILE, LOADED_PERCENTILE = 2.0, 97.0
+"""Percentiles of a switch's readings that stand for its unloaded and its loaded reading."""
 CLOSING_SHARE, OPENING_SHARE = 0.20, 0.10
-"""Shares of a switch's range at which contact starts and ends: above the noise, and early in the rise."""
+"""Shares of a switch's range above which contact starts and below which it ends."""
 CONTACT_FORCE = 20.0
 """Smallest force of a foot on the ground, N."""
 SHORTEST_SPAN = 0.15
@@ -24,7 +26,7 @@ def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, 
     """Return the spans of contact (start, end), s, of one pressure switch; None when the switch does not work.
 
     `counts` (n,) are the readings at `t` (n,), s. Spans that are cut off at an end of the recording are left out."""
-    unloaded, loaded = np.percentile(counts, [2.0, 97.0])
+    unloaded, loaded = np.percentile(counts, [UNLOADED_PERCENTILE, LOADED_PERCENTILE])
     if loaded - unloaded < MIN_SWITCH_RANGE:
         return None
     closing_level, opening_level = (unloaded + share * (loaded - unloaded) for share in (CLOSING_SHARE, OPENING_SHARE))

@@ -1,8 +1,8 @@
-"""Length errors of legs. A leg is a straight stretch of a walk, of known length, between two turns.
+"""Length errors of legs. A leg is a straight way of known length between two turns.
 
-The length of a leg is known, sometimes also the time of the turn at its end, but never the places of the feet. The
-length that a foot measures is the horizontal distance between its live positions at both ends of the leg. A foot may
-stop before the line or pivot beyond it, so a leg of 10 m is measured some tenths of a metre too short or too long."""
+Sometimes the time of the turn at its end is known too, but never the positions of the feet. The length that a foot
+measures is the horizontal distance between its live positions at both ends of the leg. A foot may turn before or beyond
+the end, so a leg of 10 m is measured some tenths of a metre too short or too long."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def turn_times(t: Floats, positions: Floats, legs: int) -> list[float]:
     """Return the times (legs + 1,), s, of the start, the U-turns and the end of a track of `legs` legs to and fro.
 
     The track is projected on its first principal axis. The times are those between which the projection goes furthest,
-    alternately forth and back. So each U-turn is where the foot was furthest away, and no threshold is needed."""
+    alternately forth and back. No threshold is needed."""
     times = np.arange(t[0], t[-1] + SEARCH_INTERVAL, SEARCH_INTERVAL)
     places = at_times(t, positions[:, :2], times)
     places = places - places.mean(axis=0)

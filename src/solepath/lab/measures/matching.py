@@ -1,4 +1,4 @@
-"""Matches found events one to one with true ones at most 250 ms away, and counts, offsets and errors of the matches."""
+"""Matches found events one to one with true ones at most 250 ms away, and measures the errors of the matches."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from attrs import frozen
 
 @frozen
 class Errors:
-    """The signed errors, measured minus true value: relative for legs (0.01 is 1 %), in s for stride times."""
+    """The signed errors, measured minus true value: relative for lengths (0.01 is 1 %), in s for stride times."""
 
     values: tuple[float, ...] = ()
 
@@ -75,7 +75,7 @@ class Matching:
 def match(
     true: Iterable[float], found: Iterable[float], *, windows: Sequence[tuple[float, float]] | None = None
 ) -> Matching:
-    """Match true and found times, s, at most TOLERANCE apart. The closest pairs are taken first, each time once.
+    """Match true and found times, s, at most TOLERANCE apart. The closest pairs are taken first.
 
     `windows` are the labelled spans of time, s; None stands for the span from the first to the last true event. Found
     events more than TOLERANCE outside all windows are left out, because nobody knows whether they are right."""
@@ -90,9 +90,10 @@ def match(
 def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:
     """Return (index in `true`, index in `found`) of the pairs within `tolerance`, in the order of `true`.
 
-    The closest pairs are taken first and each time is used once. Both inputs must be in order of time."""
+    The closest pairs are taken first, and no time is in two pairs. Both inputs must be in order of time."""
     candidates: list[tuple[float, int, int]] = []
     for i, t in enumerate(true):
+        # wider than `tolerance`, so that rounding leaves no pair out
         around = range(bisect_left(found, t - 2.0 * tolerance), bisect_right(found, t + 2.0 * tolerance))
         candidates += [(abs(found[j] - t), i, j) for j in around if abs(found[j] - t) <= tolerance]
     candidates.sort()
@@ -114,4 +115,4 @@ def interval_errors(true: Iterable[float], found: Iterable[float], *, longest: f
     by_true = dict(pairs(truth, ours, TOLERANCE))
     matched = [k for k in range(len(truth) - 1) if k in by_true and k + 1 in by_true]
     durations = [(ours[by_true[k + 1]] - ours[by_true[k]], truth[k + 1] - truth[k]) for k in matched]
-    return Errors(tuple([took - should for took, should in durations if should <= longest]))
+    return Errors(tuple([measured - expected for measured, expected in durations if expected <= longest]))

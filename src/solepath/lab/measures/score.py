@@ -28,7 +28,7 @@ class Scored:
     strides: StrideScore | None = None
     activity: ActivityScore | None = None
     errors: dict[str, Errors] = field(factory=dict)
-    """Errors by kind: leg and body_leg (relative), stride_time (s)."""
+    """Errors by kind: leg of the feet and body_leg of the wearer (relative), stride_time (s)."""
     groups: tuple[str, ...] = ("all",)
     """Names of the groups that this recording belongs to."""
     samples: int = 0

@@ -1,7 +1,7 @@
-"""Scores strides against surveyed ones, for which each footprint was measured on the floor.
+"""Scores found strides against a survey, in which every footprint was measured on the floor.
 
-`times[k]` is the end of a stance, s, and `places[k]` the surveyed point on which the foot stood then. The surveyed
-stride k + 1 lasts from times[k] to times[k + 1]. A found stride ends at foot-flat, early in the stance that ends at
+`times[k]` is the end of a stance, s, and `places[k]` the surveyed point on which the foot stood then. A surveyed
+stride lasts from times[k] to times[k + 1]. A found stride ends at foot-flat, early in the stance that ends at
 times[k + 1]; it is assigned to the surveyed stride in which it ends. In fast walking a stance is very short, and a
 foot-flat may be found a little after the survey's end of stance. END_TOLERANCE allows for that."""
 
@@ -42,7 +42,7 @@ class StrideScore:
     n_found: int = 0
     """Number of surveyed strides that were found."""
     n_invented: int = 0
-    """Number of found strides in excess of one in each surveyed stride."""
+    """Number of found strides beyond the first in each surveyed stride."""
     errors: Errors = Errors()
     """Relative error of the length of each stride found."""
     track_errors: Errors = Errors()
@@ -67,7 +67,7 @@ def stride_score(
     """Score found `strides`, pairs of end (s) and length (m), against true ones between `times` (n+1,), s.
 
     `lengths` (n,) are the true ones, m. A found stride is assigned to the true stride from times[k] to times[k + 1]
-    when it ends in that span moved on by `end_tolerance` s. One that ends in no such span is left out. A true stride of
+    when it ends in that span, delayed by `end_tolerance` s. One that ends in no such span is left out. A true stride of
     unknown length (NaN) is counted but gives no error. Of several found strides that are assigned to one true stride,
     the longest counts as found and the others as invented."""
     true_lengths: list[float] = np.asarray(lengths, np.float64).tolist()

@@ -17,7 +17,7 @@ from ...types import Activity, Turn
 from ..measures.confusion import ActivityScore
 from ..processes import Progress, run_jobs
 from . import footstep_walks, published
-from .footstep_walks import CORRIDOR_LENGTH, FootstepResults, walked
+from .footstep_walks import CORRIDOR_LENGTH, FootstepResults, score_wearer
 from .tables import DrawStyle, FloorPanel, PictureTrack, Reproduction, row_of
 
 NAME = FOOTSTEP_TRACKER.name
@@ -33,7 +33,7 @@ def reproduce(
     """Return the results of `walks` wearers, each of whom does every experiment."""
     count = WEARERS if walks is None else walks
     seeds = [FIRST_SEED + 1000 * seed + k for k in range(count)]
-    results = list(run_jobs(walked, seeds, processes=processes, progress=progress))
+    results = list(run_jobs(score_wearer, seeds, processes=processes, progress=progress))
     places = [place for one in results for place in one.places]
     rows = [
         _row("corridor, one foot %", [100.0 * one.one_foot_error / CORRIDOR_LENGTH for one in results]),

@@ -66,7 +66,7 @@ class FootstepResults:
     one_foot_stride_errors: tuple[float, ...]
     """Error of each stride length, measured minus true, m."""
     two_feet_stride_errors: tuple[float, ...]
-    """Mean of the errors of each stride length and of the other foot's stride before it, m."""
+    """Mean of the length errors of each stride and of the other foot's last stride before it, m."""
     windows: ActivityScore
     """Score of two-second windows on another walk of another wearer, with stairs and elevators."""
     turn_errors: dict[float, float]
@@ -77,7 +77,7 @@ class FootstepResults:
     """Scores of the positions on the floor plan, on the path of the paper's case study and on another path."""
 
 
-def walked(seed: int) -> FootstepResults:
+def score_wearer(seed: int) -> FootstepResults:
     """Return the results of all walks of one wearer."""
     wearer_data = WearerData(*random_wearer(np.random.default_rng([seed, 17])))
     calibration = _calibrate(wearer_data, seed)

@@ -63,7 +63,7 @@ class KuptResults:
     """The results of one walk."""
 
     distances: dict[str, float]
-    """Measured distance by row, m."""
+    """Measured distance by row of the table, m."""
     true: dict[Foot, float]
     """True distance of each foot, m."""
     tracks: tuple[PictureTrack, ...] = ()
@@ -149,7 +149,7 @@ def walk(job: KuptJob) -> KuptResults:
     }
     fused = [event for event in events_of[NAME] if isinstance(event, StrideFused)]
     distances["KUPT+DFPC"] = fused[-1].distance if fused else 0.0
-    true = {foot: sum(step.length for step in walked.truth.strides(foot) if step.t_heel_off > t_halt) for foot in Foot}
+    true = {foot: sum(one.length for one in walked.truth.strides(foot) if one.t_heel_off > t_halt) for foot in Foot}
     if not job.corridor:
         return KuptResults(distances, true)
     tracks, end_distances = _tracks(walked.truth, t_halt, events_of["zupt"], fused)

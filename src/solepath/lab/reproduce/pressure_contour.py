@@ -56,7 +56,7 @@ LOOP_ORDER = (*FIGURE_TITLES, 0, 1, 2, 5)
 
 @frozen
 class ContourJob:
-    """One half-hour walk to emulate, with the length of LOOPS[number]."""
+    """One half-hour walk to emulate, as long as LOOPS[number]; a shorter `duration`, s, shortens it in proportion."""
 
     seed: int
     number: int
@@ -148,7 +148,7 @@ def walk(job: ContourJob) -> ContourResults:
     walked = emulate(whole, devices={SITE_OF_FOOT[FOOT]: boot(FOOT, RATE)}, seed=job.seed)
     t_halt = find_halt(walked.walker, laps)
     parts = cut_walk(walked, t_halt)
-    ends = [step.t_end for step in walked.truth.strides(FOOT) if step.t_end > t_halt]
+    ends = [one.t_end for one in walked.truth.strides(FOOT) if one.t_end > t_halt]
     path = thin_out(_true_positions(walked, np.array([t_halt, *ends])))
     closing_errors, tracks = {}, [PictureTrack("true path", path, DrawStyle.TRUTH)]
     for name, recipe in RECIPES.items():

@@ -161,10 +161,10 @@ SHOE_SENSING: Table = {
     "walking, course deg": Statistics(5.65, 3.88),
     "jogging, course deg": Statistics(7.09, 6.94),
 }
-"""Table 1; sections 3.4.2 and 4.2.3 (figs. 13, 14, 23, 24); section 4.2.4 (figs. 26 to 32); table 2; section 4.2.5.
+"""Tables 1 and 2; sections 3.4.2, 4.2.3 (figs. 13, 14, 23, 24), 4.2.4 (figs. 26 to 32) and 4.2.5 (figs. 33, 34).
 
-Section 4.2.5 has figs. 33 and 34. Errors are magnitudes for single strides, which the paper calls steps. What the text
-calls variance or mean square error is taken for the standard deviation."""
+Errors are magnitudes for single strides, which the paper calls steps. What the text calls variance or mean square error
+is taken for the standard deviation."""
 
 TABLE_2_DIVISOR = 22.5
 """Number by which table 2 divides the mean error of a stride relative to its length.

@@ -15,7 +15,7 @@ from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from ..measures.matching import Errors
 from ..processes import Progress, run_jobs
 from . import published
-from .shoe_walks import STATES, ShoeResults, walked
+from .shoe_walks import STATES, ShoeResults, score_wearer
 from .tables import DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of
 
 NAME = SHOE_SENSING.name
@@ -29,7 +29,8 @@ def reproduce(
 ) -> Reproduction:
     """Return the results of `walks` wearers, each of whom walks every experiment."""
     count = WALKS if walks is None else walks
-    results = list(run_jobs(walked, [1000 * seed + k for k in range(count)], processes=processes, progress=progress))
+    seeds = [1000 * seed + k for k in range(count)]
+    results = list(run_jobs(score_wearer, seeds, processes=processes, progress=progress))
     return Reproduction(
         name=NAME,
         paper_title=published.SHOE_SENSING_TITLE,

@@ -30,7 +30,7 @@ FOOT = Foot.RIGHT
 """Foot that wears the sensor ("attached to one of the user's shoes"); the side is assumed."""
 WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
 """Walking and jogging speed, m/s: assumed, so that strides are about as long as the paper's 1.20 m and 1.60 m."""
-STEPS = 100
+STRIDES = 100
 """Number of strides of each level walk (section 4.2.3)."""
 HEADING_LENGTH = 19.2
 """Length over which the directions of strides are compared, m (section 4.2.5)."""
@@ -44,7 +44,9 @@ STATES = ("walking", "jogging", "upstairs", "downstairs")
 LAST_STRIDES = 9
 """Number of strides at the end of a walk whose directions give the heading error."""
 PARTIAL_STRIDES = 1.5
-"""Length of the shorter strides at the start and the end of a walk together, in whole strides."""
+"""Total length of the shorter strides at the start and at the end of a walk, in whole strides."""
+TWO_RISERS = 0.25
+"""Height change that only a stride over two risers of 0.16 m exceeds, m."""
 
 
 @frozen
@@ -138,9 +140,9 @@ def route_of(state: str) -> Route:
     """Return a hundred strides on the level, or two flights with a landing between."""
     route = Route().stand(4.0)
     if state == "walking":
-        return route.walk((STEPS + PARTIAL_STRIDES) * 1.22, WALKING_SPEED).stop(2.0)
+        return route.walk((STRIDES + PARTIAL_STRIDES) * 1.22, WALKING_SPEED).stop(2.0)
     if state == "jogging":
-        return route.jog((STEPS + PARTIAL_STRIDES) * 1.60, JOGGING_SPEED).stop(2.0)
+        return route.jog((STRIDES + PARTIAL_STRIDES) * 1.60, JOGGING_SPEED).stop(2.0)
     up = state == "upstairs"
     route = route.walk(4.0, 1.2)
     return route.stairs(RISERS, up=up).turn(radians(180), 0.7).stairs(RISERS, up=up).walk(4.0).stop(2.0)
@@ -158,19 +160,19 @@ def tour_route() -> Route:
     return route.stop(3.0)
 
 
-def walked(seed: int) -> ShoeResults:
+def score_wearer(seed: int) -> ShoeResults:
     """Return the results of all walks of one wearer."""
     plain = evolve(SHOE_SENSING, corrector=ShoeSensing(ShoeSensingSettings(eliminate=False)))
     energy, before, magnitude = {}, {}, {}
     for k, state in enumerate(STATES):
-        samples, truth = worn(route_of(state), 10 * seed + k)
+        samples, truth = sample_walk(route_of(state), 10 * seed + k)
         energy[state] = score_strides(run_session(SHOE_SENSING, samples), truth, state)
         before[state] = score_strides(run_session(plain, samples), truth, state)
         magnitude[state] = score_strides(run_session(SHOE_MAGNITUDE, samples), truth, state)
     return ShoeResults(energy, before, magnitude, score_tour(10 * seed + len(STATES)))
 
 
-def worn(route: Route, seed: int) -> tuple[list[Sample], Truth]:
+def sample_walk(route: Route, seed: int) -> tuple[list[Sample], Truth]:
     """Return the samples of the sensor on a walk along `route`, and the truth."""
     walker = Walker(route, seed=seed)
     return walker.samples(FOOT, 100.0, MPU6050, mounting=ON_INSTEP), walker.truth({FOOT: ON_INSTEP})
@@ -182,8 +184,8 @@ def score_strides(events: Sequence[Event], truth: Truth, state: str) -> StrideEr
     matches = matched(strides, truth.strides(FOOT))
     stairs = state in ("upstairs", "downstairs")
     direction = {"upstairs": 1, "downstairs": -1}.get(state, 0)
-    counted = [(stride, true) for stride, true in matches if not stairs or abs(true.displacement[2]) > 0.25]
-    expected = [true for true in truth.strides(FOOT) if not stairs or abs(true.displacement[2]) > 0.25]
+    counted = [(stride, true) for stride, true in matches if not stairs or abs(true.displacement[2]) > TWO_RISERS]
+    expected = [true for true in truth.strides(FOOT) if not stairs or abs(true.displacement[2]) > TWO_RISERS]
     matched_strides = [stride for stride, _ in matches]
     counted_strides = [
         stride for stride in strides if not stairs or any(true.t_start < stride.t < true.t_end for true in expected)
@@ -204,17 +206,17 @@ def score_strides(events: Sequence[Event], truth: Truth, state: str) -> StrideEr
     )
 
 
-def matched(steps: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
+def matched(found: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
     """Return the pairs of a found and a true stride whose ends are at most MATCHING_TIME apart, one to one."""
-    ends = [one.t_end for one in true], [step.t_end for step in steps]
-    return [(steps[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
+    ends = [one.t_end for one in true], [stride.t_end for stride in found]
+    return [(found[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
 
 
 def _courses(matches: Sequence[tuple[StrideTaken, TrueStride]]) -> tuple[float, ...]:
     """Return the direction of each stride minus the true one, degrees, after alignment over the first two metres."""
     if len(matches) < 2:
         return ()
-    ours = np.cumsum([step.displacement[:2] for step, _ in matches], axis=0)
+    ours = np.cumsum([stride.displacement[:2] for stride, _ in matches], axis=0)
     true = np.cumsum([one.displacement[:2] for _, one in matches], axis=0)
     far = np.linalg.norm(true, axis=1)
     ours, true = (np.vstack([np.zeros(2), track[far < HEADING_LENGTH]]) for track in (ours, true))
@@ -233,7 +235,7 @@ def _direction_errors(ours: Floats, true: Floats) -> Floats:
 
 def score_tour(seed: int) -> TourErrors:
     """Score the recipe on the walk of five minutes."""
-    samples, truth = worn(tour_route(), seed)
+    samples, truth = sample_walk(tour_route(), seed)
     events = run_session(SHOE_SENSING, samples)
     strides = [event for event in events if isinstance(event, StrideTaken)]
     ours = np.array([(0.0, 0.0, 0.0), *(stride.position for stride in strides)])

@@ -40,7 +40,7 @@ class FloorPanel:
 
 @frozen
 class BoxPlots:
-    """A panel with box plots of the table's `rows`, ours beside the paper's; `target` is the true value."""
+    """A panel with box plots of `rows`, ours beside the paper's; `label` is of the y axis, `target` the true value."""
 
     title: str
     rows: tuple[str, ...]
@@ -53,7 +53,7 @@ Panel = FloorPanel | BoxPlots
 
 @frozen
 class Statistics:
-    """The columns of table I of Chen et al. 2019; None when there are too few values or the paper does not print it."""
+    """The columns of table I of Chen et al. 2019; None for one of too few values or one not in the paper."""
 
     mean: float | None = None
     std: float | None = None
@@ -100,8 +100,7 @@ def row_of(paper: Table, name: str, values: Iterable[float], digits: int = 2) ->
 class Reproduction:
     """An experiment of a paper, repeated by emulated wearers.
 
-    `unit` is the unit of the rows. `notes` are sentences for readers: other findings, and what the paper leaves open.
-    """
+    `unit` is the unit of the rows. `notes` are sentences: other findings, and what the paper leaves open."""
 
     name: str
     paper_title: str

@@ -116,20 +116,20 @@ def reproduce(
 
 
 def _panels(results: Sequence[ModesResults]) -> tuple[FloorPanel, FloorPanel]:
-    corners = [CORNER_POSITIONS[point] for point in "ABCDA"]
-    tracks = [PictureTrack("rectangle", tuple(corners), DrawStyle.TRUTH)]
-    origin_tracks = []
+    closed_path = tuple(CORNER_POSITIONS[point] for point in "ABCDA")
+    tracks = [PictureTrack("rectangle", closed_path, DrawStyle.TRUTH)]
+    deviation_tracks = []
     for method in METHODS:
         deviations = [(point, one.deviations[method][point]) for one in results for point in CORNER_POSITIONS]
         estimated_positions = tuple(
             (CORNER_POSITIONS[point][0] + dx, CORNER_POSITIONS[point][1] + dy) for point, (dx, dy) in deviations
         )
         tracks.append(PictureTrack(method, estimated_positions, DrawStyle.DOTS))
-        origin_tracks.append(PictureTrack(method, tuple(place for _, place in deviations), DrawStyle.DOTS))
+        deviation_tracks.append(PictureTrack(method, tuple(place for _, place in deviations), DrawStyle.DOTS))
     marks = tuple((point, x, y) for point, (x, y) in CORNER_POSITIONS.items())
     return (
         FloorPanel("where four methods have the corners (fig. 15a)", tuple(tracks), marks),
-        FloorPanel("deviations at all corners (fig. 15b)", tuple(origin_tracks), (("", 0.0, 0.0),)),
+        FloorPanel("deviations at all corners (fig. 15b)", tuple(deviation_tracks), (("", 0.0, 0.0),)),
     )
 
 
@@ -224,7 +224,7 @@ def _deviation(
 
 
 def _place(walker: Walker, foot: Foot, t: float, touchdown_events: Sequence[TouchedDown]) -> tuple[float, float]:
-    """Return the position, m, of the touchdown nearest to `t` s, or else of the last one before it or of the start."""
+    """Return the position (x, y), m, of the touchdown near `t` s, else of the last one before, else of the start."""
     near = [one for one in touchdown_events if abs(one.t - t) < MAX_TIME_DIFFERENCE]
     if near:
         x, y, _ = min(near, key=lambda one: abs(one.t - t)).position

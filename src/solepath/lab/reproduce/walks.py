@@ -22,16 +22,16 @@ from ..measures.strides import ALIGNMENT_LENGTH
 
 
 def join_routes(first: Route, second: Route) -> Route:
-    """Return a route that continues with `second` at the end of `first`, in the direction there."""
+    """Return `first` and then `second`, which starts where `first` ends, in the direction that the wearer has there."""
     return evolve(first, actions=(*first.actions, *second.actions), speed=second.speed)
 
 
 def find_halt(walker: Walker, first: Route) -> float:
     """Return the middle of the halt, s, that ends the first part `first` of the walker's route."""
     walked = [not isinstance(action, Stand) for action in first.actions]
-    stretches = sum(now and not before for before, now in zip([False, *walked], walked, strict=False))
+    n_bouts = sum(now and not before for before, now in zip([False, *walked], walked, strict=False))
     bouts = walker.plan.bouts
-    return 0.5 * (bouts[stretches - 1][1] + bouts[stretches][0])
+    return 0.5 * (bouts[n_bouts - 1][1] + bouts[n_bouts][0])
 
 
 @frozen(eq=False)

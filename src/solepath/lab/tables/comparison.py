@@ -14,7 +14,7 @@ EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "h
 
 
 def comparison_table(comparisons: Sequence[FootComparison]) -> str:
-    """Return the table of the strides and events of both feet compared with the truth."""
+    """Return the table that compares the strides and events of both feet with the truth."""
     rows = [
         ["steps walked", *(str(c.strides_true) for c in comparisons)],
         ["steps found", *(str(c.strides_found) for c in comparisons)],
@@ -23,16 +23,16 @@ def comparison_table(comparisons: Sequence[FootComparison]) -> str:
         ["end position, error m", *(number(c.end_error) for c in comparisons)],
     ]
     for kind, name in EVENTS.items():
-        of = [c.events[kind] for c in comparisons]
-        rows.append([f"{name}s found", *(f"{len(m.offsets)} of {m.n_true}" for m in of)])
-        rows.append([f"{name}, median offset ms", *(milliseconds(m.bias) for m in of)])
+        matchings = [c.events[kind] for c in comparisons]
+        rows.append([f"{name}s found", *(f"{len(m.offsets)} of {m.n_true}" for m in matchings)])
+        rows.append([f"{name}, median offset ms", *(milliseconds(m.bias) for m in matchings)])
     return table(["against the truth", *(c.foot.value for c in comparisons)], rows)
 
 
 def place_table(score: PlaceScore) -> str:
     """Return the table of the score of positions on the floor plan."""
     rows = [
-        ["steps placed", str(score.steps)],
+        ["steps placed", str(score.strides)],
         ["one candidate, the true one, after steps", "-" if score.decided is None else str(score.decided)],
         ["steps with one candidate, a wrong one", str(score.wrong)],
         ["steps without the true candidate", str(score.dropped)],
@@ -42,7 +42,7 @@ def place_table(score: PlaceScore) -> str:
 
 
 def comparison_with_paper(reproduction: Reproduction) -> str:
-    """Return the table of our figures beside the paper's, and below it the notes, one sentence on a line."""
+    """Return the table of our figures beside the paper's, with the notes on lines below it."""
     first, *others = STATISTICS
     header = [reproduction.unit, f"ours: {first}", *others, f"paper: {first}", *others]
     rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in reproduction.rows]
@@ -53,5 +53,5 @@ def comparison_with_paper(reproduction: Reproduction) -> str:
     return "\n".join([title, "", table(header, rows), *([""] if reproduction.notes else []), *reproduction.notes])
 
 
-def _cells(of: Statistics, row: FigureRow) -> list[str]:
-    return [number(getattr(of, key), row.digits) for key in STATISTICS]
+def _cells(shown: Statistics, row: FigureRow) -> list[str]:
+    return [number(getattr(shown, key), row.digits) for key in STATISTICS]

@@ -12,7 +12,7 @@ from matplotlib.patches import Rectangle
 from ..reproduce.tables import BoxPlots, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
-"""Colours that colour-blind readers can distinguish (Okabe and Ito 2008)."""
+"""Colours that colour-blind people can distinguish (Okabe and Ito 2008)."""
 MARKERS = ("o", "s", "^", "D", "v")
 GREY = "0.55"
 PANEL_SIZE = 5.4

@@ -30,7 +30,7 @@ STAIR_SHARES = {
 }
 """Shares of time on stairs and on the level that are averaged over recordings."""
 LEG_ERRORS = {"leg": "length of a leg, by each foot's track", "body_leg": "the same by the wearer's position"}
-"""Relative length errors of legs (straight stretches of known length, measures/legs.py), pooled over recordings."""
+"""Relative length errors of legs (straight ways of known length, measures/legs.py), pooled over recordings."""
 EVENTS = {"heel_strike": "heel-strike", "toe_off": "toe-off"}
 
 
@@ -71,7 +71,7 @@ def _position_lines(summary: Summary) -> list[tuple[str, str]]:
     entries = []
     for key, measured in POSITION_FIGURES.items():
         if key in summary.mean:
-            mean, median = (f"{number(part[key], 3)} m" for part in (summary.mean, summary.median))
+            mean, median = (f"{number(averages[key], 3)} m" for averages in (summary.mean, summary.median))
             entries.append((measured, mean if summary.count == 1 else f"mean {mean}, median {median}"))
     return entries
 
@@ -81,14 +81,14 @@ def _share_lines(summary: Summary, titles: dict[str, str]) -> list[tuple[str, st
 
 
 def _bipedal_lines(summary: Summary) -> list[tuple[str, str]]:
-    mean, median = (f"{number(part['armse_2d'], 3)} m" for part in (summary.mean, summary.median))
+    mean, median = (f"{number(averages['armse_2d'], 3)} m" for averages in (summary.mean, summary.median))
     return [(f"ARMSE2d of the {summary.count} bipedal trials", f"mean {mean}, median {median}")]
 
 
 def _stride_lines(pooled: Figures) -> list[tuple[str, str]]:
     entries = []
     if (true := pooled.get("strides_true")) is not None:
-        found, invented = (number(pooled[f"strides_{measured}"], 0) for measured in ("found", "invented"))
+        found, invented = (number(pooled[f"strides_{suffix}"], 0) for suffix in ("found", "invented"))
         entries.append(("strides", f"{found} of {number(true, 0)} found, {invented} invented"))
     if (error := pooled.get("stride_error")) is not None:
         median = percent(pooled["stride_error_median"])
@@ -100,7 +100,7 @@ def _leg_lines(pooled: Figures) -> list[tuple[str, str]]:
     entries = []
     for kind, measured in LEG_ERRORS.items():
         if pooled.get(f"{kind}_error") is not None:
-            mean, median = (percent(pooled[f"{kind}_{part}"]) for part in ("error", "error_median"))
+            mean, median = (percent(pooled[f"{kind}_{suffix}"]) for suffix in ("error", "error_median"))
             entries.append(
                 (f"{measured} ({number(pooled[f'{kind}_count'], 0)})", f"median error {median} %, mean {mean} %")
             )
@@ -114,14 +114,13 @@ def _event_lines(pooled: Figures) -> list[tuple[str, str]]:
     entries = []
     for kind, measured in EVENTS.items():
         if (true := pooled.get(f"{kind}_true")) is not None:
-            bias, mad = (milliseconds(pooled[f"{kind}_{part}"]) for part in ("bias", "mad"))
+            bias, mad = (milliseconds(pooled[f"{kind}_{suffix}"]) for suffix in ("bias", "mad"))
             figures = f"F1 {number(pooled[f'{kind}_f1'], 3)}, median offset {bias} ms, MAD {mad} ms"
             entries.append((f"{number(true, 0)} {measured}s", figures))
     return entries
 
 
 def _activity_lines(summary: Summary) -> list[tuple[str, str]]:
-    """Return titles and texts of the lines about activities."""
     pooled, entries = summary.together, []
     if (accuracy := pooled.get("accuracy")) is not None:
         entries.append(("labelled time classified correctly", f"{percent(accuracy)} %"))
@@ -133,7 +132,7 @@ def _activity_lines(summary: Summary) -> list[tuple[str, str]]:
             (f"F1 of {activity.value}", number(value, 3)) for activity, value in f1.items() if value is not None
         ]
     if rides := pooled.get("rides_true"):
-        found, invented = (number(pooled[f"rides_{measured}"], 0) for measured in ("found", "invented"))
+        found, invented = (number(pooled[f"rides_{suffix}"], 0) for suffix in ("found", "invented"))
         entries.append(
             ("lift rides, with their direction", f"{found} of {number(rides, 0)} found, {invented} invented")
         )

@@ -10,15 +10,15 @@ from ...show.tables.table import milliseconds, number, percent, table
 from ...types import Activity
 from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
 from ..evaluate.ablation import Column
-from ..evaluate.changes import DIGITS, Changes, Scores, Verdict, compare_scores, names_missing
+from ..evaluate.changes import DIGITS, SUMMARY_ROWS, Changes, Scores, Verdict, compare_scores, names_missing
 from ..evaluate.report import Result
 from ..measures.confusion import CLASSES
 from ..measures.score import Figures, Summary
 
-_metres = _share = partial(number, digits=3)
+_metres = _three_digits = partial(number, digits=3)
 _short_metres = partial(number, digits=1)
 _count = partial(number, digits=0)
-_hundredths = partial(percent, digits=2)
+_fine_percent = partial(percent, digits=2)
 
 
 def _degrees(value: float | None) -> str:
@@ -39,14 +39,14 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "relative": ("of path %", percent),
     "position_mean": ("error m", _metres),
     "position_max": ("largest m", _metres),
-    "largest_relative": ("of path %", _hundredths),
+    "largest_relative": ("largest, of path %", _fine_percent),
     "authors": ("authors' m", _metres),
     "authors_beaten": ("better %", percent),
     "end_error": ("end error m", _metres),
     "end_error_2d": ("in 2D m", _metres),
     "end_height": ("in height m", _metres),
     "position_end": ("at the end m", _metres),
-    "end_relative": ("of path %", _hundredths),
+    "end_relative": ("at the end, of path %", _fine_percent),
     "height_end": ("height at end m", _metres),
     "height_max": ("height, largest m", _metres),
     "strides_found": ("found", _count),
@@ -57,44 +57,49 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "stride_error_track": ("live track %", percent),
     "heel_strike_true": ("HS true", _count),
     "heel_strike_found": ("found", _count),
-    "heel_strike_f1": ("F1", _share),
+    "heel_strike_f1": ("F1", _three_digits),
     "heel_strike_bias": ("bias ms", milliseconds),
     "heel_strike_mad": ("MAD ms", milliseconds),
     "heel_strike_off": ("off ms", milliseconds),
     "toe_off_true": ("TO true", _count),
     "toe_off_found": ("found", _count),
-    "toe_off_f1": ("F1", _share),
+    "toe_off_f1": ("F1", _three_digits),
     "toe_off_bias": ("bias ms", milliseconds),
     "toe_off_mad": ("MAD ms", milliseconds),
     "toe_off_off": ("off ms", milliseconds),
     "stride_time_error_median": ("stride time: median ms", milliseconds),
     "stride_time_error": ("MAE ms", milliseconds),
     "stride_time_bias": ("bias ms", milliseconds),
-    "leg_error_median": ("a foot's legs: median %", percent),
+    "leg_error_median": ("legs, by foot: median %", percent),
     "leg_error": ("MAE %", percent),
     "leg_bias": ("bias %", percent),
-    "body_leg_error_median": ("the wearer's: median %", percent),
+    "body_leg_error_median": ("legs, by wearer: median %", percent),
     "body_leg_error": ("MAE %", percent),
     "body_leg_bias": ("bias %", percent),
     "leg_spread": ("spread %", percent),
     "uturn_found": ("U-turn found %", percent),
     "uturn_angle": ("off by degrees", _degrees),
-    "uturn_invented": ("invented", _share),
+    "uturn_invented": ("invented", _three_digits),
     "accuracy": ("right %", percent),
     "most_frequent": ("most freq %", percent),
-    **{f"f1_{activity.value.lower()}": (f"F1 {_activity_name(activity)}", _share) for activity in CLASSES},
+    **{f"f1_{activity.value.lower()}": (f"F1 {_activity_name(activity)}", _three_digits) for activity in CLASSES},
     "rides_true": ("rides", _count),
     "rides_found": ("found", _count),
     "rides_invented": ("invented", _count),
-    "stairs_called": ("on stairs: called so %", percent),
+    "stairs_called": ("on stairs: called stairs %", percent),
     "stairs_direction": ("direction right %", percent),
     "level_called": ("on the level: called stairs %", percent),
 }
-"""Column title and number format of every figure, by the figure's name in JSON."""
+"""Column title and number format of every figure, by the figure's name in JSON.
+
+ARMSE2d is the RMS 2D error / sqrt 2. `relative` is the error (RMS 2D, mean or end error) as a share of the path length.
+`end_error` is the distance between the ends of a closed loop, `position_end` that from the estimated to the true end.
+`authors` is the mean error of the system of the data set's authors. `stride_error_track` is the mean stride length
+error by the live positions. `off` is the median magnitude of the offsets. `uturn_invented` is a number a recording."""
 
 
 def score_table(result: Result) -> str:
-    """Return title, table and failures of a data set. The table may list recordings, and always has the averages."""
+    """Return the title, table of figures, confusion matrix and failures of a data set."""
     data_set = result.data_set
     header = ["recording", *(COLUMNS[key][0] for key in data_set.figures)]
     rows: list[Sequence[str]] = []
@@ -107,9 +112,9 @@ def score_table(result: Result) -> str:
             rows.append(_row(f"mean of {summary.count}{name}", summary.mean | summary.together, data_set.figures))
             rows.append(_row("median", summary.median, data_set.figures))
         else:
-            rows.append(_row(f"together {summary.count}{name}", summary.together, data_set.figures))
-    seconds, samples = sum(s.seconds for s in result.scores), sum(s.samples for s in result.scores)
-    speed = f"{samples} samples, {1e6 * seconds / samples:.1f} us each" if samples else "no samples"
+            rows.append(_row(f"pooled {summary.count}{name}", summary.together, data_set.figures))
+    wall_time, samples = sum(s.seconds for s in result.scores), sum(s.samples for s in result.scores)
+    speed = f"{samples} samples, {1e6 * wall_time / samples:.1f} us each" if samples else "no samples"
     title = f"{data_set.name}: {data_set.title} ({result.recipe}; {speed})"
     lines = [title, table(header, rows)]
     lines += [_confusion(summary) for summary in result.summaries if summary.group == "all" and summary.confusion]
@@ -117,7 +122,7 @@ def score_table(result: Result) -> str:
 
 
 def _confusion(summary: Summary) -> str:
-    """Return the confusion matrix: the share of each reported activity in the samples of each true one, %."""
+    """Return the confusion matrix: of the samples of each true activity, the share of each reported one, %."""
     counts = summary.confusion or {}
     reported = [activity for activity in Activity if any(activity.value in row for row in counts.values())]
     rows = []
@@ -160,22 +165,15 @@ def _main_figure(column: Column, value: float | None) -> str:
 
 
 HEADER = ("figure", "was", "is", "")
-GROUPS = ("mean", "median", "together")
 
 
 def changes_table(changes: Changes) -> str:
-    """Return the table of the groups' figures and of changed figures of recordings, and the names of new recordings."""
-    rows: list[Sequence[str]] = []
-    for change in changes.changes:
-        if change.row.split()[0] in GROUPS or change.verdict is not Verdict.SAME:
-            rows.append(
-                (
-                    f"{change.figure} ({change.row})",
-                    _format(change.earlier),
-                    _format(change.present),
-                    change.verdict.value,
-                )
-            )
+    """Return the table of summaries and of changed figures of recordings; removed and new recordings are below it."""
+    rows = [
+        (f"{change.figure} ({change.row})", _format(change.earlier), _format(change.present), change.verdict.value)
+        for change in changes.changes
+        if change.row.split()[0] in SUMMARY_ROWS or change.verdict is not Verdict.SAME
+    ]
     counts = [
         f"{sum(change.verdict is which for change in changes.changes)} {which.value}"
         for which in (Verdict.BETTER, Verdict.WORSE, Verdict.SAME)
@@ -191,7 +189,7 @@ def changes_table(changes: Changes) -> str:
 
 
 def comparison_tables(earlier: Scores, present: Scores) -> str:
-    """Return a table for each data set that is in both evaluations, and the data sets that only one of them has."""
+    """Return a table for each data set of both evaluations, and the names of data sets that only one of them has."""
     parts = [changes_table(changes) for changes in compare_scores(earlier, present)]
     removed, new = names_missing(earlier, present), names_missing(present, earlier)
     if removed:

@@ -84,8 +84,8 @@ DEVICES: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
 """Sensors of the emulated wearers, in rotation: rate in Hz, inertial sensor and mounting, or a device as it is sold."""
 EMULATED_WEARER = 2000
 """Wearer number that all emulated wearers share."""
-STILLNESS_LIMIT = 0.0
-"""Value of feature 1 (log variance of |acc| in the stillest of five blocks) above which a foot walks all the time.
+STILLNESS_FEATURE, STILLNESS_LIMIT = 1, 0.0
+"""Index of the log variance of |acc| in the stillest of five blocks, and its value above which a foot always moves.
 
 0 stands for a variance of 1 (m/s^2)^2."""
 MIN_LABEL_SHARE = 0.9
@@ -97,7 +97,7 @@ class Blocks:
     """The features, classes and wearers of blocks of half a second."""
 
     features: Floats
-    """Features, (n, COUNT)."""
+    """Features, (n, FEATURE_COUNT)."""
     classes: NDArray[np.int64]
     """Numbers of activities_net.CLASSES, (n,)."""
     wearers: NDArray[np.int64]
@@ -116,8 +116,8 @@ def blocks_of(
 ) -> Blocks:
     """Return the labelled blocks of both feet.
 
-    `only_strides` leaves out blocks without a stride. `course_spans` are the true activities of a recording from which
-    the sequence of activities is learnt too."""
+    `only_strides` leaves out blocks without a stride or with a standing foot. `course_spans` are the true activities of
+    a recording from which the sequence of activities is learnt too."""
     rows: list[list[float]] = []
     classes: list[int] = []
     t_start = samples[0].t
@@ -127,7 +127,7 @@ def blocks_of(
         for index, features, force in _features(foot, foot_samples, t_start, recipe):
             evidence.setdefault(index, {})[foot] = features, force
             activity = _block_label(label, t_start + index * BLOCK_DURATION)
-            with_stride = features[FIRST_STRIDE_FEATURE] and features[1] > STILLNESS_LIMIT
+            with_stride = features[FIRST_STRIDE_FEATURE] and features[STILLNESS_FEATURE] > STILLNESS_LIMIT
             if activity is not None and (with_stride or not only_strides):
                 rows.append(features)
                 classes.append(CLASSES[activity])
@@ -250,15 +250,15 @@ def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
     return sorted(found, key=attrgetter("t"))
 
 
-def fit_model(parts: Iterable[Blocks], note: str) -> MotionModel:
-    """Return the model that is fitted to all these blocks; `note` states the training data."""
-    used = [part for part in parts if len(part.classes)]
-    features = np.concatenate([part.features for part in used])
-    classes = np.concatenate([part.classes for part in used])
-    wearers = np.concatenate([part.wearers for part in used])
+def fit_model(sources: Iterable[Blocks], note: str) -> MotionModel:
+    """Return the model that is fitted to the blocks of all sources; `note` states the training data."""
+    used = [blocks for blocks in sources if len(blocks.classes)]
+    features = np.concatenate([blocks.features for blocks in used])
+    classes = np.concatenate([blocks.classes for blocks in used])
+    wearers = np.concatenate([blocks.wearers for blocks in used])
     full_network, accelerometer_network = fit_networks(features, classes, wearers)
     means, deviations = feature_statistics(features, classes)
-    courses = [part.course for part in used if part.course is not None]
+    courses = [blocks.course for blocks in used if blocks.course is not None]
     model = MotionModel(note, full_network, accelerometer_network, means, deviations, chances(courses), ())
     return attrs.evolve(model, shifts=shifts(courses, model))
 

@@ -2,7 +2,7 @@
 
 `Activities` detects a change in the block of half a second in which the samples fit the new activity better. People
 label the same change by other signs (the foot on the first stair, the doors of the elevator). The time shift of a
-change is the median of the difference. A course is the sequence of activities in a recording.
+change is the median of labelled minus detected time (see `shifts`). A course is the activities of a recording.
 
 Numbers without a source were chosen by hand; no sweep of them is recorded."""
 
@@ -26,7 +26,7 @@ from .activities_net import CLASSES
 from .hugadb import SPAN_GAP, Span
 
 FootEvidence = tuple[list[float], BlockForce | None]
-"""Features of a foot in a block, and its vertical forces, in which an elevator ride can be detected."""
+"""Features of a foot in a block, and the foot's vertical forces, in which an elevator ride can be detected."""
 
 DEFAULT_WEIGHT = 0.5
 """Weight of `DEFAULT_CHANCES` in a chance; the rest is the observed chance, which may not hold for other wearers."""
@@ -52,7 +52,7 @@ class LabelledCourse:
 
 
 def changes(activities: Sequence[Span]) -> list[tuple[float, Activity, Activity]]:
-    """Return time (s), activity before and activity after each change of activity."""
+    """Return the time (s), the activity before and the activity after of each change of activity."""
     return [
         (after[0], before[2], after[2]) for before, after in pairwise(activities) if after[0] - before[1] < SPAN_GAP
     ]

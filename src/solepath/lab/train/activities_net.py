@@ -54,7 +54,7 @@ def weights(classes: Numbers, wearers: Numbers) -> Floats:
 def fit_networks(features: Floats, classes: Numbers, wearers: Numbers) -> tuple[Network, Network]:
     """Return the network for feet with a gyroscope, and the network that needs only the accelerometer.
 
-    `features` (n, COUNT), `classes` (n,) (numbers of CLASSES) and `wearers` (n,) have a row for each block."""
+    `features` (n, FEATURE_COUNT), `classes` (n,) (numbers of CLASSES) and `wearers` (n,) have a row for each block."""
     has_gyro = features[:, FIRST_GYRO_FEATURE] > 0.0
     full_network = fit_network(features[has_gyro], classes[has_gyro], wearers[has_gyro])
     return full_network, fit_network(features[:, :FIRST_GYRO_FEATURE], classes, wearers)
@@ -122,10 +122,10 @@ def disturb(features: Floats, rng: np.random.Generator) -> Floats:
     noisy = features.copy()
     n = len(noisy)
     has_stride = noisy[:, FIRST_STRIDE_FEATURE] > 0.0
-    for column, size in ((2, 0.12), (5, 0.06), (6, 0.05)):
-        noisy[has_stride, FIRST_STRIDE_FEATURE + column] *= np.exp(rng.normal(0.0, size, n))[has_stride]
-    for column, size in ((3, 0.08), (4, 0.05), (8, 0.05), (9, 0.05), (10, 0.05)):
-        noisy[has_stride, FIRST_STRIDE_FEATURE + column] += rng.normal(0.0, size, n)[has_stride]
+    for feature, deviation in ((2, 0.12), (5, 0.06), (6, 0.05)):
+        noisy[has_stride, FIRST_STRIDE_FEATURE + feature] *= np.exp(rng.normal(0.0, deviation, n))[has_stride]
+    for feature, deviation in ((3, 0.08), (4, 0.05), (8, 0.05), (9, 0.05), (10, 0.05)):
+        noisy[has_stride, FIRST_STRIDE_FEATURE + feature] += rng.normal(0.0, deviation, n)[has_stride]
     noisy[rng.random(n) < STRIDE_DROPOUT, FIRST_STRIDE_FEATURE:] = 0.0
     noisy[rng.random(n) < TRACK_DROPOUT, FIRST_TRACK_FEATURE:] = 0.0
     return noisy

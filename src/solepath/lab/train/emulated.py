@@ -28,7 +28,7 @@ LAST_TRAINING_SEED = 999
 REPEATS = 2
 """Number of times that each of stairs up, stairs down, elevator up and elevator down is in a route."""
 
-RouteStretch = Callable[[Route, np.random.Generator], Route]
+RouteAddition = Callable[[Route, np.random.Generator], Route]
 
 
 def draw_route(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
@@ -37,9 +37,9 @@ def draw_route(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
     wearer, _ = random_wearer(rng)
     route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
     levels = [_make_stairs(True), _make_stairs(False), _make_elevator(True), _make_elevator(False)]
-    stretches = [*levels * REPEATS, _add_corridor, _add_corridor, _add_corridor, *[_add_jog] * jogging]
-    for k in rng.permutation(len(stretches)):
-        route = stretches[k](route, rng)
+    additions = [*levels * REPEATS, _add_corridor, _add_corridor, _add_corridor, *[_add_jog] * jogging]
+    for k in rng.permutation(len(additions)):
+        route = additions[k](route, rng)
         if rng.uniform() < 0.6:
             route = route.stand(_uniform(rng, 3.0, 10.0))
     return route.stand(4.0), wearer
@@ -63,7 +63,6 @@ def _uniform(rng: np.random.Generator, low: float, high: float) -> float:
 
 
 def _add_corridor(route: Route, rng: np.random.Generator) -> Route:
-    """Add a corridor with a corner."""
     corner = pi / 2.0 if rng.uniform() < 0.5 else -pi / 2.0
     return route.walk(_uniform(rng, 8.0, 20.0)).turn(corner, _uniform(rng, 0.0, 1.5)).walk(_uniform(rng, 6.0, 15.0))
 
@@ -72,7 +71,7 @@ def _add_jog(route: Route, rng: np.random.Generator) -> Route:
     return route.stand(2.0).jog(_uniform(rng, 25.0, 40.0), _uniform(rng, 2.3, 3.2)).stand(2.0)
 
 
-def _make_stairs(up: bool) -> RouteStretch:
+def _make_stairs(up: bool) -> RouteAddition:
     def add_stairs(route: Route, rng: np.random.Generator) -> Route:
         """Add two flights and the landing between them, from corridor to corridor."""
         rise, going = _uniform(rng, 0.14, 0.18), _uniform(rng, 0.27, 0.32)
@@ -86,7 +85,7 @@ def _make_stairs(up: bool) -> RouteStretch:
     return add_stairs
 
 
-def _make_elevator(up: bool) -> RouteStretch:
+def _make_elevator(up: bool) -> RouteAddition:
     def add_elevator(route: Route, rng: np.random.Generator) -> Route:
         """Add an elevator ride: in, turn round, up or down one to four storeys, and out."""
         height = 3.4 * float(rng.integers(1, 5))

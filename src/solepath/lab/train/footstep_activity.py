@@ -5,9 +5,9 @@
 writes footstep_activity.json beside the part. The same data give the same file.
 
 Liu et al. 2015 take the thresholds from cumulative distributions (fig. 6). Here a threshold is the value at which the
-two distributions are furthest apart. So the sum of two shares is smallest: the values of the lower class above it, and
-the values of the upper class below it. The mixture of Gaussians of an activity has one component for each source of
-data. Running is a component of walking, because it is none of the paper's activities.
+two distributions are furthest apart. It minimises the share of the lower class above it plus the share of the upper
+class below it. The mixture of Gaussians of an activity has one component for each source of data. Running is a
+component of walking, because it is none of the paper's activities.
 
 Numbers without a source were chosen by hand; no sweep of them is recorded."""
 
@@ -37,9 +37,9 @@ from .hugadb import labels, recordings
 
 ELEVATOR_RIDES = (Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
 SHRINKAGE = 0.1
-"""Share of the common covariance in the covariance of each component, which few windows determine badly."""
+"""Share of the common covariance in that of each component, because few windows alone determine a covariance badly."""
 MEDIAN_REACH = 10
-"""Number of windows before and after a standing window whose median is subtracted from its mean of a_z."""
+"""Number of windows before and after a still window; the median of their means of a_z is subtracted from its own."""
 RIDE_MARGIN = 4
 """Number of windows before and after an elevator ride that may have its pulses, because labels are about 1 s off."""
 LABEL_MARGIN = 0.5
@@ -49,10 +49,13 @@ WALK_COUNT = 12
 STILL_VARIANCE = 10.0
 """Variance of a_z, m^2/s^4, above which nobody stands; used only to learn the threshold of elevator pulses."""
 
+DEFAULT_PULSE = 1.0
+"""Pulse that stands for those of rides when the data have no ride, m/s^2."""
+
 
 @frozen
 class LabelledWindow:
-    """The windows of both feet, or of the one with samples, at the same time."""
+    """The windows at one time of both feet, or of the only foot with samples."""
 
     index: int
     """Number of the window in the recording."""
@@ -91,8 +94,8 @@ def features(
         end = (origin or 0.0) + (index + 1) * HOP
         first, middle, last = np.searchsorted(t, [end - WINDOW - LABEL_MARGIN, end - 0.5 * WINDOW, end + LABEL_MARGIN])
         during = set(activities[first:last])
-        at = activities[min(int(middle), len(activities) - 1)]
-        labelled.append(LabelledWindow(index, during.pop() if len(during) == 1 else None, at, tuple(windows)))
+        only = during.pop() if len(during) == 1 else None
+        labelled.append(LabelledWindow(index, only, activities[min(int(middle), len(activities) - 1)], tuple(windows)))
     return RecordingWindows(source, tuple(labelled))
 
 
@@ -127,7 +130,7 @@ def train(examples: Sequence[RecordingWindows], trained_on: str) -> WindowModel:
 
 
 def threshold(below: Sequence[float], above: Sequence[float]) -> float:
-    """Return the value at which the two cumulative distributions are furthest apart; the middle one of several."""
+    """Return the value at which the two cumulative distributions are furthest apart, the middle one of several."""
     low, high = np.sort(below), np.sort(above)
     places = np.unique(np.concatenate([low, high]))
     middles = 0.5 * (places[1:] + places[:-1])
@@ -165,7 +168,7 @@ def _pulses(examples: Sequence[RecordingWindows]) -> tuple[list[float], list[flo
                 ride_indices = list(ride)
                 values = deviations[max(0, ride_indices[0] - RIDE_MARGIN) : ride_indices[-1] + RIDE_MARGIN + 1]
                 riding.append(min(max(values), -min(values)))
-    return standing, riding or [1.0]
+    return standing, riding or [DEFAULT_PULSE]
 
 
 def _mixtures(examples: Sequence[RecordingWindows]) -> dict[Activity, tuple[Gaussian, ...]]:

@@ -32,23 +32,23 @@ LABELS: dict[int, Activity] = {
 Span = tuple[float, float, Activity]
 """Start (s), end (s) and activity of a span of time."""
 SPAN_GAP = 0.5
-"""Time between two samples of the same activity from which they belong to two spans, s."""
+"""Smallest time between two samples of one activity that parts them into two spans, s."""
 
 
 @frozen
-class Labelled:
+class LabelledRecording:
     """One recording and its wearer."""
 
     path: Path
     subject: int
 
 
-def recordings(folder: Path) -> list[Labelled]:
+def recordings(folder: Path) -> list[LabelledRecording]:
     """Return the recordings in the folder of hugadb, sorted by name. Raise RecordingError when they are not listed."""
     about = folder / "dataset.json"
     try:
         entries = json.loads(about.read_text(encoding="utf-8"))["recordings"]
-        found = [Labelled(folder / f"{name}.npz", int(entries[name]["subject"])) for name in sorted(entries)]
+        found = [LabelledRecording(folder / f"{name}.npz", int(entries[name]["subject"])) for name in sorted(entries)]
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise RecordingError(about, "does not say which recordings there are and who wore them") from error
     return [one for one in found if one.path.is_file()]
@@ -65,7 +65,7 @@ def labels(path: Path) -> tuple[Sequence[float], list[Activity | None]]:
 FOLDS: tuple[frozenset[int], ...] = tuple(frozenset(wearers) for wearers in ((1, 12), (3, 15), (6,), (8,), (10,)))
 """Wearers (`subject` in dataset.json) of each fold. Scores on a fold come from training on the other four.
 
-No wearer is in two folds, because a part recognises a gait that it was trained on too easily. Five wearers have all but
+No wearer is in two folds, because a part recognises too easily a gait that it was trained on. Five wearers have all but
 46 s of the recordings, so each fold has one of them. The other two are added where they change least. Wearer 12, with
 one elevator ride down, is with wearer 1, who takes no elevator. Wearer 15, with 30 s of sitting and standing, is with
 wearer 3, who has the fewest minutes after wearer 10. The folds are fixed, so that later scores can be compared."""
@@ -80,7 +80,7 @@ def fold_of(subject: int) -> int:
 
 
 def spans(t: Sequence[float], labels: Sequence[Activity | None]) -> list[Span]:
-    """Return the spans from the first to the last of consecutive samples with the same label."""
+    """Return the spans of consecutive samples with the same label, each from its first to its last sample."""
     found: list[Span] = []
     for k, (time, activity) in enumerate(zip(t, labels, strict=True)):
         if activity is not None:
