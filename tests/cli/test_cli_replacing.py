@@ -45,7 +45,7 @@ def test_a_file_is_there_as_it_was_until_it_is_kept(kept: bool, tmp_path: Path) 
     files.temporary_path(earlier).write_text("later")
     assert earlier.read_text() == "earlier"
     if kept:
-        files.keep()
+        files.move_to_targets()
     files.discard()
     assert earlier.read_text() == ("later" if kept else "earlier")
     assert list(tmp_path.iterdir()) == [earlier]

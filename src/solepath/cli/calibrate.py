@@ -16,7 +16,7 @@ from .common.files import check_writable
 from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
 MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
-"""Sentence of the help text: a calibration is merged with what FILE already has."""
+"""Sentence of the help text."""
 
 
 def add_to(commands: Any) -> None:
@@ -190,8 +190,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> LearntCalibrati
     feet = toe_out(source_of(options.file, foot_of(options)), options.distance)
     angles = ["none" if foot.angle is None else number(degrees(foot.angle)) for foot in feet]
     rows = [
-        [foot.foot.value, str(foot.steps), number(foot.along, 2), angle]
-        for foot, angle in zip(feet, angles, strict=True)
+        [one.foot.value, str(one.steps), number(one.along, 2), angle] for one, angle in zip(feet, angles, strict=True)
     ]
     lines = [table(["foot", "steps", "along the foot m", "toe-out degrees"], rows)]
     if all([foot.angle is None for foot in feet]):

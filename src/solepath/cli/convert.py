@@ -1,4 +1,4 @@
-"""`solepath convert IN OUT`: converts a phone's btsnoop log to a recording, or either to MCAP."""
+"""`solepath convert IN OUT`: converts a btsnoop log to a recording, or a log or a recording to MCAP."""
 
 from __future__ import annotations
 
@@ -165,9 +165,9 @@ def _writer_class(out: Path) -> OpenWriter:
 def _write(
     packets: Iterable[Packet], header: Mapping[str, Any], open_writer: OpenWriter, source: Path, out: Path
 ) -> tuple[int, RecordingError | None]:
-    """Write the packets to `out`; return their number, and the fault of the source that ended them, or None.
+    """Write the packets to `out`; return their number and, if the source is damaged, the error that ended them.
 
-    If no packet could be read, or not every packet be written, `out` stays as it was."""
+    If the source is damaged before its first packet, or a packet cannot be written, `out` stays as it was."""
     if out.exists() and out.samefile(source):
         raise Failure(f"{printable(str(out))}: is what is to be converted")
     damage: RecordingError | None = None
@@ -193,9 +193,7 @@ def _write(
 
 
 def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError]:
-    """Yield the packets, and at the end the error that stopped the reading, if any.
-
-    So errors of reading can be distinguished from errors of writing."""
+    """Yield the packets, then the error that stopped the reading, if any, so that it differs from errors of writing."""
     try:
         yield from packets
     except RecordingError as error:
@@ -204,11 +202,11 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError
 
 @contextmanager
 def _replacement(out: Path) -> Iterator[Path]:
-    """Yield the path of a temporary file, which replaces `out` if it is complete at the end, and else is removed."""
+    """Yield the path of a temporary file, which replaces `out` at the end, or is removed after an exception."""
     files = FileReplacements()
     try:
         yield files.temporary_path(out, read_only=True)
-        files.keep()
+        files.move_to_targets()
     except OSError as error:
         raise Failure(f"{printable(str(out))}: {os_error_text(error)}") from None
     finally:

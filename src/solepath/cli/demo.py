@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 from ..recording import PacketWriter, printable
 from ..types import Foot
 from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_seed, parse_share
-from .common.view import PageAddress, add_speed, add_view, compute_rest, play, speed_of, view_of
+from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
     from ..lab.emulated.demo import Demo
 
 REPORT_INTERVAL = 10.0
-"""Time of the walk between two lines without a terminal, s."""
+"""Time of the walk between two lines of progress without a terminal, s."""
 TERMINAL_SPEED = 2.0
-"""Speed in a terminal, in multiples of real time; it is higher than on a page, since there is less to see."""
+"""Speed in a terminal, in multiples of real time."""
 
 
 def add_to(commands: Any) -> None:
@@ -67,14 +67,14 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.gait import gait_lines
     from ..show.tables.summary import latency
 
-    view = _view(options)
-    pace = 1.0 if view is None else speed_of(options, 1.0)
+    address = _page_address(options)
+    pace = 1.0 if address is None else speed_of(options, 1.0)
     emulated_radio = radio(options.loss, options.jitter)
     if options.building:
-        demo = make_indoors(options.seed, emulated_radio, pressures=view is not None)
+        demo = make_indoors(options.seed, emulated_radio, pressures=address is not None)
     else:
         route = ROUTE if options.distance is None else straight(options.distance)
-        demo = make_demo(options.seed, route, emulated_radio, pressures=view is not None)
+        demo = make_demo(options.seed, route, emulated_radio, pressures=address is not None)
     distance = f"{demo.walk.walker.route.length:.0f} m{' through a building' if options.building else ''}"
     print(
         f"An emulated wearer walks {distance} in {demo.duration:.0f} s with an insole in each shoe; "
@@ -83,8 +83,8 @@ def run(options: argparse.Namespace) -> int:
     )
     if options.record:
         _record(demo, options.record)
-    if view is not None:
-        _show(demo, view, pace)
+    if address is not None:
+        _show(demo, address, pace)
     elif sys.stdout.isatty() and is_installed("rich"):
         _draw(demo, TERMINAL_SPEED if options.speed is None else options.speed)
     else:
@@ -99,20 +99,20 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _view(options: argparse.Namespace) -> PageAddress | None:
-    """Return the address of the page; None when the demo is shown without a page."""
+def _page_address(options: argparse.Namespace) -> PageAddress | None:
+    """Return the address of the page; None for a demo without a page."""
     if options.terminal and options.no_browser:
         raise Failure("--no-browser is for the page, and --terminal shows none")
-    view = view_of(options)
-    if view is not None or options.terminal or not sys.stdout.isatty():
-        return view
+    address = page_address_of(options)
+    if address is not None or options.terminal or not sys.stdout.isatty():
+        return address
     if is_installed("aiohttp"):
         return PageAddress(browser=not options.no_browser)
     note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
     return None
 
 
-def _show(demo: Demo, view: PageAddress, pace: float) -> None:
+def _show(demo: Demo, address: PageAddress, pace: float) -> None:
     """Show the demo on a page; when that ends, compute the rest of the walk."""
     from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
@@ -120,7 +120,7 @@ def _show(demo: Demo, view: PageAddress, pace: float) -> None:
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
     player = Player(PackedItems(demo.walk.packets), demo.session, scene, demo.plan, on_events=demo.add_events)
-    play(player, view, pace)
+    play(player, address, pace)
     compute_rest(player, "walk")
 
 
@@ -146,7 +146,7 @@ def _draw(demo: Demo, speed: float) -> None:
     console, started = Console(), monotonic()
     with screen(console) as display:
         for packet in demo.play():
-            if (wait := packet.t / speed - (monotonic() - started)) > 0.5 / FRAME_RATE:
+            if (wait := packet.t / speed - (monotonic() - started)) > 0.5 / FRAME_RATE:  # half a frame
                 display.draw(demo.observer, title())
                 sleep(wait)
             else:

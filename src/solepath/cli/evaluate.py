@@ -1,4 +1,4 @@
-"""`solepath evaluate [DIR]`: scores every recipe on recorded data with a truth, and on emulated walks, in tables."""
+"""`solepath evaluate [DIR]`: scores recipes on recorded data with a truth, on emulated walks, or on both."""
 
 from __future__ import annotations
 
@@ -79,9 +79,9 @@ def run(options: argparse.Namespace) -> int:
     from ..lab.tables.scores import ablation_table, comparison_tables, score_table
     from ..show.tables.progress import progress_bar
 
-    walks = [data_set.name for data_set in EMULATED]
+    emulated_names = [data_set.name for data_set in EMULATED]
     recorded, walked = (
-        [name for name in options.only if (name in walks) is is_emulated] for is_emulated in (False, True)
+        [name for name in options.only if (name in emulated_names) is is_emulated] for is_emulated in (False, True)
     )
     emulated = bool(walked) or options.emulated and not options.only
     default_folder = os.environ.get(ENVIRONMENT)
@@ -90,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
-    known = [by_name(name) for name in NAMES]
+    all_recipes = [by_name(name) for name in NAMES]
     chosen = [recipe_named(name) for name in options.recipe]
     if options.ablation:
         if chosen:
@@ -111,7 +111,7 @@ def run(options: argparse.Namespace) -> int:
             main_sets = {column.data_set for column in ablation.COLUMNS}
             recorded = [data_set.name for data_set in find_data_sets(folder) if data_set.name in main_sets]
         if folder is not None and (recorded or not options.only):
-            evaluations.append(evaluate(folder, chosen or known, only=recorded, **common_options))
+            evaluations.append(evaluate(folder, chosen or all_recipes, only=recorded, **common_options))
         if emulated:
             seeds = range(options.seed, options.seed + options.walks)
             evaluations.append(evaluate_emulated(chosen or [DEFAULT], seeds, only=walked, **common_options))

@@ -1,4 +1,4 @@
-"""`solepath fleet-demo`: runs emulated wearers through a stream engine that is killed, and measures the cost.
+"""`solepath fleet-demo`: runs emulated wearers through a stream engine that is killed, and measures its cost.
 
 The times below were chosen by hand and not swept."""
 
@@ -26,7 +26,7 @@ DIFFERENCE_STATUS = 1
 MAX_WALK_TIME = 3600.0
 """Longest walk that an option may request, s."""
 DEFAULT_TOTAL_TIME, MIN_DEFAULT_TIME, MAX_DEFAULT_TIME = 1200.0, 4.0, 20.0
-"""Default walking time of all wearers together, and its least and greatest value for each wearer, s."""
+"""Default walking time of all wearers together, and the least and the greatest default of each wearer, s."""
 
 
 def add_to(commands: Any) -> None:
@@ -97,9 +97,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def run_all(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
-    """Do all runs, print each as it ends, and return the differences of the uninterrupted run.
-
-    They are differences of its events from those of the sessions without an engine."""
+    """Do all runs, print each as it ends, and return how the uninterrupted run differs from plain sessions."""
     from .fleet_table import effect_line, kill_lines
 
     plan = stage.plan
@@ -132,8 +130,8 @@ def _counted(count: int, singular: str, plural: str) -> str:
 def verdict(alone: list[str], killed: list[list[str]]) -> int:
     """Return the exit status, and print the differences if it is not 0.
 
-    `alone` are the differences between the uninterrupted run and the sessions without an engine; `killed` are those
-    between the uninterrupted run and each killed run."""
+    `alone` are the differences of sessions without an engine, `killed` those of each killed run, all from the
+    uninterrupted run."""
     lines = [f"sessions alone: {line}" for line in alone]
     lines += [f"killed run {number}: {line}" for number, run_lines in enumerate(killed, 1) for line in run_lines]
     if lines:
@@ -142,7 +140,7 @@ def verdict(alone: list[str], killed: list[list[str]]) -> int:
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Raise Failure at once for options that would otherwise fail only later."""
+    """Raise Failure for options that would otherwise fail only later."""
     recipe_named(options.recipe)
     if options.seconds is not None and options.seconds > MAX_WALK_TIME:
         raise Failure(f"--seconds {options.seconds:g}: {MAX_WALK_TIME:g} is the most")
@@ -161,7 +159,7 @@ def _check(options: argparse.Namespace) -> None:
 
 @contextmanager
 def _directory(options: argparse.Namespace) -> Iterator[Path]:
-    """Yield the directory of the runs; at the end it is removed, unless --keep was given."""
+    """Yield the directory of the runs, DIR/runs or a temporary one; without --keep it is removed at the end."""
     is_new = options.out is not None and not options.out.exists()
     if options.out is not None:
         options.out.mkdir(parents=True, exist_ok=True)

@@ -27,7 +27,7 @@ def kill_lines(engine: Engine, run: int, outcome: Outcome) -> list[str]:
 
 
 def effect_line(outcomes: list[Outcome]) -> str:
-    """Return a sentence on how many kills had an effect that the run had to recover from."""
+    """Return a sentence on how many kills had an effect from which the engine had to recover."""
     costs = [cost for outcome in outcomes for cost in outcome.costs]
     if not costs:
         return "nothing was killed"

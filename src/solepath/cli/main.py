@@ -1,6 +1,7 @@
-"""`solepath`: the parser, and the handling of errors of all commands.
+"""`solepath`: parses the command line, runs the command and reports its errors.
 
-Exit status: 0 for success; 2 for an error in the command line or a file, with one line on stderr; 130 if interrupted.
+Exit status: 0 for success; 1 if `fleet-demo` found different events; 2 for an error in the command line or a file, with
+one line on stderr; 130 if interrupted before all input was processed.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from . import calibrate, convert, demo, evaluate, fleet_demo, reproduce, track
 from .bluetooth import emulate, live, scan
 from .common.failure import Failure, note
 
-COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate, reproduce, fleet_demo)
+COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate, reproduce, fleet_demo)  # live adds record
 
 
 def parser() -> argparse.ArgumentParser:
@@ -49,7 +50,7 @@ def run(arguments: Sequence[str] | None) -> int:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return the exit status; errors become a line on stderr."""
-    _open_closed()
+    _replace_closed_streams()
     try:
         status = run(arguments)
         sys.stdout.flush()
@@ -59,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
-        # the reader closed the pipe; without this line Python would report that again when it closes stdout
+        # the other end of the pipe was closed; without this line Python would report that again when it closes stdout
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
@@ -67,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 2
 
 
-def _open_closed() -> None:
+def _replace_closed_streams() -> None:
     """Open /dev/null for each standard stream that was closed before the start; Python sets such a stream to None."""
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:

@@ -13,7 +13,7 @@ from .common.failure import Failure, parse_count, parse_seed, require
 from .common.files import check_writable, write_json
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
-"""Names of the experiments, each a module of lab.reproduce; only the requested one is imported."""
+"""Names of the experiments; each has a module in lab.reproduce."""
 
 
 def add_to(commands: Any) -> None:

@@ -22,7 +22,17 @@ from .common.inputs import (
     foot_of,
     source_of,
 )
-from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, newtons_of, play, speed_of, view_of
+from .common.view import (
+    PageAddress,
+    add_speed,
+    add_view,
+    compute_rest,
+    need_page,
+    newtons_of,
+    page_address_of,
+    play,
+    speed_of,
+)
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -31,7 +41,7 @@ if TYPE_CHECKING:
 MIN_PROGRESS_SIZE = 4_000_000
 """Size of a recording of packets above which there is a progress bar, bytes; chosen by hand."""
 MIN_PROGRESS_SAMPLES = 40_000
-"""Number of samples above which there is a progress bar: about a second of computing."""
+"""Number of samples above which there is a progress bar."""
 
 
 def add_to(commands: Any) -> None:
@@ -69,8 +79,8 @@ def run(options: argparse.Namespace) -> int:
     recipe = recipe_named(options.recipe)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
-    view = view_of(options)
-    pace = 1.0 if view is None else speed_of(options, 1.0)
+    address = page_address_of(options)
+    pace = 1.0 if address is None else speed_of(options, 1.0)
     source = source_of(options.file, foot_of(options))
     check_pressure(recipe, source)
     plan, start = floorplan_of(options)
@@ -78,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
         recipe,
         calibration=calibration,
         poses=True,
-        pressures=view is not None or options.report is not None,
+        pressures=address is not None or options.report is not None,
         floorplan=plan,
         start=start,
     )
@@ -93,12 +103,12 @@ def run(options: argparse.Namespace) -> int:
     )
     seconds, shown = 0.0, False
     with stop_signals_raise(), results:
-        if view is None:
+        if address is None:
             seconds = _run_directly(recording, session, results)
         else:
-            shown = _run_on_page(recording, session, results, plan, calibration, view, pace)
+            shown = _run_on_page(recording, session, results, plan, calibration, address, pace)
         if recording.failure is None or results.observer.item_count:
-            results.print(seconds)
+            results.write_and_print(seconds)
     if recording.failure is None:
         return 0
     if shown:
@@ -107,7 +117,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _start_text(source: Source) -> str:
-    """Return the date and time at which the recording started, as text; "" when it is not known."""
+    """Return the date and time at which the recording started, as text; "" if they are not known."""
     if source.samples is not None:
         return ""
     try:
@@ -118,9 +128,7 @@ def _start_text(source: Source) -> str:
 
 
 class _Recording:
-    """The packets or samples of a recording up to the first fault, with a progress bar for a long recording.
-
-    `failure` is the fault, None when there was none."""
+    """The packets or samples of a recording up to the first fault, which `failure` then holds."""
 
     def __init__(self, source: Source) -> None:
         self.source = source
@@ -150,7 +158,7 @@ def _run_directly(recording: _Recording, session: Session, results: Results) -> 
         results.add(item, session.feed(item))
     if recording.failure is None:
         results.open_files()  # for a recording without items
-    # the items before a fault in the file count as a whole walk, which is finished and written
+    # the items before a fault count as a whole walk
     results.add(None, session.finish())
     return perf_counter() - start
 
@@ -161,13 +169,13 @@ def _run_on_page(
     results: Results,
     plan: IndexedPlan | None,
     calibration: Calibration | None,
-    view: PageAddress,
+    address: PageAddress,
     pace: float,
 ) -> bool:
     """Play the recording on a page; return whether there was anything to play.
 
-    The player passes every item to `results` once and in order, whatever is done on the page; what was not played is
-    computed at the end. The results are those of `_run_directly`."""
+    The results are those of `_run_directly`, whatever was played: `results` gets every item once and in order, those
+    that were not played at the end."""
     from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
@@ -187,6 +195,6 @@ def _run_on_page(
     if shown:
         if fault:
             note(fault)
-        play(player, view, pace)
+        play(player, address, pace)
     compute_rest(player, "recording")
     return shown

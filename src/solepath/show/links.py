@@ -1,9 +1,8 @@
 """Counts what came over each sensor's link: packets, losses, sample rate, gaps and silences.
 
-Terminal, page, report and summary read their figures of links from here, and only this file defines them. They are
-counted from the packets that a session was fed and from the events that it reported.
-
-Numbers without a source were chosen by hand and not swept."""
+Only this file defines the figures of links that terminal, page, report and summary show. They are counted from the
+packets that a session was fed and from the events that it reported. Numbers without a source were chosen by hand and
+not swept."""
 
 from __future__ import annotations
 
@@ -33,18 +32,19 @@ from ..types import Packet
 from ..wire.fragment import is_fragment
 
 SET_BACK_TOLERANCE = 1.0
-"""Longest time by which a moment may lie before the latest one, s; a moment farther back means that the clock was set
-back."""
+"""Longest time by which a moment may lie before the latest one, s; farther back, the clock was set back."""
 RATE_WINDOW = 2.0
 """Time over which the recent sample rate is counted, s."""
+MIN_RATE_TIME = 0.5 * RATE_WINDOW
+"""Least time by which the number of recent samples is divided, s: a stream that has just started is not fast."""
 MAX_RATE_SAMPLES = 1000
 """Largest number of samples that the recent rate counts: 500 a second."""
 LOSS_WINDOW = 10
-"""Time over which the recent loss is counted, in whole seconds; an outage that ended earlier no longer counts."""
+"""Time over which the recent loss is counted, in whole seconds."""
 SILENCE_TIME = 1.5
-"""Time without a sample after which a link counts as silent, with or without a report of the session, s."""
+"""Time without a sample after which a link counts as silent, even if the session has not reported it yet, s."""
 STRAGGLER_TIME = 1.0
-"""Time after a broken connection in which a late sample does not mean that there is a new connection, s."""
+"""Time after the end of a connection within which a sample does not mean that there is a new connection, s."""
 
 
 def is_sample_channel(channel: str) -> bool:
@@ -60,33 +60,33 @@ def is_frame_fragment(packet: Packet) -> bool:
 
 @define
 class CoveredTime:
-    """The total duration of stretches of time, s; a stretch ends where a clock is set back."""
+    """The total duration of spans of time, s; a span ends where a clock is set back."""
 
-    stretch_count: int = 0
-    stretch_start: float | None = None
-    """Start of the present stretch, s; None between two stretches."""
-    stretch_end: float = 0.0
-    """Latest moment of the present stretch, s."""
+    span_count: int = 0
+    span_start: float | None = None
+    """Start of the present span, s; None between two spans."""
+    span_end: float = 0.0
+    """Latest moment of the present span, s."""
     _ended_time: float = 0.0
-    """Total duration of the stretches that have ended, s."""
+    """Total duration of the spans that have ended, s."""
 
     def add(self, t: float) -> None:
         """Add the moment `t` of a packet or sample, s."""
-        if self.stretch_start is not None and t < self.stretch_end - SET_BACK_TOLERANCE:
+        if self.span_start is not None and t < self.span_end - SET_BACK_TOLERANCE:
             self.close()
-        if self.stretch_start is None:
-            self.stretch_count += 1
-            self.stretch_start = self.stretch_end = t
-        self.stretch_start, self.stretch_end = min(self.stretch_start, t), max(self.stretch_end, t)
+        if self.span_start is None:
+            self.span_count += 1
+            self.span_start = self.span_end = t
+        self.span_start, self.span_end = min(self.span_start, t), max(self.span_end, t)
 
     def close(self) -> None:
-        """End the stretch: the next moment starts another one."""
-        self._ended_time, self.stretch_start = self.total, None
+        """End the span: the next moment starts another one."""
+        self._ended_time, self.span_start = self.total, None
 
     @property
     def total(self) -> float:
-        """Total duration of all stretches, s."""
-        return self._ended_time + (0.0 if self.stretch_start is None else self.stretch_end - self.stretch_start)
+        """Total duration of all spans, s."""
+        return self._ended_time + (0.0 if self.span_start is None else self.span_end - self.span_start)
 
 
 @define
@@ -113,27 +113,26 @@ class RecentLoss:
 
 @define
 class LinkLedger:
-    """The counts of the link of one site since the start.
+    """The counts of the link of one site since the start, in bounded memory.
 
-    Times are arrivals in s, unless a field says otherwise. Memory is bounded. `is_counted` says whether samples of this
-    site are counted: the samples of a foot always are, those of another site from its first packet on."""
+    Times are arrivals in s, unless a field says otherwise. `is_counted` says whether samples of this site are counted:
+    always for a foot, for another site from its first sample on."""
 
     is_counted: bool = True
     received: int = 0
-    """Packets of samples that came and were used. A frame that is sent in fragments is one packet; it is counted with
-    the fragment that completes a sample. The count is 0 where samples are fed without packets, and for a device that
-    only the app knows."""
+    """Packets of samples that came and were used. The fragments of a frame count as one packet, when a sample is
+    complete. The count is 0 where samples are fed without packets, and for a device that only the app knows."""
     lost: int = 0
-    """Packets of samples that never came (PacketsLost): by the device's counter, or for a device without one by the
-    time between arrivals. A packet that was rejected because it came twice or late is not lost. A packet that came
-    damaged, or that the receiver dropped, is missing in the counter and therefore lost."""
+    """Packets of samples that never came (PacketsLost), found by the device's counter or, without one, by the time
+    between arrivals. A packet that was rejected because it came twice or late is not lost. A packet that came damaged,
+    or that the receiver dropped, counts as lost."""
     dropped: int = 0
     """Packets that came and were discarded because the program did not read them in time (PacketsDropped)."""
     rejected: Counter[tuple[str, str]] = field(factory=Counter)
     """Number of PacketRejected and SampleRejected by ("packets" or "samples", reason)."""
     samples: int = 0
-    """Number of used samples with different times. A sample of a foot counts when the session reported its position or
-    pressure (FootMoved, FootPressed) or when it was fed as a sample. For another site, all samples in its packets
+    """Number of used samples with different times. A sample of a foot counts when it was fed as a sample, or when the
+    session reported its position or pressure (FootMoved, FootPressed). For another site, all samples in its packets
     count."""
     has_motion: bool = False
     """True from the first sample of an inertial sensor on."""
@@ -142,14 +141,14 @@ class LinkLedger:
     gaps: int = 0
     """Gaps between samples that are longer than the sensor's rate allows (SampleGap)."""
     gap_time: float = 0.0
-    """Total duration of the gaps, each from the last sample before it to the first one after it, s."""
+    """Total duration of the gaps, s."""
     silences: int = 0
     """Number of times that nothing came for longer than the link allows (StreamStale)."""
     connections: int = 0
     clock_resets: int = 0
     """Number of times that the device's or the receiver's clock jumped or restarted (ClockReset)."""
     restarts: int = 0
-    """Number of times that the receiver set up a connected device again because it sent nothing."""
+    """Number of times that a connected device was set up again because it sent nothing (StreamRestarted)."""
     battery: float | None = None
     """Charge of the battery as the device last reported it, 0 to 1."""
     name: str = ""
@@ -163,21 +162,21 @@ class LinkLedger:
     broken_at: float | None = None
     """Moment at which the connection broke, s; None while there is a connection."""
     _has_samples: bool = False
-    """True from the first sample over this connection on."""
+    """True from the first sample of the present connection on."""
     _stale: bool = False
     """True after the session has reported that nothing comes any more."""
     _t: float | None = None
     """Time of the newest sample by its own clock, s."""
     _covered: CoveredTime = field(factory=CoveredTime)
-    """Time covered by the samples' own times; silences and restarted clocks split it into stretches."""
+    """Time covered by the samples' own times; silences and restarted clocks split it into spans."""
     _gaps_covered: int = 0
-    """Gaps that lie within a stretch of covered time."""
+    """Number of gaps that lie within a span of covered time."""
     _gap_time_covered: float = 0.0
-    """Total duration of the gaps that lie within a stretch of covered time, s."""
+    """Total duration of the gaps that lie within a span of covered time, s."""
     _recent: deque[float] = field(factory=lambda: deque(maxlen=MAX_RATE_SAMPLES))
     """Arrivals of the newest samples, s."""
     _recent_start: float = 0.0
-    """Arrival of the first sample after `_recent` was empty, s: a stream that has just started is not slow."""
+    """Arrival of the first sample after `_recent` was empty, s: the time before it does not lower the rate."""
     _losses: RecentLoss = field(factory=RecentLoss)
 
     def add_packet(self, t: float) -> None:
@@ -215,7 +214,7 @@ class LinkLedger:
             case SampleGap(duration=duration):
                 self.gaps += 1
                 self.gap_time += duration
-                if self._covered.stretch_start is not None:
+                if self._covered.span_start is not None:
                     self._gaps_covered += 1
                     self._gap_time_covered += duration
             case ClockReset():
@@ -245,10 +244,10 @@ class LinkLedger:
 
     @property
     def rate(self) -> float | None:
-        """Samples a second since the start, without gaps and silences; None for fewer than two samples in a row."""
-        span = self._covered.total - self._gap_time_covered
-        intervals = self.samples - self._covered.stretch_count - self._gaps_covered
-        return intervals / span if span > 0.0 and intervals > 0 else None
+        """Samples a second since the start, gaps and silences left out; None without two consecutive samples."""
+        time = self._covered.total - self._gap_time_covered
+        intervals = self.samples - self._covered.span_count - self._gaps_covered
+        return intervals / time if time > 0.0 and intervals > 0 else None
 
     def recent_rate(self, now: float) -> float | None:
         """Return the samples a second in the RATE_WINDOW before `now`, s; None where samples are not counted."""
@@ -256,7 +255,7 @@ class LinkLedger:
             self._recent.popleft()
         if not self.is_counted:
             return None
-        return len(self._recent) / min(RATE_WINDOW, max(now - self._recent_start, 0.5 * RATE_WINDOW))
+        return len(self._recent) / min(RATE_WINDOW, max(now - self._recent_start, MIN_RATE_TIME))
 
     @property
     def loss(self) -> float | None:
@@ -270,8 +269,8 @@ class LinkLedger:
     def state(self, now: float) -> str:
         """Return the state of the link at `now`, s: "waiting", "ok", "silent" or "lost".
 
-        A link is "waiting" before the first sample over this connection, "silent" when nothing comes any more, and
-        "lost" when the connection is broken."""
+        A link is "waiting" before the first sample of its connection, "silent" when nothing comes any more, and "lost"
+        when the connection is broken. While its samples are not counted, it is "ok"."""
         if self.broken_at is not None:
             return "lost"
         if self._stale:

@@ -4,9 +4,8 @@
     observer.take(packet, session.feed(packet))
     observer.take(None, session.finish())
 
-Terminal, summary, page and report read from it. links.py defines what counts as lost or rejected, and what a rate is.
-An item is a packet or a sample. Numbers without a source were chosen by hand and not swept.
-"""
+Terminal, summary, page and report show its counts; links.py defines those of links. An item is a packet or a sample.
+Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -62,7 +61,7 @@ GAIT_EVENTS: dict[type[Event], str] = {
 REJECTIONS = (PacketRejected, SampleRejected)
 """Events of packets and samples that were not used; they do not advance the time."""
 UNLIMITED_STRIDES = 10**9
-"""Number of strides that nobody reaches, so that means are over all strides with equal weights."""
+"""Memory of the running means, in strides, that no walk reaches, so that all strides have equal weights."""
 MAX_NAMED_CELLS = 8
 """Largest number of cells that a sentence names one by one."""
 MAX_SENTENCES = 100
@@ -78,7 +77,7 @@ class FootCounts:
     strides: int = 0
     """Number of final strides."""
     degraded: int = 0
-    """Number of final strides with missing or saturated samples."""
+    """Number of final strides that are degraded."""
     distance: float = 0.0
     """Sum of the stride lengths, m."""
     events: Counter[type[Event]] = field(factory=Counter)
@@ -97,9 +96,9 @@ class Observer:
     item_count: int = 0
     """Number of items that were fed, used or not."""
     now: float = -inf
-    """Latest known moment, s. When a clock is set back, it goes back too."""
+    """Latest known moment, s; it goes back when a clock is set back."""
     covered_time: CoveredTime = field(factory=CoveredTime)
-    """Time from the first to the last used item, s. The time of a packet is its arrival; that of a sample its own."""
+    """Time from the first to the last used item, s: for packets by their arrivals, for samples by their own times."""
     links: dict[Site, LinkLedger] = field(factory=dict)
     """Ledger of every site that has sent anything."""
     feet: dict[Foot, FootCounts] = field(factory=dict)
@@ -109,7 +108,7 @@ class Observer:
     gait: GaitMeans = field(factory=GaitMeans)
     """Means of all steady strides, with equal weights."""
     recent_gait: GaitMeans = field(factory=GaitMeans)
-    """Means of the steady strides as in `Session.gait`: older strides weigh less."""
+    """Means of the steady strides as in `Session.gait`, in which older strides weigh less."""
     places: PlaceCounts = field(factory=PlaceCounts)
     fused: StrideFused | None = None
     """The last StrideFused: the distance walked by both feet."""
@@ -121,7 +120,7 @@ class Observer:
     """Number of elevator rides upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
     latencies: dict[type[Event], Counter[int]] = field(factory=lambda: {kind: Counter() for kind in GAIT_EVENTS})
-    """For each gait event, how often each latency occurred; a latency is in 0.1 ms."""
+    """For each gait event, how often each latency occurred; latencies are in units of 0.1 ms."""
     limitations: list[str] = field(factory=list)
     """Different sentences on limitations of the session."""
     suspect_scales: list[str] = field(factory=list)
@@ -144,7 +143,7 @@ class Observer:
             self.add(event)
 
     def count_item(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """Count an item but not its events, which only tell whether it was used; `add` counts events."""
+        """Count an item; its events are not counted here, but show whether it was used."""
         if item is None:
             return
         self.item_count += 1
@@ -171,7 +170,7 @@ class Observer:
             self.now = now
 
     def add(self, event: Event) -> bool:
-        """Count the next event of the session, in the order of reporting; return False when it is left out."""
+        """Count the next event of the session; return False if it is left out, for a number that is not finite."""
         if not has_valid_numbers(event):
             return False
         if not isinstance(event, REJECTIONS):
@@ -283,7 +282,7 @@ def _add_new_sentence(sentences: list[str], sentence: str) -> None:
 
 
 def _cell_words(numbers: tuple[int, ...]) -> str:
-    """Return the cells in words: their numbers, or only their count when there are more than MAX_NAMED_CELLS."""
+    """Return the numbers of the cells in words, or only their count if there are more than MAX_NAMED_CELLS."""
     if len(numbers) > MAX_NAMED_CELLS:
         return f"{len(numbers)} cells"
     return f"cell{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"

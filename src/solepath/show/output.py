@@ -1,4 +1,4 @@
-"""Writes the files of `track`: events.jsonl, track.csv, strides.csv and gait_cycles.csv, with a floor plan places.csv.
+"""Writes events.jsonl, track.csv, strides.csv and gait_cycles.csv and, with a floor plan, places.csv.
 
 events.jsonl is for programs, in SI units and radians. The tables are for people, with the unit of a column in its
 header and angles in degrees. Times are on the recording's clock, written so that reading gives the same float again.
@@ -89,7 +89,7 @@ def _place_row(event: Placed) -> list[str]:
 
 @contextmanager
 def os_errors_naming(path: Path) -> Iterator[None]:
-    """Name `path` in every OSError within the context: for a full disk the system does not name the file."""
+    """Name `path` in every OSError within the context; the system does not name the file when the disk is full."""
     try:
         yield
     except OSError as error:
@@ -103,9 +103,9 @@ class TrackFiles:
     Files of an earlier run are replaced. A FootMoved is a row of track.csv, a final StrideTaken one of strides.csv, a
     GaitCycleMeasured one of gait_cycles.csv. A Placed is a row of places.csv with its heaviest candidate and the number
     of candidates. Every event except a LiveEvent is a line of events.jsonl. `places` says that the session has a floor
-    plan; without one there is no places.csv. `path_to_write` turns the path of a file into the path to write, such as
-    that of a temporary file which is renamed in the end; None writes to the path itself. Every method raises OSError,
-    naming the directory, when the files cannot be made or written (the disk is full)."""
+    plan; without one there is no places.csv. `path_to_write` returns for the path of a file the path to write, such as
+    a temporary file that is renamed later; None writes to the path itself. Every method raises OSError, naming the
+    directory, when the files cannot be made or written."""
 
     directory: Path
     places: bool = False

@@ -18,7 +18,7 @@ class PlaceCounts:
     """Number of final strides of both feet."""
     places: int = 0
     decided_count: int = 0
-    """Number of decided places: those with one candidate only."""
+    """Number of decided places, which have one candidate only."""
     first_decided: tuple[int, float] | None = None
     """Number of strides before the first decided place, and its time, s."""
     level_starts: list[tuple[float, str]] = field(factory=list)

@@ -25,8 +25,8 @@ class Timeline:
     def add(self, event: ActivityChanged, max_count: int | None = None) -> None:
         """Add the next event, in the order in which they were reported.
 
-        With more changes than `max_count`, the shortest activities are left out until at most half of `max_count` are
-        left; their time goes to the activity before. None keeps all."""
+        With more activities than `max_count`, the shortest are left out until at most half of `max_count` are left; the
+        time of one that is left out goes to the activity before it. None keeps all."""
         if event.revises is not None:
             self._cut(event.revises)
         self._cut(event.t)
@@ -38,7 +38,7 @@ class Timeline:
 
     @property
     def last(self) -> tuple[float, Activity]:
-        """Start, s, and kind of the last reported activity; (0, UNKNOWN) before the first."""
+        """Last reported activity, after its start, s; (0, UNKNOWN) before the first."""
         if not self._starts:
             return 0.0, Activity.UNKNOWN
         k = len(self._starts) - 1

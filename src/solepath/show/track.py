@@ -9,7 +9,7 @@ from attrs import define, field
 from ..types import Foot
 
 FIRST_SPACING = 0.15
-"""First distance between two points of a foot, m, chosen by hand; it doubles whenever there are MAX_POINTS."""
+"""Distance between two points of a foot at first, m, chosen by hand; it doubles whenever there are MAX_POINTS."""
 MAX_POINTS = 2000
 """Largest number of points of both feet, chosen by hand."""
 

@@ -10,13 +10,13 @@ import attrs
 from ..events import Event, FootMoved, FootPressed, GaitCycleMeasured
 
 MAX_MAGNITUDE = 1e12
-"""Limit of every number of an event, in its SI unit; a larger number counts as not finite. Chosen by hand."""
+"""Magnitude from which a number of an event counts as not finite, in its SI unit; chosen by hand."""
 MIN_STRIDE_TIME = 1e-3
 """Shortest stride time that is accepted, s; chosen by hand."""
 
 
 def has_valid_numbers(event: Event) -> bool:
-    """Return whether every number in an event is finite; the events of every sample have a fast path."""
+    """Return whether every number in an event is finite; the events of each sample have a fast path."""
     match event:
         case FootMoved(t=t, known_at=known_at, position=(x, y, z)):
             return abs(t) + abs(known_at) + abs(x) + abs(y) + abs(z) < MAX_MAGNITUDE
@@ -29,7 +29,7 @@ def has_valid_numbers(event: Event) -> bool:
 
 
 def is_valid(value: Any) -> bool:
-    """Return whether every number in a record is finite and smaller than LARGEST."""
+    """Return whether every number in a record is finite and smaller than MAX_MAGNITUDE."""
     if isinstance(value, float):
         return isfinite(value) and abs(value) < MAX_MAGNITUDE
     if isinstance(value, tuple):

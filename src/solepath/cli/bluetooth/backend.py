@@ -1,4 +1,4 @@
-"""Opens the Bluetooth of a command, listens for a time, and turns errors of Bluetooth into one line."""
+"""Opens the Bluetooth that a command uses, receives packets for a time, and turns errors of Bluetooth into Failure."""
 
 from __future__ import annotations
 
@@ -44,9 +44,7 @@ async def backend_of(via: str | None) -> AsyncIterator[Backend]:
 async def packets_until(
     packets: AsyncIterable[Packet], stop: asyncio.Event, seconds: float | None
 ) -> AsyncIterator[Packet]:
-    """Yield `packets` until `stop` is set or `seconds` have passed; None means without a limit.
-
-    Both are checked at each packet; devices send at least four packets a second."""
+    """Yield `packets` until `stop` is set or `seconds` have passed (None: no limit), as checked at each packet."""
     loop = asyncio.get_running_loop()
     end = None if seconds is None else loop.time() + seconds
     async for packet in packets:

@@ -1,4 +1,4 @@
-"""Defines the options of the devices that a command listens to, of the Bluetooth, and of the time.
+"""Defines the options of commands that use Bluetooth: the devices, the Bluetooth itself, and the time.
 
 The times below were chosen by hand and not swept."""
 
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from ...ble import Advertisement, DeviceConfig
 
 SCAN_TIME = 4.0
-"""Time of the search for devices when none was named, s."""
+"""Time of the search for devices, s."""
 LISTEN_TIME = 30.0
-"""Time for which a command listens when there is no terminal to end it from and no --duration, s."""
+"""Time for which a command listens without a terminal and without --duration, s."""
 SERVE_TIME = 600.0
-"""Time for which emulated devices are served when there is no terminal and no --duration, s."""
+"""Time for which emulated devices are served without a terminal and without --duration, s."""
 
 
 def add_via(command: argparse.ArgumentParser) -> None:
@@ -64,14 +64,14 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
     named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
     sites = {site.value: site for site in Site}
     for text in options.at:
-        site, equals, which = text.partition("=")
-        if site not in sites or not which:
+        site, _, device = text.partition("=")
+        if site not in sites or not device:
             raise Failure(f"--at {text}: that is not SITE=DEVICE, SITE one of {', '.join(sites)}")
-        named.append((sites[site], which))
+        named.append((sites[site], device))
     if options.profile is not None and options.profile not in BY_NAME:
         raise Failure(f"there is no profile {options.profile!r}; there are: {', '.join(BY_NAME)}")
     profile = BY_NAME.get(options.profile)
-    devices = [DeviceConfig(site, which, profile) for site, which in named if which]
+    devices = [DeviceConfig(site, device, profile) for site, device in named if device]
     try:
         if devices:
             check_configs(devices)
@@ -83,8 +83,8 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
 def choose_devices(found: list[Advertisement], kind: str | None) -> list[DeviceConfig]:
     """Return the devices to listen to when none was named; raise Failure where the choice is not clear.
 
-    If any insole is found, the devices are two insoles, which report their feet themselves; else the only device found,
-    on the right foot as in `track`. `kind` is the profile that was named; None for any."""
+    If an insole is found, they are two insoles, which report their feet themselves. Otherwise it is the only device
+    that is found, on the right foot as in `track`. `kind` is the name of the profile; None for any."""
     from ...ble import DeviceConfig
     from ...link.catalogue import BY_NAME
     from ...link.devices.insole import PROFILE as INSOLE

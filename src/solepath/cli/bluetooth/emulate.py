@@ -1,4 +1,4 @@
-"""`solepath emulate`: serves emulated devices over true Bluetooth protocols."""
+"""`solepath emulate`: serves virtual Bluetooth controllers with emulated devices over TCP."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .devices import SERVE_TIME, add_duration
 DEFAULT_ADDRESS = "127.0.0.1:9735"
 DEVICE_KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
 DEFAULT_DISTANCE = 300.0
-"""Distance that the wearer walks by default, m: about four minutes of walking."""
+"""Distance that the wearer walks by default, m: about four minutes."""
 
 
 def add_to(commands: Any) -> None:

@@ -23,9 +23,11 @@ from .devices import SERVE_TIME
 MAX_DISTANCE = 5000.0
 """Longest walk, m; a longer one would take minutes and gigabytes to compute."""
 RESTART_DELAY = 10.0
-"""Time without a connection after which the next connection restarts the walk, s."""
+"""Time without a connection after which the next connection starts the walk again, s."""
 REPORT_INTERVAL, REDRAW_INTERVAL = 10.0, 1.0
 """Time between two lines on the state, s: without a terminal, and in a terminal."""
+POLL_INTERVAL = 0.01
+"""Time between two checks of the connections, s."""
 SLOW_DISTANCE = 500.0
 """Distance above which computing the walk takes some seconds, m."""
 WALK_DELAY = 1.0
@@ -33,7 +35,7 @@ WALK_DELAY = 1.0
 
 
 def prepare_bench(options: argparse.Namespace) -> Bench:
-    """Return the devices and their wearer, who stands; raise Failure for options that cannot be emulated."""
+    """Return the devices on a wearer whose walk is computed; raise Failure for options that cannot be emulated."""
     if options.distance > MAX_DISTANCE:
         raise Failure(f"--distance {options.distance:g}: {MAX_DISTANCE:g} m is as far as emulated wearers walk")
     if not 23 <= options.mtu <= 517:
@@ -93,7 +95,7 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
 
 
 async def _print_status(bench: Bench) -> None:
-    """Print the state: in a terminal one line that changes, else a line every REPORT_INTERVAL s."""
+    """Print the state: in a terminal on one line that changes, else on a new line every REPORT_INTERVAL s."""
     loop = asyncio.get_running_loop()
     started, live = loop.time(), sys.stdout.isatty()
     try:
@@ -113,7 +115,7 @@ def _state(peripheral: Peripheral) -> str:
 
 
 async def _walk_when_connected(bench: Bench) -> None:
-    """Start the walk at the first connection, and restart it at the next one after RESTART_DELAY s without any."""
+    """Start the walk at each connection that follows more than RESTART_DELAY s without any connection."""
     loop = asyncio.get_running_loop()
     unconnected_since: float | None = float("-inf")
     while True:
@@ -124,4 +126,4 @@ async def _walk_when_connected(bench: Bench) -> None:
             if now - unconnected_since > RESTART_DELAY:
                 bench.walk_from(now + WALK_DELAY)
             unconnected_since = None
-        await asyncio.sleep(0.01)
+        await asyncio.sleep(POLL_INTERVAL)

@@ -1,4 +1,4 @@
-"""`solepath live` and `solepath record`: receive devices while they are worn."""
+"""`solepath live` and `solepath record`: receive packets from devices while they are worn."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 from ..common.failure import recipe_named
 from ..common.inputs import add_calibration, add_floorplan, calibration_of, floorplan_of
-from ..common.view import add_view, need_page, view_of
+from ..common.view import add_view, need_page, page_address_of
 from .devices import add_devices, need_bleak
 
 
@@ -50,14 +50,14 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Receive the devices; return the exit status."""
+    """Receive from the devices; return the exit status."""
     recipe = recipe_named(options.recipe)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
-    view = view_of(options)
+    address = page_address_of(options)
     plan, start = floorplan_of(options)
     need_bleak()
     from .backend import listen_to_end
     from .live_run import listen
 
-    return listen_to_end(partial(listen, options, recipe, calibration, plan, start, view))
+    return listen_to_end(partial(listen, options, recipe, calibration, plan, start, address))

@@ -39,7 +39,7 @@ async def listen(
     calibration: Calibration | None,
     plan: IndexedPlan | None,
     start: Start | None,
-    view: PageAddress | None,
+    address: PageAddress | None,
     stop: asyncio.Event,
 ) -> int:
     """Receive until `stop` is set or the time is over; return the exit status."""
@@ -47,7 +47,7 @@ async def listen(
     check_all_writable(options.record, options.out, plan is not None)
     seconds = listening_time(options)
     session = Session(
-        recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
+        recipe, calibration=calibration, poses=True, pressures=address is not None, floorplan=plan, start=start
     )
     observer = Observer()
     scene: Scene | None = None
@@ -58,10 +58,10 @@ async def listen(
                 print(f"looking for sensors for {SCAN_TIME:g} s ...", flush=True)
                 devices = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile)
             packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
-        if view is not None:
+        if address is not None:
             drawn = None if plan is None else plan.plan
             scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration), observer=observer)
-            await stack.enter_async_context(serve_page(scene, view))
+            await stack.enter_async_context(serve_page(scene, address))
         # the files are opened only now: a search that finds nothing must not replace files of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
         live = LiveSession(session, observer if scene is None else scene, files)
@@ -90,10 +90,10 @@ async def listen(
 
 @define
 class LiveSession:
-    """A session that is shown and written while it runs; `watcher` counts it, and `files` gets its events."""
+    """A session that is shown and written while it runs: `collector` and `files` get its packets and events."""
 
     session: Session
-    watcher: Observer | Scene
+    collector: Observer | Scene
     files: LiveFiles
 
     def take(self, packet: Packet) -> None:
@@ -107,14 +107,14 @@ class LiveSession:
         self.files.close()
 
     def _show(self, packet: Packet | None, events: list[Event]) -> None:
-        self.watcher.take(packet, events)
+        self.collector.take(packet, events)
         for event in events:
             self.files.write_event(event)
 
 
 @define(init=False)
 class LiveFiles:
-    """The files that are written while a session runs; `failure` says why writing has stopped, None while it works."""
+    """The files that are written while a session runs; `failure` says why writing has failed, None while it works."""
 
     failure: str | None
     _packets: PacketWriter | None
@@ -177,14 +177,14 @@ def _error_text(error: RecordingError | OSError) -> str:
 
 
 REPORT_INTERVAL = 5.0
-"""Time between two reports of the state without a terminal, s; chosen by hand."""
+"""Time between two reports of the state in lines, s; chosen by hand."""
 
 
 @contextmanager
 def show_state(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
-    """Yield a function that shows the state of the session.
+    """Yield a function that shows the state of the session, as a picture in a terminal if rich is installed.
 
-    It draws a picture in a terminal if rich is installed; else it prints lines every REPORT_INTERVAL s."""
+    Otherwise it prints lines every REPORT_INTERVAL s."""
     if sys.stdout.isatty() and is_installed("rich"):
         from rich.console import Console
 

@@ -29,7 +29,7 @@ def note(sentence: str) -> None:
 
 
 def has_terminal() -> bool:
-    """Return whether there is a terminal, from which a command can be ended."""
+    """Return whether stdin or stdout is a terminal, from which a command can be ended."""
     return sys.stdin.isatty() or sys.stdout.isatty()
 
 
@@ -39,7 +39,7 @@ def is_installed(package: str) -> bool:
 
 
 def require(what: str, extra: str, *packages: str) -> None:
-    """Raise Failure when one of the packages of an extra is not installed; it says how to install the extra.
+    """Raise Failure, with the command that installs `extra`, when one of its packages is not installed.
 
     `what` is the start of the sentence, such as "Bluetooth needs"."""
     for package in packages:
@@ -56,13 +56,13 @@ def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:
 
 
 def address_error_text(error: OSError) -> str:
-    """Return the system's text for an error of an address; an error of a name server has only a text of its own."""
+    """Return the text of an error of an address: the system's, or that of the name server for an unknown host."""
     has_number = error.errno is not None and error.errno > 0
     return (os.strerror(error.errno or 0) if has_number else error.strerror or str(error)).lower()
 
 
 def _number(text: str, what: str, is_valid: Callable[[float], bool]) -> float:
-    """Return the finite number in `text`; raise an error of argparse, "is not `what`", for other text or values."""
+    """Return the finite number in `text`; raise ArgumentTypeError with "is not `what`" for any other."""
     try:
         value = float(text)
     except ValueError:

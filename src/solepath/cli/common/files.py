@@ -1,4 +1,4 @@
-"""Checks the files of a command before its work, and replaces files of an earlier run only by complete ones."""
+"""Checks that files can be written before the work starts, and replaces files only by complete ones."""
 
 from __future__ import annotations
 
@@ -37,10 +37,9 @@ def write_json(path: Path, value: Any) -> None:
 class FileReplacements:
     """Replaces files when they are complete.
 
-    `temporary_path` returns a file to write instead of the real one. `keep` moves all temporary files to their targets;
-    `discard` removes them. A temporary file is in the directory of its target, so that at any moment, whatever ends the
-    program, a target is either unchanged or complete. A path that is no regular file, such as a pipe, is written
-    directly: it has no contents that could be lost."""
+    `temporary_path` returns a file to write instead of the target. `move_to_targets` moves all temporary files to their
+    targets; `discard` removes them. A temporary file is in the directory of its target, so that a target is unchanged
+    or complete, whatever ends the program. A path that is no regular file, such as a pipe, is written directly."""
 
     _targets: dict[Path, Path] = field(factory=dict, init=False)
     """Path of the file that each temporary path replaces."""
@@ -48,9 +47,8 @@ class FileReplacements:
     def temporary_path(self, path: Path, *, read_only: bool = False) -> Path:
         """Make an empty file in the directory of `path` and return it; raise OSError, naming `path`, when that fails.
 
-        With `read_only`, a file without write permission is replaced as well; the new file has no such permission
-        either."""
-        target = Path(os.path.realpath(path))  # a link stays, the file that it points to is replaced
+        With `read_only`, a file without write permission is replaced as well, by one without this permission."""
+        target = Path(os.path.realpath(path))  # a symbolic link stays; the file that it points to is replaced
         exists = target.exists()
         if target.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
@@ -71,7 +69,7 @@ class FileReplacements:
             raise OSError(error.errno, error.strerror, str(path)) from None
         return temporary
 
-    def keep(self) -> None:
+    def move_to_targets(self) -> None:
         """Move all temporary files to their targets; raise OSError, naming the target, when one cannot be moved."""
         for temporary, target in list(self._targets.items()):
             try:

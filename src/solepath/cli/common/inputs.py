@@ -39,15 +39,13 @@ def source_of(path: Path, foot: Foot | None = None) -> Source:
 
 
 def check_pressure(recipe: Recipe, source: Source) -> None:
-    """Raise Failure when the recipe needs pressure cells and the recording has none.
-
-    It reads packets only until the first sample with pressure."""
+    """Raise Failure when the recipe needs pressure cells and the recording has none."""
     if recipe.needs_pressure and not _has_pressure(source):
         raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
 
 
 def _has_pressure(source: Source) -> bool:
-    """Return whether the recording has pressure, or cannot be read."""
+    """Return whether the recording has pressure; True if it cannot be read."""
     if source.samples is not None:
         return any("pressure" in table.columns for table in source.samples.tables)
     decoders: dict[Site, Decoder] = {}
@@ -102,7 +100,7 @@ def add_floorplan(command: argparse.ArgumentParser) -> None:
 def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start | None]:
     """Return the plan of --floorplan and the start of --start; print warnings about the plan on stderr.
 
-    Failure is raised when the plan cannot be used, or when a walk cannot start there."""
+    Failure is raised when the plan cannot be used, or when a walk cannot start at --start."""
     from ...body.place.arrivals import start_error
     from ...floorplan.checks import find_warnings
     from ...floorplan.importers.reading import read_floorplan
@@ -133,10 +131,10 @@ def start_of(text: str) -> Start:
     from ...floorplan.plan import Start
     from ...floorplan.records import find_start_fault
 
-    for numbers in (3, 2):
-        level, *parts = text.rsplit(",", numbers)
-        values = [_finite(part) for part in parts]
-        if len(values) == numbers and level.strip() and None not in values:
+    for count in (3, 2):
+        level, *numbers = text.rsplit(",", count)
+        values = [_finite(number) for number in numbers]
+        if len(values) == count and level.strip() and None not in values:
             x, y, *heading = [value for value in values if value is not None]
             if heading and not abs(heading[0]) <= 360.0:
                 raise Failure(f"--start {printable(text, 80)}: a heading can be -360 to 360 degrees")

@@ -20,13 +20,13 @@ STOPPED_STATUS = 130
 
 
 class StoppedEarly(Exception):
-    """The signal that a command was stopped during its preparation, within `unless_stopped`."""
+    """The command was stopped during its preparation, within `unless_stopped`."""
 
 
 def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
     """Run `main` with asyncio, with an event that a signal of STOP_SIGNALS sets; return the exit status.
 
-    No signal ends the program at once, however often it comes: everything that was started is closed first."""
+    No such signal, however often it comes, ends the program before everything that was started is closed."""
     with asyncio.Runner() as runner:
         loop, stop = runner.get_loop(), asyncio.Event()
 
@@ -49,7 +49,7 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
 def stop_signals_raise() -> Iterator[None]:
     """Raise KeyboardInterrupt at a signal of STOP_SIGNALS within the context, so that incomplete work is cleaned up.
 
-    It is raised once; further signals do not disturb the cleaning up."""
+    Further signals are ignored, so that they do not disturb the cleaning up."""
 
     def stop(number: int, frame: object) -> None:
         for previous_number in previous:
@@ -70,7 +70,7 @@ def stop_signals_raise() -> Iterator[None]:
 def _handle_signals(handler: Callable[[int, object], None]) -> dict[signal.Signals, Any]:
     """Let `handler` handle the signals of STOP_SIGNALS from now on; return the previous handlers.
 
-    A signal that is ignored (nohup) stays ignored. After a terminal was closed, nothing more is written to it."""
+    A signal that is ignored already (nohup) stays ignored. After SIGHUP nothing more is written to the terminal."""
     terminals = [number for number in (1, 2) if os.isatty(number)]
 
     def handle(number: int, frame: object) -> None:
@@ -83,20 +83,18 @@ def _handle_signals(handler: Callable[[int, object], None]) -> dict[signal.Signa
 
 
 def _ignore_signal(number: int, frame: object) -> None:
-    """Ignore a signal, since the command stops already.
-
-    This is used instead of SIG_IGN, which would look as if the program that started the command had set it."""
+    """Ignore a signal, since the command stops already; SIG_IGN would look as if the parent process had set it."""
 
 
 def _ignore_at_exit() -> None:
-    """Ignore the signals at exit, when Python removes its handlers and a signal would end it at once."""
+    """Set SIG_IGN at exit, when Python removes its handlers and a signal would end it at once."""
     for number in STOP_SIGNALS:
         if signal.getsignal(number) is _ignore_signal:
             signal.signal(number, signal.SIG_IGN)
 
 
 def _discard_output(terminals: list[int]) -> None:
-    """Discard what is written to these terminals from now on: a failed write must not end the work."""
+    """Discard what is written to these terminals from now on, so that no failed write ends the work."""
     devnull = os.open(os.devnull, os.O_WRONLY)
     for number in terminals:
         os.dup2(devnull, number)

@@ -1,4 +1,4 @@
-"""Writes the results of `solepath track`: a summary, files, a picture of the plan, a report."""
+"""Writes the results of `solepath track`: summary, files, picture of the floor plan, report."""
 
 from __future__ import annotations
 
@@ -23,11 +23,9 @@ from .files import FileReplacements, check_writable
 class Results:
     """The results of one recording, which are collected and written at the end.
 
-    `out` is the directory of the files, `report` the file of the report; None means that it is not written. Every
-    method raises OSError when something cannot be written.
-
-    Files of an earlier run are replaced by complete ones after the recording was read to its end. If the run ends
-    earlier for any reason, all files stay as they were."""
+    `out` is the directory of the files, `report` the file of the report; what is None is not written. Every method
+    raises OSError when something cannot be written. Files of an earlier run stay as they were until `write_and_print`
+    replaces them by complete ones."""
 
     title: str
     out: Path | None = None
@@ -66,22 +64,22 @@ class Results:
             self._report_path = self._report_replacement.temporary_path(self.report)
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
-        """Add a packet or sample and its events; at the end of the recording None and the last events."""
-        watcher = self.observer if self._report is None else self._report
-        watcher.take(item, events)
+        """Add a packet or sample and its events, or None and the last events at the end of the recording."""
+        collector = self.observer if self._report is None else self._report
+        collector.take(item, events)
         for event in events:
             if self._files is not None:
                 self._files.write(event)
             if self._picture is not None:
                 self._picture.add(event)
 
-    def print(self, seconds: float) -> None:
+    def write_and_print(self, seconds: float) -> None:
         """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
         self._open.close()
         if self._picture is not None and self._picture_path is not None and self.out is not None:
             with os_errors_naming(self.out):
                 self._picture.write(self._picture_path, self.title)
-        self._file_replacements.keep()
+        self._file_replacements.move_to_targets()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
@@ -90,7 +88,7 @@ class Results:
         if self._report is not None and self._report_path is not None and self.report is not None:
             with os_errors_naming(self.report):
                 self._report.write(self._report_path)
-            self._report_replacement.keep()
+            self._report_replacement.move_to_targets()
             print(f"report in {printable(str(self.report))}")
 
     def __enter__(self) -> Results:

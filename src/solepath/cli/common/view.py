@@ -25,16 +25,14 @@ if TYPE_CHECKING:
 
 DEFAULT_ADDRESS = "127.0.0.1:8765"
 MIN_PROGRESS_ITEMS = 40_000
-"""Number of items (packets or samples) above which there is a progress bar: some seconds of computing."""
+"""Number of items (packets or samples) above which there is a progress bar."""
 ITEMS_PER_UPDATE = 1000
-"""Number of items that are computed between two updates of the progress bar."""
+"""Number of items between two updates of the progress bar."""
 
 
 @frozen
 class PageAddress:
-    """The address at which the page is served; `browser` says that a browser is opened.
-
-    `port` is None when none was named."""
+    """The address at which the page is served; `browser` is true if a browser is opened, `port` None if not named."""
 
     host: str = "127.0.0.1"
     port: int | None = None
@@ -42,7 +40,7 @@ class PageAddress:
 
 
 def add_view(command: argparse.ArgumentParser, group: argparse._ActionsContainer, what: str) -> None:
-    """Add --view, in `group`, and --no-browser to a command; `what` says what --view does, such as "play it"."""
+    """Add --view to `group` and --no-browser to `command`; `what` says what --view does, such as "play it"."""
     group.add_argument(
         "--view",
         metavar="HOST:PORT",
@@ -59,14 +57,14 @@ def add_speed(command: argparse.ArgumentParser, default: str) -> None:
     command.add_argument("--speed", metavar="X", type=parse_positive, help=f"times real time (default: {default})")
 
 
-def need_page(options: argparse.Namespace, page: bool) -> None:
-    """Raise Failure for an option of the page if there is no page, as `page` says."""
+def need_page(options: argparse.Namespace, has_page: bool) -> None:
+    """Raise Failure for an option of the page if there is no page."""
     for name in ("speed", "no_browser"):
-        if not page and getattr(options, name, None):
+        if not has_page and getattr(options, name, None):
             raise Failure(f"--{name.replace('_', '-')} is for the page: it goes with --view")
 
 
-def view_of(options: argparse.Namespace) -> PageAddress | None:
+def page_address_of(options: argparse.Namespace) -> PageAddress | None:
     """Return the address of --view, None without it.
 
     Failure is raised when it is malformed or in use, or when aiohttp is not installed."""
@@ -74,12 +72,12 @@ def view_of(options: argparse.Namespace) -> PageAddress | None:
         return None
     browser = sys.stdout.isatty() and not options.no_browser
     if options.view == "":
-        view = PageAddress(browser=browser)
+        address = PageAddress(browser=browser)
     else:
-        view = PageAddress(*host_and_port("--view", options.view, f", as in {DEFAULT_ADDRESS}"), browser)
+        address = PageAddress(*host_and_port("--view", options.view, f", as in {DEFAULT_ADDRESS}"), browser)
     require("--view needs", "view", "aiohttp")
-    _check_free(view)
-    return view
+    _check_free(address)
+    return address
 
 
 def speed_of(options: argparse.Namespace, default: float) -> float:
@@ -100,7 +98,7 @@ def newtons_of(calibration: Calibration | None) -> tuple[Foot, ...]:
 
 @asynccontextmanager
 async def serve_page(
-    scene: Scene, view: PageAddress, commands: Callable[[Command], None] | None = None
+    scene: Scene, address: PageAddress, commands: Callable[[Command], None] | None = None
 ) -> AsyncIterator[Page]:
     """Serve the page, print its address, and open a browser if one is requested and present.
 
@@ -112,21 +110,19 @@ async def serve_page(
 
     async with AsyncExitStack() as stack:
         try:
-            page = await stack.enter_async_context(Page(scene, host=view.host, port=view.port, commands=commands))
+            page = await stack.enter_async_context(Page(scene, host=address.host, port=address.port, commands=commands))
         except (OSError, UnicodeError) as error:
-            raise _address_failure(view, error) from None
+            raise _address_failure(address, error) from None
         print(f"the page: {page.url}", flush=True)
-        if not on_loopback(view.host):
+        if not on_loopback(address.host):
             note("the page can be reached from other machines: whoever has this address with its token sees it")
-        if view.browser and _has_browser():
+        if address.browser and _has_browser():
             await asyncio.to_thread(_open, page.url)
         yield page
 
 
-def play(player: Player, view: PageAddress, pace: float) -> None:
-    """Play `player` on a page, at `pace` times real time, until Ctrl-C.
-
-    Without a terminal, it also ends when the recording has ended."""
+def play(player: Player, address: PageAddress, pace: float) -> None:
+    """Play `player` on a page, at `pace` times real time, until Ctrl-C; without a terminal until the recording ends."""
     import asyncio
 
     from ...show.page.player.player_loop import PlayerLoop
@@ -134,7 +130,7 @@ def play(player: Player, view: PageAddress, pace: float) -> None:
 
     async def main(stop: asyncio.Event) -> int:
         player_loop, once = PlayerLoop(player), not has_terminal()
-        async with serve_page(player.scene, view, player_loop.command) as page:
+        async with serve_page(player.scene, address, player_loop.command) as page:
             if not once:
                 print("Ctrl-C ends it", flush=True)
             await player_loop.run(page, stop, once=once)
@@ -145,19 +141,19 @@ def play(player: Player, view: PageAddress, pace: float) -> None:
 
 
 def compute_rest(player: Player, what: str) -> None:
-    """Compute what was not played, so that `on_events` gets all items; `what` is a word for them, such as "walk".
+    """Compute what was not played, so that `on_events` gets all items; `what` names it, such as "walk".
 
     Another Ctrl-C raises KeyboardInterrupt, between two items."""
     from ...show.tables.progress import progress_bar
     from .loop import stop_flag
 
     items = player.items
-    left = len(items) - player.delivered_count
+    remaining = len(items) - player.delivered_count
     with (
-        progress_bar("computing", len(items), enabled=left > MIN_PROGRESS_ITEMS) as show,
+        progress_bar("computing", len(items), enabled=remaining > MIN_PROGRESS_ITEMS) as show,
         stop_flag() as stop_requested,
     ):
-        if left > 0:
+        if remaining > 0:
             print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
         counter = count(1)
         while player.run_through(lambda: next(counter) % ITEMS_PER_UPDATE == 0 or stop_requested()):
@@ -172,7 +168,7 @@ def compute_rest(player: Player, what: str) -> None:
 
 
 def _has_browser() -> bool:
-    """Return whether there is a graphical browser; one that runs in the terminal would replace this command there."""
+    """Return whether there is a graphical browser; a browser in the terminal would hide this command's output."""
     if sys.platform in ("darwin", "win32"):
         return True
     return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"))
@@ -185,17 +181,17 @@ def _open(url: str) -> None:
         note("no browser could be opened: open the address yourself")
 
 
-def _check_free(view: PageAddress) -> None:
+def _check_free(address: PageAddress) -> None:
     """Raise Failure if the page cannot be served at the address, before a long recording is read."""
     from ...show.page.server.access import listen
 
     try:
-        listen(view.host, view.port).close()
+        listen(address.host, address.port).close()
     except (OSError, UnicodeError) as error:
-        raise _address_failure(view, error) from None
+        raise _address_failure(address, error) from None
 
 
-def _address_failure(view: PageAddress, error: OSError | UnicodeError) -> Failure:
+def _address_failure(address: PageAddress, error: OSError | UnicodeError) -> Failure:
     """Return a Failure with the reason why the page cannot be served at the address."""
     reason = "there is no such host" if isinstance(error, UnicodeError) else address_error_text(error)
-    return Failure(f"--view {printable(view.host, 80)}:{view.port or 0}: {reason}")
+    return Failure(f"--view {printable(address.host, 80)}:{address.port or 0}: {reason}")

@@ -1,1 +1,1 @@
-"""The page that shows a session while it runs: it takes events and gives what a browser draws."""
+"""Serves a page that shows a session while it runs, from the session's events alone."""

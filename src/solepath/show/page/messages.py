@@ -11,7 +11,7 @@ from typing import Any
 from attrs import frozen
 
 TAKES_VALUE = {"play": False, "pause": False, "speed": True, "seek": True}
-"""Commands; True for one with a value."""
+"""Commands of a page; True for a command with a value."""
 MIN_SPEED, MAX_SPEED = 0.1, 32.0
 """Bounds of the speed at which a recording is played, in multiples of real time."""
 MAX_MESSAGE_SIZE = 4096
@@ -67,8 +67,8 @@ def parse_command(text: str) -> Command:
 def encode(message: dict[str, Any]) -> str:
     """Return a message of the server as text; raise ValueError for a number that is not finite.
 
-    A member that keeps its text (EncodedOnce) is not encoded again: a floor plan may have megabytes, and is sent to
-    each watcher and after each seek."""
+    A member of class EncodedOnce keeps its text: a floor plan may have megabytes, and goes to each watcher and again
+    after each seek."""
     encoded_members = {key: value for key, value in message.items() if isinstance(value, EncodedOnce)}
     text = _json(
         {key: value for key, value in message.items() if key not in encoded_members} if encoded_members else message

@@ -1,4 +1,4 @@
-"""A walk as one file that can be mailed: figures and the gait table."""
+"""Writes a walk as one file that can be mailed, with figures and the gait table."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from attrs import frozen
 MINUTES_FROM = 300.0
 """Duration above which axes are in minutes, s."""
 FAR_START = 1e5
-"""Start time from which times count from the start of the recording, s: its clock started long before."""
+"""Start of a recording, s, above which its clock started long before; its times then count from its start."""
 
 
 @frozen

@@ -67,6 +67,7 @@ def _table(parent: Element, parameters: GaitParameters) -> None:
 
 
 def _cadence(figures: StrideFigures | None) -> str:
+    """Return the cadence of a foot, steps/min, as text: two steps in each stride."""
     return "-" if figures is None or figures.stride_time is None else number(120.0 / figures.stride_time.mean, 1)
 
 

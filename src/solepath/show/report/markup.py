@@ -1,4 +1,4 @@
-"""Makes HTML elements; text cannot become markup, since the tree is escaped when it is written."""
+"""Makes HTML elements; text never becomes markup, since the tree is escaped when it is written."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def skeleton(title: str) -> tuple[Element, Element]:
 
 
 def section(parent: Element, name: str, title: str) -> Element:
-    """Add a section with a heading, whose id is `name`, and return the section."""
+    """Add a section, with a heading that has the id `name`, and return the section."""
     element = add(parent, "section", aria_labelledby=name)
     add(element, "h2", title, id=name)
     return element
@@ -80,8 +80,8 @@ def table(
 ) -> Element:
     """Add a table whose first column names its rows.
 
-    Every tag has its role as an attribute: on a phone the style sheet lays the rows out as grids, and a screen reader
-    would not recognize such a table by its tags."""
+    Every tag has its role as an attribute: on a phone the style sheet lays the rows out as grids, in which a screen
+    reader would not recognize a table by its tags."""
     element = add(parent, "table", role="table", class_=kind)
     add(element, "caption", caption)
     header_row = add(add(element, "thead", role="rowgroup"), "tr", role="row")

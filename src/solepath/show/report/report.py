@@ -1,4 +1,4 @@
-"""Writes a walk as one HTML file, to read, mail and print, from all events of its session.
+"""Writes a walk as one HTML file, to read, mail and print, from the events of its session.
 
 The limits below were chosen by hand and not swept."""
 
@@ -45,7 +45,6 @@ MAX_CANDIDATES = 40
 HEIGHT_INTERVAL = 0.5
 """Shortest time between two kept heights of a stationary foot, s."""
 
-
 NO_STRIDE = "No stride was measured, so that there are no gait parameters."
 NO_STEADY = (
     "No stride was steady, so that there are no means: steady strides are neither first nor last of a walk, nor in a "
@@ -69,9 +68,8 @@ class Report:
     """Collects the events of a session with `poses` and `pressures`, in bounded memory, then writes the report.
 
     `title` is the title of the page, such as the recording's name. `plan` is the session's floor plan. `recipe` is the
-    name of the recipe. `when` is the time of the walk as text, since the report reads no clock. `version` is that of
-    solepath. The report feeds `observer`, which counts that session. An event with a number that is not finite is left
-    out."""
+    name of the recipe. `when` is the date and time of the walk, as text. `version` is that of solepath. The report
+    feeds `observer`, which counts the session. An event with a number that is not finite is left out."""
 
     title: str
     plan: FloorPlan | None = None
@@ -134,7 +132,7 @@ class Report:
 
     @property
     def clock(self) -> ReportClock:
-        """Clock of the report's times, from the first to the last sample, or event if there are no samples."""
+        """Clock from the first to the last sample, or from the first to the last event if there are no samples."""
         start, end = self.sample_span or self.event_span or (0.0, 0.0)
         return ReportClock(start, end)
 

@@ -1,7 +1,7 @@
 """Sums the load of each sole over its contacts, in memory that does not grow with their number.
 
-A contact is the time from heel-strike to toe-off. A sample is kept until its gait cycle is reported, which is up to a
-second after the cycle has ended. Numbers without a source were chosen by hand and not swept."""
+A contact is the time from heel-strike to toe-off. Samples are kept because a gait cycle is reported up to a second
+after its end. Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -14,13 +14,14 @@ from ...events import FootPressed, GaitCycleMeasured
 from ...types import Layout
 
 MAX_SAMPLES = 2000
-"""Largest number of samples of a foot that are kept: 5 s at 400 Hz, longer than a gait cycle."""
+"""Largest number of samples of a foot that are kept: 5 s at 400 Hz, more than a gait cycle and that second."""
 MAX_CONTACT_TIME = 2.5
 """Longest contact that is counted, s; in a longer one the wearer stands."""
 STATIONS = 51
-"""Number of evenly spaced moments of a contact at which force and centre of pressure are summed."""
+"""Number of stations, the evenly spaced moments of a contact at which force and centre of pressure are summed."""
+MIN_CONTACT_SAMPLES = 3
 MAX_PATHS = 20
-"""Largest number of single paths of the centre of pressure; the newest are kept."""
+"""Largest number of paths of the centre of pressure that are kept, each of one contact: the newest ones."""
 
 Pair = tuple[float, float]
 
@@ -43,7 +44,7 @@ class ReportSole:
     """Sums of x and y of the centre of pressure at each station, m, and number of contacts in which it was known."""
     paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=MAX_PATHS))
     cell_sums: list[float] = field(factory=list)
-    """Sum of each cell over all samples, which is shown when no contact was counted."""
+    """Sum of each cell over all samples, from which the mean load is shown when no contact was counted."""
     newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=MAX_SAMPLES))
 
     def add_sample(self, event: FootPressed) -> None:
@@ -64,7 +65,7 @@ class ReportSole:
         self.paths.clear()
 
     def add_cycle(self, event: GaitCycleMeasured) -> None:
-        """Add the contact of a gait cycle, if it is one of walking and has almost all its samples."""
+        """Add the contact of a gait cycle of walking, unless it lacks samples or is longer than MAX_CONTACT_TIME."""
         lacks_samples = event.degraded and not event.steady
         if lacks_samples or event.running or not 0.0 < event.t_toe_off - event.t_start <= MAX_CONTACT_TIME:
             return
@@ -72,7 +73,7 @@ class ReportSole:
         times = [sample.t for sample in samples]
         first, last = bisect_left(times, event.t_start), bisect_right(times, event.t_toe_off)
         contact = samples[first:last]
-        if len(contact) < 3 or first == 0:
+        if len(contact) < MIN_CONTACT_SAMPLES or first == 0:  # at 0, earlier samples of the contact may be lost
             return
         count = len(contact)
         columns = list(zip(*[sample.values for sample in contact], strict=True))
@@ -91,7 +92,7 @@ class ReportSole:
 
     @property
     def mean_path(self) -> list[Pair]:
-        """Mean path of the centre of pressure, m, foot frame, where it was known in half of the contacts or more."""
+        """Mean path of the centre of pressure, foot frame, m, where it was known in at least half of the contacts."""
         return [(x / n, y / n) for x, y, n in self.path_sums if n > 0 and 2 * n >= self.contacts]
 
     @property

@@ -1,4 +1,4 @@
-"""Holds the style sheet of the report: light or dark as the reader's screen, light on paper, one column on a phone."""
+"""Holds the style sheet of the report: light or dark as the system, light on paper, one column on a phone."""
 
 from __future__ import annotations
 

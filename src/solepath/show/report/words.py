@@ -17,7 +17,7 @@ CAUTION = (
 )
 
 MAX_NAME_LENGTH = 60
-"""Largest number of characters of a device's name that are shown, so that there is room for the rest of the line."""
+"""Largest number of characters of a device's name that are shown."""
 TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
 
@@ -29,8 +29,8 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_count
     if not has_data:
         return ["Nothing was heard of either foot."]
     time = observer.covered_time
-    lines = [f"The recording lasts {duration_text(time.total if time.stretch_count else clock.end - clock.start)}."]
-    if time.stretch_count > 1:
+    lines = [f"The recording lasts {duration_text(time.total if time.span_count else clock.end - clock.start)}."]
+    if time.span_count > 1:
         lines = [f"The recording lasts {duration_text(time.total)}; its times go back in between."]
     tracked = {foot: observer.feet[foot] for foot in Foot if foot in observer.feet and observer.feet[foot].strides}
     for foot, counts in tracked.items():
@@ -43,10 +43,10 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_count
         lines.append("No foot took a step.")
     if observer.fused is not None:
         lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
-    spans = observer.timeline.durations(clock.end)
-    if spans:
+    durations = observer.timeline.durations(clock.end)
+    if durations:
         lines.append(
-            f"Activities: {', '.join([f'{activity_words(what)} {duration_text(t)}' for what, t in spans.items()])}."
+            f"Activities: {', '.join([f'{activity_words(what)} {duration_text(t)}' for what, t in durations.items()])}."
         )
     for up_counts, name in ((observer.flights, "Flights of stairs"), (observer.elevator_rides, "Lift rides")):
         directions = [f"{up_counts[up]} {'up' if up else 'down'}" for up in (True, False) if up_counts[up]]

@@ -42,11 +42,11 @@ class GaitRow:
     """The row of one gait parameter, from steady strides.
 
     `left`, `right`, `both` and `sd` (standard deviation) are in `unit`, and None where they are not known. A share of
-    the stride time has no `sd`. When only one foot is known, `both` and `sd` are None, and `cv` is that foot's. Both
-    `cv` and `asymmetry` are shares (0.05 is 5 %), as in Figure and GaitParameters.
+    the stride time has no `sd` and no `cv`. When only one foot is known, `both` and `sd` are None, and `cv` is that
+    foot's. `cv` and `asymmetry` are shares (0.05 is 5 %), as in Figure and GaitParameters.
 
-    An angle has a `difference`, right - left in `unit`, instead of `cv` and `asymmetry`. It is measured against the
-    flat sole, so that its mean may be near zero or differ in sign between the feet; a share of it would say nothing."""
+    An angle has a `difference`, right - left in `unit`, instead of `cv` and `asymmetry`: angles are measured against
+    the flat sole, and a mean near zero, or with another sign in each foot, has no meaningful shares."""
 
     name: str
     label: str

@@ -1,4 +1,4 @@
-"""Draws a floor plan with the track as an SVG picture: a panel for each level, one scale, the plan's +y upwards.
+"""Draws a floor plan with the track as an SVG picture: a panel for each level, all at one scale, +y upwards.
 
 The colour of the track changes from the start to the end of the recording. While a place has several candidates, they
 are drawn as dots; the smaller the weight, the fainter the dot. Sizes were chosen by hand and not swept."""
@@ -27,7 +27,7 @@ NARROW_WIDTH = 640.0
 POINTS_PER_COLOUR = 12
 """Number of strides of the track that share a colour."""
 MAX_CANDIDATE_DOTS = 4000
-"""Approximate largest number of candidates that are drawn."""
+"""Approximate limit of the number of candidates that are drawn."""
 
 PAPER_COLOUR, INK_COLOUR, SOFT_COLOUR, FLOOR_COLOUR, WALL_COLOUR = "#ffffff", "#1f2933", "#7b8794", "#f4f6f8", "#323f4b"
 DOOR_COLOUR, STAIRS_COLOUR, ELEVATOR_COLOUR, CANDIDATE_COLOUR = "#d9b382", "#9fb3c8", "#b8a9c9", "#6b7a8c"
@@ -121,7 +121,7 @@ class PlanPicture:
                     SubElement(group, "circle", {"cx": px(x), "cy": px(y), "r": "2.2", "fill-opacity": opacity})
 
     def _track(self, panel: Element, level: str, frame: _Frame) -> None:
-        """Draw the track as a line where the place has one candidate only; elsewhere there are only dots."""
+        """Draw a line through the places with one candidate only; other places have dots."""
         decided = [
             place if place.level == level and len(place.candidates) == 1 and k not in self.breaks else None
             for k, place in enumerate(self.places)
@@ -231,7 +231,7 @@ def _connector(panel: Element, connector: Connector, stop: ConnectorStop, frame:
 
 
 def _north(svg: Element, x: float, y: float, bearing: float) -> None:
-    """Draw an arrow to true north; the plan's +y, which is upwards here, is `bearing` rad clockwise of north."""
+    """Draw an arrow to true north; the plan's +y, upwards in the picture, points `bearing` rad clockwise of north."""
     east, up = -sin(bearing), cos(bearing)
     path = f"M{px(x - 12 * east)} {px(y + 12 * up)}L{px(x + 12 * east)} {px(y - 12 * up)}"
     for side in (0.5, -0.5):
@@ -280,9 +280,7 @@ def _text(
 
 
 def _plain(words: str) -> str:
-    """Replace control characters and lone surrogates, which XML does not have, by spaces.
-
-    Names of levels and elevators may contain them."""
+    """Replace control characters and lone surrogates, which XML cannot contain, by spaces."""
     return "".join([c if c.isprintable() else " " for c in words])
 
 

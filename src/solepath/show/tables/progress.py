@@ -13,7 +13,7 @@ UPDATE_INTERVAL = 0.1
 
 @contextmanager
 def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Callable[[int], None]]:
-    """Yield a function to call with the number of `total` units that are done; it updates the bar `what`.
+    """Yield a function that shows how many of `total` units are done, on a bar with the name `what`.
 
     Nothing is shown if `enabled` is false, stderr is not a terminal, or rich (the `live` extra) is not installed."""
     if not enabled or not sys.stderr.isatty():

@@ -68,7 +68,7 @@ def _fused_feet(observer: Observer) -> list[str]:
 
 
 def activity_lines(observer: Observer) -> list[str]:
-    """Return a line each for activities, flights of stairs, elevator rides and turns; none for what never came."""
+    """Return a line for activities, flights of stairs, elevator rides and turns each, if there were any."""
     lines = []
     if durations := observer.timeline.durations(observer.now):
         lines.append("activities: " + ", ".join(f"{what} {number(t, 0)} s" for what, t in durations.items()))

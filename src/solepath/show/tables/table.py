@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table padded with spaces, the first column aligned left, the others right; an empty row is a line."""
+    """Return a table, the first column aligned left, the others right; an empty row is drawn as a line."""
     widths = [max(len(row[c]) for row in (header, *rows) if row) for c in range(len(header))]
     rule = "  ".join("-" * width for width in widths)
     lines = [_line(header, widths), rule, *(_line(row, widths) if row else rule for row in rows)]
@@ -24,7 +24,7 @@ def number(value: float | None, digits: int = 2) -> str:
 
 
 def percent(share: float | None, digits: int = 1) -> str:
-    """Return a share, 0 to 1, in percent without the sign; a dash for None."""
+    """Return a share, 0 to 1, in percent, without "%"; a dash for None."""
     return "-" if share is None else f"{100.0 * share:.{digits}f}"
 
 

@@ -33,7 +33,7 @@ class Screen:
         self._drawn_at = -1.0
 
     def show(self, observer: Observer, title: str) -> None:
-        """Draw the picture if 1 / FRAME_RATE s have passed since the last one; this makes most calls cheap."""
+        """Draw the picture if 1 / FRAME_RATE s have passed since the last one."""
         if monotonic() - self._drawn_at > 1.0 / FRAME_RATE:
             self.draw(observer, title)
 

@@ -16,8 +16,8 @@ CHUNK_SIZE = 256
 class PackedItems:
     """A compressed sequence of items, in the order in which they are fed to a session; items are added at the end.
 
-    A packet of an insole of 96 cells takes about 135 bytes here, so that two feet at 100 Hz take about 100 MB an hour;
-    a sample of such an insole takes about 260 bytes. Reading items in order takes some microseconds each."""
+    A packet of an insole of 96 cells takes about 135 bytes, a sample of it about 260; an hour of packets of two such
+    insoles at 100 Hz takes about 100 MB. Reading items in order takes some microseconds each."""
 
     __slots__ = ("_chunks", "_uncompressed", "_times", "_cached_chunk")
 
@@ -42,18 +42,17 @@ class PackedItems:
         return len(self._times)
 
     def __getitem__(self, index: int) -> Packet | Sample:
-        chunk, row = divmod(index, CHUNK_SIZE)
+        chunk, offset = divmod(index, CHUNK_SIZE)
         if chunk == len(self._chunks):
-            return self._uncompressed[row]
+            return self._uncompressed[offset]
         if self._cached_chunk[0] != chunk:
             self._cached_chunk = (chunk, pickle.loads(zlib.decompress(self._chunks[chunk])))
-        return self._cached_chunk[1][row]
+        return self._cached_chunk[1][offset]
 
     def t(self, index: int) -> float:
         """Return the time at which the item at `index` is due, s.
 
-        It is the largest time of this item and all items before it, so that the order stays where a clock was set back.
-        """
+        It is the largest time of all items up to this one, so that times never fall where a clock was set back."""
         return self._times[index]
 
     @property

@@ -1,4 +1,4 @@
-"""The position and speed at which a recording is played."""
+"""Holds the time and the speed at which a recording is played."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..messages import rounded
 
 @define
 class Playback:
-    """The position and speed of a player; times are on the recording's clock, s. The player writes the fields.
+    """The time and the speed of a player, which writes the fields; times are on the recording's clock, s.
 
     `state` is "playing", "paused" or "ended". `speed` is in multiples of real time. `seeking` is the target of a seek
     that has not ended; None when there is none."""

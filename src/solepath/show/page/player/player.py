@@ -28,20 +28,19 @@ from .packed_items import PackedItems
 from .playback import Playback
 
 STATE_SPACING = 10.0
-"""First distance between two saved states in time of the recording, s; computing 10 s again takes some 0.2 s."""
+"""Time of the recording between two saved states at first, s; computing 10 s again takes some 0.2 s."""
 MAX_SAVED_STATES = 60
 """Largest number of saved states; with more, every second one is dropped and the spacing doubles."""
 MAX_ELAPSED = 0.25
-"""Longest wall time that one call of `advance` counts, s: after the computer slept, nothing is skipped."""
+"""Longest wall time that one call of `advance` counts, s: a recording does not jump after the computer slept."""
 
 OnEvents = Callable[[Packet | Sample | None, list[Event]], None]
-"""Function that gets each item with the events that the session returned for it; at the end None and the last events.
-"""
+"""Function that gets each item and the events that the session returned for it, at the end None and the last events."""
 
 
 @frozen
 class _SavedState:
-    """The state of the player at a time, before the item `next` was fed; `session` and `scene` are compressed."""
+    """The state of the player at `t`, s, before item number `next` was fed; session and scene are compressed."""
 
     t: float
     next: int
@@ -54,11 +53,10 @@ class Player:
     """Plays `items` through a new `session` into a new `scene`, as a watcher commands.
 
     `plan` is the floor plan of the session. `fault` says why the recording cannot be read beyond its last item; the
-    scene shows it at the end. `on_events` gets every item once and in order, however often the item is played, so that
-    its result does not depend on the commands.
+    scene shows it at the end. `on_events` gets every item once and in order, however often the item is played.
 
-    The scene at a time of the recording, and the session's snapshot there, do not depend on what was played, skipped or
-    played again before. Memory: the items (PackedItems says how much), and MAX_SAVED_STATES states of some 0.1 MB."""
+    Scene and snapshot at a time of the recording do not depend on what was played, skipped or played again before.
+    Memory holds the items (PackedItems says how much), and up to MAX_SAVED_STATES states of some 0.1 MB."""
 
     items: PackedItems
     session: Session
@@ -98,7 +96,7 @@ class Player:
                 self.seek(command.value)
 
     def play(self) -> None:
-        """Continue to play; when the recording had ended, play from its start."""
+        """Continue to play; a recording that has ended plays from its start."""
         if self.playback.state == "ended":
             self.seek(self.playback.start)
         self.playback.state = "playing"
@@ -113,9 +111,9 @@ class Player:
         self.playback.speed = min(max(speed, MIN_SPEED), MAX_SPEED)
 
     def seek(self, t: float) -> None:
-        """Go to the time `t` of the recording, s; `feed_due` then computes there from the nearest saved state.
+        """Go to the time `t` of the recording, s; `feed_due` then computes what lies before it.
 
-        A recording that had ended plays on from `t`."""
+        A recording that has ended plays on from `t`."""
         playback = self.playback
         t = min(max(t, playback.start), playback.end)
         nearest = next(saved for saved in reversed(self._saved) if saved.t <= t)
@@ -128,13 +126,13 @@ class Player:
         playback.seeking = t if self._is_behind else None
 
     def advance(self, seconds: float) -> None:
-        """Let wall time pass, s; a player that is behind does not advance, so it never has to catch up."""
+        """Let wall time pass, s; while the player is behind, time that passes is not counted."""
         playback = self.playback
         if playback.state == "playing" and playback.t >= self._due:
             self._due = min(playback.end, self._due + min(seconds, MAX_ELAPSED) * playback.speed)
 
     def feed_due(self, should_stop: Callable[[], bool]) -> bool:
-        """Feed the items that are due, one at least, until `should_stop()`; return whether more are due."""
+        """Feed the items that are due, checking `should_stop()` after each; return whether more are due."""
         playback = self.playback
         while self._next < len(self.items) and self.items.t(self._next) <= self._due:
             self._feed()
@@ -151,9 +149,7 @@ class Player:
         return False
 
     def run_through(self, should_stop: Callable[[], bool]) -> bool:
-        """Feed items to the end of the recording until `should_stop()`; return whether there are more.
-
-        When it returns False, `on_events` got the whole recording."""
+        """Feed the rest of the recording until `should_stop()`; return whether `on_events` still lacks a part of it."""
         if self._furthest > len(self.items):
             return False
         if self._due < self.playback.end or not self._is_behind:
@@ -201,7 +197,7 @@ class Player:
 
     def _save(self, t: float) -> None:
         scene = copy(self.scene)
-        # the saved state does without these three: plans are large, and `_restore` sets all of them again
+        # plans are large; `_restore` sets all three again
         scene.plan = scene.drawing = scene.playback = None
         session = json.dumps(self.session.snapshot()).encode()
         packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only this process reads it

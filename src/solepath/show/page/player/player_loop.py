@@ -17,7 +17,7 @@ IDLE_INTERVAL = 0.5
 
 
 class PlayerLoop:
-    """Plays `player` by the event loop's clock; a Page calls `command`, and `run` is the loop."""
+    """Plays `player` by the event loop's clock while `run` runs; a Page calls `command`."""
 
     def __init__(self, player: Player) -> None:
         self.player = player
@@ -29,7 +29,7 @@ class PlayerLoop:
         self._command_received.set()
 
     async def run(self, page: Page, stop: asyncio.Event, *, once: bool = False) -> None:
-        """Run until `stop` is set; with `once`, end when the recording was played to its end."""
+        """Run until `stop` is set or, with `once`, until the recording was played to its end."""
         player, loop = self.player, asyncio.get_running_loop()
         previous_time = loop.time()
         while not stop.is_set():
@@ -47,7 +47,7 @@ class PlayerLoop:
                 await self._wait(stop)
 
     async def _wait(self, stop: asyncio.Event) -> None:
-        """Wait for the next read of the clock; while nothing plays, also end at a command or at `stop`."""
+        """Wait for the next read of the clock; while nothing plays, a command or `stop` ends the wait."""
         if self.player.playback.state == "playing":
             await asyncio.sleep(CLOCK_INTERVAL)
             return

@@ -21,8 +21,7 @@ PHASE_HISTORY = 20.0
 MAX_PHASES = 500
 """Largest number of phases that are kept; a foot has fewer in PHASE_HISTORY."""
 MIN_PEAK_SHARE = 0.002
-"""Least value of the brightest colour, as a share of a cell's full scale: without it, noise of an unloaded sole would
-look bright."""
+"""Least value of the brightest colour, as a share of a cell's full scale: noise of an unloaded sole stays dark."""
 
 
 @define
@@ -45,7 +44,7 @@ class FootScene:
     force: float = field(default=0.0, init=False)
     centre: tuple[float, float] | None = field(default=None, init=False)
     peak: float = field(default=0.0, init=False)
-    """Value of the brightest colour, in the unit of the cells: the highest value so far."""
+    """Value of the brightest colour, in the unit of the cells: the highest so far, at least MIN_PEAK_SHARE."""
     _encoded_cells: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
     """The cells and the peak that were encoded last, and their text."""
 
@@ -120,7 +119,7 @@ class FootScene:
         }
 
     def _encode_cells(self) -> str | None:
-        """Return one byte for each cell, 255 for the highest value so far, as base64."""
+        """Return one byte for each cell as base64: 0 for no load, 255 for `peak`."""
         cells, peak = self.cells, self.peak
         if cells is None:
             return None

@@ -15,9 +15,9 @@ from ...tables.gait import MIN_STRIDES, GaitRow, gait_rows, strides_of
 from ..messages import rounded
 
 PACE_STRIDES = 2
-"""Number of consecutive strides of a foot over which the pace is averaged: a single one errs by some per cent."""
+"""Number of consecutive strides of a foot over which the pace is averaged: a single stride errs by some per cent."""
 MAX_TIME_RATIO = 1.5
-"""Longest time of the next stride, as a multiple of the last stride time; after it the foot has no pace."""
+"""Longest time of the next stride, as a multiple of the last stride time; a foot that takes longer has no pace."""
 MAX_STRIDE_LATENCY = 1.0
 """Longest time from the end of a stride to its event, s."""
 STILL_ACTIVITIES = (Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
@@ -36,7 +36,7 @@ class ScenePace:
         self.strides[stride.foot] = (*(earlier[1 - PACE_STRIDES :] if follows else ()), stride)
 
     def reset(self, foot: Foot) -> None:
-        """Discard the strides of a foot: after a reset the next stride does not follow them."""
+        """Discard the strides of a foot; after a reset, times are not comparable with theirs."""
         self.strides.pop(foot, None)
 
     def frame(self, now: float, activity: Activity, since: float) -> dict[str, Any] | None:
@@ -75,9 +75,7 @@ def activity_frame(since: float, activity: Activity, silent_since: float | None)
 
 @define
 class SceneGaitMeans:
-    """The means over the newest strides, of walking or of running, whichever the newest stride was.
-
-    They are computed again after each new stride."""
+    """The means that a page shows: those of running if the newest stride was one of running, else those of walking."""
 
     _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = (None, None)
     _frame: dict[str, Any] | None = None

@@ -32,9 +32,7 @@ def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
 
 
 def feet_silent_since(links: dict[Site, LinkLedger], now: float) -> float | None:
-    """Return the arrival of the last sample of any foot, s, if at `now`, s, no foot sends; None while one does.
-
-    It is also None before the first sample."""
+    """Return the arrival of the newest sample, s, if no foot sends at `now`, s; None if one does, or none ever did."""
     feet = [link for site, link in links.items() if site.foot is not None]
     last = max([link.last_sample_at for link in feet if link.last_sample_at is not None], default=None)
     return None if any([link.state(now) == "ok" for link in feet]) else last

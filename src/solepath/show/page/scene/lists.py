@@ -1,7 +1,7 @@
-"""Bounded lists that grow while readers follow them; a reader gets only the items that are new to it.
+"""Holds bounded lists that grow while watchers follow them; a watcher gets only the items that are new to it.
 
-A reader passes how many items had been added when it read last. If it adds the new items by the same rule, it has the
-same list. Numbers without a source were chosen by hand and not swept."""
+For this it passes how many items had been added when it got the last ones. A watcher that adds and thins like the list
+has the same items. Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TrackPoint = tuple[float | None, ...]
 MAX_POINTS = 2000
 """Largest number of points of a track; with one more, every second one is left out."""
 MAX_BEHIND = 1000
-"""Largest number of new points that a reader can get; with more, it needs the whole list."""
+"""Largest number of new points that a watcher can get; with more, it needs the whole list."""
 MIN_SPACING = 0.02
 """Distance from the last point below which a new position adds no point to the track, m."""
 
@@ -31,8 +31,7 @@ MIN_SPACING = 0.02
 class ThinnedTrack(Generic[T]):
     """The points of a track from its start to now, evenly thinned.
 
-    With one point more than MAX_POINTS, the points with odd indices (counted from 0) are left out. The first and the
-    newest point stay."""
+    At one point more than MAX_POINTS, an even number, all points with odd indices are left out: first and last stay."""
 
     points: list[T] = field(factory=list)
     count: int = 0
@@ -48,7 +47,7 @@ class ThinnedTrack(Generic[T]):
         self.count += 1
 
     def since(self, number: int) -> list[T] | None:
-        """Return all points but the first `number` that were ever added; None if not all of them are known any more."""
+        """Return the points that were added after the first `number`; None if some of them are not kept any more."""
         new = self.count - number
         if new == 0:
             return []
@@ -88,6 +87,6 @@ class RecentItems(Generic[T]):
             self.items.popleft()
 
     def since(self, number: int) -> list[T]:
-        """Return all items but the first `number` that were ever added, as far as they are still in the list."""
+        """Return the items that were added after the first `number` and are still in the list."""
         new = min(self.count - number, len(self.items))
         return list(self.items)[-new:] if new else []

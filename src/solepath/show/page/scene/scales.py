@@ -1,9 +1,9 @@
 """Chooses the ends of the colour scales of pressure, once for all watchers, so that all see the same colours.
 
-A scale is for both feet, ends at a round number, and only ever grows. Its end is at least the value that a twentieth of
-a foot's cells reaches for three samples. Therefore the edge of a shoe that presses on one cell, or on all for a
-hundredth of a second, does not make the load of a whole forefoot pale. A higher value is drawn as the end of the scale,
-and "beyond" says that there was one. Numbers without a source were chosen by hand and not swept."""
+A scale is for both feet, ends at a round number, and only ever grows. It grows when more than a twentieth of a foot's
+cells exceed its end in three samples in a row. A shoe's edge that presses on a single cell therefore does not make the
+load of a whole forefoot pale. A higher value is drawn as the end of the scale, and "beyond" says that there was one.
+Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ END_MULTIPLES = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 FIRST_ENDS = {"kPa": 100.0, "N": 1.0, "counts": 1.0}
 """First end of a scale in each unit: in kPa the pressure of standing on both feet, in N and counts almost no load."""
 CELLS_PER_OUTLIER = 20
-"""Number of cells for each cell that may be higher than the scale; a smaller insole may have one such cell too."""
+"""One cell in this many may be above the end of the scale; a smaller insole may have one such cell, too."""
 MIN_SAMPLES = 3
-"""Number of consecutive samples with a high value after which the scale grows."""
+"""Number of consecutive samples with too many cells above the end, after which the scale grows."""
 
 
 @define
@@ -46,7 +46,7 @@ class InsoleScale:
     factors: tuple[float, ...] | None
     """Factor for each cell from the sample's unit to `unit`; None where the units are the same."""
     recent: tuple[float, ...] = ()
-    """Value, in `unit`, that a twentieth of the cells reached in each of the newest samples."""
+    """Highest value, in `unit`, below those of the cells that may be above the end, in each of the newest samples."""
 
 
 @define
@@ -61,7 +61,7 @@ class Scales:
         areas = [cell.area for cell in layout.cells]
         factors = None
         if newtons and areas and all([area > 0.0 for area in areas]):
-            unit, factors = "kPa", tuple([0.001 / area for area in areas])
+            unit, factors = "kPa", tuple([0.001 / area for area in areas])  # N over m^2 is Pa
         else:
             unit = "N" if newtons else "counts"
         self.insoles[foot] = InsoleScale(unit, factors)
@@ -93,6 +93,6 @@ class Scales:
 
 
 def scale_end(value: float) -> float:
-    """Return the least end of a scale that is not below `value`, which is above zero."""
+    """Return the least end of a scale that is at or above `value`; `value` is above zero."""
     power: float = 10.0 ** floor(log10(value))
     return next((multiple * power for multiple in END_MULTIPLES if multiple * power >= value), 10.0 * power)

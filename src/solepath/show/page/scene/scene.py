@@ -48,8 +48,8 @@ VERSION = 1
 class Cursor:
     """The record of what a watcher has been sent.
 
-    `layout_count` is the scene's when it was sent whole. `numbers` is, for each list, how many items were ever added to
-    it. `values` is, for each other key, the value that was sent last."""
+    `layout_count` is that of the scene that was sent whole. `numbers` holds for each list of the scene how many items
+    had been added to it, `values` for each other key the value that was sent last."""
 
     layout_count: int
     numbers: dict[str, int]
@@ -81,9 +81,9 @@ class Scene:
     scales: Scales = field(factory=Scales, init=False)
     log: SceneLog = field(factory=SceneLog, init=False)
     layout_count: int = field(default=0, init=False)
-    """Number of times that a new layout became known; a page that was sent fewer needs the whole scene again."""
+    """Number of layouts that became known; a watcher that was sent fewer needs the whole scene again."""
     drawing: EncodedOnce | None = field(init=False)
-    """Drawing of the plan, made once for all watchers and all seeks; None without a plan."""
+    """Drawing of the plan, made once; None without a plan."""
 
     def __attrs_post_init__(self) -> None:
         self.drawing = None if self.plan is None else draw_plan(self.plan)
@@ -125,8 +125,7 @@ class Scene:
     def _mark_silent_feet(self) -> None:
         """Mark the phase of each foot with a silent link as unknown.
 
-        A phase that started after the silence shows that the foot sends again; the event of its sample comes after the
-        event of the phase."""
+        A phase that started after the silence stays: the foot sends again, and the event of its sample comes next."""
         for foot, foot_scene in self.feet.items():
             link = self.observer.links.get(SITE_OF_FOOT[foot])
             if foot_scene.phase is None or link is None or link.state(self.now) == "ok":
@@ -167,9 +166,9 @@ class Scene:
     def _placed(self, event: Placed) -> None:
         level = self.wearer.add_place(event)
         if level is not None:
-            self.log.add(event.t, "place", f"on {self._level(level)}")
+            self.log.add(event.t, "place", f"on {self._level_name(level)}")
 
-    def _level(self, level: str) -> str:
+    def _level_name(self, level: str) -> str:
         names = [] if self.plan is None else [known.name for known in self.plan.levels if known.id == level]
         return names[0] if names and names[0] else f"level {level}"
 
@@ -208,18 +207,18 @@ class Scene:
         layout."""
         if cursor.layout_count != self.layout_count:
             return self.whole_message()
-        values, numbers, known = self._values(), self._numbers(), cursor.numbers
+        values, numbers, sent = self._values(), self._numbers(), cursor.numbers
         message = {key: value for key, value in values.items() if value != cursor.values[key]}
-        if numbers != known:
-            tracks = {name: track.since(known[name]) for name, track in self._tracks().items()}
-            places = self.wearer.places.since(known["places"])
+        if numbers != sent:
+            tracks = {name: track.since(sent[name]) for name, track in self._tracks().items()}
+            places = self.wearer.places.since(sent["places"])
             if places is None or None in tracks.values():
                 return self.whole_message()
-            phases = {foot.value: one.phases.since(known[f"phases {foot}"]) for foot, one in self.feet.items()}
+            phases = {foot.value: one.phases.since(sent[f"phases {foot}"]) for foot, one in self.feet.items()}
             message |= _filled("tracks", {name: points for name, points in tracks.items() if points})
             message |= _filled("phases", {name: started for name, started in phases.items() if started})
             message |= _filled("places", places)
-            message |= _filled("log", self.log.lines.since(known["log"]))
+            message |= _filled("log", self.log.lines.since(sent["log"]))
         if not message:
             return None, cursor
         return {"type": "frame", "t": self._t(), **message}, Cursor(self.layout_count, numbers, values)

@@ -61,7 +61,7 @@ class WearerScene:
         }
 
     def place_frame(self, place: Placed | None) -> dict[str, Any] | None:
-        """Return the member "place" of a frame; None while it is not known."""
+        """Return the member "place" of a frame; None while the place is not known."""
         if place is not self._place_frame[0]:
             self._place_frame = (place, None if place is None else _place(place))
         return self._place_frame[1]

@@ -1,6 +1,7 @@
 """Decides where the page listens, who may see it, and who may control it.
 
-Gait is health data: only this machine, or whoever has the token, may see the page."""
+Gait is health data: a page that other machines can reach is shown only to watchers with the token. Control always needs
+the token."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ class AccessDenied(Exception):
 
 @frozen
 class PageAccess:
-    """The access to a page that is served at `host`, a name or an address; to control it one must know `token`."""
+    """The access to a page that is served at `host`, a name or an address; whoever knows `token` may control it."""
 
     host: str
     token: str
@@ -39,13 +40,13 @@ class PageAccess:
     def check_host(self, host: str | None) -> None:
         """Check the Host header of a request; raise AccessDenied for a name that is not this page's.
 
-        If any name were accepted, an attacker could point a name of theirs at this machine and read this page from
-        their own (DNS rebinding). An address cannot be redirected so."""
+        Otherwise an attacker's web page, whose name the attacker lets resolve to this machine, could read this page
+        (DNS rebinding). A request to an IP address involves no name, so that it is accepted."""
         name = None if host is None else host_of(host)
         if name is None:
             raise AccessDenied("a request does not say to which host it is", 400)
         if not (name == "localhost" or name == self.host.lower() or is_address(name)):
-            raise AccessDenied("a request is to a host that this is not")
+            raise AccessDenied("a request names another host than this page's")
 
     def check_origin(self, origins: list[str], host: str) -> None:
         """Check the Origin headers, in which a browser names the requesting page, against the Host header."""
@@ -53,15 +54,15 @@ class PageAccess:
             try:
                 parts = urlsplit(origin)
             except ValueError:
-                raise AccessDenied("a page with an origin that is none wants to watch") from None
+                raise AccessDenied("a page with a malformed origin wants to watch") from None
             if parts.scheme not in ("http", "https") or parts.netloc.lower() != host.lower():
                 raise AccessDenied("a page of another origin wants to watch")
 
     def may_control(self, tokens: list[str]) -> bool:
         """Return whether a watcher that sends these tokens may control the page.
 
-        Without a token, a watcher on this machine may only watch. AccessDenied is raised for a wrong token, and for no
-        token if other machines can reach the page."""
+        A watcher without a token may watch, but not control, a page that only this machine can reach. AccessDenied is
+        raised for a wrong token, and for a missing one if other machines can reach the page."""
         if not tokens:
             if self.is_public:
                 raise AccessDenied("somebody without a token wants to watch from another machine")
@@ -113,7 +114,7 @@ def listen(host: str, port: int | None) -> socket.socket:
 
 
 def url_host(host: str) -> str:
-    """Return the host as in a URL; for a wildcard address, the one by which other machines reach this one."""
+    """Return `host` as in a URL; a wildcard address becomes the address by which other machines reach this one."""
     if host in ALL_ADDRESSES:
         host = _outward_address()
     return f"[{host}]" if ":" in host else host

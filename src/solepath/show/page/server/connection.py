@@ -16,7 +16,7 @@ from aiohttp import web
 MAX_UNWATCHED_TIME = 30.0
 """Longest duration of a connection on which nobody watches, s; it does not depend on requests or reading speed."""
 SEND_BUFFER_SIZE = 65_536
-"""Size of the system's send buffer for a slow reader, bytes: some seconds of frames."""
+"""Size of the system's send buffer for a slow browser, bytes: some seconds of frames."""
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; base-uri 'none'; frame-ancestors 'none'",

@@ -37,15 +37,14 @@ CONTENT_TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascri
 class Page:
     """Serves `scene` while the context lasts.
 
-    `host` is where the page listens; if other machines can reach it, watchers need the token. `port` is 0 for any free
-    port; None for 8765 or, when that is taken, any free port. `token` is random when it is None. `commands` is called
+    `host` is where the page listens; if other machines can reach it, watchers need the token. `port` 0 means any free
+    port; None means 8765 or, when that is taken, any free port. `token` is random when it is None. `commands` is called
     with each command of a watcher who has the token; it is None where there is nothing to play.
 
     A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MAX_WATCHERS.
-    `port` and `url` raise RuntimeError before the context is entered. Page and `scene` are for one event loop.
-
-    `scene` may be replaced, as after a seek: every watcher gets the whole new scene. Entering the context raises
-    OSError when the page cannot listen at `host` and `port`."""
+    Entering the context raises OSError when the page cannot listen at `host` and `port`. Before that, `port` and `url`
+    raise RuntimeError. Page and `scene` are for one event loop. When `scene` is replaced, as after a seek, watchers get
+    the whole new scene."""
 
     def __init__(
         self,
@@ -147,7 +146,7 @@ class Page:
 
 
 def _files(folder: Traversable) -> dict[str, tuple[bytes, str]]:
-    """Return content and content type of the page's files by name; nothing else can be requested."""
+    """Return content and content type of each file of the page by its name; nothing else can be requested."""
     contents = {}
     for file in folder.iterdir():
         content_type = CONTENT_TYPES.get(f".{file.name.rpartition('.')[2]}")

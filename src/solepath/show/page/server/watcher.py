@@ -20,7 +20,7 @@ from .connection import HEADERS
 FRAME_INTERVAL = 1.0 / 30.0
 """Mean time from one frame to the next, s."""
 MAX_FRAME_INTERVAL = 1.0
-"""Longest time between two frames, s; a page without frames for longer knows that the server is gone."""
+"""Longest time between two frames, s; after a longer one the page in the browser knows that the server is gone."""
 READ_TIMEOUT = 10.0
 """Time after which a browser that reads nothing is disconnected, s."""
 PING_INTERVAL = 20.0
@@ -36,7 +36,7 @@ class WatchedPage(Protocol):
 
 
 class Watcher:
-    """The connection to one browser that watches; `may_control` says that the browser has sent the token."""
+    """The connection to one browser that watches; `may_control` is true if the browser has sent the token."""
 
     def __init__(self, page: WatchedPage, may_control: bool) -> None:
         self._page = page
@@ -69,7 +69,7 @@ class Watcher:
         return self._socket
 
     async def end(self) -> None:
-        """Send what has changed since the last frame, then close the connection, since the page ends."""
+        """Send what has changed since the last frame, then close the connection."""
         try:
             async with asyncio.timeout(1.0):
                 if self._unread():
@@ -173,4 +173,4 @@ CLOSED_BY_LIBRARY: dict[int | None, str] = {
     WSCloseCode.INVALID_TEXT: "a browser sent text that is not UTF-8",
     WSCloseCode.MESSAGE_TOO_BIG: "a browser sent more than a message may hold",
 }
-"""Error that each close code means, for connections that the library closed before a message was complete."""
+"""Meaning of the close codes with which the library closes a connection before a message is complete."""

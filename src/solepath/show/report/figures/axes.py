@@ -16,6 +16,8 @@ from ..markup import add
 WIDTH = 400.0
 LEFT, RIGHT, TOP, BOTTOM = 40.0, 10.0, 24.0, 36.0
 """Left, right, top and bottom margins of a chart, px."""
+MARGIN_SHARE = 0.06
+"""Margin at each end of an axis, as a share of its range."""
 
 Point = tuple[float, float]
 
@@ -46,22 +48,22 @@ def tick_labels(values: Sequence[float]) -> list[str]:
 
 
 def padded_range(values: Iterable[float], *, least: float, zero: bool = False) -> tuple[float, float]:
-    """Return the ends of an axis: the lowest and the highest value with a margin, at least `least` apart.
+    """Return the ends of an axis, at least `least` apart: the lowest and the highest value, with a margin.
 
-    With `zero`, 0 is within them."""
+    With `zero`, 0 is within the axis."""
     known = list(values)
     low, high = min(known, default=0.0), max(known, default=0.0)
     if zero:
         low, high = min(low, 0.0), max(high, 0.0)
     missing = max(least - (high - low), 0.0)
-    margin = 0.06 * (high - low + missing)
+    margin = MARGIN_SHARE * (high - low + missing)
     low, high = low - 0.5 * missing - margin, high + 0.5 * missing + margin
     return (max(low, 0.0) if zero and min(known, default=0.0) >= 0.0 else low), high
 
 
 @frozen
 class AxisScale:
-    """A linear scale from values, `low` to `high`, to positions, `start` to `end` in px."""
+    """A linear scale that maps values from `low` to `high` to px from `start` to `end`."""
 
     low: float
     high: float
@@ -69,7 +71,7 @@ class AxisScale:
     end: float
 
     def at(self, value: float) -> float:
-        """Return the position of a value, px."""
+        """Return the coordinate of a value, px."""
         span = self.high - self.low
         return self.start if span <= 0.0 else self.start + (value - self.low) / span * (self.end - self.start)
 
@@ -77,8 +79,7 @@ class AxisScale:
 def drawing(name: str, title: str, what: str, height: float) -> Element:
     """Return an empty <svg>.
 
-    `name` is unique on the page; a screen reader reads `title` and the description `what` to those who cannot see it.
-    """
+    `name` is unique on the page. A screen reader reads `title` and the description `what` aloud."""
     svg = Element("svg", {"viewBox": f"0 0 {px(WIDTH)} {px(height)}", "role": "img"})
     svg.set("aria-labelledby", f"{name}-title {name}-what")
     add(svg, "title", title, id=f"{name}-title")
@@ -92,7 +93,7 @@ def write(parent: Element, x: float, y: float, words: str, kind: str = "", ancho
 
 
 def line(points: Iterable[Point]) -> str:
-    """Return an SVG path through the points, px; a point at the same px as the last one is left out."""
+    """Return an SVG path through the points, px; a point that is drawn where the last one is is left out."""
     commands: list[str] = []
     last: tuple[str, str] | None = None
     for x, y in points:
@@ -134,7 +135,7 @@ class Chart:
     def of(
         cls, svg: Element, x: tuple[float, float], y: tuple[float, float], labels: tuple[str, str], height: float
     ) -> Chart:
-        """Make a chart with a grid and labels from the ranges of its axes; the label of y is above its axis."""
+        """Make a chart with a grid from the ranges of its axes and their labels, x first."""
         chart = cls(svg, AxisScale(*x, LEFT, WIDTH - RIGHT), AxisScale(*y, height - BOTTOM, TOP))
         grid(svg, chart.x, chart.y, ticks(*x, 6), ticks(*y, 5))
         write(svg, 0.5 * (LEFT + WIDTH - RIGHT), height - 5.0, labels[0], "label", "middle")
@@ -142,7 +143,7 @@ class Chart:
         return chart
 
     def at(self, x: float, y: float) -> Point:
-        """Return the position of a point, px."""
+        """Return the coordinates of a point, px."""
         return self.x.at(x), self.y.at(y)
 
     def path(self, points: Iterable[Point], kind: str) -> None:

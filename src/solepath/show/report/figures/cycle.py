@@ -17,6 +17,8 @@ BAR_TOPS = (30.0, 66.0)
 BAR_HEIGHT = 24.0
 MIN_SHARE = 0.005
 """Share of the cycle below which a span is left out."""
+MIN_LETTER_SHARE, MIN_WORD_SHARE, MIN_SWING_SHARE = 0.05, 0.09, 0.16
+"""Shares of the cycle above which a span has room for the first letter of its name, for the name, and for a swing."""
 
 
 def spans(start: float, share: float) -> list[tuple[float, float]]:
@@ -82,8 +84,9 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
         for a, b in shaded:
             size = {"x": px(x.at(a)), "width": px(x.at(b) - x.at(a)), "y": px(top), "height": px(bottom - top)}
             add(svg, "rect", class_=kind, **size)
-            if b - a > 0.05:
-                write(svg, 0.5 * (x.at(a) + x.at(b)), top - 4.0, word if b - a > 0.09 else word[0], "tick", "middle")
+            if b - a > MIN_LETTER_SHARE:
+                text = word if b - a > MIN_WORD_SHARE else word[0]
+                write(svg, 0.5 * (x.at(a) + x.at(b)), top - 4.0, text, "tick", "middle")
     for foot in feet:
         y = bars[foot]
         add(svg, "rect", class_="swing", x=px(x.start), y=px(y), width=px(x.end - x.start), height=px(BAR_HEIGHT))
@@ -96,7 +99,7 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
         share = sum([d - c for c, d in stance])
         write(svg, 0.5 * (x.at(a) + x.at(b)), y + 16.0, f"stance {100.0 * share:.0f} %", "onbar", "middle")
         c, d = max(gaps(stance, []), key=lambda span: span[1] - span[0], default=(0.0, 0.0))
-        if d - c > 0.16:
+        if d - c > MIN_SWING_SHARE:
             write(svg, 0.5 * (x.at(c) + x.at(d)), y + 16.0, f"swing {100.0 * (1.0 - share):.0f} %", "tick", "middle")
     tick_lines = []
     for k in range(6):

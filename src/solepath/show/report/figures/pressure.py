@@ -56,7 +56,7 @@ def _unit(soles: dict[Foot, ReportSole]) -> str:
 
 
 def radius(layout: Layout) -> float:
-    """Return the radius of a drawn cell, m: such that most cells just touch, within 2 and 20 mm."""
+    """Return the radius of a drawn cell, m: most cells just touch; it is 2 to 20 mm."""
     places = [(cell.x, cell.y) for cell in layout.cells]
     if len(places) < 2:
         return 0.01
@@ -148,7 +148,7 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
 
 
 def _thirds(parent: Element, maps: dict[Foot, Layout], loads: dict[Foot, list[float]]) -> None:
-    """Add a table of the load's shares, %, on the thirds of the insole's length."""
+    """Add a table of the shares of the load, %, on the three thirds of the insole's length."""
     rows = []
     for k, name in enumerate(THIRDS):
         row = [f"{name} third, %"]

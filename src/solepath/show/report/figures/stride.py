@@ -14,10 +14,10 @@ from .axes import Chart, drawing, padded_range, write
 
 HEIGHT = 190.0
 DISC_MARK, CROSS_MARK = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
-"""SVG shapes of the marks of the left and the right foot, which differ also without colours."""
+"""SVG shapes of the marks of the left foot and of the right one."""
 FOOT_MARKS = {Foot.LEFT: DISC_MARK, Foot.RIGHT: CROSS_MARK}
 MAX_SINGLE_MARKS = 240
-"""Number of strides of a foot above which its marks would hide one another."""
+"""Number of strides of a foot above which the marks would hide one another."""
 MIN_TURN = 0.35
 """Turning angle, either way, above which a stride is marked as one in a turn, rad (20 degrees)."""
 MIN_RANGE = 0.2

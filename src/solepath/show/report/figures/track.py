@@ -24,10 +24,13 @@ MAX_FOOTPRINTS = 160
 MAX_HEIGHT = 420.0
 """Largest height of the drawing of a track, px."""
 MAX_OFFSET = 1.2
-"""Largest distance of a footprint from the wearer's track, m; beyond it the feet's tracks drift apart."""
+"""Distance of a footprint from the wearer's track above which no footprints are drawn, m: the tracks drift apart."""
 MIN_EXTENT = 4.0
 """Least width that the drawing shows, m, so that standing still is not magnified."""
-
+MARGIN_SHARE, MIN_MARGIN = 0.06, 0.4
+"""Margin around the track: as a share of its larger extent, and the least, m."""
+MIN_ASPECT = 0.34
+"""Least height of what the drawing shows, as a share of its width."""
 
 TimedPosition = FootMoved | StrideTaken | WearerMoved
 """Event with the position of a foot or the wearer, world frame, m."""
@@ -39,7 +42,7 @@ def track_figure(
 ) -> bool:
     """Draw the track from above, x to the right and y up; return False when there is none.
 
-    `track` is the wearer's, or a foot's where only feet are known."""
+    `track` is the wearer's or, if that is not known, the track of a foot."""
     is_few = sum([len(prints) for prints in footprints.values()]) <= MAX_FOOTPRINTS
     offset = _largest_offset(track, footprints)
     shows_footprints = is_few and offset <= MAX_OFFSET
@@ -48,12 +51,12 @@ def track_figure(
         return False
     xs, ys = [event.position[0] for event in shown], [event.position[1] for event in shown]
     across, up = max(xs) - min(xs), max(ys) - min(ys)
-    margin = max(0.06 * max(across, up), 0.4)
+    margin = max(MARGIN_SHARE * max(across, up), MIN_MARGIN)
     middle = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
     width_m = max(across + 2.0 * margin, MIN_EXTENT)
     top, left, right, bottom = 10.0, 34.0, 8.0, 34.0
     inner_width = WIDTH - left - right
-    height_m = max(up + 2.0 * margin, 0.34 * width_m)
+    height_m = max(up + 2.0 * margin, MIN_ASPECT * width_m)
     scale = min(inner_width / width_m, (MAX_HEIGHT - top - bottom) / height_m)
     width_m, height = inner_width / scale, height_m * scale + top + bottom
     x = AxisScale(middle[0] - 0.5 * width_m, middle[0] + 0.5 * width_m, left, WIDTH - right)

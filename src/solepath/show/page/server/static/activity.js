@@ -1,4 +1,4 @@
-// The wearer's activity, and the few figures that everybody looks for first.
+// The wearer's activity, and the figures that are looked at first.
 
 import { ACTIVITIES, SUPPORTS, describe, activityText, fixed, wordOf, span, setData, write } from "./words.js";
 

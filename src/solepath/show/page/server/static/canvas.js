@@ -34,7 +34,7 @@ export class Surface {
     return this.context;
   }
 
-  // Zooming the page or moving it to another screen changes the pixel ratio and maybe not the size.
+  // Zooming the page or moving it to another screen may change only the pixel ratio, not the size.
   #watchRatio() {
     matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener(
       "change",
@@ -47,8 +47,8 @@ export class Surface {
   }
 }
 
-// A text alternative that changes at most once a second, so that a screen reader is not interrupted. Of the texts that
-// come within the second, the last one is read out.
+// A text alternative that changes at most once a second, so that a screen reader is not interrupted. The last text of a
+// second is the one that is set.
 export class Alternative {
   #waiting = null;
   #silent = false;
@@ -74,7 +74,7 @@ export class Alternative {
   }
 }
 
-// The round number (1, 2 or 5 times a power of ten) next above.
+// The least round number (1, 2 or 5 times a power of ten) that is not below `value`.
 export function round(value) {
   const power = 10 ** Math.floor(Math.log10(Math.max(value, 1e-6)));
   return [1, 2, 5, 10].find((step) => step * power >= value * 0.999) * power;

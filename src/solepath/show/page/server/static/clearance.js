@@ -1,4 +1,4 @@
-// Keeps the focused control visible: the browser scrolls it clear of what sticks to the window's edges.
+// Keeps the focused control visible: the browser scrolls it away from bars at the edges of the window.
 
 const MARGIN = 12; // px, for the mark of the focus
 

@@ -20,7 +20,7 @@ export class Connection {
   constructor(take, changed) {
     this.take = take;
     this.changed = changed;
-    // It counts ticks, not times: a page that slept finds its messages still queued behind the timer.
+    // It counts ticks, not time: after the page slept, its messages are still queued behind the timer.
     setInterval(() => this.#listen(), 1000);
     addEventListener("online", () => this.retry());
     document.addEventListener("visibilitychange", () => document.hidden || this.retry());
@@ -70,7 +70,7 @@ export class Connection {
     this.#socket = null;
     this.#failures = code === ENDED_CODE ? 0 : this.#failures + 1;
     this.#ended ||= code === ENDED_CODE;
-    // The token of a program that ended is rejected by the one that took its place, which may let this page watch.
+    // A program that took the place of the ended one rejects its token, but may let this page watch without one.
     const sure = this.#ended ? 1 : 3;
     if (this.#token) this.#withToken = this.#failures < sure || (this.#failures - sure) % 2 === 1;
     const wait = this.#wait() * (0.8 + 0.4 * Math.random());
@@ -95,7 +95,7 @@ export class Connection {
   }
 }
 
-// The token of the address (#token=...), which then no longer shows it, or the one stored in this tab.
+// The token of the address (#token=...), which is removed from the address, or else the token stored in this tab.
 function claimToken() {
   const given = new URLSearchParams(location.hash.slice(1)).get("token");
   try {

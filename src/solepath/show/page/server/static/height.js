@@ -1,4 +1,4 @@
-// The wearer's height over time, between the levels of the plan where there is one.
+// The wearer's height over time, with the levels of the plan if there is one.
 
 import { Alternative, FONT, Surface, round } from "./canvas.js";
 import { theme } from "./theme.js";
@@ -97,7 +97,7 @@ export class Height {
   }
 }
 
-// [t, z] of the known points, and the levels' elevations where the points are in the plan's frame.
+// [t, z] of the known points, and the elevations of the levels if the points are in the plan frame.
 function series({ plan, place, places, tracks, t }) {
   if (plan && places.length > 1) {
     const lines = plan.levels

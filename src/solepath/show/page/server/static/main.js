@@ -78,7 +78,7 @@ function draw(now) {
 
 const uses = (panel, news) => panel.uses.some((name) => news.has(name));
 
-// Marks the changes again that a panel did not draw yet.
+// Marks the changes that a panel did not draw yet, for a later frame.
 function later(panel, news) {
   for (const name of news) if (panel.uses.includes(name)) changed.add(name);
 }

@@ -59,7 +59,7 @@ export function drawRuler(context, { height }, scale) {
   label(context, words, x + 4, y - 6, theme.colours.muted);
 }
 
-// The left foot is round and the right one square, for readers who do not see the colours.
+// The left foot is round and the right one square, for people who do not see the colours.
 export function drawFoot(context, foot, [x, y]) {
   context.beginPath();
   if (foot === "left") context.arc(x, y, 6, 0, 2 * Math.PI);
@@ -75,7 +75,7 @@ export function drawFoot(context, foot, [x, y]) {
   context.fillText(foot === "left" ? "L" : "R", x, y + 3.25);
 }
 
-// The wearer, drawn around both feet where these are too near to each other to be distinguished.
+// The wearer as a ring around both feet, for a scale at which the feet cannot be distinguished.
 export function drawRing(context, [x, y]) {
   circle(context, x, y, 11);
   context.lineWidth = 2.5;

@@ -47,7 +47,7 @@ export class Pace {
     return this.#shown;
   }
 
-  // A machine that cannot keep up plays slower than requested; scrolling pictures must not run ahead of it.
+  // A slow machine plays slower than requested; scrolling pictures must not run ahead of it.
   #real(speed) {
     if (speed !== this.#speed) this.#recent = [];
     this.#speed = speed;

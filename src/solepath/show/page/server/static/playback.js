@@ -1,4 +1,4 @@
-// Pause, speed and seek of a recording; a watcher without control sees the position.
+// Pause, speed and seek of a recording; a watcher without control sees only the time.
 
 import { clock, describe, show, setData, write } from "./words.js";
 

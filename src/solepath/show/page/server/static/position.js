@@ -7,7 +7,7 @@ export function nameOf(plan, id) {
   return plan?.levels.find((level) => level.id === id)?.name ?? id;
 }
 
-// Note for a reader of this level; "" when there is none.
+// Note below a drawing of this level; "" when there is none.
 export function noteOnPlan({ place, places, plan }, level) {
   if (!place && places.length > 0) return "The place was lost; the track by itself goes on.";
   if (!place) return "Where on the plan is not known yet.";
@@ -15,7 +15,7 @@ export function noteOnPlan({ place, places, plan }, level) {
   return place.level === level.id ? "" : `The wearer is on ${nameOf(plan, place.level)}.`;
 }
 
-// Note where the track is shown by itself.
+// Note below the track without a plan.
 export function noteAlone({ place, places, plan }) {
   return plan && !place && places.length === 0 ? "Where on the plan is not known yet; this is the track by itself." : "";
 }

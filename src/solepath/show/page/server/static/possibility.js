@@ -1,5 +1,5 @@
-// The part of the track on the plan that belongs to the present place. When another candidate becomes the
-// likeliest, the track that was drawn before belongs to the rejected one.
+// The part of the track on the plan that belongs to the present candidate. When another candidate becomes the
+// likeliest, the track that was drawn before belongs to a rejected candidate.
 
 const MIN_JUMP = 5; // m by which the place moves more than the wearer when another candidate becomes the likeliest
 const DRIFT_SHARE = 0.2; // error of the track as a share of the distance between two places

@@ -84,7 +84,7 @@ export class Ribbon {
       if (phase !== "SWING") ground.push([from, to]);
       const [rise, fall] = RAMPS[phase] ?? [0.5, 0.5];
       const path = paths[SHADES[phase] ?? "-soft"];
-      // a ramp that the window cuts starts where the window does
+      // a phase that started before the window is drawn from the window's start
       const share = Math.max(0, (t - TIME_WINDOW - from) / (to - from));
       const top = rise + (fall - rise) * share;
       path.moveTo(x(from), y + band);

@@ -2,7 +2,7 @@
 
 const UNKNOWN = { top: Infinity, beyond: false };
 
-// kPa where newtons and areas are known; else the unit that comes, by its own name
+// the unit of a scale: kPa where newtons and areas are known, else N or counts
 export const scaleOf = (scales, { unit }) => scales[unit] ?? UNKNOWN;
 
 export function pressure(layout, i, value) {

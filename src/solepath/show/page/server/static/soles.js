@@ -13,7 +13,7 @@ const PADDING = 6; // px
 const MIN_TEXT_INTERVAL = 120; // ms between changes of a number, so that it can be read
 
 export class Soles {
-  // also each second: the newest number may not have been written yet
+  // "second", since the newest number may not have been written yet
   uses = ["feet", "scales", "links", "theme", "scene", "second"];
 
   constructor(redraw) {
@@ -117,8 +117,7 @@ class Sole {
     context.globalAlpha = 1;
   }
 
-  // The text below the picture and its text alternative are of one moment: whenever the latter is written, the
-  // former is as well.
+  // The text below the picture and its text alternative show one moment: both are written together.
   #words(foot, layout, lost, link, now) {
     const phase = foot?.phase ? wordOf(PHASES, foot.phase) : "–";
     const force = foot && foot.force !== null && !lost ? fixed(foot.force) : "";

@@ -1,5 +1,5 @@
-// The state that results from the messages of protocol/page.md. All input is checked here, so that a panel may rely on
-// points being made of numbers. Nothing here draws. Limits were chosen by hand and not swept.
+// The state that results from the messages of protocol/page.md. All input is checked here: panels may rely on it that
+// points consist of numbers. Nothing here draws. Limits were chosen by hand and not swept.
 
 const MAX_POINTS = 2000; // points of a track
 const PHASE_HISTORY = 20; // s of phases
@@ -115,7 +115,7 @@ export class State {
     return changed;
   }
 
-  // A recording states its start. Live, the start is the first known time, on a clock that may show anything.
+  // A recording states its start. A live session starts at the first known time, on a clock with any origin.
   #begins({ playback, tracks, phases, log, feet, links }) {
     if (number(playback?.begin) !== null) this.begin = playback.begin;
     else if (this.playback === null && !this.anyData) {

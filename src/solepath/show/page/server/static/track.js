@@ -1,5 +1,5 @@
-// Draws the track from above: by itself, or on the floor plan. All that does not move is kept as a picture; while the
-// view does not change, only new points are added to it.
+// Draws the track from above, alone or on the floor plan. What does not move is kept as a picture, to which only new
+// points are added while the view does not change.
 
 import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import {
@@ -174,8 +174,8 @@ export class Track {
     }
   }
 
-  // Between two places of which one is elsewhere there is no solid line; track before `since`, of a rejected
-  // candidate, is dashed.
+  // Only a line between two places on this level is solid. Before the index `since` the track of a rejected candidate
+  // is dashed.
   #walked(context, places, since, level, px) {
     const paths = { here: new Path2D(), elsewhere: new Path2D(), before: new Path2D() };
     for (let i = Math.max(1, this.drawn.places); i < places.length; i++) {
@@ -231,7 +231,7 @@ export class Track {
   }
 }
 
-// Points that fall on the same pixel are drawn as one.
+// Consecutive points on the same pixel are drawn as one.
 function line(context, points, px, width, colour) {
   const path = new Path2D();
   let [lastX, lastY] = [Infinity, Infinity];

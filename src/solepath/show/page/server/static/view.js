@@ -1,4 +1,4 @@
-// View of the plane: its middle and px per metre; it shows everything by itself, or what a person chooses.
+// The shown part of the plane: its middle and px per metre. It follows what is drawn until a person chooses a part.
 
 import { reducedMotion } from "./canvas.js";
 
@@ -39,7 +39,7 @@ export class View {
     if (first || reducedMotion.matches || this.#now === null) this.#now = { ...this.#goal };
   }
 
-  // Returns whether nothing is near the edge, and it does not all lie in a small part.
+  // Returns whether the box is within the view and fills enough of it.
   #suits(box, width, height, scale) {
     const { x, y, scale: shown } = this.#goal;
     const [w, h] = [(0.5 * width) / shown, (0.5 * height) / shown];
@@ -70,7 +70,7 @@ export class View {
     this.moved();
   }
 
-  // Adapts to another size of the canvas.
+  // Adapts the view to a new size of the canvas.
   resized() {
     if (this.follows) this.#goal = null;
   }

@@ -21,7 +21,7 @@ export const wordOf = (words, key) =>
     : String(key ?? "")
         .toLowerCase()
         .replaceAll("_", " ");
-// Activity of the wearer; while nothing comes of any foot, that it is not known.
+// Activity of the wearer in words; it is not known while no foot sends.
 export const activityText = ({ now, last }) =>
   last === null ? wordOf(ACTIVITIES, now) : `Not known, last: ${wordOf(ACTIVITIES, last).toLowerCase()}`;
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
@@ -47,7 +47,7 @@ export function span(seconds) {
   return seconds < 60 ? `${Math.max(0, Math.floor(seconds))} s` : `${clock(seconds)} min`;
 }
 
-// Writes a text only when it is a new one: the browser lays it out again, thirty times a second.
+// Writes a text only when it is new, since the browser lays each written text out again.
 export function write(element, words) {
   if (element.textContent !== words) element.textContent = words;
 }
