@@ -133,8 +133,8 @@ def marked(
 def rectangle(speed: float = 1.1, corner: float = RECTANGLE_CORNER_RADIUS, rounds: int = 1) -> Route:
     """Return a rectangle from A over B, C and D back to A, counter-clockwise, with A at the origin and B ahead of it.
 
-    Corners are bends of radius `corner`, walked at TIGHT_TURN (route.py) when it is below 1 m; 0 means a turn on the
-    spot, with a halt. The walk ends on A itself, at the end of DA."""
+    Corners are bends of radius `corner`, m, walked at TIGHT_TURN_SPEED (route.py) at most when `corner` is below 1 m; 0
+    means a turn on the spot, with a halt. The walk ends on A itself, at the end of DA."""
     points = [(ALONG, 0.0), (ALONG, ACROSS), (0.0, ACROSS), (0.0, 0.0)] * rounds
     return through(Route().stand(2.0), points, speed, corner).stop(2.0)
 

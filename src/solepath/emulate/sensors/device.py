@@ -74,7 +74,7 @@ def setup_notifications(profile: Profile, device_values: Mapping[str, bytes]) ->
     return [Notification(spacing * k, channel, data, True) for k, (channel, data) in enumerate(values, 1)]
 
 
-def device_numbers(seed: int, site: Site, *more: int) -> Rng:
+def device_rng(seed: int, site: Site, *more: int) -> Rng:
     """Return the random generator of the device at a site; with `more` that of one of its sensors."""
     return np.random.default_rng([seed, 2, list(Site).index(site), *more])
 

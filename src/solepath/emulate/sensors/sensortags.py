@@ -142,7 +142,7 @@ class CC2541:
             "cc2541/gyroscope-period": period_value,
             "cc2541/magnetometer-period": slow_period_value,
             "cc2541/barometer-period": slow_period_value,
-            "cc2541/barometer-calibration": CALIBRATION,
+            "cc2541/barometer-calibration": CALIBRATION_VALUE,
         }
         sent = setup_notifications(cc2541.PROFILE, device_values)
         for channel, sensor_period, code in (
@@ -192,7 +192,7 @@ def cc2541_bytes(channel: str, **fields: Any) -> bytes:
 
 CC2541_KEYS = tuple([cc2541_bytes("cc2541/keys", left=left, right=False, side=False) for left in (True, False)])
 """Values of the CC2541's key channel for the left key: pressed, released."""
-CALIBRATION = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBRATION))
+CALIBRATION_VALUE = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBRATION))
 """Value of the barometer's calibration channel."""
 
 

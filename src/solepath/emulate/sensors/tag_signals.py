@@ -17,6 +17,8 @@ from .sensors import Sampling, measure, read_barometer, to_counts
 
 HANDLING_TIME = 2e-3
 """Time from a measurement until the radio has its value, s (assumed)."""
+PERIOD_UNIT = 0.01
+"""Unit of a SensorTag's period characteristics, s."""
 SLOW_PERIOD = 1.0
 """Period of the barometer and of the CC2541's magnetometer after the usual setup, s."""
 MAG_DELAY = 0.3
