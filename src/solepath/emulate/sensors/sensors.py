@@ -105,9 +105,9 @@ def add_errors(true: Array, sampling: Sampling, chip: TriadErrors, rng: Rng, for
 
 
 def low_pass(signal: Array, rate: float, bandwidth: float) -> Array:
-    """Return the columns filtered by a causal second-order Butterworth low pass; the delay is sqrt(2) / (2 pi bandwidth).
+    """Return the columns filtered by a causal second-order Butterworth low pass, with a delay of sqrt(2) / (2 pi f).
 
-    A `bandwidth` of 0.45 `rate`, Hz, or more leaves the signal as it is."""
+    f is `bandwidth`, Hz; a bandwidth of 0.45 `rate`, Hz, or more leaves the signal as it is."""
     if bandwidth >= 0.45 * rate:
         return signal
     w = 2.0 * pi * bandwidth
