@@ -86,7 +86,7 @@ class Course:
                 self.walk(distance)
 
     def climb(self, up: bool) -> None:
-        """Walk two flights and the landing between them; the turn is to the left upwards, to the right downwards."""
+        """Walk two flights and the landing between them; the way up turns to the left, the way down to the right."""
         edge, last_edge = ahead(up, GOING), EDGE_OFFSET + (RISERS - 1) * GOING
         self.flight(up)
         self.walk(TURN_DISTANCE - (EDGE_OFFSET - edge + RISERS * GOING))
