@@ -193,7 +193,6 @@ class RadioClient(BaseBleakClient):
         return collection
 
     def _payload_size(self) -> int:
-        """Return the size of a value that fits in one ATT packet, bytes."""
         return self.mtu_size - ATT_HEADER_SIZE
 
     def _lost(self, link: Connection, reason: int) -> None:

@@ -96,7 +96,6 @@ def parse_faults(text: str) -> tuple[Fault, ...]:
 
 
 def _words(line: str) -> list[list[str]]:
-    """Return the words of each fault on the line."""
     lexer = shlex.shlex(line, posix=True, punctuation_chars=";")
     lexer.whitespace_split = True
     faults: list[list[str]] = [[]]

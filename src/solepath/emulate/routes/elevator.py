@@ -92,7 +92,7 @@ class CarRide:
         return position, velocity, acceleration
 
     def _fade(self, elapsed: Array) -> tuple[Array, Array, Array]:
-        """Return a factor that rises from 0 to 1 within FADE_TIME s and falls at the end, and its derivatives by time."""
+        """Return a factor that rises from 0 to 1 within FADE_TIME s and falls at the end, and its two derivatives."""
         margin = np.minimum(elapsed, self.end - self.start - elapsed)
         sign = np.where(elapsed < self.end - self.start - elapsed, 1.0, -1.0)
         u = np.minimum(margin / FADE_TIME, 1.0)

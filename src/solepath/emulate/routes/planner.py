@@ -82,7 +82,6 @@ class _Planner:
         return WalkPlan(self.t, self.starts, strides, tuple(self.bouts), tuple(self.climbs), tuple(self.rides))
 
     def _ride(self, stage: ElevatorStage) -> None:
-        """Add an elevator ride, with the times in which the doors close and open."""
         car = ride(stage.elevator, self.t + stage.elevator.doors, self.rng)
         self.rides.append(car)
         self.t = car.end + stage.elevator.doors
