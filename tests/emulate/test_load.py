@@ -196,7 +196,7 @@ def test_a_heel_array_bears_only_the_load_above_it(way: str) -> None:
     walker = Walker(STRAIGHT, seed=3) if way == "straight" else bend(2.0)
     foot = Foot.LEFT
     t = np.arange(0.0, walker.duration, 0.01)
-    array, heel = walker.cell_loads(heel_array(foot), t).sum(axis=1), walker.loads.shares(foot, t)[0]
+    array, heel = walker.cell_loads(heel_array(foot), t).sum(axis=1), walker.loads.zone_shares(foot, t)[0]
     on_heel = heel * walker.loads.total(foot, t)
     assert (array <= on_heel + 1e-9).all()
     loaded = on_heel > 50.0

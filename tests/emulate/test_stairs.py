@@ -109,7 +109,7 @@ def test_a_foot_in_stationary_is_still_at_the_height_of_its_tread(storey: Walker
 
 def test_the_load_of_a_descending_foot_starts_under_the_forefoot(storey: Walker) -> None:
     stride = next(s for s in climbing(storey, Foot.LEFT) if s.kind is StrideKind.DOWN and s.number > 20)
-    heel, _, front, toes = storey.loads.shares(Foot.LEFT, np.array([stride.heel_strike + 0.01]))
+    heel, _, front, toes = storey.loads.zone_shares(Foot.LEFT, np.array([stride.heel_strike + 0.01]))
     assert front[0] + toes[0] > 0.6 > heel[0] + 0.3
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.peripheral import Peripheral
-from solepath.emulate.sensors.device import Device, device_numbers
+from solepath.emulate.sensors.device import Device, device_rng
 from solepath.emulate.sensors.insole_device import TICK_RATE, Insole
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.link.decoder import Decoder
@@ -169,9 +169,9 @@ def test_a_bench_distinguishes_devices_by_address_and_names_insoles_by_side() ->
     ],
 )
 def test_frames_are_byte_for_byte_those_that_the_emulator_emits(device: Insole, site: Site) -> None:
-    emitted = [n for n in device.emit(walker(), site, device_numbers(3, site)) if n.channel == "insole/frame"]
+    emitted = [n for n in device.emit(walker(), site, device_rng(3, site)) if n.channel == "insole/frame"]
     tag = set_up(worn(device, site), insole.PROFILE, now=-1.0, mtu=device.mtu)
-    assert tag.read("insole/info", -1.0) in [n.data for n in device.emit(walker(), site, device_numbers(3, site))]
+    assert tag.read("insole/info", -1.0) in [n.data for n in device.emit(walker(), site, device_rng(3, site))]
     received = played(tag, walker().duration + 1.0, "insole/frame")
     walked = [(t, outgoing.value) for t, outgoing in received if emitted[0].t - 1e-6 <= t <= emitted[-1].t + 1e-6]
     assert [value for _, value in walked] == [n.data for n in emitted]

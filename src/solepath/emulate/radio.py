@@ -1,8 +1,8 @@
 """The radio channel between a device and its receiver: loss, duplicates, bit errors and delay.
 
-Bluetooth Low Energy keeps the order of notifications, and its link layer repeats lost packets. A bad channel therefore
-shows as delay, and a late packet delays all packets behind it. Packets are lost in higher layers, by full queues, lossy
-relays and dropped callbacks. They keep their order on a Bluetooth link; `in_order=False` is for other relays."""
+Bluetooth Low Energy keeps the order of notifications, and its link layer repeats a packet until it arrives. A bad
+channel therefore shows as delay, and a late packet delays all packets behind it. Losses happen in higher layers: full
+queues, lossy relays and dropped callbacks. `in_order=False` is for relays that do not keep the order."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Radio:
     duplicate: float = field(default=0.0, validator=_share)
     """Share of notifications that arrive twice."""
     corrupt: float = field(default=0.0, validator=_share)
-    """Share of notifications that arrive with one to three inverted bits."""
+    """Share of notifications that arrive with up to three inverted bits."""
     truncate: float = field(default=0.0, validator=_share)
     """Share of notifications that arrive cut short."""
     latency: float = 0.005
@@ -39,12 +39,12 @@ class Radio:
     jitter: float = 0.004
     """Largest additional transmission time, s; uniformly distributed from 0."""
     interval: float = 0.0
-    """Time between connection events, s, at which packets are sent; 0: packets do not wait for events."""
+    """Time between the connection events at which packets are sent, s; 0: packets do not wait for events."""
     in_order: bool = True
     """True when no packet overtakes another one."""
 
     def transmit(self, sent: list[Notification], site: Site, rng: Rng) -> list[Packet]:
-        """Return the packets that arrive of the notifications `sent`, sorted by time of arrival."""
+        """Return the packets that arrive of `sent`, in the order of arrival; acknowledged values stay intact."""
         chances = rng.uniform(size=(len(sent), 6))
         phase = self.interval * float(rng.uniform())
         packets: list[Packet] = []
@@ -75,7 +75,7 @@ class Radio:
 
 
 CLEAN = Radio()
-"""A good link, without loss and with a latency from 5 to 9 ms."""
+"""A good channel: no loss, and transmission times from 5 to 9 ms."""
 
 
 def _flip(data: bytes, rng: Rng) -> bytes:

@@ -5,7 +5,7 @@
     walk.truth.strides(Foot.LEFT)
 
 Time 0 is the start of the first stand on the true clock, which is also the receiver's clock. The same arguments give
-the same packets, byte for byte. The gait, each device and each radio link have separate random generators: the same
+the same packets, byte for byte. The gait, each device and each radio channel have separate random generators: the same
 seed gives the same gait with any devices and any radio."""
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from attrs import frozen
 from ..types import SITE_OF_FOOT, Foot, Packet, Sample, Site
 from .radio import CLEAN, Radio
 from .routes.route import Route
-from .sensors.device import Device, device_numbers, foot_of
+from .sensors.device import Device, device_rng, foot_of
 from .sensors.insole_device import Insole
 from .wearers.gait import Wearer
 from .wearers.truth import Truth
@@ -33,7 +33,7 @@ class EmulatedWalk:
     packets: tuple[Packet, ...]
     """Packets of all sites in the order of arrival."""
     truth: Truth
-    """Ground truth for sensors with the mountings of the devices."""
+    """Ground truth for sensors that are mounted like the devices on the feet."""
     walker: Walker
     """The walker whose motion the devices measured, with exact kinematics, loads, and samples without a radio."""
 
@@ -48,8 +48,8 @@ def emulate(
 ) -> EmulatedWalk:
     """Return the packets and the truth of a walk on `route`.
 
-    Without `devices`, both feet wear insoles of 96 cells at 100 Hz. Sites above the ankle can wear only devices that
-    send their own attitude (Dot); any other device raises ValueError there."""
+    Without `devices`, both feet wear insoles of 96 cells at 100 Hz. Sites above the ankle can wear only a Dot;
+    any other device raises ValueError there."""
     if devices is None:
         devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
     walker = Walker(route, wearer, seed)
@@ -57,7 +57,7 @@ def emulate(
     packets: list[Packet] = []
     for site in sorted(devices, key=sites.index):
         device = devices[site]
-        sent = device.emit(walker, site, device_numbers(seed, site))
+        sent = device.emit(walker, site, device_rng(seed, site))
         packets += radio.transmit(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
     packets.sort(key=attrgetter("t"))
     mountings = {site.foot: device.mounting for site, device in devices.items() if site.foot is not None}
@@ -71,7 +71,7 @@ class SampledWalk:
     samples: tuple[Sample, ...]
     """Samples of both feet in the order of time."""
     truth: Truth
-    """Ground truth for sensors with the mountings of the insoles."""
+    """Ground truth for sensors that are mounted like the insoles."""
     walker: Walker
     """The walker whose motion the insoles measured."""
 
@@ -79,14 +79,12 @@ class SampledWalk:
 def sampled(
     route: Route, *, wearer: Wearer | None = None, insoles: Mapping[Site, Insole] | None = None, seed: int = 1
 ) -> SampledWalk:
-    """Return the walk of `emulate` with the same arguments as samples at their true times, without packets."""
+    """Return the samples, at their true times and without packets, of the walk that `emulate` makes on `route`."""
     if insoles is None:
         insoles = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
     walker = Walker(route, wearer, seed)
     samples = [
-        sample
-        for site, insole in insoles.items()
-        for sample in insole.samples(walker, site, device_numbers(seed, site))
+        sample for site, insole in insoles.items() for sample in insole.samples(walker, site, device_rng(seed, site))
     ]
     samples.sort(key=attrgetter("t"))
     mountings = {foot_of(site): insole.mounting for site, insole in insoles.items()}

@@ -45,7 +45,7 @@ class Count:
     rate: float
     size: int
 
-    def after(self, t: float) -> int:
+    def first_number_from(self, t: float) -> int:
         return max(0, ceil(t * self.rate - 1e-6))
 
     def due(self, number: int) -> float:
@@ -67,7 +67,7 @@ class Strap(Peripheral):
     def value(self, channel: str, t: float) -> bytes:
         return {"strap/control": bytes([self.rate]), "device/battery": b"\x57", "strap/page": BOOK}[channel]
 
-    def take(self, channel: str, value: bytes, t: float) -> None:
+    def accept_write(self, channel: str, value: bytes, t: float) -> None:
         if len(value) != 1:
             raise AttError(AttCode.WRONG_LENGTH)
         self.rate = value[0]

@@ -24,11 +24,11 @@ from bumble.core import AdvertisingData
 from bumble.device import Advertisement, Connection, Peer
 
 from ...ble.scanning import Backend
+from ..devices.attributes import ATT_HEADER_SIZE, SMALLEST_MTU
 from .radio import VirtualRadio, end_link
 
 _T = TypeVar("_T")
 
-_SMALLEST_MTU = 23
 _PAIRING_TIMEOUT = 30.0
 """Time after which a pairing has failed, s (Bluetooth Core, vol 3 part H, 3.4)."""
 _PAIRING_ERRORS: dict[tuple[str, int | None], str] = {
@@ -78,10 +78,10 @@ class RadioScanner(BaseBleakScanner):
 
     async def start(self) -> None:
         self.seen_devices = {}
-        await self.radio.listen(self.on_advertisement)
+        await self.radio.add_listener(self.on_advertisement)
 
     async def stop(self) -> None:
-        await self.radio.ignore(self.on_advertisement)
+        await self.radio.remove_listener(self.on_advertisement)
 
     def on_advertisement(self, advertisement: Advertisement) -> None:
         """Report one advertisement to the callbacks of bleak."""
@@ -110,8 +110,8 @@ class RadioScanner(BaseBleakScanner):
 class RadioClient(BaseBleakClient):
     """A GATT client on the virtual medium.
 
-    The disconnected callback is called once for every established link, whichever side ended it. A pending request then
-    ends with a BleakError."""
+    When an established link ends, whichever side ended it, the disconnected callback is called once, and a pending
+    request raises BleakError."""
 
     radio: ClassVar[VirtualRadio]
     scanner: ClassVar[type[RadioScanner]]
@@ -130,7 +130,7 @@ class RadioClient(BaseBleakClient):
 
     @property
     def mtu_size(self) -> int:
-        return self._link.att_mtu if self._link is not None else _SMALLEST_MTU
+        return self._link.att_mtu if self._link is not None else SMALLEST_MTU
 
     @property
     def is_connected(self) -> bool:
@@ -139,8 +139,8 @@ class RadioClient(BaseBleakClient):
     async def connect(self, pair: bool, **kwargs: Any) -> None:
         """Connect, exchange the MTU and discover the services.
 
-        With the keys of an earlier pairing the link is encrypted; without keys and with `pair` the device is paired. A
-        device that does not answer within `timeout` s raises TimeoutError. An address that no device advertises raises
+        With the keys of an earlier pairing the link is encrypted; without keys `pair` decides whether to pair. A device
+        that does not answer within `timeout` s raises TimeoutError. An address that no device advertises raises
         BleakDeviceNotFoundError. A link that is lost at once, or a failed pairing, raises BleakError."""
         if self._link is not None:
             raise BleakError("already connected")
@@ -193,8 +193,7 @@ class RadioClient(BaseBleakClient):
         return collection
 
     def _payload_size(self) -> int:
-        """Return the size of a value that fits in one ATT packet, bytes."""
-        return self.mtu_size - 3
+        return self.mtu_size - ATT_HEADER_SIZE
 
     def _lost(self, link: Connection, reason: int) -> None:
         if self._link is not link:
@@ -212,7 +211,7 @@ class RadioClient(BaseBleakClient):
             self._lost(link, 0)
 
     async def pair(self, *args: Any, **kwargs: Any) -> None:
-        """Pair by LE Secure Connections, Just Works, without user input; the backend keeps the keys while it lives."""
+        """Pair by LE Secure Connections, Just Works, without user input; the radio keeps the keys in memory."""
         link = self._link
         if link is None:
             raise BleakError("not connected")
@@ -280,9 +279,8 @@ class RadioClient(BaseBleakClient):
     async def stop_notify(self, characteristic: BleakGATTCharacteristic) -> None:
         subscriber = self._subscriptions.pop(characteristic.handle, None)
         if subscriber is not None:
-            with suppress(
-                BleakGATTProtocolError
-            ):  # bleak's side is unsubscribed even when the device answers with an error
+            # bleak's side is unsubscribed even when the device answers with an error.
+            with suppress(BleakGATTProtocolError):
                 await self._request(partial(characteristic.obj.unsubscribe, subscriber))
 
 

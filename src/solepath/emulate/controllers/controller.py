@@ -1,4 +1,4 @@
-"""Virtual Bluetooth controllers: those of bumble on a shared medium, corrected by the Core specification.
+"""Virtual Bluetooth controllers on a shared medium: those of bumble, corrected by the Core specification.
 
 Three corrections matter in tests of a reconnect. A cancelled connection request really ends. When a device has just
 accepted another central, a second central does not keep a link that was never established. A scan response has its own
@@ -76,12 +76,12 @@ class VirtualMedium(LocalLink):
             events.end()
 
     def lose(self, controller: Controller, connection: Connection) -> None:
-        """End a link as radio silence does; both sides then report a supervision timeout."""
+        """End a link as when the radio falls silent: both sides report a supervision timeout."""
         self._end(connection.self_address, connection.peer_address)
-        for end in list(self.controllers):
-            other = end.le_connections.get(connection.self_address)
-            if end is not controller and other is not None and other.self_address == connection.peer_address:
-                end.on_le_disconnected(other, hci.HCI_ErrorCode.CONNECTION_TIMEOUT_ERROR)
+        for peer in list(self.controllers):
+            other = peer.le_connections.get(connection.self_address)
+            if peer is not controller and other is not None and other.self_address == connection.peer_address:
+                peer.on_le_disconnected(other, hci.HCI_ErrorCode.CONNECTION_TIMEOUT_ERROR)
         if controller.le_connections.get(connection.peer_address) is connection:
             controller.on_le_disconnected(connection, hci.HCI_ErrorCode.CONNECTION_TIMEOUT_ERROR)
 
@@ -177,14 +177,14 @@ class VirtualController(Controller):
 
 
 _INTERVAL_TOLERANCE = 1e-6
-"""Tolerance for the rounding of summed times, as a share of an interval."""
+"""Rounding error of times by which an event may seem later than now, as a share of an interval."""
 
 
 class ConnectionEvents:
     """The connection events of one link, `interval` s apart; the first is `interval` s after the link starts.
 
-    All packets that are ready at an event are sent in order. Their number is not limited, unlike on a real radio.
-    Answers are sent at the next event."""
+    At an event all ready packets are sent in order; unlike on a real radio, their number is not limited. An answer to
+    a packet is sent at the next event."""
 
     def __init__(self, interval: float) -> None:
         self.interval = interval

@@ -14,8 +14,8 @@ from ..devices import attributes as emulated
 class AttributeServer(Server):
     """The GATT server of bumble, without its side effect on the program's logging.
 
-    In every discovery bumble reports with `logging.debug` that there is no further attribute of a type. That function
-    configures the root logger of a program that has not done so itself."""
+    When a discovery finds no further attribute of a type, bumble calls `logging.debug`. That configures the root logger
+    of a program that has not done so itself. This class answers such a request without bumble."""
 
     def on_att_read_by_type_request(self, bearer: att.Bearer, request: att.ATT_Read_By_Type_Request) -> None:
         first, last = request.starting_handle, request.ending_handle
@@ -32,7 +32,7 @@ class AttributeServer(Server):
 
 
 def short_or_long(uuid: str) -> core.UUID:
-    """Return the UUID, with 16 bits if it is one of the Bluetooth SIG."""
+    """Return the UUID, with 16 bits if the Bluetooth SIG assigned it."""
     if emulated.is_short(uuid):
         return core.UUID.from_16_bits(int(uuid[4:8], 16))
     return core.UUID(uuid)

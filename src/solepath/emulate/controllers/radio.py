@@ -1,7 +1,7 @@
 """A virtual central: a bumble Device that scanners and clients share, opened when it is first needed.
 
 A controller makes one connection at a time. An attempt to connect to a device that does not answer occupies the
-controller for ATTEMPT_TIMEOUT s. It then lets other attempts go first and repeats until its caller gives up."""
+controller for ATTEMPT_TIMEOUT s. Then it lets other attempts go first, and is repeated until its caller gives up."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _T = TypeVar("_T")
 ATTEMPT_TIMEOUT = 2.0
 """Time for which one attempt to connect may occupy the controller, s; devices advertise about every 0.1 s."""
 CONTROLLER_TIMEOUT = 5.0
-"""Time that a controller may take to start or to end a link, s."""
+"""Time that a controller may take to do what is requested, except to connect, s."""
 RETRY_INTERVAL = 1.0
 """Time between attempts to reach a lost controller again during a scan, s."""
 
@@ -34,9 +34,9 @@ ScanListener = Callable[[Advertisement], None]
 class VirtualRadio:
     """A central behind an HCI transport.
 
-    `reach` opens the transport and raises OSError when there is none; after a loss the next scan or connection calls it
-    again. `where` is the name of the transport in messages. `address` is the static random address of the central;
-    None: any. `mtu` is the ATT MTU that the central requests, bytes."""
+    `reach` opens the transport and raises OSError when there is none; the next scan or connection after a loss calls it
+    again. `where` is the name of the transport in messages. `address` is the static address of the central; None: a
+    random one. `mtu` is the ATT MTU that the central requests, bytes."""
 
     def __init__(
         self, reach: Callable[[], Awaitable[Transport]], where: str, mtu: int, address: str | None = None
@@ -74,7 +74,7 @@ class VirtualRadio:
         config = DeviceConfiguration(name="solepath", address=self._address, gatt_service_enabled=False)
         device = Device(config=config, host=Host(transport.source, transport.sink))
         device.keystore = self.keys
-        just_works(device, lambda: False)  # a central starts pairings and accepts none
+        enable_just_works(device, lambda: False)  # a central starts pairings and accepts none
         try:
             async with asyncio.timeout(CONTROLLER_TIMEOUT):
                 await device.power_on()
@@ -92,8 +92,8 @@ class VirtualRadio:
     def _lost(self, device: Device) -> None:
         """Handle the loss of the transport.
 
-        bumble has already reported the loss to every link, but tasks that wait for the controller would wait for ever.
-        Scans continue as soon as the controller can be reached again."""
+        bumble has already reported the loss to every link. Tasks that wait for the controller would wait for ever, so
+        they are cancelled. Scans continue as soon as the controller can be reached again."""
         if self._device is device:
             self._device = self._transport = None
             for task in self._tasks:
@@ -110,7 +110,7 @@ class VirtualRadio:
             else:
                 return
 
-    async def listen(self, listener: ScanListener) -> None:
+    async def add_listener(self, listener: ScanListener) -> None:
         """Call `listener` for every advertisement from now on; raise BleakError when the scan cannot start."""
         device = await self.device()
         self._listeners.append(listener)
@@ -121,7 +121,7 @@ class VirtualRadio:
                 self._listeners.remove(listener)
                 raise
 
-    async def ignore(self, listener: ScanListener) -> None:
+    async def remove_listener(self, listener: ScanListener) -> None:
         """Stop calling `listener`."""
         if listener in self._listeners:
             self._listeners.remove(listener)
@@ -149,7 +149,7 @@ class VirtualRadio:
     async def connect(self, peer: hci.Address) -> Connection:
         """Return a link to the device of this address; try until cancelled.
 
-        A controller that fails raises BleakError, and so does a link that is lost as soon as it is made."""
+        A controller that fails, or a link that is lost as soon as it is made, raises BleakError."""
         while True:
             device = await self.device()
             async with self._connecting_lock:
@@ -195,8 +195,8 @@ class VirtualRadio:
     async def finish(self, work: Coroutine[Any, Any, _T]) -> _T:
         """Run an exchange with the controller or a device to its end, even when the caller gives up.
 
-        The late answer to an abandoned request would be taken for the answer to the next request. An exchange that ends
-        with the link raises BleakError."""
+        Otherwise a late answer would be taken for the answer to the next request. An exchange that ends because the
+        link ends raises BleakError."""
         task = self.task(work)
         try:
             return await asyncio.shield(task)
@@ -268,10 +268,8 @@ class PairingConsent(PairingDelegate):
         return self._accepts()
 
 
-def just_works(device: Device, accepts: Callable[[], bool]) -> None:
-    """Let the device pair by LE Secure Connections, Just Works, with bonding (the keys are kept).
-
-    When the other side starts the pairing, `accepts()` decides."""
+def enable_just_works(device: Device, accepts: Callable[[], bool]) -> None:
+    """Let the device pair by LE Secure Connections, Just Works, and keep the keys (bonding); see PairingConsent."""
     pairing_consent = PairingConsent(accepts)
 
     def config(link: Connection) -> PairingConfig:

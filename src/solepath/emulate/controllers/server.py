@@ -30,14 +30,12 @@ from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualController, VirtualMedium
 from .gatt import AttributeServer, advertisement, short_or_long
-from .radio import VirtualRadio, end_link, just_works
+from .radio import VirtualRadio, enable_just_works, end_link
 
 _T = TypeVar("_T")
 
 ADVERTISING_INTERVAL = 62.5
-"""Advertising interval that bumble's host is given, ms; the real one is 100 ms.
-
-The reason is that bumble's controller reads the 0.625 ms units of HCI as milliseconds."""
+"""Advertising interval for bumble's host, ms: 100 HCI units of 0.625 ms, which its controller reads as 100 ms."""
 _CENTRAL_ADDRESS = "C0:50:1E:9A:74:01"
 _STANDARD_SERVICES = ("0000180a", "0000180f")
 """Starts of the UUIDs of services whose characteristics need no description; the Bluetooth SIG defines them."""
@@ -47,30 +45,30 @@ _STANDARD_SERVICES = ("0000180a", "0000180f")
 async def virtual_link(
     peripherals: Iterable[Peripheral], mtu: int = 247, interval: float | None = None
 ) -> AsyncIterator[Backend]:
-    """Serve the devices in this process, in the time of this loop, and yield a Backend that reaches them.
+    """Serve the devices in this process, by the clock of its event loop, and yield a Backend that reaches them.
 
     `mtu` is the ATT MTU that the central requests; a device may accept less. `interval` is the time between the
     connection events of each link, s, at which all ready packets are sent, requests and answers too (0.0075 to 4 s on a
     real link, often 0.03). None: packets do not wait."""
-    link = VirtualMedium(interval)
-    controller = VirtualController("central", link)
+    medium = VirtualMedium(interval)
+    controller = VirtualController("central", medium)
 
     async def reach() -> Transport:
         return Transport(controller, AsyncPipeSink(controller))
 
-    async with advertise_devices(peripherals, link):
+    async with advertise_devices(peripherals, medium):
         radio = VirtualRadio(reach, "the virtual controller", mtu, _CENTRAL_ADDRESS)
         try:
             yield backend_of(radio)
         finally:
             await radio.close()
-            link.leave(controller)
+            medium.leave(controller)
 
 
 @asynccontextmanager
-async def advertise_devices(peripherals: Iterable[Peripheral], link: VirtualMedium) -> AsyncIterator[None]:
-    """Let the devices advertise and serve on this link until the block is left."""
-    servers = [Server(device, link) for device in peripherals]
+async def advertise_devices(peripherals: Iterable[Peripheral], medium: VirtualMedium) -> AsyncIterator[None]:
+    """Let the devices advertise and serve on this medium until the block is left."""
+    servers = [Server(device, medium) for device in peripherals]
     try:
         for server in servers:
             await server.start()
@@ -90,7 +88,7 @@ class Server:
         self._timer: asyncio.TimerHandle | None = None
         self._due = 0.0
         self._link_end: asyncio.Future[bytes] | None = None
-        self._restart: asyncio.Task[None] | None = None
+        self._advertising: asyncio.Task[None] | None = None
         self._stopped = False
         self._controller = VirtualController(
             peripheral.name, medium, lambda: self._advertised() if peripheral.visible(self._loop.time()) else None
@@ -102,7 +100,7 @@ class Server:
             gatt_service_enabled=False,
         )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
-        just_works(self._device, lambda: self.peripheral.accepts_pairing(self._loop.time()))
+        enable_just_works(self._device, lambda: self.peripheral.accepts_pairing(self._loop.time()))
         self._device.gatt_server = AttributeServer(self._device)
         self._device.add_service(GenericAccessService(peripheral.name))
         self._served: dict[str, Characteristic[bytes]] = {}
@@ -146,8 +144,8 @@ class Server:
         self._stopped = True
         if self._link is not None:
             await end_link(self._link)
-        if self._restart is not None:
-            await self._restart
+        if self._advertising is not None:
+            await self._advertising
         self._disarm()
         self.peripheral.changed = None
         await self._device.power_off()
@@ -186,9 +184,9 @@ class Server:
             self._link_end.cancel()
         self.peripheral.disconnected(self._loop.time())
         if not self._stopped:
-            self._restart = self._loop.create_task(self._advertise())
+            self._advertising = self._loop.create_task(self._advertise())
 
-    # requests; the channel is the first argument because it is bound when the table of attributes is built
+    # requests; the table of attributes binds the first argument, the channel
 
     async def read(self, channel: str, link: Connection) -> bytes:
         """Return the value of a channel."""
@@ -217,7 +215,7 @@ class Server:
             self._arm()
 
     async def _no_answer(self) -> bytes:
-        """Wait until the link ends, for a request that the device never answers."""
+        """Wait until the link ends, in place of an answer."""
         if self._link_end is None:
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR)
         return await asyncio.shield(self._link_end)
@@ -242,7 +240,8 @@ class Server:
         for outgoing in self.peripheral.poll(now):
             pdu = att.ATT_Handle_Value_Notification(
                 attribute_handle=self._served[outgoing.channel].handle,
-                attribute_value=outgoing.value[: link.att_mtu - 3],  # longer values are cut without an error, as usual
+                # Longer values are cut without an error, as usual.
+                attribute_value=outgoing.value[: link.att_mtu - emulated.ATT_HEADER_SIZE],
             )
             self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
         if self.peripheral.hang_up(now):

@@ -25,7 +25,7 @@ from .radio import VirtualRadio
 from .server import advertise_devices
 
 _SCHEME = "tcp:"
-_BACKLOG = 1 << 20
+_MAX_UNREAD_SIZE = 1 << 20
 """Number of bytes that a client may leave unread before it is disconnected (assumed)."""
 
 
@@ -34,12 +34,12 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
     """Serve the devices until the block is left; yield the address of the server (port 0 takes a free one).
 
     Several clients may connect at the same time; a device is connected to one of them at a time. When a client
-    disconnects, its links are lost as by a supervision timeout, and its devices advertise again. An address that cannot
-    be used raises OSError."""
-    link = VirtualMedium()
+    disconnects, its links are lost as by a supervision timeout, and the devices at their other ends advertise again.
+    An address that cannot be used raises OSError."""
+    medium = VirtualMedium()
     clients: set[_TcpClient] = set()
-    async with advertise_devices(peripherals, link):
-        listening = await asyncio.get_running_loop().create_server(lambda: _TcpClient(link, clients), host, port)
+    async with advertise_devices(peripherals, medium):
+        listening = await asyncio.get_running_loop().create_server(lambda: _TcpClient(medium, clients), host, port)
         try:
             address = listening.sockets[0].getsockname()
             yield address[0], address[1]
@@ -53,8 +53,8 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
 class _TcpClient(asyncio.Protocol):
     """The TCP connection of one client, and the virtual controller that it drives."""
 
-    def __init__(self, link: VirtualMedium, clients: set[_TcpClient]) -> None:
-        self._medium = link
+    def __init__(self, medium: VirtualMedium, clients: set[_TcpClient]) -> None:
+        self._medium = medium
         self._clients = clients
         self._parser = PacketParser(self)
         self._transport: asyncio.Transport | None = None
@@ -62,7 +62,7 @@ class _TcpClient(asyncio.Protocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast(asyncio.Transport, transport)
-        self._transport.set_write_buffer_limits(high=_BACKLOG)
+        self._transport.set_write_buffer_limits(high=_MAX_UNREAD_SIZE)
         self._controller = VirtualController("client", self._medium)
         self._controller.host = StreamPacketSink(self._transport)
         self._clients.add(self)
@@ -113,15 +113,15 @@ def address_of(where: str) -> tuple[str, int]:
 async def reach(where: str, mtu: int = 247) -> AsyncIterator[Backend]:
     """Yield a Backend that reaches the devices of `serve` at "tcp:HOST:PORT".
 
-    Any other text in `where` raises ValueError; a server that does not answer raises a BleakError that names it. After
-    a loss of the connection every client's disconnected callback is called. Scanning and connecting then open the
-    connection again (BleakError if they cannot), and a running scan continues as soon as the server is back."""
+    `mtu` is the ATT MTU that clients request, bytes. Any other `where` raises ValueError; a server that does not answer
+    raises a BleakError that names it. When the TCP connection is lost, every client's disconnected callback is
+    called. The next scan or connection opens it again, or raises BleakError; a running scan continues by itself."""
     host, port = address_of(where)
 
-    async def opened() -> Transport:
+    async def open_connection() -> Transport:
         return await open_transport(f"tcp-client:{host}:{port}")
 
-    radio = VirtualRadio(opened, where, mtu)
+    radio = VirtualRadio(open_connection, where, mtu)
     try:
         await radio.device()
         yield backend_of(radio)

@@ -25,7 +25,9 @@ class AttCode(IntEnum):
 
 
 SMALLEST_MTU = 23
-"""Default ATT MTU of a link, bytes."""
+"""Smallest ATT MTU, bytes; a link has it until both sides agree on a larger one."""
+ATT_HEADER_SIZE = 3
+"""Bytes of an ATT packet before the value that it delivers."""
 MAX_ADVERTISEMENT_SIZE = 31
 """Largest size of a legacy advertisement, bytes (Bluetooth Core, vol 6 part B, 2.3.1)."""
 SIG_UUID_END = "-0000-1000-8000-00805f9b34fb"
@@ -47,7 +49,7 @@ class Characteristic:
     uuid: str
     """Full UUID in lower case."""
     channel: str
-    """Name of the channel that the characteristic carries."""
+    """Name of the channel whose values are read, written or notified here."""
     properties: frozenset[str]
     """Subset of "read", "write", "write-without-response" and "notify"."""
 
@@ -78,6 +80,7 @@ def check_fits(name: str, services: Sequence[str]) -> None:
     """Raise ValueError when the complete name and all services do not fit in an advertisement."""
     short = sum(map(is_short, services))
     long = len(services) - short
+    # Each list and the name have 2 bytes for length and type.
     size = 2 + len(name.encode()) + (2 + 2 * short if short else 0) + (2 + 16 * long if long else 0)
     if size > MAX_ADVERTISEMENT_SIZE:
         raise ValueError(f"the name {name!r} and the services make {size} bytes, {MAX_ADVERTISEMENT_SIZE} fit")
@@ -90,7 +93,7 @@ WRITE = frozenset({"write"})
 BATTERY_STEP = 600.0
 """Time in which the battery loses one percent, s (assumed)."""
 
-_INFORMATION = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
+_INFORMATION_NUMBERS = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
 _DEVICE_INFORMATION = 0x180A
 
 
@@ -98,17 +101,16 @@ def services(
     profile: Profile,
     properties: Mapping[str, frozenset[str]],
     more: Sequence[tuple[str, Characteristic]] = (),
-    information: Sequence[str] = (),
+    information_names: Sequence[str] = (),
 ) -> tuple[Service, ...]:
     """Return the services of a device.
 
-    The services contain the channels of `profile` with these `properties`, the pairs (service, characteristic) of
-    `more`, and the characteristics of Device Information that `information` names (manufacturer, model, hardware,
-    software)."""
+    They contain the channels of `profile`, with their `properties` by name, the pairs (UUID of the service,
+    characteristic) of `more`, and the characteristics of Device Information with the names `information_names`."""
     table = [(c.service, Characteristic(c.characteristic, c.name, properties[c.name])) for c in profile.channels]
     table += more
-    for name in information:
-        characteristic = Characteristic(standard_uuid(_INFORMATION[name]), f"device/{name}", READ)
+    for name in information_names:
+        characteristic = Characteristic(standard_uuid(_INFORMATION_NUMBERS[name]), f"device/{name}", READ)
         table.append((standard_uuid(_DEVICE_INFORMATION), characteristic))
     found: dict[str, list[Characteristic]] = {}
     for service, characteristic in table:
@@ -116,15 +118,15 @@ def services(
     return tuple(Service(uuid, tuple(characteristics)) for uuid, characteristics in found.items())
 
 
-def information(firmware: str, **more: str) -> dict[str, bytes]:
-    """Return the values of Device Information by channel."""
+def device_information(firmware: str, **more: str) -> dict[str, bytes]:
+    """Return the values of Device Information by channel; `more` has texts by the names of `_INFORMATION_NUMBERS`."""
     found = {"device/firmware": build_firmware(firmware)}
     return found | {f"device/{name}": text.encode() for name, text in more.items()}
 
 
 @frozen
 class Battery:
-    """A ValueSource of the battery level, which falls by one percent every `BATTERY_STEP` s of the walk."""
+    """The battery level as a ValueSource: value k is due at k BATTERY_STEP s, when the level falls by one percent."""
 
     percent: int
     """Level at the start of the walk, percent."""
@@ -133,7 +135,7 @@ class Battery:
         """Return the value of the battery characteristic at `t` s of the walk."""
         return build_battery(max(0, self.percent - max(0, floor(t / BATTERY_STEP))))
 
-    def after(self, t: float) -> int:
+    def first_number_from(self, t: float) -> int:
         return max(1, ceil(t / BATTERY_STEP))
 
     def due(self, number: int) -> float:

@@ -20,11 +20,12 @@ from .peripheral import Peripheral, Placement
 
 
 class Bench:
-    """Virtual devices worn on `route`; by default the insoles "solepath L" and "solepath R" on both feet.
+    """Virtual devices of a wearer on `route`; by default the insoles "solepath L" and "solepath R".
 
-    Both SensorTags have the same product name, so only the address distinguishes them. The first site, in the order of
-    Site, that wears a device has the address F0:5E:00:00:00:01, the next one :02. The walk starts at `started_at`, s,
-    on the clock of the event loop. A device that the site cannot wear raises ValueError."""
+    Two SensorTags of one model have the same name, so only their addresses distinguish them. In the order of Site, the
+    first site with a device has the address F0:5E:00:00:00:01, the next one :02. The walk starts at `started_at`, s, on
+    the clock of the event loop. `mtu` is the largest ATT MTU of an insole, bytes. A Dot raises ValueError, as does any
+    device above the ankle."""
 
     def __init__(
         self,
@@ -61,7 +62,7 @@ class Bench:
             peripheral.walk_from(started_at)
 
     def prepare(self) -> None:
-        """Compute the signals of all devices now, so that no host waits for them."""
+        """Compute the signals of all devices now, before a host has to wait for them."""
         for peripheral in self.peripherals:
             peripheral.prepare()
 

@@ -1,15 +1,16 @@
 """The emulated CC2541 SensorTag as a GATT server: protocol/cc2541.md from the device's side.
 
-Like the CC2650 it accepts any configuration, and a sensor has the same errors at every period."""
+Like the CC2650 it accepts every valid configuration, not only that of the profile. A sensor has the same errors at
+every period."""
 
 from __future__ import annotations
 
 from functools import partial
 
 from ...link.devices.cc2541 import PROFILE
-from ..sensors.device import device_numbers, draw_clock
-from ..sensors.sensortags import CALIBRATION, CC2541, CC2541_KEYS, DELAYS
-from ..sensors.tag_signals import Series
+from ..sensors.device import device_rng, draw_clock
+from ..sensors.sensortags import CALIBRATION_VALUE, CC2541, CC2541_KEYS, DELAYS
+from ..sensors.tag_signals import PERIOD_UNIT, Series
 from ..wearers.walker import Walker
 from .attributes import AttCode, AttError
 from .peripheral import Placement
@@ -24,9 +25,9 @@ class CC2541Peripheral(Tag):
 
     def __init__(self, device: CC2541, walker: Walker, seed: int, placement: Placement) -> None:
         self.device = device
-        numbers = device_numbers(seed, placement.site)
-        clock = draw_clock(numbers, 1.0 / device.rate, device.ppm)
-        self._delays = {**DELAYS, "cc2541/gyroscope": float(numbers.uniform()) / device.rate}
+        rng = device_rng(seed, placement.site)
+        clock = draw_clock(rng, 1.0 / device.rate, device.ppm)
+        self._delays = {**DELAYS, "cc2541/gyroscope": float(rng.uniform()) / device.rate}
         self._shortest_period = shortest_period(device.rate)
         sensors = (
             Sensor("cc2541/accelerometer", 100, self._shortest_period, bytes(3)),
@@ -39,7 +40,7 @@ class CC2541Peripheral(Tag):
 
     def prepare(self) -> None:
         for sensor in ("cc2541/accelerometer", "cc2541/gyroscope"):
-            self.series(sensor, 0.01 * self._shortest_period)
+            self.series(sensor, PERIOD_UNIT * self._shortest_period)
         for sensor in ("cc2541/magnetometer", "cc2541/barometer"):
             self.series(sensor, 1.0)
 
@@ -55,10 +56,10 @@ class CC2541Peripheral(Tag):
             return super().value(channel, t)
         if not self._calibration_requested:
             raise AttError(AttCode.READ_NOT_PERMITTED)
-        return CALIBRATION
+        return CALIBRATION_VALUE
 
-    def take(self, channel: str, value: bytes, t: float) -> None:
-        super().take(channel, value, t)
+    def accept_write(self, channel: str, value: bytes, t: float) -> None:
+        super().accept_write(channel, value, t)
         if channel == "cc2541/barometer-config" and value == b"\x02":
             self._calibration_requested = True
 
@@ -74,5 +75,5 @@ class CC2541Peripheral(Tag):
         return self.device.encode(sensor, series.value(number), code)[0]
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
-        numbers = self._numbers(list(self._delays).index(sensor))
-        return (self.device.measure(sensor, self._worn, period, self._delays[sensor], numbers),)
+        rng = self._sensor_rng(list(self._delays).index(sensor))
+        return (self.device.measure(sensor, self._worn, period, self._delays[sensor], rng),)

@@ -1,7 +1,7 @@
 """The emulated CC2650 SensorTag as a GATT server: protocol/cc2650.md from the device's side.
 
-It accepts any configuration. With a range, axes or a period that are not those of the profile it sends the data that
-the tag would send. A sensor has the same errors at every period."""
+It accepts every valid configuration, not only that of the profile, and sends what a real tag with that configuration
+would send. A sensor has the same errors at every period."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import numpy as np
 
 from ...link.devices.cc2650 import DRIVER, PROFILE
 from ...types.vector import GRAVITY
-from ..sensors.device import device_numbers, draw_clock
+from ..sensors.device import device_rng, draw_clock
 from ..sensors.parts import AK8963, BMP280
 from ..sensors.sensortags import BATTERY, CC2650, CC2650_KEYS, cc2650_barometer_value
-from ..sensors.tag_signals import BAROMETER_DELAY, Series
+from ..sensors.tag_signals import BAROMETER_DELAY, PERIOD_UNIT, Series
 from ..wearers.walker import Walker
 from .attributes import Battery
 from .peripheral import Placement
@@ -25,7 +25,7 @@ from .tag import STOCK_PERIOD, Encoder, KeyPresses, Sensor, Tag, checked_code, c
 WAKE_CHANGE = 0.040 * GRAVITY
 """Change of specific force from one sample to the next that wakes a sleeping tag, m/s^2."""
 AWAKE_TIME = 10.0
-"""Time for which the tag stays awake after a change of WAKE_CHANGE, s."""
+"""Time for which the tag stays awake after a change above WAKE_CHANGE, s."""
 
 _CONFIG_BITS, _AXIS_BITS = 0x03FF, 0x007F
 """Bits of the configuration AA82 that the firmware uses, and the bits among these that switch axes on."""
@@ -43,7 +43,7 @@ class CC2650Peripheral(Tag):
 
     def __init__(self, device: CC2650, walker: Walker, seed: int, placement: Placement) -> None:
         self.device = device
-        clock = draw_clock(device_numbers(seed, placement.site), 1.0 / device.rate, device.ppm)
+        clock = draw_clock(device_rng(seed, placement.site), 1.0 / device.rate, device.ppm)
         self._shortest_period = shortest_period(device.rate)
         sensors = (
             Sensor("cc2650/movement", 100, self._shortest_period, bytes(18), config_size=2),
@@ -55,7 +55,7 @@ class CC2650Peripheral(Tag):
         self._battery = Battery(BATTERY)
 
     def prepare(self) -> None:
-        self.series("cc2650/movement", 0.01 * self._shortest_period)
+        self.series("cc2650/movement", PERIOD_UNIT * self._shortest_period)
         self.series("cc2650/barometer", 1.0)
 
     def start(self, t: float) -> None:
@@ -83,15 +83,15 @@ class CC2650Peripheral(Tag):
         return self.device.movement(config, acc.value(number), gyro.value(number), mag.value(number))[0]
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
-        """Return the series of a sensor; movement has those of accelerometer, gyroscope and magnetometer."""
-        placement, part = self._worn, self.device.part
+        """Return the series of the barometer, or for movement those of accelerometer, gyroscope and magnetometer."""
+        worn, part = self._worn, self.device.part
         if sensor == "cc2650/barometer":
-            return (placement.barometer(period, BMP280, self._numbers(3)),)
-        motion = placement.motion(period)
+            return (worn.barometer(period, BMP280, self._sensor_rng(3)),)
+        motion = worn.motion(period)
         return (
-            motion.acc(part, self._numbers(0)),
-            motion.gyro(part, self._numbers(1)),
-            motion.mag(AK8963, self._numbers(2)),
+            motion.acc(part, self._sensor_rng(0)),
+            motion.gyro(part, self._sensor_rng(1)),
+            motion.mag(AK8963, self._sensor_rng(2)),
         )
 
     def _awake(self, acc: Series, period: float, number: int) -> bool:

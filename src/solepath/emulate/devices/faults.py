@@ -1,17 +1,17 @@
 """Scripted faults of emulated devices: the syntax of a script, and its effect on one device.
 
-A line of a script is one fault, `SECONDS SITE WHAT [AMOUNT]`, or several faults with semicolons between them. `#`
-starts a comment and `*` means every site:
+A line of a script is one fault, `SECONDS SITE WHAT [AMOUNT]`, or several with semicolons between them. `#` starts a
+comment and `*` means every site:
 
     12.5 left_foot disconnect         # the link is lost, the device advertises again at once
     20 right_foot vanish 60           # the link is lost and the device does not advertise for 60 s
-    5 left_foot drop 3                # the next notifications are lost
-    5 * duplicate 2                   # ... arrive twice
-    8 left_foot truncate 4            # ... arrive cut short
-    8 left_foot flip 2                # ... arrive with one to three inverted bits
+    5 left_foot drop 3                # the next 3 notifications are lost
+    5 * duplicate 2                   # the next 2 notifications arrive twice
+    8 left_foot truncate 4            # the next 4 notifications arrive cut short
+    8 left_foot flip 2                # the next 2 notifications arrive with one to three inverted bits
     15 left_foot freeze 5             # nothing is sent for 5 s although the link is up; a setup write ends this
     0 left_foot mtu 23                # the device accepts no larger MTU from its next connection on
-    0 left_foot refuse cc2650/movement-config 2   # the next requests to the channel get the ATT error 0x80
+    0 left_foot refuse cc2650/movement-config 2   # the next 2 requests to the channel get the ATT error 0x80
     30 left_foot hang                 # the next request is never answered, and 1 s later the link is lost
     40 left_foot restart              # the link is lost and the device restarts with its counters at 0
     0 * name "SensorTag"              # the device has another name
@@ -72,7 +72,7 @@ class Fault:
     kind: FaultKind
     """Kind of the fault."""
     amount: float = 1.0
-    """Duration, s, for VANISH and FREEZE (default inf), bytes for MTU, else the number of notifications or requests."""
+    """Duration of VANISH and FREEZE, s; bytes for MTU; for other kinds the number of notifications or requests."""
     argument: str = ""
     """Channel or PAIRING_ARGUMENT for REJECT, name for NAME; else empty."""
 
@@ -96,7 +96,6 @@ def parse_faults(text: str) -> tuple[Fault, ...]:
 
 
 def _words(line: str) -> list[list[str]]:
-    """Return the words of each fault on the line."""
     lexer = shlex.shlex(line, posix=True, punctuation_chars=";")
     lexer.whitespace_split = True
     faults: list[list[str]] = [[]]
@@ -139,13 +138,13 @@ def _amount(kind: FaultKind, arguments: list[str]) -> float:
     return amount
 
 
-def _number(word: str, kind: str) -> float:
+def _number(word: str, noun: str) -> float:
     try:
         value = float(word)
     except ValueError:
-        raise ValueError(f"{kind}: {word!r} is not a number") from None
+        raise ValueError(f"{noun}: {word!r} is not a number") from None
     if not isfinite(value) or value < 0.0:
-        raise ValueError(f"{kind}: {word} is out of range")
+        raise ValueError(f"{noun}: {word} is out of range")
     return value
 
 
@@ -171,6 +170,7 @@ class FaultState:
         self._hang_pending = False
         self._lost_at = inf
         self.count = 0
+        """Number of faults that have happened."""
         self.must_disconnect = False
         """True when the link must end now."""
         self.mtu: int | None = None
@@ -194,7 +194,7 @@ class FaultState:
             self.must_disconnect, self._lost_at = True, inf
 
     def connected(self) -> None:
-        """Start a new link, which a pending loss of the old link does not end; a pending HANG stays."""
+        """Start a new link: a pending loss of the old link is discarded, a pending HANG stays."""
         self.must_disconnect, self._lost_at = False, inf
 
     def hidden(self, t: float) -> bool:
@@ -211,12 +211,12 @@ class FaultState:
 
     def rejects(self, channel: str) -> bool:
         """Return whether the device rejects this request to the channel; each call counts as one request."""
-        left = self._rejections.get(channel, 0)
-        self._rejections[channel] = max(0, left - 1)
-        return left > 0
+        remaining = self._rejections.get(channel, 0)
+        self._rejections[channel] = max(0, remaining - 1)
+        return remaining > 0
 
     def hangs(self, t: float) -> bool:
-        """Return whether a request at `t` is never answered; after it no request is answered until the link ends."""
+        """Return whether a request at `t` gets no answer: the first after a HANG, and all later ones on its link."""
         if self._hang_pending:
             self._hang_pending, self._lost_at = False, t + HANG_TIME
         return self._lost_at < inf

@@ -1,4 +1,4 @@
-"""Values that the channels of an emulated device notify, and the time of the next one.
+"""Values that the channels of an emulated device notify, each at its time.
 
 All times count from the start of the walk, s."""
 
@@ -13,8 +13,8 @@ from attrs import define, field
 class ValueSource(Protocol):
     """The values of one channel, each with a number and a time; times grow with the number."""
 
-    def after(self, t: float) -> int:
-        """Return the number of the first value that is measured at `t` or later."""
+    def first_number_from(self, t: float) -> int:
+        """Return the number of the first value at time `t` or later."""
 
     def due(self, number: int) -> float:
         """Return the time at which the radio has the value of this number, s; inf when there is no such value."""
@@ -26,7 +26,7 @@ class ValueSource(Protocol):
 @define(eq=False)
 class _Flow:
     source: ValueSource
-    number: int
+    next_number: int
 
 
 @define(eq=False)
@@ -41,7 +41,7 @@ class Flows:
         if source is None:
             self._flows.pop(channel, None)
         else:
-            self._flows[channel] = _Flow(source, source.after(t))
+            self._flows[channel] = _Flow(source, source.first_number_from(t))
 
     def subscribe(self, channel: str, on: bool, t: float) -> None:
         """Start or stop the channel's notifications at `t`."""
@@ -49,14 +49,14 @@ class Flows:
             self._subscribed.add(channel)
             flow = self._flows.get(channel)
             if flow is not None:
-                flow.number = max(flow.number, flow.source.after(t))
+                flow.next_number = max(flow.next_number, flow.source.first_number_from(t))
         elif not on:
             self._subscribed.discard(channel)
 
     def go_to(self, t: float) -> None:
         """Continue every channel at time `t` of the walk."""
         for flow in self._flows.values():
-            flow.number = flow.source.after(t)
+            flow.next_number = flow.source.first_number_from(t)
 
     def clear(self) -> None:
         """Remove all sources and all subscriptions."""
@@ -64,11 +64,11 @@ class Flows:
         self._subscribed.clear()
 
     def find_due(self, t: float) -> tuple[str | None, float]:
-        """Return the subscribed channel whose value is due first, and that time, s; None and `t` if none is due."""
+        """Return the subscribed channel whose value is due first until `t`, with its time, s; or None and `t`."""
         first, soonest = None, t
         for channel, flow in self._flows.items():
             if channel in self._subscribed:
-                due = flow.source.due(flow.number)
+                due = flow.source.due(flow.next_number)
                 if due < soonest or (due == soonest and first is None):
                     first, soonest = channel, due
         return first, soonest
@@ -76,5 +76,5 @@ class Flows:
     def take(self, channel: str) -> tuple[ValueSource, int]:
         """Return the channel's source and the number of its next value, and advance to the value after it."""
         flow = self._flows[channel]
-        number, flow.number = flow.number, flow.number + 1
+        number, flow.next_number = flow.next_number, flow.next_number + 1
         return flow.source, number

@@ -15,15 +15,14 @@ from ...wire.fragment import FRAME_ID_COUNT, MAX_FRAGMENTS, split
 from ...wire.insole import InsoleFrame, build_frame
 from ...wire.insole_control import Resend, SetInterval, StartSampling, StopSampling, parse_control
 from ...wire.insole_info import build_info
-from ..sensors.device import device_numbers, foot_of
+from ..sensors.device import device_rng, foot_of
 from ..sensors.insole_device import BATTERY, TICK_RATE, Insole, InsoleSignal
 from ..wearers.walker import Walker
-from .attributes import NOTIFY, READ, WRITE, AttError, Battery, information, services
+from .attributes import ATT_HEADER_SIZE, NOTIFY, READ, WRITE, AttError, Battery, device_information, services
 from .peripheral import Peripheral, Placement
 
-UNKNOWN_OPCODE = 0x80
-WRONG_VALUE = 0x81
-NOT_NOW = 0x82
+UNKNOWN_OPCODE, WRONG_VALUE, NOT_NOW = 0x80, 0x81, 0x82
+"""ATT error codes with which the insole rejects commands (protocol/insole.md)."""
 
 SHORTEST_INTERVAL = 82
 """Shortest sampling interval of the emulated insole, ticks: 400 Hz."""
@@ -34,8 +33,8 @@ _MAX_RESENT_FRAMES = 4
 _MAX_CACHED_SIGNALS = 3
 """Number of sampling intervals for which the measured walk is cached."""
 _OPCODES = range(1, 5)
-_MAX_FRAME_SIZE = 512
-_HEADER_AND_CRC = 16
+_MAX_FRAME_SIZE, _HEADER_AND_CRC_SIZE, _FRAGMENT_HEADER_SIZE = 512, 16, 1
+"""Sizes in bytes: of a whole frame at most, of its part that is not samples, and of what a fragment adds."""
 
 _SERVICES = services(
     INSOLE,
@@ -46,34 +45,33 @@ _SERVICES = services(
         "device/battery": READ | NOTIFY,
         "device/firmware": READ,
     },
-    information=("manufacturer", "model"),
+    information_names=("manufacturer", "model"),
 )
 
 
 @define(eq=False)
 class _Frames:
-    """A ValueSource of the frames of a signal.
+    """A ValueSource of the frames of a signal, with offsets that are added to its sequence numbers and ticks.
 
-    `sequence` and `ticks` are added to those of the signal. `sent_numbers` are the numbers of recently sent frames,
-    `to_resend` those of frames that must be sent again."""
+    `sent_numbers` are the numbers of the stored frames, `to_resend` those of the frames that must be sent again."""
 
     signal: InsoleSignal
     batch: int
-    sequence: int = 0
-    ticks: int = 0
+    sequence_offset: int = 0
+    tick_offset: int = 0
     sent_numbers: deque[int] = Factory(deque)
     to_resend: deque[int] = Factory(deque)
 
-    def after(self, t: float) -> int:
+    def first_number_from(self, t: float) -> int:
         return ceil((t - self.signal.first) / (self.signal.step * self.batch))
 
     def due(self, number: int) -> float:
         return self.signal.ready(number, self.batch)
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        found = self._pieces(number, False, mtu)
+        found = self._fragments(number, False, mtu)
         for _ in range(min(_MAX_RESENT_FRAMES, len(self.to_resend))):
-            found += self._pieces(self.to_resend.popleft(), True, mtu)
+            found += self._fragments(self.to_resend.popleft(), True, mtu)
         self.sent_numbers.append(number)
         while len(self.sent_numbers) * self.signal.step * self.batch > KEEPING_TIME:
             self.sent_numbers.popleft()
@@ -81,11 +79,11 @@ class _Frames:
 
     def frame(self, number: int) -> InsoleFrame:
         frame = self.signal.frame(number, self.batch)
-        sequence, ticks = (frame.sequence + self.sequence) % 2**16, (frame.ticks + self.ticks) % 2**32
+        sequence, ticks = (frame.sequence + self.sequence_offset) % 2**16, (frame.ticks + self.tick_offset) % 2**32
         return evolve(frame, sequence=sequence, ticks=ticks)
 
     def signal_ticks(self, number: int) -> int:
-        """Return the ticks of a frame without the offset `ticks`."""
+        """Return the ticks of a frame without the offset."""
         return self.signal.ticks + number * self.batch * self.signal.interval
 
     def elapsed(self, number: int, since: float) -> int:
@@ -93,24 +91,24 @@ class _Frames:
         return round((self.signal.sample_time(number, self.batch) - since) / self.signal.step * self.signal.interval)
 
     def resend(self, command: Resend) -> None:
-        """Queue the requested frames, if they are still stored; they are sent with the next frames."""
+        """Queue those of the requested frames that are still stored; they are sent with the next frames."""
         requested = {(command.first + i) % 2**16 for i in range(command.count)}
-        offset = self.signal.sequence + self.sequence
+        first_sequence = self.signal.sequence + self.sequence_offset
         self.to_resend += [
-            n for n in self.sent_numbers if (offset + n) % 2**16 in requested and n not in self.to_resend
+            n for n in self.sent_numbers if (first_sequence + n) % 2**16 in requested and n not in self.to_resend
         ]
 
-    def _pieces(self, number: int, retransmitted: bool, mtu: int) -> list[bytes]:
-        frame = self.frame(number)
-        return split(build_frame(evolve(frame, retransmitted=retransmitted)), mtu - 3, number % FRAME_ID_COUNT)
+    def _fragments(self, number: int, retransmitted: bool, mtu: int) -> list[bytes]:
+        frame = build_frame(evolve(self.frame(number), retransmitted=retransmitted))
+        return split(frame, mtu - ATT_HEADER_SIZE, number % FRAME_ID_COUNT)
 
 
 class InsolePeripheral(Peripheral):
     """A worn insole, "solepath L" or "solepath R", as a GATT server.
 
-    The frames are byte for byte those of `device.emit` for the same walker, site, seed and interval, unless SET
-    INTERVAL comes while the insole is sampling; sequence and ticks then continue. The signal of the whole walk is
-    computed once for each interval, when it is first needed or by `prepare`."""
+    The frames are byte for byte those of `device.emit` for the same walker, site, seed, interval and MTU, until the
+    device restarts, or until SET INTERVAL comes while it samples (sequence and ticks then continue). The signal of the
+    whole walk is computed by `prepare` or when it is first needed."""
 
     def __init__(self, device: Insole, walker: Walker, seed: int, placement: Placement) -> None:
         name = f"solepath {'L' if foot_of(placement.site) is Foot.LEFT else 'R'}"
@@ -120,7 +118,7 @@ class InsolePeripheral(Peripheral):
         self._signals: dict[int, InsoleSignal] = {}
         self._frames: _Frames | None = None
         self._battery = Battery(BATTERY)
-        self._device_information = information(device.firmware, manufacturer="solepath", model="emulated insole")
+        self._device_information = device_information(device.firmware, manufacturer="solepath", model="emulated insole")
 
     def prepare(self) -> None:
         self.signal()
@@ -132,7 +130,7 @@ class InsolePeripheral(Peripheral):
             device = self.device
             if device.interval != self._interval:
                 device = evolve(device, rate=TICK_RATE / self._interval)
-            found = device.measure(self._walker, self.site, device_numbers(self._seed, self.site))
+            found = device.measure(self._walker, self.site, device_rng(self._seed, self.site))
             while len(self._signals) >= _MAX_CACHED_SIGNALS:
                 self._signals.pop(next(iter(self._signals)))
             self._signals[self._interval] = found
@@ -152,7 +150,7 @@ class InsolePeripheral(Peripheral):
                 return self._battery.level(t)
         return self._device_information[channel]
 
-    def take(self, channel: str, value: bytes, t: float) -> None:
+    def accept_write(self, channel: str, value: bytes, t: float) -> None:
         try:
             command = parse_control(value)
         except WireError:
@@ -160,20 +158,20 @@ class InsolePeripheral(Peripheral):
         match command:
             case StartSampling():
                 if self._frames is None:
-                    self._measure(self._frames_from(t), t)
+                    self._send(self._frames_from(t), t)
             case StopSampling():
                 self._frames = None
                 self.flow("insole/frame", None, t)
             case SetInterval(interval=interval):
                 self._interval = max(SHORTEST_INTERVAL, interval)
                 if self._frames is not None:
-                    self._measure(self._continued_frames(self._frames, t), t)
+                    self._send(self._continued_frames(self._frames, t), t)
             case Resend():
                 if self._frames is None:
                     raise AttError(NOT_NOW)
                 self._frames.resend(command)
 
-    def _measure(self, frames: _Frames, t: float) -> None:
+    def _send(self, frames: _Frames, t: float) -> None:
         self._frames = frames
         self.flow("insole/frame", frames, t)
 
@@ -181,23 +179,26 @@ class InsolePeripheral(Peripheral):
         """Return the frames from `t` on; after a restart the sequence starts at 0 and the ticks at the restart."""
         frames = _Frames(self.signal(), self._batch())
         if self.restarted_at is not None:
-            number = frames.after(t)
-            frames.sequence = -(frames.signal.sequence + number) % 2**16
-            frames.ticks = (frames.elapsed(number, self.restarted_at) - frames.signal_ticks(number)) % 2**32
+            number = frames.first_number_from(t)
+            frames.sequence_offset = -(frames.signal.sequence + number) % 2**16
+            frames.tick_offset = (frames.elapsed(number, self.restarted_at) - frames.signal_ticks(number)) % 2**32
         return frames
 
     def _batch(self) -> int:
-        """Return how many samples a frame has: `device.batch`, or fewer when there would be too many fragments."""
-        sample_size = len(build_frame(self.signal().frame(0))) - _HEADER_AND_CRC
-        max_size = min(_MAX_FRAME_SIZE, max(self.agreed_mtu - 3, MAX_FRAGMENTS * (self.agreed_mtu - 4)))
-        return max(1, min(self.device.batch, (max_size - _HEADER_AND_CRC) // sample_size))
+        """Return the number of samples in a frame: `device.batch`, or fewer when they would need too many fragments."""
+        sample_size = len(build_frame(self.signal().frame(0))) - _HEADER_AND_CRC_SIZE
+        value_size = self.agreed_mtu - ATT_HEADER_SIZE
+        max_size = min(_MAX_FRAME_SIZE, max(value_size, MAX_FRAGMENTS * (value_size - _FRAGMENT_HEADER_SIZE)))
+        return max(1, min(self.device.batch, (max_size - _HEADER_AND_CRC_SIZE) // sample_size))
 
     def _continued_frames(self, old: _Frames, t: float) -> _Frames:
         """Return the frames at the current interval that continue the sequence and the clock of the old ones at `t`."""
         new = _Frames(self.signal(), old.batch)
-        number = new.after(t)
-        last = old.sent_numbers[-1] if old.sent_numbers else old.after(t) - 1
-        new.sequence = (old.signal.sequence + old.sequence + last + 1 - new.signal.sequence - number) % 2**16
-        ticks = old.signal.ticks + old.ticks + new.elapsed(number, old.signal.first)
-        new.ticks = (ticks - new.signal_ticks(number)) % 2**32
+        number = new.first_number_from(t)
+        last = old.sent_numbers[-1] if old.sent_numbers else old.first_number_from(t) - 1
+        new.sequence_offset = (
+            old.signal.sequence + old.sequence_offset + last + 1 - new.signal.sequence - number
+        ) % 2**16
+        ticks = old.signal.ticks + old.tick_offset + new.elapsed(number, old.signal.first)
+        new.tick_offset = (ticks - new.signal_ticks(number)) % 2**32
         return new

@@ -1,7 +1,7 @@
 """One emulated device for a GATT server: attributes to read and write, and notifications at their times.
 
 The device has no clock and no asyncio. The server passes the time of its event loop as `now`, s, which never decreases.
-It does this for each connection:
+For each connection the server does this:
 
     device.connected(now, mtu)
     ... subscribe, read, write as the host requests ...
@@ -30,7 +30,7 @@ _TIMER_TOLERANCE = 2e-6
 
 @frozen
 class Placement:
-    """Site, address, start time and faults of a virtual device."""
+    """Site, address, MTU, start time and faults of a virtual device."""
 
     site: Site
     """Site that wears the device."""
@@ -41,13 +41,13 @@ class Placement:
     started_at: float = 0.0
     """Time of the event loop at which the walk starts, s; until then the wearer stands at the start."""
     faults: tuple[Fault, ...] = ()
-    """Script of faults for all devices; faults of other sites have no effect on this device."""
+    """Faults of a script; those of other sites have no effect on this device."""
 
 
 class Peripheral:
     """A virtual device as a GATT server; insole.py and tag.py define its attributes.
 
-    `sent` counts the sent notifications by channel. When `log` is a list, it collects all of them."""
+    `sent` counts the sent notifications by channel. When `log` is a list, it collects these notifications."""
 
     def __init__(self, placement: Placement, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
         self.site, self.address = placement.site, placement.address
@@ -58,12 +58,8 @@ class Peripheral:
         self.changed: Callable[[], None] | None = None
         for text in (name, *(fault.argument for fault in placement.faults if fault.kind is FaultKind.NAME)):
             check_fits(text, self.advertised)
-        self._name, self._mtu, self._started_at, self._faults = (
-            name,
-            placement.mtu,
-            placement.started_at,
-            placement.faults,
-        )
+        self._name, self._mtu = name, placement.mtu
+        self._started_at, self._faults = placement.started_at, placement.faults
         self._fault_state = FaultState(placement.faults, placement.site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
@@ -80,7 +76,7 @@ class Peripheral:
         """Return the value of the channel at `t` s of the walk; raise AttError when it cannot be read."""
         raise AttError(AttCode.READ_NOT_PERMITTED)
 
-    def take(self, channel: str, value: bytes, t: float) -> None:
+    def accept_write(self, channel: str, value: bytes, t: float) -> None:
         """Apply a value that the host writes at `t` s of the walk; raise AttError when the device rejects it."""
         raise AttError(AttCode.WRITE_NOT_PERMITTED)
 
@@ -121,7 +117,7 @@ class Peripheral:
 
     @property
     def needs_pairing(self) -> bool:
-        """True when the device rejects requests on a link without encryption, except Device Information and battery."""
+        """True when, without encryption, the device rejects requests to all channels but "device/..."."""
         return self._fault_state.needs_pairing
 
     def walk_from(self, started_at: float) -> None:
@@ -132,7 +128,7 @@ class Peripheral:
         self._notify_changed()
 
     def visible(self, now: float) -> bool:
-        """Return whether the device advertises while it is not connected."""
+        """Return whether a device without a link advertises now."""
         return not self._fault_state.hidden(self._advance(now))
 
     def connected(self, now: float, mtu: int) -> None:
@@ -166,22 +162,22 @@ class Peripheral:
         self._notify_changed()
 
     def read(self, channel: str, now: float) -> bytes | None:
-        """Return the value of a channel; None when it never answers. Raise AttError when it rejects the read."""
+        """Return the value of a channel; None when the device never answers. A rejected read raises AttError."""
         t = self._advance(now)
-        if self._fails(channel, t):
+        if self._hangs(channel, t):
             return None
         if "read" not in self._properties.get(channel, ()):
             raise AttError(AttCode.READ_NOT_PERMITTED)
         return self.value(channel, t)
 
     def write(self, channel: str, value: bytes, now: float) -> bool:
-        """Write a value; return False when the device never answers, raise AttError when it rejects the write."""
+        """Write a value; return False when the device never answers. A rejected write raises AttError."""
         t = self._advance(now)
-        if self._fails(channel, t):
+        if self._hangs(channel, t):
             return False
         if not self._properties.get(channel, frozenset()) & {"write", "write-without-response"}:
             raise AttError(AttCode.WRITE_NOT_PERMITTED)
-        self.take(channel, bytes(value), t)
+        self.accept_write(channel, bytes(value), t)
         self._fault_state.thaw()
         self._notify_changed()
         return True
@@ -221,7 +217,8 @@ class Peripheral:
         )
         return must_disconnect
 
-    def _fails(self, channel: str, t: float) -> bool:
+    def _hangs(self, channel: str, t: float) -> bool:
+        """Return whether a request to the channel is never answered; raise AttError when it is rejected."""
         if self._fault_state.hangs(t):
             self._notify_changed()
             return True
@@ -231,7 +228,7 @@ class Peripheral:
         return False
 
     def _is_closed(self, channel: str) -> bool:
-        """Return whether the channel needs encryption that the link lacks; channels "device/..." never need it."""
+        """Return whether the channel needs an encryption that the link does not have."""
         return self.needs_pairing and not self.is_encrypted and not channel.startswith("device/")
 
     def _check_paired(self, channel: str) -> None:

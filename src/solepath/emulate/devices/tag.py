@@ -10,24 +10,24 @@ from math import ceil, inf
 from attrs import define, evolve, frozen
 
 from ...link.profile import Profile, ti_uuid
-from ..sensors.device import DeviceClock, device_numbers, foot_of
+from ..sensors.device import DeviceClock, device_rng, foot_of
 from ..sensors.sensortags import CC2541, CC2650, PRESS_TIME
-from ..sensors.tag_signals import HANDLING_TIME, Series, WornTag
+from ..sensors.tag_signals import HANDLING_TIME, PERIOD_UNIT, Series, WornTag
 from ..wearers.walker import Walker
-from .attributes import NOTIFY, READ, WRITE, AttCode, AttError, Characteristic, information, services
+from .attributes import NOTIFY, READ, WRITE, AttCode, AttError, Characteristic, device_information, services
 from .peripheral import Peripheral, Placement
 
 MAX_MTU = 23
 """Largest ATT MTU that stock firmware accepts, bytes."""
 STOCK_PERIOD = 10
-"""Shortest period of stock firmware, in units of 10 ms."""
+"""Shortest period of stock firmware, in units of PERIOD_UNIT."""
 STOCK_INFRARED_PERIOD = 30
-"""Shortest period of the infrared thermometer with stock firmware, in units of 10 ms."""
+"""Shortest period of the infrared thermometer with stock firmware, in units of PERIOD_UNIT."""
 EXTRA_SERVICES = {"infrared": 0xAA00, "humidity": 0xAA20, "light": 0xAA70}
 """Service numbers of the sensors that the profiles do not contain."""
 
 Encoder = tuple[float, Callable[[int], bytes | None]]
-"""Time from the clock's first sample to that of the sensor, s, and the function that encodes the value of a number."""
+"""Delay of value 0 after the first sample of the tag's clock, s, and the function that encodes value k."""
 
 
 @frozen
@@ -37,9 +37,9 @@ class Sensor:
     name: str
     """Name of the data channel; the names of the other two channels add -config and -period."""
     default_period: int
-    """Period after connecting, in units of 10 ms."""
+    """Period after connecting, in units of PERIOD_UNIT."""
     shortest_period: int
-    """Shortest period of the firmware, in units of 10 ms; it replaces shorter ones that the host writes."""
+    """Shortest period of the firmware, in units of PERIOD_UNIT; it replaces shorter ones that the host writes."""
     off_value: bytes
     """Data that a read returns while the sensor is off."""
     config_size: int = 1
@@ -56,13 +56,13 @@ class _SensorState:
 
 @frozen(eq=False)
 class TimedSource:
-    """A ValueSource of samples k at `first` + k `step` s; a value is sent unless `encode(k)` is None."""
+    """A ValueSource: value k is measured at `first` + k `step`, s, and is `encode(k)`; None is not sent."""
 
     first: float
     step: float
     encode: Callable[[int], bytes | None]
 
-    def after(self, t: float) -> int:
+    def first_number_from(self, t: float) -> int:
         return ceil((t - self.first) / self.step)
 
     def due(self, number: int) -> float:
@@ -75,13 +75,13 @@ class TimedSource:
 
 @frozen
 class KeyPresses:
-    """A ValueSource of key presses at times `presses`, s; it sends `down` at each press, `up` at each release."""
+    """A ValueSource of a key: it sends `down` at each of the times `presses`, s, and `up` at each release."""
 
     presses: tuple[float, ...]
     down: bytes
     up: bytes
 
-    def after(self, t: float) -> int:
+    def first_number_from(self, t: float) -> int:
         return sum(self.due(k) < t for k in range(2 * len(self.presses)))
 
     def due(self, number: int) -> float:
@@ -96,8 +96,7 @@ class KeyPresses:
 class Tag(Peripheral, ABC):
     """A worn SensorTag as a GATT server; `name` is the product name of the model.
 
-    The firmware accepts rates up to 10 Hz or `device.rate`, whichever is higher. The host's writes set range and
-    rates."""
+    The host's writes set range and rates; the largest rate is 10 Hz or `device.rate`, whichever is higher."""
 
     def __init__(
         self,
@@ -115,9 +114,9 @@ class Tag(Peripheral, ABC):
         properties = {channel.name: self._properties_of(channel.name) for channel in profile.channels}
         table = services(profile, properties, more, ("manufacturer", "model"))
         super().__init__(evolve(placement, mtu=MAX_MTU), name, table, profile.services)
-        self._device_information = information(device.firmware, manufacturer="Texas Instruments", model=name)
+        self._device_information = device_information(device.firmware, manufacturer="Texas Instruments", model=name)
         self.clock = clock
-        self._numbers = partial(device_numbers, seed, placement.site)
+        self._sensor_rng = partial(device_rng, seed, placement.site)
         self._worn = WornTag(walker, foot_of(placement.site), device.mounting, clock)
         self._series: dict[tuple[str, float], tuple[Series, ...]] = {}
         self._states: dict[str, _SensorState] = {}
@@ -154,10 +153,10 @@ class Tag(Peripheral, ABC):
         if kind == "period":
             return bytes([state.period])
         source = self._source(name, state)
-        value = None if source is None else source.encode(source.after(t) - 1)
+        value = None if source is None else source.encode(source.first_number_from(t) - 1)
         return self._sensors[name].off_value if value is None else value
 
-    def take(self, channel: str, value: bytes, t: float) -> None:
+    def accept_write(self, channel: str, value: bytes, t: float) -> None:
         name, kind = _split_channel(channel)
         sensor, state = self._sensors[name], self._states[name]
         if len(value) != (sensor.config_size if kind == "config" else 1):
@@ -170,7 +169,7 @@ class Tag(Peripheral, ABC):
         self.flow(name, source, t)
 
     def _source(self, name: str, state: _SensorState) -> TimedSource | None:
-        period = 0.01 * state.period
+        period = PERIOD_UNIT * state.period
         constant = self._sensors[name].constant
         if constant:
             encoder: Encoder | None = (0.0, lambda number: constant) if checked_code(state.config, 1) else None
@@ -210,12 +209,12 @@ def _characteristics(sensor: str) -> list[tuple[str, Characteristic]]:
 
 
 def shortest_period(rate: float) -> int:
-    """Return the shortest period, in units of 10 ms, of stock firmware or of firmware rebuilt for `rate` Hz."""
+    """Return the shortest period, in units of PERIOD_UNIT, of stock firmware or of firmware rebuilt for `rate` Hz."""
     return min(STOCK_PERIOD, max(1, round(100.0 / rate)))
 
 
 def checked_code(config: bytes, max_code: int) -> int:
-    """Return a configuration of one byte; raise AttError when it is above `max_code`."""
+    """Return the value of a configuration of one byte; raise AttError when it is above `max_code`."""
     if config[0] > max_code:
         raise AttError(AttCode.APPLICATION_ERROR)
     return config[0]

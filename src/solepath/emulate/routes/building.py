@@ -146,7 +146,7 @@ def _ring(box: _Box) -> tuple[Point, ...]:
     return ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
 
 
-def _level(name: str, title: str, ordinal: int, has_exits: bool) -> Level:
+def _level(level_id: str, name: str, ordinal: int, has_exits: bool) -> Level:
     rooms, corridors = _rooms(), _corridors()
     doors = [_door(box, side, 0.9) for box, side in rooms if side]
     doors += [
@@ -158,8 +158,8 @@ def _level(name: str, title: str, ordinal: int, has_exits: bool) -> Level:
         doors += [_door(corridors[k], side, 1.6, "way out") for k in (0, 2) for side in "sn"]
     boxes = [box for box, _ in rooms] + [_cabin(cabin) for cabin in CABINS] + [_well(well) for well in WELLS]
     level = Level(
-        id=name,
-        name=title,
+        id=level_id,
+        name=name,
         ordinal=ordinal,
         elevation=ordinal * STOREY,
         walls=_walls([*boxes, (0.0, 0.0, EAST, NORTH)]),

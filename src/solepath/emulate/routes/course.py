@@ -9,7 +9,7 @@ from attrs import Factory, define
 from ...floorplan.plan import Point, Start
 from .building import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
 from .path import ahead
-from .route import TIGHT_TURN, Route
+from .route import TIGHT_TURN_SPEED, Route
 
 STAND_TIME = 2.0
 """Time for which the wearer stands at the start and at the end, s."""
@@ -60,7 +60,9 @@ class Course:
 
     def bend(self, angle: float, radius: float) -> None:
         """Walk a bend by `angle` rad, counter-clockwise positive, with radius `radius` m."""
-        self.route = self.route.turn(angle, radius, min(WALKING_SPEED, TIGHT_TURN if radius < 1.0 else WALKING_SPEED))
+        self.route = self.route.turn(
+            angle, radius, min(WALKING_SPEED, TIGHT_TURN_SPEED if radius < 1.0 else WALKING_SPEED)
+        )
         chord, direction = 2.0 * radius * abs(sin(0.5 * angle)), self.heading + 0.5 * angle
         self.position = (self.position[0] + chord * cos(direction), self.position[1] + chord * sin(direction))
         self.heading += angle
@@ -84,7 +86,7 @@ class Course:
                 self.walk(distance)
 
     def climb(self, up: bool) -> None:
-        """Walk two flights and the landing between them; the turn is to the left upwards, to the right downwards."""
+        """Walk two flights and the landing between them; the way up turns to the left, the way down to the right."""
         edge, last_edge = ahead(up, GOING), EDGE_OFFSET + (RISERS - 1) * GOING
         self.flight(up)
         self.walk(TURN_DISTANCE - (EDGE_OFFSET - edge + RISERS * GOING))

@@ -5,8 +5,8 @@ rises linearly, is constant and falls linearly. The car then runs at constant sp
 Elevators of few storeys run at 1.0 to 1.6 m/s with 0.6 to 1.2 m/s^2 and a jerk of about 1 m/s^3. Some creep: they
 approach the floor at a very low speed over the last centimetres.
 
-The car vibrates on its rails. VIBRATION_AMPLITUDE is of the order of the 10 to 15 milli-g from peak to peak that
-measurements by ISO 18738-1 find in elevators in good order. The frequencies between 2 and 12 Hz are assumed."""
+The car vibrates on its rails. VIBRATION_AMPLITUDE is of the order of measurements by ISO 18738-1 in
+elevators in good order: 10 to 15 milli-g from peak to peak. The frequencies between 2 and 12 Hz are assumed."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class CarRide:
         return position, velocity, acceleration
 
     def _fade(self, elapsed: Array) -> tuple[Array, Array, Array]:
-        """Return a factor that rises from 0 to 1 within FADE_TIME s and falls at the end, and its derivatives."""
+        """Return a factor that rises from 0 to 1 within FADE_TIME s and falls at the end, and its two derivatives."""
         margin = np.minimum(elapsed, self.end - self.start - elapsed)
         sign = np.where(elapsed < self.end - self.start - elapsed, 1.0, -1.0)
         u = np.minimum(margin / FADE_TIME, 1.0)
@@ -124,7 +124,7 @@ def ride(elevator: Elevator, start: float, rng: Rng) -> CarRide:
 def _jerk_phases(elevator: Elevator) -> list[_JerkPhase]:
     """Return the phases of constant jerk of the whole ride, as if it went upwards, in order."""
     distance = abs(elevator.height)
-    creep = min(elevator.creep, 0.1 * distance)
+    creep = min(elevator.creep, 0.1 * distance)  # a creep of CREEP_TIME = 1 s covers at most a tenth of the ride
     top_speed = elevator.speed
     if _least_distance(top_speed, creep, elevator) > distance:
         low = creep
@@ -141,11 +141,11 @@ def _jerk_phases(elevator: Elevator) -> list[_JerkPhase]:
         *((d, -j) for d, j in slow),
     ]
     found += [(CREEP_TIME if creep > 0.0 else 0.0, 0.0), *((d, -j) for d, j in stop)]
-    return [ramp for ramp in found if ramp[0] > 0.0]
+    return [(duration, jerk) for duration, jerk in found if duration > 0.0]
 
 
 def _least_distance(top_speed: float, creep: float, elevator: Elevator) -> float:
-    """Return the least distance, m, of a ride that reaches `top_speed` m/s."""
+    """Return the least distance, m, of a ride that reaches `top_speed` and then creeps at `creep`, m/s."""
     durations = [
         sum(duration for duration, _ in _speed_change(difference, elevator))
         for difference in (top_speed, top_speed - creep, creep)

@@ -47,12 +47,12 @@ MARK_SPEED = 1.1
 MIN_TIGHT_CURVATURE, MIN_BEND_CURVATURE = 1.0 / (2.0 * 2.0**0.5), 1.0 / 8.0
 """Least curvatures of a tight bend and of any bend, 1/m.
 
-The radii are the geometric mean of 2 m and 4 m, and 8 m."""
+They belong to radii of 2.8 m, the geometric mean of the tight and the wide bend, and of 8 m."""
 MIN_WALKING_DISPLACEMENT = 0.15
 """Displacement of a foot over a stride, m, below which it is STANDING (L_w of table 2 of Gong et al. 2023)."""
 
 ALONG, ACROSS = 2.8, 4.0
-"""Sides AB and CD, BC and DA of the rectangle of Gong et al. 2023, section 3.4, m."""
+"""Length of the sides AB and CD, and of BC and DA, of the rectangle of Gong et al. 2023, section 3.4, m."""
 RECTANGLE_CORNER_RADIUS = 0.5
 """Radius of the bends at the corners of the rectangle, m (assumed: without a halt, about one step on the arc)."""
 CORRIDOR_LENGTH = 91.0
@@ -78,7 +78,7 @@ class FloorMark:
     mode: WalkingMode
     """Walking mode of the stride."""
     lap: int = 0
-    """Number of the lap, from 0."""
+    """Number of the lap, from 0; always 0 when the marks are not counted in laps."""
     number: int = 0
     """Number of the foot's mark in the lap, from 0."""
 
@@ -102,7 +102,7 @@ class LapCorner:
 
 
 def straight(distance: float = 20.0, speed: float = 1.3) -> Route:
-    """Return a straight route; like every route here it starts and ends with two seconds of standing."""
+    """Return a straight route; like every complete route here it starts and ends with two seconds of standing."""
     return Route().stand(2.0).walk(distance, speed).stop(2.0)
 
 
@@ -133,8 +133,8 @@ def marked(
 def rectangle(speed: float = 1.1, corner: float = RECTANGLE_CORNER_RADIUS, rounds: int = 1) -> Route:
     """Return a rectangle from A over B, C and D back to A, counter-clockwise, with A at the origin and B ahead of it.
 
-    Corners are bends of radius `corner`, walked at TIGHT_TURN (route.py) when it is below 1 m; 0 means a turn on the
-    spot, with a halt. The walk ends on A itself, at the end of DA."""
+    Corners are bends of radius `corner`, m, walked at TIGHT_TURN_SPEED (route.py) at most when `corner` is below 1 m; 0
+    means a turn on the spot, with a halt. The walk ends on A itself, at the end of DA."""
     points = [(ALONG, 0.0), (ALONG, ACROSS), (0.0, ACROSS), (0.0, 0.0)] * rounds
     return through(Route().stand(2.0), points, speed, corner).stop(2.0)
 
@@ -211,7 +211,7 @@ def mode_of(stride: PlannedStride) -> WalkingMode:
 
 
 def modes(walker: Walker) -> dict[Foot, tuple[WalkingMode, ...]]:
-    """Return the mode of every true stride of each foot, in the order of `Truth.steps`."""
+    """Return the mode of every true stride of each foot, in the order of `Truth.strides`."""
     return {foot: tuple(mode_of(stride) for stride in walker.plan.strides[foot]) for foot in Foot}
 
 

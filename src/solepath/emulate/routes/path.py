@@ -1,4 +1,4 @@
-"""The path of a route on the floor: poses, pieces, flights of stairs, and what lies between two halts."""
+"""The path of a route on the floor: poses, pieces, flights of stairs, and paths from one halt to the next."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from .styles import MIN_RUNNING_SPEED, RUN_ACCELERATION
 EDGE_DISTANCE_UP, EDGE_DISTANCE_DOWN = 0.25, 0.17
 """Distance from the ankle to the next edge ahead, before a flight and on every tread, upwards and downwards, m.
 
-Upwards, on treads of 0.30 m, the heel stands 4 cm back over the edge, and the forefoot rocker ends 9 cm before the next
+Upwards, on treads of 0.30 m, the heel stands 4 cm back over its edge, and the forefoot rocker ends 9 cm before the next
 riser. Downwards the ball of the foot is 6 cm behind the edge, and the toes stand over the edge."""
 MIN_RISER_DISTANCE = 0.13
-"""Least distance downwards from the ankle to the riser behind it, m; on short treads the toes stand further out."""
+"""Least distance from the ankle to the riser behind it on the way down, m; it may push the toes over the edge."""
 
 
 def ahead(up: bool, going: float) -> float:
@@ -50,7 +50,7 @@ class Flight:
         return self.steps * self.rise
 
     def along(self, x: Array, y: Array) -> Array:
-        """Return the distance along the flight from the first edge to points, m; negative before it."""
+        """Return the distance along the flight from the first edge to points, m; negative before that edge."""
         return np.asarray((x - self.x) * cos(self.heading) + (y - self.y) * sin(self.heading))
 
     def ground_height(self, x: Array, y: Array) -> Array:
@@ -155,8 +155,8 @@ class WalkPath:
 
     def at(self, s: float) -> tuple[Pose, float]:
         """Return the pose `s` m after the halt, and the speed there, m/s."""
-        piece, rest = self._piece(s)
-        return piece.at(rest), piece.speed
+        piece, offset = self._piece(s)
+        return piece.at(offset), piece.speed
 
     @property
     def sections(self) -> tuple[WalkPath, ...]:
@@ -173,14 +173,14 @@ class WalkPath:
         """Return the speed `s` m after the halt, m/s, and whether the wearer runs there.
 
         A runner accelerates from the speed of the previous piece and slows down to that of the next one."""
-        piece, rest = self._piece(s)
+        piece, offset = self._piece(s)
         if not piece.running:
             return piece.speed, False
         k = self.pieces.index(piece)
         before = self.pieces[k - 1].speed if k else RUN_START_SPEED
         after = self.pieces[k + 1].speed if k + 1 < len(self.pieces) else RUN_START_SPEED
-        speed_after_start = sqrt(before**2 + 2.0 * RUN_ACCELERATION * max(rest, 0.0))
-        speed_before_end = sqrt(after**2 + 2.0 * RUN_ACCELERATION * max(piece.length - rest, 0.0))
+        speed_after_start = sqrt(before**2 + 2.0 * RUN_ACCELERATION * max(offset, 0.0))
+        speed_before_end = sqrt(after**2 + 2.0 * RUN_ACCELERATION * max(piece.length - offset, 0.0))
         speed = min(piece.speed, speed_after_start, speed_before_end)
         return speed, speed >= MIN_RUNNING_SPEED
 
@@ -189,6 +189,7 @@ class WalkPath:
         return self._piece(s)[0].curvature
 
     def _piece(self, s: float) -> tuple[Piece, float]:
+        """Return the piece `s` m after the halt, and the distance from its start, m."""
         for piece in self.pieces[:-1]:
             if s < piece.length:
                 return piece, s

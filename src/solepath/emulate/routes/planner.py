@@ -19,6 +19,8 @@ from .styles import StrideKind, running_cadence, style_of
 
 HEIGHT_TOLERANCE = 1e-6
 """Difference in height below which two floors are the same, m."""
+_MIN_FLAT_TIME, _MIN_PUSH_OFF_TIME = 0.04, 0.06
+"""Least time from foot-flat to heel-off, and least time from heel-off to toe-off before a flight, s."""
 
 
 def plan(route: Route, wearer: Wearer, rng: Rng) -> WalkPlan:
@@ -48,7 +50,7 @@ class _Planner:
         self.rng = rng
         self.t = 0.0
         self.next_foot = wearer.first_foot
-        self.last_heel_strike: float | None = None  # time of the last heel-strike; None while standing
+        self.last_heel_strike: float | None = None  # None while standing
         self.bout_start = 0.0
         self.last_running_speed: float | None = None  # speed of the last step if it was a running step
         self.flight: Flight | None = None  # flight of stairs that a foot is on
@@ -80,7 +82,6 @@ class _Planner:
         return WalkPlan(self.t, self.starts, strides, tuple(self.bouts), tuple(self.climbs), tuple(self.rides))
 
     def _ride(self, stage: ElevatorStage) -> None:
-        """Add an elevator ride, with the times in which the doors close and open."""
         car = ride(stage.elevator, self.t + stage.elevator.doors, self.rng)
         self.rides.append(car)
         self.t = car.end + stage.elevator.doors
@@ -165,6 +166,7 @@ class _Planner:
         return [*footfalls, footfalls[-1]]
 
     def _stance(self, pose: Pose, foot: Foot, width: float, turn: float) -> Pose:
+        """Return the pose of a foot that stands beside `pose`; `width`, m, and `turn`, rad, move it outwards."""
         side = 1.0 if foot is Foot.LEFT else -1.0
         offset = side * (0.5 * self.wearer.step_width + width)
         heading = pose.heading + side * (self.wearer.toe_out + turn)
@@ -202,10 +204,10 @@ class _Planner:
             run = style_of(StrideKind.RUN, self.last_running_speed)
             double_support_share, heel_off_share = run.double_support_share, run.heel_off_share
         toe_off = last_heel_strike + double_support_share * 2.0 * step_time
-        earliest = strides[-1].foot_flat + 0.04 if strides else 0.0
+        earliest = strides[-1].foot_flat + _MIN_FLAT_TIME if strides else 0.0
         heel_off = max(last_heel_strike - heel_off_share * 2.0 * step_time * self._vary(0.08), earliest)
         if self.last_running_speed is not None:
-            toe_off = max(toe_off, heel_off + 0.06)
+            toe_off = max(toe_off, heel_off + _MIN_PUSH_OFF_TIME)
         heel_strike = last_heel_strike + step_time
         foot_flat = heel_strike + foot_flat_share * 2.0 * step_time * self._vary(0.06)
         lateral, toe_out = (float(value) for value in self.rng.standard_normal(2))

@@ -1,10 +1,10 @@
 """Static postures of the emulated shoe, as measured with a ruler for `solepath calibrate shoe`.
 
 The shoe stands on its forefoot rocker with its heel raised by the pitch p. The rocker is the round part of the sole
-over which the shoe rolls; its radius is R and it starts at x_f from the heel's end. The sole between heel and rocker is
-flat. A ruler along it, from the point below the sensor at x_s, meets the ground after
+over which the shoe rolls, of radius R; it starts x_f in front of the heel's end. The sole between heel and rocker is
+flat. A ruler along this part, from the point below the sensor at x_s, meets the ground after
 
-    L_r = x_f - x_s + R tan(p / 2),
+    L_r = x_f - x_s + R tan(p / 2).
 
 The distance on the ground from there to where the tip of the flat shoe (length l) would be is
 
@@ -26,7 +26,7 @@ from attrs import frozen
 from ..wearers.shoe import IN_SOLE, Mounting, Shoe
 
 PITCHES = tuple(radians(value) for value in (10.0, 22.0, 34.0, 46.0, 58.0))
-"""Pitches of five postures between flat and toe-off, rad (assumed: section III-C, 3 gives no values)."""
+"""Pitches of five postures between flat and toe-off, rad (assumed: Chen et al. 2019 give no values)."""
 REPETITIONS = 3
 """Number of measurements of each posture."""
 RULER_RESOLUTION = 0.001
@@ -53,8 +53,9 @@ def posture(pitch: float, shoe: Shoe | None = None, mounting: Mounting = IN_SOLE
     """Return the true posture of the shoe with its heel raised by `pitch`, rad."""
     shoe = shoe or Shoe()
     rocker = shoe.forefoot
-    rise = rocker.radius * tan(0.5 * pitch)
-    return Posture(pitch, rocker.x - mounting.position[0] + rise, shoe.length - rocker.x - rocker.radius * pitch + rise)
+    tangent = rocker.radius * tan(0.5 * pitch)
+    to_ground = rocker.x - mounting.position[0] + tangent
+    return Posture(pitch, to_ground, shoe.length - rocker.x - rocker.radius * pitch + tangent)
 
 
 def postures(

@@ -20,7 +20,7 @@ from .elevator import Elevator
 from .path import ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath, ahead
 from .styles import STAIRS_DOWN_SPEED, STAIRS_UP_SPEED
 
-TIGHT_TURN = 0.8
+TIGHT_TURN_SPEED = 0.8
 """Largest speed in a bend of radius below 1 m, m/s; it holds for turns without a speed of their own (assumed)."""
 
 
@@ -153,7 +153,7 @@ class Route:
         if not isfinite(angle) or not isfinite(radius) or radius < 0.0:
             raise ValueError(f"turn: angle must be finite and radius not negative, got {angle}, {radius}")
         if speed is None:
-            speed = min(self.speed, TIGHT_TURN if radius < 1.0 else inf)
+            speed = min(self.speed, TIGHT_TURN_SPEED if radius < 1.0 else inf)
         return self._then(TurnAction(angle, radius, _positive("speed", speed), self.spacing))
 
     @property

@@ -179,7 +179,7 @@ def _random_path(nodes: dict[Point, list[Point]], start: Point, end: Point, rng:
 
 
 def _next_points(nodes: dict[Point, list[Point]], path: list[Point]) -> list[Point]:
-    """Return the possible next points; the way back is possible only at a corridor's end."""
+    """Return the possible next points; only at a corridor's end it is the previous point."""
     return [place for place in nodes[path[-1]] if place != path[-2]] or [path[-2]]
 
 
@@ -188,7 +188,7 @@ def _is_straight(a: Point, b: Point, c: Point) -> bool:
 
 
 def _arrival_course(connector: Passage, level: str, dx: float, dy: float) -> Course:
-    """Return a course from the other floor to this one; it ends at the exit on this floor."""
+    """Return a course from the other floor to `level`; it ends in the cabin, or after the stairs."""
     if isinstance(connector, Cabin):
         course = Course(OTHER_LEVEL[level], connector.middle, connector.door_heading)
         course.stand()

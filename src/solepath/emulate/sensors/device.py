@@ -1,4 +1,4 @@
-"""The interface of every emulated device, which is worn at a site and sends notifications by its own clock."""
+"""The interface of emulated devices, which are worn at a site and send notifications by a clock of their own."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Notification:
     data: bytes
     """Value as the device encodes it."""
     acknowledged: bool = False
-    """True for a value that was read or written and not notified; the link layer repeats it until it arrives."""
+    """True for a value that is read or written, not notified: it always arrives."""
 
 
 @frozen
@@ -74,7 +74,7 @@ def setup_notifications(profile: Profile, device_values: Mapping[str, bytes]) ->
     return [Notification(spacing * k, channel, data, True) for k, (channel, data) in enumerate(values, 1)]
 
 
-def device_numbers(seed: int, site: Site, *more: int) -> Rng:
+def device_rng(seed: int, site: Site, *more: int) -> Rng:
     """Return the random generator of the device at a site; with `more` that of one of its sensors."""
     return np.random.default_rng([seed, 2, list(Site).index(site), *more])
 
@@ -87,13 +87,13 @@ def foot_of(site: Site) -> Foot:
 
 
 def draw_clock(rng: Rng, interval: float, ppm: float | None = None) -> DeviceClock:
-    """Return a clock whose first sample is at a random time within one `interval` after the setup."""
+    """Return a clock whose first sample is up to `interval`, s, after the setup, at random; `ppm` as in DeviceClock."""
     random_ppm = CRYSTAL_PPM * float(rng.standard_normal())
     return DeviceClock(random_ppm if ppm is None else ppm, SETUP_TIME + interval * float(rng.uniform()))
 
 
 def make_sampling(walker: Walker, clock: DeviceClock, nominal: float, first: float | None = None) -> Sampling:
-    """Return the instants of a sensor that measures every `nominal` s of the device's clock until the walk ends."""
+    """Return the instants of a sensor that measures every `nominal` s of its clock, from `first`, s, to the end."""
     start, interval = clock.first if first is None else first, clock.interval(nominal)
     return instants(start, interval, max(2, int((walker.duration - start) / interval)))
 
@@ -103,7 +103,7 @@ MAGNETIC_FIELD: Array = np.array([16e-6, 12e-6, -43e-6])
 
 
 def in_sensor_frame(attitude: Array, vector: Array) -> Array:
-    """Return a world vector v in the sensor frames of the attitudes q (N, 4), as q* v q, (N, 3)."""
+    """Return the coordinates q* v q of a world vector v in the sensor frames of attitudes q (N, 4), (N, 3)."""
     axis = -attitude[:, 1:]
     twice = 2.0 * np.cross(axis, vector)
     return np.asarray(vector + attitude[:, :1] * twice + np.cross(axis, twice))

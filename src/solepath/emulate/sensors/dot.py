@@ -31,9 +31,7 @@ class Dot:
     mounting: Mounting = Mounting((0.0, 0.0, 0.0))
     """Position, m, and attitude of the sensor in the frame of its segment (limbs.py)."""
     attitude: AttitudeErrors = CRE_CC02
-    """Attitude errors; by default those of the device of Gong et al. 2023, because the DOT emulates their experiments.
-
-    MOVELLA_DOT has the errors of the DOT itself."""
+    """Attitude errors; MOVELLA_DOT has those of a DOT, the default those of the unit of Gong et al. 2023."""
     north: float = 0.0
     """Yaw of the device's world frame in the walk's world frame, rad, counter-clockwise positive."""
     ppm: float | None = None
@@ -51,6 +49,7 @@ class Dot:
         attitudes = read_attitudes(true_attitudes, t, self.attitude, self.north, rng)
         sent = setup_notifications(DRIVER.profile, {"dot-orientation/battery": BATTERY_VALUE})
         (stream,) = DRIVER.profile.streams
+        # Attitudes are sent as 32-bit floats.
         for k, (sample_time, quat) in enumerate(zip(t.tolist(), attitudes.tolist(), strict=True)):
             ticks = (first_ticks + round(k * TICK_RATE / SAMPLING_RATE)) % 2**32
             data = DRIVER.write(stream, {"ticks": ticks, "quat": struct.unpack("<4f", struct.pack("<4f", *quat))})

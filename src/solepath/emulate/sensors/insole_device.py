@@ -18,7 +18,7 @@ from ..wearers.curves import Array, Rng
 from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
 from .device import Notification, draw_clock, foot_of, make_sampling, setup_notifications
-from .insoles import LOAD_PER_COUNT, heel_array, layout
+from .insoles import FULL_COUNT, LOAD_PER_COUNT, heel_array, layout
 from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudeErrors, CellErrors, Imu
 from .sensors import measure_imu, read_attitudes, read_cells, samples_of, take_samples, to_counts
 
@@ -56,10 +56,10 @@ class InsoleSignal:
     quats: Counts | None
     """Attitude in units of 2^-14, (N, 4), w x y z; None when it is not sent."""
     saturated: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
-    """True where a sensor was at the end of its range, (N)."""
+    """True where the device reports that a sensor was at the end of its range, (N)."""
 
     def frames(self, batch: int) -> int:
-        """Return how many frames of `batch` samples the walk has."""
+        """Return the number of whole frames of `batch` samples in the walk."""
         return len(self.cells) // batch
 
     def frame(self, number: int, batch: int = 1) -> InsoleFrame:
@@ -81,7 +81,7 @@ class InsoleSignal:
         return self.first + self.step * (number * batch)
 
     def ready(self, number: int, batch: int = 1) -> float:
-        """Return the time at which the radio has a frame, s."""
+        """Return the true time at which the radio has a frame, s."""
         return self.first + self.step * (number * batch + batch - 1) + HANDLING_TIME
 
     def _sample(self, row: int) -> InsoleSample:
@@ -121,7 +121,7 @@ class Insole:
     quaternion: bool = False
     """True when the attitude that the device estimates is sent too."""
     attitude: AttitudeErrors | None = None
-    """Attitude errors; None: a constant tilt error of half a degree and a random heading."""
+    """Attitude errors; None: a constant tilt (standard deviation 0.5 degrees about each axis) and a random heading."""
     north: float = 0.0
     """Yaw of the device's world frame in the walk's world frame, rad; it is used only with `attitude`."""
     mounting: Mounting = IN_SOLE
@@ -137,7 +137,7 @@ class Insole:
     firmware: str = "emulated 1"
     """Firmware version that the device reports."""
     reports_saturation: bool = True
-    """True when a frame with a saturated cell has the flag; False for devices whose cells are a separate unit."""
+    """True when a saturated cell sets the flag of its frame; False for devices whose cells are a separate unit."""
     broken: tuple[tuple[int, int], ...] = ()
     """Broken cells: pairs of the cell's index and its constant count."""
 
@@ -181,7 +181,7 @@ class Insole:
         saturated = loads.saturated
         for cell, count in self.broken:
             loads.counts[:, cell] = count
-            saturated = saturated | (count >= 4095)
+            saturated = saturated | (count >= FULL_COUNT)
         attitude = self._attitudes(take_samples(kinematics.attitude, sampling), sampling.times, rng)
         return InsoleSignal(
             layout=cell_layout,
@@ -204,7 +204,7 @@ class Insole:
         acc = gyro = None
         if signal.imu is not None:
             acc, gyro = signal.imu[:, :3] * ACC_COUNT, signal.imu[:, 3:] * GYRO_COUNT
-        quats = None if signal.quats is None else signal.quats / 16384.0
+        quats = None if signal.quats is None else signal.quats / 2.0**14
         cells = (signal.layout.scale or 1.0) * signal.cells
         return samples_of(site, t, acc, gyro, cells, quats, signal.saturated)
 
@@ -246,15 +246,15 @@ class Insole:
             tilt = radians(0.5) * rng.standard_normal(2)
             off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
             measured = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
-        quats: Counts = np.rint(16384 * measured).astype(np.int16)
+        quats: Counts = np.rint(2**14 * measured).astype(np.int16)
         return quats
 
 
 def boot(foot: Foot, rate: float = 100.0) -> Insole:
-    """Return the sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59.
+    """Return the sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59: 24 cells and an attitude sensor.
 
-    They are an array of 24 cells under the heel and an attitude sensor on the back of the heel. Its specific force and
-    angular rate have the errors of the other insoles, because the paper gives neither errors nor a sampling rate."""
+    The cells are under the heel, the sensor on the back of the heel. Specific force and angular rate have the errors of
+    the other insoles, and `rate`, Hz, is assumed, because the paper gives neither errors nor a sampling rate."""
     return Insole(
         cells=heel_array(foot),
         rate=rate,

@@ -10,14 +10,14 @@ from attrs import evolve
 
 from ...types import Cell, Foot, Layout
 
+FULL_COUNT = 4095
+"""Largest count of a cell, of 12 bits."""
 FULL_SCALE = 204.75
-"""Largest load that a cell can report, N: 4095 counts of 12 bits at 0.05 N.
+"""Largest load that a cell can report, N: FULL_COUNT counts of 0.05 N.
 
 It corresponds to the range of 5 to 200 N of a published insole of 99 cells."""
-
-LOAD_PER_COUNT = FULL_SCALE / 4095
+LOAD_PER_COUNT = FULL_SCALE / FULL_COUNT
 """Load per count, N."""
-
 # Half-widths of a left sole on its lateral (+y) and medial (-y) side, as shares of its width, at shares of its length.
 _ALONG = (0.00, 0.03, 0.10, 0.18, 0.30, 0.42, 0.55, 0.68, 0.76, 0.86, 0.94, 1.00)
 _LATERAL = (0.10, 0.24, 0.32, 0.34, 0.34, 0.38, 0.46, 0.50, 0.47, 0.36, 0.20, 0.05)
@@ -27,10 +27,11 @@ _MEDIAL = (0.10, 0.24, 0.32, 0.33, 0.27, 0.23, 0.32, 0.46, 0.48, 0.45, 0.34, 0.1
 def layout(count: int, foot: Foot, length: float = 0.285, width: float = 0.100) -> Layout:
     """Return the layout of an insole of `count` cells (24, 35, 96, 99, any number from 8 to 128).
 
-    The order of the cells is row by row from heel to toe, and in a row of a left foot from right to left. All cells of
-    a row are equally wide; cells are 80 % of the surface."""
+    Cells are ordered row by row from heel to toe, and in a row from the medial to the lateral side. In a row they are
+    equally wide; they cover 80 % of the sole. `length` and `width` of the sole are in m."""
     if not 8 <= count <= 128:
         raise ValueError(f"an insole has 8 to 128 cells, got {count}")
+    # This makes cells about square: the mean width of a sole is 0.75 of its width.
     rows = max(4, round(float(np.sqrt(count * length / (0.75 * width)))))
     along = (np.arange(rows) + 0.5) / rows
     left = np.interp(along, _ALONG, _LATERAL) * width
@@ -55,16 +56,16 @@ def heel_array(foot: Foot, length: float = 0.285, rear: float = 0.008) -> Layout
     """Return the layout of a DigiTacts II array under the heel of a shoe of `length` m.
 
     Its 24 cells are ordered row by row from the back to the front, and in a row from right to left. The first row
-    starts `rear` m in front of the heel's rear end (assumed). The id is 24, as for 24 cells over the whole sole; INFO
-    distinguishes them."""
+    starts `rear` m in front of the heel's rear end (assumed). The layout of 24 cells over the whole sole has the same
+    id, 24; INFO distinguishes the two."""
     step, across = HEEL_LENGTH / 6, HEEL_WIDTH / 4
     cells = [
         Cell(rear + (row + 0.5) * step, -0.5 * HEEL_WIDTH + (column + 0.5) * across, step * across)
         for row in range(6)
         for column in range(4)
     ]
-    full = MAX_HEEL_PRESSURE * step * across
-    return Layout(24, foot, tuple(cells), length, full / 4095, full)
+    max_load = MAX_HEEL_PRESSURE * step * across
+    return Layout(24, foot, tuple(cells), length, max_load / FULL_COUNT, max_load)
 
 
 def _shares(widths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:

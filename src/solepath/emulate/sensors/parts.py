@@ -1,9 +1,8 @@
 """Errors of sensor chips, pressure cells and whole devices, from their data sheets.
 
 A tolerance of +-x in a sheet is taken as two standard deviations between specimens. No sheet specifies how a bias
-changes over time. Here the bias follows the temperature slowly, by the sheet's drift per kelvin times WARMING. Comments
-name what is assumed where a sheet gives no value. (*) marks figures that have not been compared with the sheet
-itself."""
+changes over time. Here it changes slowly, as if with the temperature; its standard deviation is the sheet's drift per
+kelvin times WARMING. Comments name what is assumed. (*) marks figures that have not been compared with the sheet."""
 
 from __future__ import annotations
 
@@ -32,7 +31,7 @@ class TriadErrors:
     bias: float
     """Constant bias, u."""
     drift: float
-    """Variation of the bias over time, u, as a first-order Gauss-Markov process."""
+    """Variation of the bias over time, u: a first-order Gauss-Markov process with this standard deviation."""
     scale: float
     """Relative scale error."""
     cross: float
@@ -44,7 +43,7 @@ class TriadErrors:
     bits: int = 16
     """Number of bits of a reading."""
     g_effect: float = 0.0
-    """False output per specific force, u per m/s^2; its sign is random."""
+    """False output per specific force along the same axis, u per m/s^2; its sign is random."""
     bias_limit: float = inf
     """Largest bias, u, where a sheet guarantees a limit."""
 
@@ -177,9 +176,7 @@ class CellErrors:
     lag: float
     """Time constant of the cell and its foam, s."""
     relief_per_g: float = 0.0
-    """Share of the preload that is relieved in swing for each g of upward specific force above 1 g.
-
-    The shoe hangs on the laces; below 1 g the cell bears more."""
+    """Share of the preload that is relieved in swing per g of upward specific force above 1 g; below 1 g it adds."""
     contact_noise: float = 0.0
     """Load that varies as the foot shifts in the shoe in swing, N rms."""
     contact_correlation_time: float = 0.05
@@ -192,27 +189,26 @@ RESISTIVE = CellErrors("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
 Noise of 2 to 3 counts, the lag of the cover and the in-shoe preload are assumed."""
 
 CAPACITIVE = CellErrors("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
-"""Calibrated capacitive insoles (novel pedar), accuracy +-5 %; noise, lag and preload are assumed as for RESISTIVE."""
+"""Calibrated capacitive insoles (novel pedar), accuracy +-5 %; noise, lag and preload are assumed."""
 
 WORN_RESISTIVE = evolve(RESISTIVE, name="FSR in a laced shoe", relief_per_g=0.3, contact_noise=0.2)
 WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", relief_per_g=0.3, contact_noise=0.12)
 """Errors of capacitive cells with the contact of the foot in swing; WORN_RESISTIVE has those of resistive cells.
 
-No sheet and none of the papers gives figures. Two are assumed: each g relieves a third of the preload (a laced foot
-presses with about 50 N in all), and the load of each cell varies by 0.4 of its mean."""
+Neither sheets nor papers give figures. Assumed: each g relieves 0.3 of the preload (a laced foot presses with about
+50 N in all), and the load of a cell varies by 0.4 of its mean preload."""
 
 HEEL_ARRAY = evolve(WORN_CAPACITIVE, name="DigiTacts II under a heel")
-"""Errors of the Pressure Profile Systems DigiTacts II: capacitive, calibrated before shipment (Bebek et al. 2010,
-section IV).
+"""Errors of the DigiTacts II of Pressure Profile Systems, assumed as for other capacitive cells.
 
-The paper (IEEE Trans. Instrum. Meas. 59) gives only the range; the errors are assumed as for other capacitive cells."""
+The array is capacitive and calibrated before shipment; Bebek et al. 2010, section IV, give only its range."""
 
 
 @frozen
 class AttitudeErrors:
     """The errors of the attitude that a device estimates, as standard deviations.
 
-    The accuracy of a sheet is taken as one standard deviation, as those makers do who define it."""
+    The accuracy of a sheet is taken as one standard deviation; the makers who define it do the same."""
 
     name: str
     """Name of the device."""

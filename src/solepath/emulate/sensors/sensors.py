@@ -18,8 +18,11 @@ from ...types.vector import GRAVITY
 from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.turning import multiply_quaternions
+from .insoles import FULL_COUNT
 from .parts import AttitudeErrors, BarometerErrors, CellErrors, Imu, TriadErrors
 
+LEAD_IN_TIME = 0.12
+"""Time before the first sample in which a filter reaches its steady state, s."""
 MIN_FINE_RATE = 800.0
 """Least rate at which a signal is computed before it is filtered, Hz."""
 
@@ -35,7 +38,7 @@ class Sampling:
     oversampling: int
     """Number of fine instants per sample."""
     lead_in: int
-    """Number of fine instants before the first sample, in which the filter reaches its steady state."""
+    """Number of fine instants before the first sample, in LEAD_IN_TIME s."""
 
     @property
     def rate(self) -> float:
@@ -47,7 +50,7 @@ def instants(first: float, interval: float, count: int) -> Sampling:
     """Return the instants of `count` samples from `first` s on, `interval` s apart."""
     oversampling = max(1, ceil(MIN_FINE_RATE * interval))
     step = interval / oversampling
-    lead_in = ceil(0.12 / step)
+    lead_in = ceil(LEAD_IN_TIME / step)
     fine_times = first + step * np.arange(-lead_in, (count - 1) * oversampling + 1, dtype=np.float64)
     return Sampling(first + interval * np.arange(count, dtype=np.float64), fine_times, oversampling, lead_in)
 
@@ -67,8 +70,8 @@ def measure(
 ) -> Array:
     """Return the samples (N, 3) of a three-axis sensor, not quantised, for the true values (fine instants, 3).
 
-    `force` is the specific force at the fine instants, m/s^2, for gyroscopes that are sensitive to it. `bandwidth`, Hz,
-    is that of the device's own low pass; the lower one of chip and device counts."""
+    `force` is the specific force at the fine instants, m/s^2, for gyroscopes that are sensitive to it. The low pass
+    has the bandwidth of the chip or `bandwidth`, the device's own, Hz, whichever is lower."""
     measured = add_errors(true, sampling, chip, rng, force)
     return take_samples(low_pass(measured, sampling.rate, min(chip.bandwidth, bandwidth)), sampling)
 
@@ -102,7 +105,9 @@ def add_errors(true: Array, sampling: Sampling, chip: TriadErrors, rng: Rng, for
 
 
 def low_pass(signal: Array, rate: float, bandwidth: float) -> Array:
-    """Return the columns filtered by a causal second-order Butterworth low pass; the delay is sqrt(2) / (2 pi f)."""
+    """Return the columns filtered by a causal second-order Butterworth low pass, with a delay of sqrt(2) / (2 pi f).
+
+    f is `bandwidth`, Hz; a bandwidth of 0.45 `rate`, Hz, or more leaves the signal as it is."""
     if bandwidth >= 0.45 * rate:
         return signal
     w = 2.0 * pi * bandwidth
@@ -118,10 +123,9 @@ def take_samples(signal: Array, sampling: Sampling) -> Array:
 
 
 def random_drift(t: Array, correlation_time: float, axes: int, rng: Rng) -> Array:
-    """Return a Gauss-Markov process of unit sigma that is 0 at the start, (N, axes).
+    """Return a Gauss-Markov process that starts at 0 and tends to a standard deviation of 1, (N, axes).
 
-    The correlation time is `correlation_time` s. It is computed ten times per `correlation_time` and interpolated
-    smoothly, because a temperature changes slowly."""
+    It is computed ten times per `correlation_time`, s, and interpolated smoothly: a temperature changes slowly."""
     nodes = np.arange(float(t[0]), float(t[-1]) + 0.2 * correlation_time, 0.1 * correlation_time)
     persistence = exp(-0.1)
     kicks = sqrt(1.0 - persistence * persistence) * rng.standard_normal((len(nodes), axes))
@@ -140,12 +144,13 @@ def read_cells(
     chip: CellErrors,
     count: float,
     rng: Rng,
-    full_count: int = 4095,
+    full_count: int = FULL_COUNT,
     upward_force: Array | None = None,
 ) -> CountReading:
-    """Return the counts of an insole's cells for their true loads `true` (N, cells), N, at times `t` (N), s.
+    """Return the counts of an insole's cells for their true loads, in newtons, (N, cells), at times `t`, s, (N).
 
-    `upward_force` (N) is the specific force along the sole's upward normal, m/s^2, for parts with `relief_per_g`."""
+    `count` is the load of one count, in newtons, and `full_count` the largest count. `upward_force` (N) is the specific
+    force along the sole's upward normal, m/s^2, for parts with `relief_per_g`."""
     cells = true.shape[1]
     gain = 1.0 + chip.gain * np.clip(rng.standard_normal(cells), -3.0, 3.0)
     preload = chip.preload * np.asarray(rng.uniform(0.0, 2.0, cells))
@@ -170,7 +175,7 @@ def read_cells(
 def _contact_loads(
     true: Array, interval: float, chip: CellErrors, preload: Array, upward_force: Array | None, rng: Rng
 ) -> Array:
-    """Return the load that a foot in swing adds to the preload of each cell, in newtons, (N, cells); else 0."""
+    """Return the load that a foot in swing adds to the preload of each cell, in newtons, (N, cells); 0 in stance."""
     persistence = exp(-interval / chip.contact_correlation_time)
     change = chip.contact_noise * sqrt(1.0 - persistence * persistence) * rng.standard_normal(true.shape)
     for k in range(1, len(change)):
@@ -195,14 +200,15 @@ def read_barometer(height: Array, t: Array, chip: BarometerErrors, rng: Rng) -> 
 
 
 def read_attitudes(true: Array, t: Array, chip: AttitudeErrors, north: float, rng: Rng) -> Array:
-    """Return the attitudes (N, 4), sensor to the device's world, that a device reports for `true` (N, 4) at times `t`.
+    """Return the attitudes (N, 4), sensor to device's world, that a device reports for `true` (N, 4) at times `t`, s.
 
-    The device's world is the walk's world, turned about the vertical by `north` rad and by the part's errors: a
-    Gauss-Markov process about each axis with the same sigma at the start as later."""
+    The device's world is the walk's world turned about the vertical by `north` rad. Errors are added: about each axis a
+    Gauss-Markov process whose standard deviation is the same from the start on."""
     initial = np.exp(-(t - t[0]) / chip.correlation_time)[:, None] * rng.standard_normal(3)
     turned = (initial + random_drift(t, chip.correlation_time, 3, rng)) * (chip.tilt, chip.tilt, chip.heading)
     angle = np.linalg.norm(turned, axis=1, keepdims=True)
     axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
+    # Coordinates turn by -north when the frame turns by north.
     about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
     return multiply_quaternions(multiply_quaternions(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)
 
@@ -218,8 +224,8 @@ def samples_of(
 ) -> list[Sample]:
     """Return the samples at times `t`, s, with the rows of the measured values."""
     vectors = [repeat(None) if one is None else map(tuple, one.tolist()) for one in (acc, gyro, pressure, quat)]
-    full_count = repeat(False) if saturated is None else saturated.tolist()
+    flags = repeat(False) if saturated is None else saturated.tolist()
     return [
-        Sample(time, site, a, g, p, q, saturated=limit)
-        for time, a, g, p, q, limit in zip(t.tolist(), *vectors, full_count, strict=False)
+        Sample(time, site, a, g, p, q, saturated=flag)
+        for time, a, g, p, q, flag in zip(t.tolist(), *vectors, flags, strict=False)
     ]

@@ -22,7 +22,7 @@ from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, Imu
 from .tag_signals import BAROMETER_DELAY, MAG_DELAY, SLOW_PERIOD, Series, WornTag, counts
 
 GYRO_COUNT = radians(500.0 / 65536.0)
-"""Angular rate per count of both tags, rad/s; the range is +-250 degrees/s, which a foot in swing exceeds."""
+"""Angular rate per count of both tags, rad/s: a range of +-250 degrees/s, which a foot in swing exceeds."""
 AK8963_COUNT = 4912e-6 / 32760
 """Magnetic flux density per count of the CC2650's magnetometer, T."""
 MAG3110_COUNT = 2000e-6 / 65536
@@ -30,7 +30,7 @@ MAG3110_COUNT = 2000e-6 / 65536
 PRESS_TIME = 0.25
 """Time for which a key is held, s."""
 BAROMETER_TEMPERATURE = 24.0
-"""Temperature of the barometer, degrees Celsius."""
+"""Temperature of the barometers, degrees Celsius."""
 BATTERY = 91
 """Battery level of the CC2650, percent."""
 
@@ -97,14 +97,14 @@ class CC2650:
 T5400_CALIBRATION = cc2541.BarometerCalibration(
     c1=45697, c2=25592, c3=48894, c4=36174, c5=7001, c6=1990, c7=-2364, c8=-9363
 )
-"""Calibration of the CC2541's barometer; the coefficients are invented and as large as real ones."""
+"""Calibration of the CC2541's barometer; the coefficients are made up, of the size of real ones."""
 DELAYS = {
     "cc2541/accelerometer": 0.0,
     "cc2541/gyroscope": 0.0,
     "cc2541/magnetometer": MAG_DELAY,
     "cc2541/barometer": BAROMETER_DELAY,
 }
-"""Time from the tag's first sample to each sensor's first one, s; the gyroscope's is replaced by a random one."""
+"""Time from the tag's first sample to the first one of each sensor, s; the gyroscope has a random delay instead."""
 ALL_AXES = 7
 """Configuration of the gyroscope that switches all axes on."""
 
@@ -116,7 +116,7 @@ class CC2541:
     rate: float = 10.0
     """Rate of the inertial sensors, Hz: 10 with stock firmware, 20 with modified firmware."""
     code: int = 3
-    """Value of the accelerometer's configuration AA12: 1, 2, 3 for a range of 2, 4, 8 g."""
+    """Value of the accelerometer's configuration AA12: 1, 2 or 3 for a range of +-2, +-4 or +-8 g."""
     mounting: Mounting = ON_INSTEP
     """Position and attitude on the foot."""
     part: Imu = KXTJ9_IMU3000
@@ -142,7 +142,7 @@ class CC2541:
             "cc2541/gyroscope-period": period_value,
             "cc2541/magnetometer-period": slow_period_value,
             "cc2541/barometer-period": slow_period_value,
-            "cc2541/barometer-calibration": CALIBRATION,
+            "cc2541/barometer-calibration": CALIBRATION_VALUE,
         }
         sent = setup_notifications(cc2541.PROFILE, device_values)
         for channel, sensor_period, code in (
@@ -157,9 +157,9 @@ class CC2541:
         return sorted(sent, key=attrgetter("t"))
 
     def measure(self, channel: str, worn: WornTag, period: float, delay: float, rng: Rng) -> Series:
-        """Return the series of a channel, one value every `period` s, the first `delay` s after the tag's first sample.
+        """Return the series of a channel: a value every `period` s, the first `delay` s after the tag's first sample.
 
-        The barometer has a fixed delay instead (tag_signals.py)."""
+        The barometer has BAROMETER_DELAY instead of `delay`."""
         match channel:
             case "cc2541/accelerometer":
                 return worn.motion(period, delay).acc(self.part, rng)
@@ -192,16 +192,16 @@ def cc2541_bytes(channel: str, **fields: Any) -> bytes:
 
 CC2541_KEYS = tuple([cc2541_bytes("cc2541/keys", left=left, right=False, side=False) for left in (True, False)])
 """Values of the CC2541's key channel for the left key: pressed, released."""
-CALIBRATION = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBRATION))
-"""Value of the barometer's calibration channel."""
+CALIBRATION_VALUE = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBRATION))
+"""Value of the channel of the barometer's calibration."""
 
 
 def raw_barometer_values(pascal: float) -> dict[str, int]:
     """Return the raw values of the T5400 at this pressure, Pa, by the inverse of the compensation."""
     c = T5400_CALIBRATION
-    t = round((BAROMETER_TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
-    low, high = c.pascal(t, 0), c.pascal(t, 1)
-    return {"temperature": t, "pressure": round((pascal - low) / (high - low))}
+    temperature = round((BAROMETER_TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
+    low, high = c.pascal(temperature, 0), c.pascal(temperature, 1)
+    return {"temperature": temperature, "pressure": round((pascal - low) / (high - low))}
 
 
 def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:

@@ -28,17 +28,17 @@ MISALIGNMENT = 0.15
 def limb_mounting(site: Site, limbs: Limbs, seed: int, turned: float = MISALIGNMENT) -> Mounting:
     """Return position, m, and attitude of a site's sensor in the frame of its segment, with a random misalignment.
 
-    The sensor of the pelvis sits on the small of the back, those of thighs and shanks half-way down on the front, those
-    of the feet on the instep. `turned` is the standard deviation of the misalignment about each axis, rad."""
+    Sensors sit on the small of the back, half-way down the front of thighs and shanks, and on the insteps (offsets
+    assumed). `turned` is the standard deviation of the misalignment about each axis, rad."""
     rng = np.random.default_rng([seed, 5, list(Site).index(site)])
     x, y, z = (turned * float(value) for value in rng.standard_normal(3))
-    place = ON_INSTEP.position
+    position = ON_INSTEP.position
     if site is Site.PELVIS:
-        place = (-0.10, 0.0, 0.05)
+        position = (-0.10, 0.0, 0.05)
     elif site.foot is None:
         thigh = site in (Site.LEFT_THIGH, Site.RIGHT_THIGH)
-        place = (0.06, 0.0, -0.5 * (limbs.thigh if thigh else limbs.shank))
-    return Mounting(place, from_rotation_vector((x, y, z)))
+        position = (0.06, 0.0, -0.5 * (limbs.thigh if thigh else limbs.shank))
+    return Mounting(position, from_rotation_vector((x, y, z)))
 
 
 def limb_samples(
@@ -57,11 +57,10 @@ def limb_samples(
     """Return samples of all seven sites on the true clock at k / rate s, in the order of time and of Site.
 
     There are no packets and no radio. `quat` turns a vector of the sensor frame into a world frame that is yawed by
-    `north` rad from the walk's, with the errors of `attitude`. Acceleration and rate have the errors of `errors` and
-    are neither saturated nor rounded. Gong et al. 2023 give no figures for their device, so MPU9250 replaces it. None
-    for either stands for exact values. `limbs` are the wearer's own by default. With `layouts` the samples of the feet
-    have the loads of their cells, N, exact or read by `cell_part` at the scale of the layout. `seed` sets mountings and
-    errors."""
+    `north` rad from the walk's. It has the errors `attitude`; specific force and angular rate have `errors`, and are
+    neither saturated nor rounded. None: exact values. The default is MPU9250, because Gong et al. 2023 give only the
+    attitude errors of their device. `limbs` are the wearer's own by default; `turned` is that of `limb_mounting`. With
+    `layouts`, foot samples have the loads of the cells, N, exact or read by `cell_part` at the layout's scale."""
     wearer = walker.wearer
     limbs = limbs or wearer.limbs
     if limbs == wearer.limbs:
@@ -94,7 +93,7 @@ def suit(
 ) -> dict[Site, Device]:
     """Return seven devices for one session, mounted by `limb_mounting`.
 
-    The feet wear insoles of 99 cells that send their attitude, with `rate` samples a second; other sites wear DOTs."""
+    The feet wear insoles of 99 cells at `rate` Hz that send their attitude; other sites wear DOTs."""
     devices: dict[Site, Device] = {}
     for site in Site:
         mounting = limb_mounting(site, limbs, seed)

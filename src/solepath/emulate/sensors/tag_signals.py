@@ -17,6 +17,8 @@ from .sensors import Sampling, measure, read_barometer, to_counts
 
 HANDLING_TIME = 2e-3
 """Time from a measurement until the radio has its value, s (assumed)."""
+PERIOD_UNIT = 0.01
+"""Unit of a SensorTag's period characteristics, s."""
 SLOW_PERIOD = 1.0
 """Period of the barometer and of the CC2541's magnetometer after the usual setup, s."""
 MAG_DELAY = 0.3
@@ -31,7 +33,7 @@ Counts = tuple[int, int, int]
 class Series:
     """The values of one sensor over a walk; value k is measured at true time `first` + k `step`, s.
 
-    Numbers below 0 and after the end of the walk are valid; the wearer then stands as at the start or the end."""
+    Numbers below 0 and after the end of the walk are valid: the wearer then stands as at the start or the end."""
 
     first: float
     """True time of value 0, s."""
@@ -103,7 +105,7 @@ class WornTag:
     """Clock of the tag."""
 
     def motion(self, period: float, delay: float = 0.0) -> TagMotion:
-        """Return the motion for a sensor that measures every `period` s, from `delay` s after the first sample on."""
+        """Return the motion for a sensor with samples `period` s apart, the first `delay` s after that of the tag."""
         sampling = make_sampling(self.walker, self.clock, period, self.clock.first + delay)
         kinematics = self.walker.kinematics(self.foot, sampling.fine_times, self.mounting)
         return TagMotion(sampling, self.clock.interval(period), kinematics)

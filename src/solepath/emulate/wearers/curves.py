@@ -19,10 +19,9 @@ BUMP: Array = np.array([0.0, 0.0, 0.0, 64.0, -192.0, 192.0, -64.0, 0.0])
 """Curve 64 s^3 (1 - s)^3, which is 1 in the middle; value, slope and curvature are 0 at both ends."""
 
 LEVELLING: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
-"""Curve s^3 (1 - s)^3 (1 - 2 s), which makes a motion more even when it is added to it.
+"""Curve s^3 (1 - s)^3 (1 - 2 s); a motion to which it is added starts earlier, is slower in the middle and stops later.
 
-The motion then starts earlier, is slower in the middle and stops later. Value, slope and curvature of this curve are 0
-at both ends."""
+Value, slope and curvature are 0 at both ends."""
 
 
 def constant(value: float) -> Array:

@@ -20,7 +20,7 @@ from .curves import Rng
 from .shoe import Rocker, Shoe
 
 SETTLE_TIME = 0.45
-"""Time in which the weight comes to rest on both feet at a halt, and longest time of a load shift in a stance, s."""
+"""Time in which the weight settles on both feet at a halt, and longest time in which it rolls along the sole, s."""
 
 
 @frozen
@@ -69,8 +69,7 @@ class Wearer:
     def cadence(self, speed: float) -> float:
         """Return the cadence at `speed` m/s, steps per minute.
 
-        With step length l and speed v, the walk ratio W = l / c and v = l c / 60 give the cadence c = sqrt(60 v /
-        W)."""
+        With the step length l, the walk ratio W = l / c and the speed v = l c / 60 give c = sqrt(60 v / W)."""
         return float(np.sqrt(60.0 * speed / self.walk_ratio))
 
 
@@ -97,7 +96,7 @@ class PlannedStride:
     strike_pitch: float
     """Pitch at heel-strike, rad; positive when the toe is up."""
     speed: float
-    """Speed of the body along the path, m/s; less in a short step of walking."""
+    """Speed of the body along the path, m/s; reduced in a short stride of walking."""
     clearance: float
     """Least height of the sole above the ground in mid-swing, m."""
     deviation: tuple[float, float, float]
@@ -107,8 +106,7 @@ class PlannedStride:
     curvature: float
     """Curvature of the path where the foot lands, 1/m; positive to the left."""
     step_speed: float
-    """Speed of the body during the step that ends this stride, m/s: half of the foot's displacement over the step
-    time."""
+    """Speed of the body in the step that ends this stride, m/s: half of the foot's displacement over the step time."""
     kind: StrideKind = StrideKind.WALK
     """Kind of the stride."""
     flight: Flight | None = None
@@ -148,8 +146,7 @@ class WalkPlan:
     strides: dict[Foot, tuple[PlannedStride, ...]]
     """Strides of each foot."""
     bouts: tuple[tuple[float, float], ...]
-    """Start and end, s, of each bout of walking between two stands; a bout ends SETTLE_TIME s after its last
-    heel-strike."""
+    """Start and end of each bout of walking, s; a bout ends SETTLE_TIME s after its last heel-strike."""
     climbs: tuple[Climb, ...] = ()
     """Flights of stairs that the wearer walks."""
     rides: tuple[CarRide, ...] = ()
@@ -157,7 +154,7 @@ class WalkPlan:
 
 
 def double_support(speed: float) -> float:
-    """Return the duration of one double support as a share of the stride, at `speed` m/s."""
+    """Return the duration of one double support at `speed` m/s, as a share of the stride; numbers assumed."""
     return float(np.clip(0.115 - 0.04 * (speed - 1.3), 0.05, 0.20))
 
 
@@ -170,9 +167,9 @@ DEFAULT_STATURE = 1.75
 def scaled_wearer(stature: float, mass: float, foot_length: float) -> Wearer:
     """Return a wearer of this stature, m, and mass, kg, in the default shoe scaled to a foot of `foot_length` m.
 
-    The limbs have the proportions of `Limbs`; its `foot` is the length of the shoe ahead of the ankle. The walk ratio
-    is proportional to the stature to the power of 1.5. By dynamic similarity, the step length is proportional to the
-    leg length, and the cadence to the frequency of a pendulum of that length (Alexander 1989, Physiol. Rev. 69)."""
+    The limbs have the proportions of `Limbs`; their `foot` is the length of the shoe ahead of the ankle. By dynamic
+    similarity, the step length is proportional to the leg length, and the cadence to the frequency of a pendulum as
+    long as the leg (Alexander 1989, Physiol. Rev. 69). The walk ratio therefore grows with stature^1.5."""
     default, scale = Wearer(), foot_length / DEFAULT_FOOT_LENGTH
     default_shoe = default.shoe
     shoe = Shoe(
@@ -199,7 +196,7 @@ def scaled_wearer(stature: float, mass: float, foot_length: float) -> Wearer:
 
 
 def random_wearer(rng: Rng) -> tuple[Wearer, float]:
-    """Return a random wearer and the wearer's stature: 1.55 to 1.92 m, with a body mass index of 21 to 28."""
+    """Return a random wearer and the stature, m: 1.55 to 1.92 m, with a body mass index of 21 to 28 kg/m^2."""
     stature = float(rng.uniform(1.55, 1.92))
     return scaled_wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
 
@@ -210,4 +207,4 @@ SUBJECTS = (
     scaled_wearer(1.60, 50.0, 0.235),
     scaled_wearer(1.83, 81.0, 0.270),
 )
-"""Wearers with the height, weight and shoe size of the subjects of Gong et al. 2023 (Sensors 23, 5417), table 3."""
+"""Wearers with stature, mass and foot length of the subjects of Gong et al. 2023 (Sensors 23, 5417), table 3."""

@@ -3,8 +3,8 @@
 The body's centre of mass x is a linear inverted pendulum over the feet (Kajita et al. 2001, IROS). With the centre of
 pressure p of both feet and w = sqrt(g / h) for the height h of the centre of mass, x'' = w^2 (x - p). The only bounded
 motion is x = (w / 2) integral of p(s) exp(-w |t - s|) ds; it contains sway, variation of speed and leaning into bends.
-The pelvis is assumed at x, as high as both legs can reach, smoothed. It turns with the feet and with the leg ahead, and
-sinks on the side of the leg in swing, as gait laboratories measure (Perry, Gait Analysis, 1992: 4 degrees each).
+The pelvis is assumed above x, as high as both legs allow; the height is smoothed. It turns with the feet and with the
+leg ahead, and sinks on the side of the leg in swing, each by 4 degrees (Perry, Gait Analysis, 1992).
 
 Each leg has two links of constant length from the hip joint to the ankle. The knee bends forward, in a plane whose
 direction is the mean of the forward directions of pelvis and foot.
@@ -14,9 +14,9 @@ moves it in x and y by up to MAX_SLIP, which is assumed because the paper has no
 but a kinematic chain of limbs ends at the foot; the two differ by the slip.
 
 A segment is the pelvis, a thigh, a shank or a foot. When the wearer stands straight, the axes of every segment frame
-are x ahead, y left, z up. Origins: between the hip joints for the pelvis; at the hip for a thigh, whose z points from
-knee to hip; at the knee for a shank, whose z points from ankle to knee; that of the foot frame for a foot. Numbers
-without a source were chosen by hand for plausible motion and not swept."""
+are x ahead, y left, z up. The frame of the pelvis has its origin between the hip joints. That of a thigh has it at the
+hip, with z from knee to hip, and that of a shank at the knee, with z from ankle to knee. A foot has the foot frame.
+Numbers without a source were chosen by hand for plausible motion and not swept."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ INTERVAL = 0.01
 MAX_REACH = 0.998
 """Largest distance from hip to ankle, as a share of the leg's length; below 1 the knee is never quite straight."""
 MAX_REACH_RUNNING = 0.97
-"""MAX_REACH of a runner, who lands with the knee bent by some 20 degrees (Novacheck 1998, Gait & Posture 7)."""
+"""MAX_REACH in running, which lands with the knee bent by some 20 degrees (Novacheck 1998, Gait & Posture 7)."""
 FOLLOW_TIME = 0.2
 """Length of the window that smooths height, roll and yaw of the pelvis as they follow the legs, s."""
 TURN_TIME = 1.1
@@ -52,7 +52,7 @@ YAW_PER_LEAD = 0.10
 PELVIS_ROLL = 0.07
 """Roll by which the pelvis sinks on the side of the leg in swing, rad."""
 MAX_SLIP = (0.006, 0.004)
-"""Largest slip of a foot in its shoe along x (forward or back) and along y (left or right), foot frame, m (assumed)."""
+"""Largest slip of a foot in its shoe, either way along x and along y of the foot frame, m (assumed)."""
 SLIP_ACCELERATION = 2.0
 """Acceleration of the body at which the slip is three quarters of MAX_SLIP, m/s^2 (assumed)."""
 _MARGIN_TIME = 4.0
@@ -150,7 +150,7 @@ class Body:
         return (leg.hip, leg.thigh) if site in _THIGHS else (leg.knee, leg.shank)
 
     def at(self, site: Site, t: Array, mounting: Mounting) -> Kinematics:
-        """Return the motion of a sensor at times `t`, s; it is exact on a foot, by differences of 2 ms elsewhere."""
+        """Return the motion of a sensor at times `t`, s: exact on a foot, elsewhere from differences over 2 ms."""
         t = np.asarray(t, dtype=np.float64)
         if site.foot is not None:
             return self.motions[site.foot].at(t, mounting)
@@ -161,6 +161,7 @@ class Body:
         arm = np.array(mounting.position)
         before, position, after = p0 + r0 @ arm, p1 + r1 @ arm, p2 + r2 @ arm
         acceleration = (before - 2.0 * position + after) / _DIFFERENCE_STEP**2
+        # r0^T r2 minus its transpose is 4 steps times the matrix of the cross product with the rate.
         turn = np.einsum("nji,njk->nik", r0, r2) / (4.0 * _DIFFERENCE_STEP)
         rate = np.stack([turn[:, j, i] - turn[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
         force = np.einsum("nji,nj->ni", r1, acceleration + (0.0, 0.0, GRAVITY))
@@ -196,7 +197,7 @@ def ankle_place(shoe: Shoe, limbs: Limbs) -> Vec3:
 def body(
     plan: WalkPlan, motions: dict[Foot, FootMotion], loads: Loads, shoe: Shoe, height: float, limbs: Limbs
 ) -> Body:
-    """Return the body of a wearer whose centre of mass, when standing, is `height` m above the ground."""
+    """Return the body of a wearer whose centre of mass is `height`, m, above the ground when the wearer stands."""
     t = np.arange(-_MARGIN_TIME, plan.duration + _MARGIN_TIME, INTERVAL)
     cop = _centre_of_pressure(plan, loads, shoe, t)
     w = sqrt(GRAVITY / height)
@@ -214,9 +215,10 @@ def body(
     yaw = _smooth(0.5 * (yaws[0] + yaws[1])[:, None], TURN_TIME)[:, 0]
     separation = ankles[Foot.LEFT] - ankles[Foot.RIGHT]
     lead = separation[:, 0] * np.cos(yaw) + separation[:, 1] * np.sin(yaw)
-    swing = np.stack((-YAW_PER_LEAD * lead, PELVIS_ROLL * (load_shares[Foot.LEFT] - load_shares[Foot.RIGHT])), axis=1)
-    swing = _smooth(swing, FOLLOW_TIME)
-    yaw, roll = yaw + swing[:, 0], swing[:, 1]
+    # A left foot ahead turns the pelvis to the right; a loaded left foot lets its right side sink.
+    sway = np.stack((-YAW_PER_LEAD * lead, PELVIS_ROLL * (load_shares[Foot.LEFT] - load_shares[Foot.RIGHT])), axis=1)
+    sway = _smooth(sway, FOLLOW_TIME)
+    yaw, roll = yaw + sway[:, 0], sway[:, 1]
 
     reach = _reach_limit(plan, t) * (limbs.thigh + limbs.shank)
     half_hip = 0.5 * limbs.hip_width * yaw_roll_matrices(yaw, roll)[:, :, 1]
@@ -249,13 +251,14 @@ def _centre_of_pressure(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> A
         table = np.array([(pose.x, pose.y, pose.heading) for pose in poses])
         x, y, yaw = table[np.maximum(np.searchsorted(loads.stances[foot][:, 0], t, side="right") - 1, 0)].T
         zones = np.array([zone.x for zone in (HEEL, MIDFOOT, FOREFOOT, TOES)]) * shoe.length
-        ahead, left = zones @ loads.shares(foot, t) - shoe.ankle[0], loads.lateral_shift(foot, t)
+        ahead, left = zones @ loads.zone_shares(foot, t) - shoe.ankle[0], loads.lateral_shift(foot, t)
         point = np.stack((x + ahead * np.cos(yaw) - left * np.sin(yaw), y + ahead * np.sin(yaw) + left * np.cos(yaw)))
         total += loads.share(foot, t)[:, None] * point.T
     return total
 
 
 def _slip(turn: Array, acceleration: Array, share: Array) -> Array:
+    """Return the slip of a foot, (N, 2), foot frame, m; it is against the acceleration of the body."""
     ahead, left = _forward(turn)[:, :2], _horizontal(turn[:, :, 1])[:, :2]
     local_pull = np.stack((np.sum(ahead * acceleration, axis=1), np.sum(left * acceleration, axis=1)), axis=1)
     return np.asarray(-share[:, None] * np.tanh(local_pull / SLIP_ACCELERATION) * MAX_SLIP)
@@ -274,18 +277,15 @@ def _filter(track: Array, kernel: Array) -> Array:
 
 
 def _smooth(track: Array, window: float) -> Array:
-    """Return the columns of a track smoothed by a Hann window of `window` s."""
     return _filter(track, np.hanning(2 * round(0.5 * window / INTERVAL) + 3)[1:-1])
 
 
 def _running_minimum(values: Array, half: int) -> Array:
-    """Return for each value the minimum of the value itself and `half` neighbours on either side."""
     padded = np.pad(values, half, mode="edge")
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1).min(axis=1))
 
 
 def _horizontal(v: Array) -> Array:
-    """Return the horizontal directions of vectors (N, 3) as unit vectors."""
     return unit(v * (1.0, 1.0, 0.0))
 
 
@@ -295,6 +295,6 @@ def _forward(turn: Array) -> Array:
 
 
 def _frame(up: Array, left: Array) -> Array:
-    """Return attitudes with z along `up` and y along `left`; the two must be perpendicular."""
+    """Return attitudes with z along `up` and y along `left`, which are perpendicular."""
     z = unit(up)
     return np.stack((np.cross(left, z), left, z), axis=2)

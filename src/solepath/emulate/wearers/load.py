@@ -1,8 +1,8 @@
 """Vertical load under each foot, and its distribution over the sole.
 
 Only vertical forces are emulated. In walking both feet together bear the weight times 1 + A cos(phase). One period
-lasts a step, and the maximum is in the middle of double support. The load of each foot then has two maxima and a
-minimum, as force plates show them (about 1.1, 0.8 and 1.1 body weights at 1.3 m/s; Perry, Gait Analysis, 1992). The
+lasts a step, and the maximum is in the middle of double support. The load of each foot then has two maxima and one
+minimum, as on force plates (about 1.1, 0.8 and 1.1 body weights at 1.3 m/s; Perry, Gait Analysis, 1992). The
 mean over a step is the weight. In double support the load moves from the trailing to the leading foot.
 
 In running each foot bears half a sine wave from heel-strike to toe-off, and no load in flight (Alexander 1989,
@@ -14,11 +14,11 @@ heel-off and ends under the toes with toe-off.
 
 In a bend of radius r at speed v the line from the body's centre of mass along gravity and centrifugal force meets the
 ground h v^2 / (r g) away from the point below the centre, to the outside of the turn. The wearer leans and places the
-feet so that most of this distance is compensated. The share LOAD_SHIFT_SHARE of it moves the load under each foot, in a
-turn to the left to the right edge of both feet. Insoles show the same under the heels (Turcato et al. 2015, J NeuroEng
-Rehabil 12:4: the lateral heel of the outer foot bears more, that of the inner foot less). Under the metatarsal heads
-they found the opposite, which is not emulated. Numbers without a source were chosen by hand for plausible loads and not
-swept."""
+feet so that most of this distance is compensated. The share LOAD_SHIFT_SHARE of it moves the load under each foot:
+in a turn to the left, towards the right edge of both feet. Insoles show this under the heels (Turcato et al. 2015, J
+NeuroEng Rehabil 12:4: the lateral heel of the outer foot bears more, the lateral heel of the inner foot less). Under
+the metatarsal heads they show the opposite, which is not emulated. Numbers without a source were chosen by hand for
+plausible loads and not swept."""
 
 from __future__ import annotations
 
@@ -33,13 +33,14 @@ from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
 from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
-from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, zone_shares
+from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, cell_shares
 
 BOUNCE_AMPLITUDE = 0.17
-"""Amplitude A of the load in walking at 1.3 m/s, as a share of the weight; it grows with the square of the speed."""
+"""Amplitude A of the load in walking at 1.3 m/s, as a share of the weight; A grows with the square of the speed."""
+MAX_BOUNCE_AMPLITUDE = 0.35
+"""Largest amplitude A at any speed."""
 CATCH_TIME = 0.13
-"""Time in which a foot takes over its load at a halt, and in which a runner's first landing or last take-off loads it,
-s."""
+"""Time in which a foot gains or loses its load at a halt, at a runner's first landing and at the last take-off, s."""
 LOAD_SHIFT_SHARE = 0.3
 """Share of h v^2 / (r g) by which the load moves under a foot in a bend (assumed).
 
@@ -56,7 +57,7 @@ class Loads:
     """The vertical load under both feet over time.
 
     A hand-over is a time in which load moves from one foot to the other. A beat is the middle of a double support or of
-    a flight, and the start and the end of a bout."""
+    a flight; a bout also has one at its start, and one half of SETTLE_TIME after its last heel-strike."""
 
     weight: float
     """Weight of the body, N."""
@@ -73,8 +74,7 @@ class Loads:
     load_amplitude: Array
     """Amplitude of the load about the weight from each beat to the next, as a share of the weight."""
     run_contacts: Array
-    """Heel-strike after each beat and toe-off before the next one, s, (beats, 2); 0 where that beat is not in
-    flight."""
+    """Heel-strike after each beat, toe-off before the next, s, (beats, 2); 0 where that beat is not in flight."""
     stances: dict[Foot, Array]
     """Heel-strike, foot-flat, heel-off and toe-off of each stance, s, (n, 4)."""
     lateral_shifts: dict[Foot, Array]
@@ -102,16 +102,16 @@ class Loads:
         k = np.clip(np.searchsorted(self.beat_times, t, side="right") - 1, 0, len(self.beat_times) - 2)
         phase = np.clip((t - self.beat_times[k]) / (self.beat_times[k + 1] - self.beat_times[k]), 0.0, 1.0)
         # cos has zero slope at both ends of a step: the load is smooth at the start and the end of a bout.
-        swing = (self.load_amplitude[k] + (self.load_amplitude[k + 1] - self.load_amplitude[k]) * phase) * np.cos(
+        bounce = (self.load_amplitude[k] + (self.load_amplitude[k + 1] - self.load_amplitude[k]) * phase) * np.cos(
             2.0 * np.pi * phase
         )
-        load = np.asarray(self.weight * (1.0 + swing))
+        load = np.asarray(self.weight * (1.0 + bounce))
         if self.run_contacts.any():
             self._apply_flight(load, k, t)
         return load
 
     def _apply_flight(self, load: Array, k: NDArray[np.intp], t: Array) -> None:
-        """Set the load, in place, of steps that start with a landing or end with a take-off; it is 0 in flight."""
+        """Set the load, in place, in steps that start with a landing or end with a take-off; in flight it is 0."""
         strike, off = self.run_contacts[k, 0], self.run_contacts[k, 1]
         has_both_contacts = (strike > 0.0) & (off > 0.0)
         stance_time = np.where(has_both_contacts, off - strike, 1.0)
@@ -129,8 +129,9 @@ class Loads:
         The sum of a row is the foot's load. When all cells are in the rear half of the sole, they bear only the load
         above them, and the sum is smaller."""
         foot = layout.foot
-        shares = self.shares(foot, t)
+        shares = self.zone_shares(foot, t)
         pitch = motion.pitch(t)
+        # When the foot pitches, the load moves towards the end that stays down, and at push-off also to the big toe.
         heel = -0.035 * np.sin(np.maximum(pitch, 0.0)) / layout.length
         fore = 0.025 * np.sin(np.maximum(-pitch, 0.0)) / layout.length
         inward = -0.10 * fore / fore.max(initial=1e-9)
@@ -148,7 +149,7 @@ class Loads:
             loaded = np.flatnonzero(share * total > 0.0)
             for start in range(0, len(loaded), _BLOCK_SIZE):
                 block = loaded[start : start + _BLOCK_SIZE]
-                shares_of_cells = zone_shares(layout, width, zone, ahead[block], aside[block], lateral_shift[block])
+                shares_of_cells = cell_shares(layout, width, zone, ahead[block], aside[block], lateral_shift[block])
                 cell_loads[block] += (share * total)[block, None] * shares_of_cells
         return cell_loads
 
@@ -159,7 +160,7 @@ class Loads:
         return np.asarray(shift * (1.0 - hand_over((t - t_decay) / SETTLE_TIME)))
 
     def share(self, foot: Foot, t: Array) -> Array:
-        """Return the share of a foot in the load of both feet at times `t`, s, (N)."""
+        """Return the share of a foot in the load under both feet together at times `t`, s, (N)."""
         if not len(self.start):
             return np.full_like(t, 0.5)
         k = np.searchsorted(self.start, t, side="right") - 1
@@ -169,7 +170,7 @@ class Loads:
         left = np.where(k < 0, self.share_before[0], share)
         return left if foot is Foot.LEFT else np.asarray(1.0 - left)
 
-    def shares(self, foot: Foot, t: Array) -> Array:
+    def zone_shares(self, foot: Foot, t: Array) -> Array:
         """Return the shares of heel, midfoot, forefoot and toes in the foot's load at `t`, s, (4, N)."""
         stances = self.stances[foot]
         rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
@@ -198,7 +199,7 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
         share_before=table[:, 2],
         share_after=table[:, 3],
         beat_times=beat_times[:, 0],
-        load_amplitude=np.minimum(BOUNCE_AMPLITUDE * (beat_times[:, 1] / 1.3) ** 2, 0.35),
+        load_amplitude=np.minimum(BOUNCE_AMPLITUDE * (beat_times[:, 1] / 1.3) ** 2, MAX_BOUNCE_AMPLITUDE),
         run_contacts=beat_times[:, 2:],
         stances={foot: _stances(plan, foot) for foot in Foot},
         lateral_shifts={foot: _lateral_shifts(plan, foot, wearer, rng) for foot in Foot},

@@ -1,17 +1,15 @@
 """Motion of one foot: exact pose, velocity, acceleration and angular rate at any instant.
 
-A foot is a rigid shoe. The motion in each of the four phases is a curve whose second derivatives are continuous at both
-ends. Specific force and angular rate are therefore analytical derivatives, not numerical differences:
+A foot is a rigid shoe. Its motion in each of the four phases is a curve; second derivatives are continuous where two
+curves meet. Specific force and angular rate are therefore analytical derivatives, not numerical differences:
 
     LOADING     the shoe rolls without slip over the heel arc; the pitch goes from its value at heel-strike to 0
     STATIONARY  the sole is flat; the pitch changes by a fraction of a milliradian
     PUSH_OFF    the shoe rolls without slip over the forefoot arc; the pitch goes from 0 to its value at toe-off
     SWING       the ankle point follows a curve on which the sole does not touch the ground
 
-The velocity of a point p on the rolling shoe is omega x (p - contact). This module evaluates the curves; strides.py
-makes them.
-
-The attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive when the toe is up."""
+The velocity of a point p on the rolling shoe is omega x (p - contact). strides.py makes the curves; this module
+evaluates them. The attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive when the toe is up."""
 
 from __future__ import annotations
 
@@ -102,8 +100,7 @@ class FootMotion:
         s = (t - self.start[row]) / self.duration[row]
         inverse_duration = 1.0 / self.duration[row]
         value, first, second = (
-            [self._curve(row, s, channel, order) * inverse_duration**order for channel in range(6)]
-            for order in range(3)
+            [self._curve(row, s, index, order) * inverse_duration**order for index in range(6)] for order in range(3)
         )
         pitch, yaw, roll = value[PITCH], value[YAW], value[ROLL]
         turn = _rotation(yaw, -pitch, roll)
@@ -147,8 +144,8 @@ class FootMotion:
     def _piece(self, t: Array) -> RowIndices:
         return np.clip(np.searchsorted(self.start, t, side="right") - 1, 0, len(self.start) - 1)
 
-    def _curve(self, row: RowIndices, s: Array, channel: int, order: int) -> Array:
-        factors = np.asarray(np.polynomial.polynomial.polyder(self.curves[:, channel, :], order, axis=1))
+    def _curve(self, row: RowIndices, s: Array, index: int, order: int) -> Array:
+        factors = np.asarray(np.polynomial.polynomial.polyder(self.curves[:, index, :], order, axis=1))
         total: Array = factors[row, -1].copy()
         for k in range(factors.shape[1] - 2, -1, -1):
             total *= s

@@ -4,9 +4,9 @@ A rocker is a curved end of the sole over which the shoe rolls. Foot frame: x to
 ground under the heel's rear end, on the midline. In side view the sole is flat between two circular arcs that are
 tangent to it. The foot rolls over the heel arc from heel-strike to foot-flat, and over the forefoot arc from heel-off
 to toe-off. When a circle rolls without slip over level ground by the pitch angle, its centre moves by radius times
-angle, so the foot's position follows from its pitch alone. That motion gives the velocity of which KUPT makes use (Chen
-et al. 2019, IEEE Internet of Things Journal, figs. 5 to 7); the rockers here are round, where the paper has a pivot and
-fitted curves. Numbers without a source were chosen by hand for a shoe of this size and not swept."""
+angle, so the foot's position follows from its pitch alone. KUPT uses the velocity of that motion (Chen et al. 2019,
+IEEE Internet of Things Journal, figs. 5 to 7). The rockers here are round; the paper has a pivot and fitted curves.
+Numbers without a source were chosen by hand for a shoe of this size and not swept."""
 
 from __future__ import annotations
 

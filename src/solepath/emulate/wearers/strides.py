@@ -33,7 +33,7 @@ SINK_SPEED_RATIO = 0.13
 TOE_OFF_SLOPES = (2.1, -2.0)
 """First and second derivative of the pitch at toe-off, in units of that pitch and the push-off time."""
 HEEL_STRIKE_SLOPES = (0.5, -4.0)
-"""Derivatives like TOE_OFF_SLOPES, backwards in time from foot-flat to heel-strike; the foot first turns slowly."""
+"""Derivatives at heel-strike like TOE_OFF_SLOPES, with time running backwards from foot-flat."""
 
 LEVELLING_WEIGHT = 5.0
 """Weight of LEVELLING in swing: it lowers the peak speed of a foot from 1.9 to 1.7 times the mean speed."""
@@ -44,7 +44,7 @@ SWING_RATE_RATIO = 1.1
 RUN_SWING_PITCH, RUN_SWING_SHARE = -1.50, 0.34
 """Extreme pitch of a runner's foot in swing, rad, negative because the heel is up, and its share of the swing."""
 RUN_SWING_ACCELERATION = 4.0
-"""Second derivative of the pitch at that extreme, relative to the pitch change and the time up to heel-strike."""
+"""Second derivative of the pitch at that extreme, in units of the pitch change and the time up to heel-strike."""
 _FOREVER = 1e6
 """Time for which a foot stands before the first and after the last stride, s."""
 
@@ -67,9 +67,9 @@ class _MotionBuilder:
 
     def build(self, start: Pose, strides: tuple[PlannedStride, ...]) -> FootMotion:
         """Return the motion of a foot that stands at `start`, makes the strides, and stands again."""
-        leaves = [*(stride.heel_off for stride in strides), _FOREVER]
-        self.stand(start, -_FOREVER, leaves[0], 0.0)
-        for stride, leave_time in zip(strides, leaves[1:], strict=True):
+        leave_times = [*(stride.heel_off for stride in strides), _FOREVER]
+        self.stand(start, -_FOREVER, leave_times[0], 0.0)
+        for stride, leave_time in zip(strides, leave_times[1:], strict=True):
             self.push_off(stride)
             self.swing(stride)
             self.land(stride)
@@ -78,7 +78,7 @@ class _MotionBuilder:
         return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), self.rides)
 
     def stand(self, pose: Pose, t_start: float, end: float, rest_pitch: float) -> None:
-        """Add a foot that stands at `pose` from `t_start` to `end`, s, also during elevator rides."""
+        """Add a foot that stands at `pose` from `t_start` to `end`, s; an elevator ride in this time lifts it."""
         for car in self.rides:
             if t_start <= car.start and car.end <= end:
                 # FootMotion adds the displacement of the car during the ride.
@@ -87,7 +87,7 @@ class _MotionBuilder:
         self._roll(Phase.STATIONARY, self.shoe.heel, pose, t_start, end, rest_pitch * BUMP)
 
     def push_off(self, stride: PlannedStride) -> None:
-        """Add the roll over the forefoot from heel-off to toe-off."""
+        """Add the roll over the forefoot from heel-off to toe-off; a raised heel makes the pitch negative."""
         pitch = -stride.toe_off_pitch * _from_rest(TOE_OFF_SLOPES)
         self._roll(Phase.PUSH_OFF, self.shoe.forefoot, stride.start, stride.heel_off, stride.toe_off, pitch)
 
@@ -113,6 +113,7 @@ class _MotionBuilder:
         pitch_end = _end_state(landing_pitch, 0.0, stride.foot_flat - stride.heel_strike)
         p0, v0, a0 = self._ankle(shoe.forefoot, stride.start, pitch_start)
         p1, v1, a1 = self._ankle(self._landing_arc(stride), stride.end, pitch_end)
+        # The impact moves the heel by half of what its speed at contact would in the same time.
         excess = np.array(_excess(stride))
         p1, v1 = p1 - 0.5 * IMPACT_TIME * excess, v1 + excess
         x, y, z = (join((p0[i], v0[i], a0[i]), (p1[i], v1[i], a1[i]), duration) for i in range(3))
@@ -146,7 +147,7 @@ class _MotionBuilder:
             self._add(t_start, end, curves, ankle, 0.0, Phase.SWING)
 
     def _bump_over_ground(self, stride: PlannedStride, z: Array, pitches: tuple[Array, Array], roll: Array) -> float:
-        """Return the height of the bump, m, with which the sole clears the ground by `clearance` times BUMP."""
+        """Return the factor of BUMP, m, with which the sole stays at least `clearance` times BUMP above the ground."""
         shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
         ground = stride.start.z + (stride.end.z - stride.start.z) * s
         angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
@@ -166,7 +167,7 @@ class _MotionBuilder:
         pitches: tuple[Array, Array],
         yaw: Array,
     ) -> float:
-        """Return the height of the bump, m, that keeps the sole above the treads and edges of a flight.
+        """Return the factor of BUMP, m, that keeps the sole above the treads and edges of a flight.
 
         The sole is taken as discs whose centre and radius are interpolated between its two arcs."""
         shoe, s = self.shoe, np.linspace(0.04, 0.96, 93)
@@ -281,7 +282,7 @@ def _end_state(curve: Array, s: float, duration: float) -> EndState:
 
 
 def _excess(stride: PlannedStride) -> tuple[float, float, float]:
-    """Return the velocity of the heel at contact minus that of rolling without slip, world frame, m/s."""
+    """Return the velocity of the heel at contact, world frame, m/s; rolling without slip would make it 0."""
     slide, sink = SLIDE_SPEED_RATIO * stride.speed, SINK_SPEED_RATIO * stride.speed
     if stride.kind is not StrideKind.WALK:
         style = style_of(stride.kind, stride.speed)
@@ -290,8 +291,8 @@ def _excess(stride: PlannedStride) -> tuple[float, float, float]:
 
 
 def _impact_displacement(speed: float) -> Array:
-    """Return the displacement of the heel, m, from where it would roll without slip during the impact.
+    """Return the displacement of the heel, m, from where it would be if it rolled without slip, during the impact.
 
-    The speed v (1 - (10 s^3 - 15 s^4 + 6 s^5)) is integrated so that the displacement ends at 0. The deceleration is
-    the pulse 30 s^2 (1 - s)^2."""
+    It is the integral of v (1 - (10 s^3 - 15 s^4 + 6 s^5)) that ends at 0, with the speed v at contact and the share s
+    of IMPACT_TIME; the deceleration is a pulse, proportional to 30 s^2 (1 - s)^2."""
     return -speed * IMPACT_TIME * np.array([0.5, -1.0, 0.0, 0.0, 2.5, -3.0, 1.0, 0.0])

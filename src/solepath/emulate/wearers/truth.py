@@ -23,8 +23,7 @@ from .shoe import Mounting
 def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
     """Return the activities (start, end, activity) from 0 to the plan's end, s, without a gap.
 
-    A turn on the spot is walking. Running lasts from the toe-off of its first stride to its last heel-strike; walking
-    between two runs counts as walking."""
+    A turn on the spot is walking. Each run lasts from the toe-off of its first stride to its last heel-strike."""
     overlapping = [(start, end, Activity.WALKING) for start, end in plan.bouts]
     overlapping += _running_spans(plan)
     for climb in plan.climbs:
@@ -88,7 +87,7 @@ class FootTruth:
     """The ground truth of one foot; the time before the first stride has no events."""
 
     foot: Foot
-    """Foot whose truth this is."""
+    """Foot that the truth is about."""
     heel_strikes: tuple[float, ...]
     """True times of the heel-strikes, s."""
     foot_flats: tuple[float, ...]

@@ -34,8 +34,8 @@ def matrices(q: Array) -> Array:
 def quaternions(turn: Array) -> Array:
     """Return the unit quaternions (N, 4) of rotation matrices, with signs that make them continuous.
 
-    Each of the four candidates is the quaternion times four times one of its components; the candidate of the largest
-    component is used."""
+    Candidate k is the quaternion multiplied by four times its component k. The candidate with the largest component is
+    the most exact one; it is scaled to length one."""
     m = [[turn[:, i, j] for j in range(3)] for i in range(3)]
     trace = m[0][0] + m[1][1] + m[2][2]
     w = [1.0 + trace, m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]]

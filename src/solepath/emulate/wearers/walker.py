@@ -44,7 +44,7 @@ class Walker:
         return self.plan.duration
 
     def truth(self, mountings: dict[Foot, Mounting] | None = None) -> Truth:
-        """Return the ground truth for sensors with these mountings; without one the sensor is in the sole."""
+        """Return the ground truth for sensors with these mountings; a foot without one has its sensor in the sole."""
         sensor_mountings = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
         feet = {foot: foot_truth(foot, self.plan, self.motions[foot], sensor_mountings[foot]) for foot in Foot}
         plan = self.plan
@@ -69,9 +69,9 @@ class Walker:
     ) -> list[Sample]:
         """Return samples of one foot on the true clock, at k / rate s, without packets and radio.
 
-        Without `errors` the samples are exact values at these times. With `errors` they contain the errors and the
-        noise of that IMU, and its low pass, whose bandwidth is at most half of the rate; they are neither saturated nor
-        rounded. With a `layout` of this foot every sample contains the exact loads of the cells, N."""
+        Without `errors` the values are exact. With `errors` they have the errors, the noise and the low pass of that
+        IMU, with a bandwidth of at most half of the rate; they are neither saturated nor rounded. With a `layout` of
+        this foot every sample also has the exact loads of its cells, N."""
         sample_count = int(self.duration * rate) + 1
         if errors is None:
             t = np.arange(sample_count) / rate

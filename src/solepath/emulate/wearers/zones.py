@@ -31,17 +31,17 @@ FOREFOOT = Zone(0.67, 0.00, 0.14, 0.48)
 TOES = Zone(0.86, -0.16, 0.11, 0.34)
 
 
-def zone_shares(layout: Layout, width: float, zone: Zone, ahead: Array, aside: Array, lateral_shift: Array) -> Array:
+def cell_shares(layout: Layout, width: float, zone: Zone, ahead: Array, aside: Array, lateral_shift: Array) -> Array:
     """Return the share of a zone's load on each cell at each instant, (N, cells).
 
-    The sum of a row is one; for cells under the heel alone it is the share of the zone that lies over them. The
-    pressure is 1 - r^2 for the distance r from the centre in half-axes, and zero outside the ellipse. When no cell lies
-    in the ellipse, a Gaussian of the distance is used. The zone is moved by `ahead` (share of the length) and `aside`
+    The sum of a row is one; when all cells are in the rear half of the sole, it is the share of the zone that lies on
+    them. The pressure is 1 - r^2 for the distance r from the centre in half-axes, and zero outside the ellipse. When no
+    cell lies in the ellipse, it is a Gaussian of r. The zone is moved by `ahead` (share of the length) and `aside`
     (share of the width, to the lateral side). A `lateral_shift` s (m, to the left) weights the pressure by exp(s y /
     variance): a small shift moves the centre of the load by s, and no shift moves it out of the ellipse."""
-    lateral = 1.0 if layout.foot is Foot.LEFT else -1.0
+    lateral_sign = 1.0 if layout.foot is Foot.LEFT else -1.0
     x = np.array([cell.x for cell in layout.cells]) / layout.length
-    y = np.array([cell.y for cell in layout.cells]) * lateral / width
+    y = np.array([cell.y for cell in layout.cells]) * lateral_sign / width
     area = np.array([cell.area for cell in layout.cells])
     dx = (x - zone.x - ahead[:, None]) / zone.half_length
     dy = (y - zone.y - aside[:, None]) / zone.half_width
@@ -49,7 +49,7 @@ def zone_shares(layout: Layout, width: float, zone: Zone, ahead: Array, aside: A
     pressure = area * np.where(r2 < 1.0, 1.0 - r2, 0.0)
     if lateral_shift.any():
         # Weighted by this pressure, the mean of dy^2 over the ellipse is 1/6.
-        tilt = 6.0 * lateral / (zone.half_width * width) * lateral_shift
+        tilt = 6.0 * lateral_sign / (zone.half_width * width) * lateral_shift
         pressure *= np.exp(tilt[:, None] * dy) / _mean_tilt_factor(tilt)[:, None]
     if x.max() < 0.5:
         # The integral of 1 - r^2 over the whole ellipse, m^2.
