@@ -30,7 +30,7 @@ from solepath import (
 )
 from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry, merged
 from solepath.calibration.file import write_calibration
-from solepath.calibration.limits import _limits, unusable
+from solepath.calibration.limits import _limits, find_fault
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure.insole import in_newtons
@@ -205,10 +205,10 @@ def test_a_calibration_of_something_else_than_records_is_rejected_by_the_session
 
 
 def test_what_can_be_is_not_rejected() -> None:
-    assert unusable(FULL_CALIBRATION) is None
-    assert unusable(Calibration()) is None
+    assert find_fault(FULL_CALIBRATION) is None
+    assert find_fault(Calibration()) is None
     for size in (24, 35, 96, 99):
-        assert unusable(insole(layout=layout(size, Foot.LEFT))) is None
+        assert find_fault(insole(layout=layout(size, Foot.LEFT))) is None
 
 
 def test_the_limits_are_those_of_the_protocol() -> None:

@@ -46,7 +46,9 @@ EVENT_CLASSES = (*Event.__args__, *solepath.fleet.FleetEvent.__args__)
 def test_every_event_documents_its_latency() -> None:
     """Each field is documented in its own class, not in the shared base class."""
     for kind in EVENT_CLASSES:
-        assert {"known", "reported", "reports", "latency"} & set(re.findall(r"[a-z]+", kind.__dict__["__doc__"].lower())), kind
+        assert {"known", "reported", "reports", "latency"} & set(
+            re.findall(r"[a-z]+", kind.__dict__["__doc__"].lower())
+        ), kind
 
 
 def test_every_number_of_an_event_documents_its_unit_or_count() -> None:

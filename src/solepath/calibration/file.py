@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from ..saving.codec import SnapshotError, load, save
-from .limits import unusable
+from .limits import find_fault
 from .records import Calibration, CalibrationError
 
 FORMAT = "solepath-calibration"
@@ -50,7 +50,7 @@ def read_calibration(path: Path | str) -> Calibration:
     except SnapshotError as error:
         content = str(error).removeprefix("not a snapshot of Calibration: ")
         raise CalibrationError(f"{path}: is not a calibration ({content})") from None
-    reason = unusable(calibration)
+    reason = find_fault(calibration)
     if reason is not None:
         raise CalibrationError(f"{path}: {reason}")
     return calibration

@@ -12,7 +12,7 @@ _Limit = tuple[str, object, float, float, str]
 """Key, value, smallest and largest allowed value, and unit of one number of a calibration."""
 
 
-def unusable(calibration: Calibration) -> str | None:
+def find_fault(calibration: Calibration) -> str | None:
     """Return the reason why a calibration cannot be used, or None when it can be used.
 
     The sentence names the first key whose value is impossible for a wearer, a shoe or an insole. The limits are those

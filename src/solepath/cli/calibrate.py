@@ -37,7 +37,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Make the calibration and write it; return the exit status."""
     from ..calibration.file import read_calibration, write_calibration
-    from ..calibration.limits import unusable
+    from ..calibration.limits import find_fault
 
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # a folder gets an OSError
         raise Failure(f"{options.out}: is no regular file")
@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
     known = read_calibration(options.out) if options.out.exists() else Calibration()
     learnt, lines = options.learn(options, known)
     whole = merged(known, learnt)
-    problem = unusable(whole)  # a reason, or None
+    problem = find_fault(whole)  # a reason, or None
     if problem is not None:
         raise Failure(f"nothing is written, for this cannot be: {problem}")
     write_calibration(options.out, whole)
@@ -190,7 +190,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> LearntCalibrati
     feet = toe_out(source_of(options.file, foot_of(options)), options.distance)
     angles = ["none" if foot.angle is None else number(degrees(foot.angle)) for foot in feet]
     rows = [
-        [one.foot.value, str(one.steps), number(one.along, 2), angle] for one, angle in zip(feet, angles, strict=True)
+        [one.foot.value, str(one.strides), number(one.along, 2), angle] for one, angle in zip(feet, angles, strict=True)
     ]
     lines = [table(["foot", "steps", "along the foot m", "toe-out degrees"], rows)]
     if all([foot.angle is None for foot in feet]):

@@ -17,11 +17,11 @@ def check_calibration(calibration: Calibration) -> Calibration:
     """Return a copy of the calibration.
 
     Raises TypeError for another type, CalibrationError for impossible values."""
-    from ..calibration.limits import unusable
+    from ..calibration.limits import find_fault
 
     if not isinstance(calibration, Calibration):
         raise TypeError(f"calibration must be a Calibration, not {type(calibration).__name__}")
-    fault = unusable(calibration)
+    fault = find_fault(calibration)
     if fault is not None:
         raise CalibrationError(f"calibration: {fault}")
     return deepcopy(calibration)

@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from ...emulate.routes.path import ahead
-from ...emulate.routes.route import TIGHT_TURN, Route
+from ...emulate.routes.route import TIGHT_TURN_SPEED, Route
 from ...emulate.sensors.insole_device import Insole
 from ...emulate.walk import sampled
 from ...emulate.wearers.gait import Wearer
@@ -97,7 +97,7 @@ def _random_route(seed: int, is_complete: Callable[[float, float], bool]) -> Rou
         angle = float(rng.choice((0.5, 0.25, 1.0), p=(0.6, 0.2, 0.2)) * rng.choice((pi, -pi)))
         radius = float(rng.uniform(0.6, 2.5))
         route, length = route.turn(angle, radius), length + abs(angle) * radius
-        seconds += abs(angle) * radius / (speed if radius >= 1.0 else min(speed, TIGHT_TURN))
+        seconds += abs(angle) * radius / (speed if radius >= 1.0 else min(speed, TIGHT_TURN_SPEED))
 
 
 def insoles_of(seed: int) -> dict[Site, Insole]:

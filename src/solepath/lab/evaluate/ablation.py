@@ -42,14 +42,14 @@ ABLATED_RECIPES: dict[str, Recipe] = {
     ),
     "zero velocity, no rolling foot": _cycle(rolls=False),
     "no extra noise of a foot that is braked": _cycle(noise_per_acceleration_square=0.0),
-    "no refusal of unlikely evidence": _filter(innovation_gate=UNREACHABLE_LIMIT),
-    "no recovery of what was refused": _filter(time_until_lost=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT),
+    "no innovation gate": _filter(innovation_gate=UNREACHABLE_LIMIT),
+    "no recovery after gated evidence": _filter(time_until_lost=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT),
     "no level, slope or stair": _filter(level=False),
     "no tilt aiding": _filter(tilt_rate=0.0),
     "no noise of what lies between samples": _filter(noise_per_difference=0.0),
     "no recovery of a clipped gyroscope": _filter(recover=False),
     "each foot by itself": DEFAULT.exchanged(TrackPart, MeanOfFeet()),
-    "no heights of lifts and of the air": DEFAULT.exchanged(Altitude, None),
+    "no heights of elevators and air pressure": DEFAULT.exchanged(Altitude, None),
 }
 """Recipes by the name of the part or step that each of them lacks."""
 

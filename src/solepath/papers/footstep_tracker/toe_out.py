@@ -29,7 +29,7 @@ class ToeOut:
     """The toe-out angle of one foot."""
 
     foot: Foot
-    steps: int
+    strides: int
     """Number of strides."""
     along: float
     """Length s_f, m: sum of the stride lengths along the foot's long axis."""
