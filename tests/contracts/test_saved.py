@@ -212,7 +212,7 @@ def test_a_snapshot_of_another_version_is_rejected_by_name(version: Any) -> None
 @pytest.mark.parametrize("name", [name for name in PACKET_NAMES if name.startswith("session")])
 def test_a_flipped_digit_is_noticed(name: str) -> None:
     text = saved_text(name)
-    match = re.search(r'"arrived": (\d)', text)
+    match = re.search(r'"newest_arrival": (\d)', text)
     assert match is not None
     index = match.start(1)
     digit = str((int(text[index]) + 1) % 10)

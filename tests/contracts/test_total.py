@@ -35,7 +35,7 @@ def cuts(name: str) -> list[tuple[int, Any]]:
 
 def without_exceptions(state: Any) -> Any:
     """Return a snapshot without its checksum and the two fields that a rejected packet may change (decoder.py)."""
-    left_out = ("backwards", "fragments", "check")
+    left_out = ("backward_packets", "reassembly", "check")
     if isinstance(state, dict):
         return {key: without_exceptions(value) for key, value in state.items() if key not in left_out}
     return [without_exceptions(value) for value in state] if isinstance(state, list) else state
