@@ -96,8 +96,8 @@ def test_the_corners_of_the_rectangle_are_passed_in_order_and_a_is_stood_on() ->
         # A bend of 0.5 m passes its corner 0.21 m away; the body leans inwards besides.
         assert hypot(corner.body[0] - corner.place[0], corner.body[1] - corner.place[1]) < 0.4
         for foot in Foot:
-            step = walker.truth().strides(foot)[corner.steps[foot] - 1]
-            assert abs(step.t_end - corner.t) < 1.0
-            assert hypot(corner.feet[foot][0] - corner.body[0], corner.feet[foot][1] - corner.body[1]) < 0.7
+            stride = walker.truth().strides(foot)[corner.stride_numbers[foot] - 1]
+            assert abs(stride.t_end - corner.t) < 1.0
+            assert hypot(*(corner.footprints[foot][axis] - corner.body[axis] for axis in (0, 1))) < 0.7
     (a,) = found[3:]
     assert hypot(a.body[0], a.body[1]) < 0.08

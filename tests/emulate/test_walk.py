@@ -75,7 +75,7 @@ def test_two_insoles_at_100_hz_send_what_they_should() -> None:
 
 @pytest.mark.parametrize("mounting", [IN_SOLE, Mounting((0.15, 0.01, 0.07), from_rotation_vector((1.0, 2.0, -0.5)))])
 def test_an_ideal_insole_reports_the_truth_to_the_count(mounting: Mounting) -> None:
-    device = Insole(cells=24, batch=4, mounting=mounting, part=IDEAL_IMU, cell_part=IDEAL_CELL, ppm=0.0, ticks=1000)
+    device = Insole(cells=24, batch=4, mounting=mounting, chip=IDEAL_IMU, cell_part=IDEAL_CELL, ppm=0.0, ticks=1000)
     walk = emulate(SHORT, devices={Site.LEFT_FOOT: device}, radio=PROMPT, seed=2)
     starts, still = [], 0
     for packet in walk.packets:

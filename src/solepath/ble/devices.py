@@ -26,15 +26,15 @@ class Devices:
     """The configured devices, connected for the duration of an `async with`; iterate over it for packets.
 
     Every packet has the address of its device and the time of the event loop's clock at its arrival, s (`loop.time()`,
-    usually `time.monotonic()`). An app can take a packet in the loop's next turn after its arrival. Besides
-    notifications there are the values that were read and written, and packets of the receiver itself
+    usually `time.monotonic()`). A packet is available to the app one turn of the event loop after it arrives.
+    Besides notifications there are the values that were read and written, and packets of the receiver itself
     (protocol/receiver.md): connections, troubles as sentences, counts of dropped packets, and ticks while nothing
     arrives. `Session.feed` turns all of them into events.
 
     `capacity` is the number of notifications that can wait; beyond it the oldest are dropped and a packet reports their
     number. `pair` requests pairing of every device when it is connected. `patience` is the time until a device that
-    does not advertise is reported, s. `backend` replaces this machine's Bluetooth (loopback). Raises ValueError when no
-    device is configured, when two have the same site, or when two configs can mean the same device.
+    does not advertise is reported, s. `backend` replaces this machine's Bluetooth, for emulated devices. Raises
+    ValueError when no device is configured, when two have the same site, or when two configs can mean one device.
 
     Entering raises BluetoothError when Bluetooth cannot be used; later failures are packets. A lost device is connected
     again. Leaving disconnects; the packets that have arrived by then can still be iterated."""
@@ -62,7 +62,9 @@ class Devices:
         self._entered = False
         """True once `async with` was entered."""
         self._in_use = False
+        """True from the start of `async with` to its end."""
         self._fault: asyncio.Task[None] | None = None
+        # an insole without a configured site has a provisional one until it reports its own
         free_sites = [site for site in Site if site not in {config.site for config in configs}]
         for config in configs:
             emitter = Emitter(self._inbox, free_sites.pop(0) if config.site is None else config.site)
@@ -82,7 +84,7 @@ class Devices:
         self._in_use = True
         try:
             async with make_scanner(self._backend, lambda _: None):
-                pass
+                pass  # only tests whether Bluetooth can be used
         except BaseException as error:
             self._in_use = False
             if isinstance(error, FAILURES):
@@ -113,7 +115,7 @@ class Devices:
         Raises StopAsyncIteration after `async with` when all packets are taken, and RuntimeError before `async with`.
         A programming error in one of the tasks is raised unchanged."""
         if not self._entered:
-            raise RuntimeError("nothing comes of devices before they are entered: async with Devices(...) as devices")
+            raise RuntimeError("devices give packets only after they are entered: async with Devices(...) as devices")
         self._taken_in_a_row += 1
         if self._taken_in_a_row >= MAX_PACKETS_IN_A_ROW:
             self._taken_in_a_row = 0

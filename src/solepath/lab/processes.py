@@ -20,16 +20,16 @@ def run_jobs(
     *,
     processes: int = 1,
     progress: Progress | None = None,
-    before: int = 0,
-    after: int = 0,
+    jobs_before: int = 0,
+    jobs_after: int = 0,
 ) -> Iterator[JobResult]:
     """Yield the result of the module-level function `work` for every job, in the order of the jobs.
 
-    `before` and `after` are numbers of other jobs, done before and after these, which `progress` counts as well."""
+    `jobs_before` and `jobs_after` are numbers of jobs done before and after these, which `progress` counts as well."""
     with ExitStack() as stack:
         parallel = processes > 1 and len(jobs) > 1
         pool = stack.enter_context(ProcessPoolExecutor(min(processes, len(jobs)))) if parallel else None
-        for job_number, outcome in enumerate((map if pool is None else pool.map)(work, jobs), before + 1):
+        for job_number, outcome in enumerate((map if pool is None else pool.map)(work, jobs), jobs_before + 1):
             if progress is not None:
-                progress(job_number, before + len(jobs) + after)
+                progress(job_number, jobs_before + len(jobs) + jobs_after)
             yield outcome

@@ -1,8 +1,8 @@
-"""Virtual Bluetooth controllers on a shared medium: those of bumble, corrected by the Core specification.
+"""Virtual Bluetooth controllers on a shared medium: bumble's, corrected here to follow the Core specification.
 
-Three corrections matter in tests of a reconnect. A cancelled connection request really ends. When a device has just
-accepted another central, a second central does not keep a link that was never established. A scan response has its own
-data. Extended advertising and privacy are left out because nothing here needs them."""
+Three corrections matter in tests of a reconnect. A cancelled connection request ends. When two centrals request a
+connection, the device accepts one, and the other does not keep its half-open link. A scan response has its own data.
+Extended advertising and privacy are left out because nothing here needs them."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class VirtualMedium(LocalLink):
         if events is None:
             deliver()
         elif isinstance(packet, ll.TerminateInd):
-            # bumble's controllers drop a link that they end, so earlier packets must arrive now
+            # bumble's controller forgets a link as soon as it ends it, so earlier packets must be delivered first
             events.flush()
             deliver()
             self._end(sender_address, receiver_address)
@@ -73,15 +73,15 @@ class VirtualMedium(LocalLink):
     def _end(self, one: hci.Address, other: hci.Address) -> None:
         events = self._events.pop(frozenset((one, other)), None)
         if events is not None:
-            events.end()
+            events.clear()
 
     def lose(self, controller: Controller, connection: Connection) -> None:
         """End a link as when the radio falls silent: both sides report a supervision timeout."""
         self._end(connection.self_address, connection.peer_address)
-        for peer in list(self.controllers):
-            other = peer.le_connections.get(connection.self_address)
-            if peer is not controller and other is not None and other.self_address == connection.peer_address:
-                peer.on_le_disconnected(other, hci.HCI_ErrorCode.CONNECTION_TIMEOUT_ERROR)
+        for candidate in [candidate for candidate in self.controllers if candidate is not controller]:
+            its_connection = candidate.le_connections.get(connection.self_address)
+            if its_connection is not None and its_connection.self_address == connection.peer_address:
+                candidate.on_le_disconnected(its_connection, hci.HCI_ErrorCode.CONNECTION_TIMEOUT_ERROR)
         if controller.le_connections.get(connection.peer_address) is connection:
             controller.on_le_disconnected(connection, hci.HCI_ErrorCode.CONNECTION_TIMEOUT_ERROR)
 
@@ -107,7 +107,7 @@ class VirtualController(Controller):
 
     def __init__(self, name: str, link: VirtualMedium, advertisement: Callable[[], bytes | None] | None = None) -> None:
         super().__init__(name, link=link)
-        self.medium = link
+        self.medium = link  # bumble calls the medium `link`
         self.advertisement = advertisement
 
     def send_advertising_pdu(self, packet: ll.AdvertisingPdu) -> None:
@@ -177,7 +177,7 @@ class VirtualController(Controller):
 
 
 _INTERVAL_TOLERANCE = 1e-6
-"""Rounding error of times by which an event may seem later than now, as a share of an interval."""
+"""Rounding error by which an event may seem just past and is still used, as a share of an interval."""
 
 
 class ConnectionEvents:
@@ -195,9 +195,9 @@ class ConnectionEvents:
         self._ready_packets: list[Callable[[], None]] = []
         self._timer: asyncio.TimerHandle | None = None
 
-    def send(self, packet: Callable[[], None]) -> None:
-        """Call `packet` at the next event."""
-        self._ready_packets.append(packet)
+    def send(self, deliver: Callable[[], None]) -> None:
+        """Call `deliver`, which delivers one packet, at the next event."""
+        self._ready_packets.append(deliver)
         if self._timer is None:
             number = max(
                 self._last_event + 1, ceil((self._loop.time() - self._t_start) / self.interval - _INTERVAL_TOLERANCE)
@@ -205,14 +205,14 @@ class ConnectionEvents:
             self._timer = self._loop.call_at(self._t_start + number * self.interval, self._event, number)
 
     def flush(self) -> None:
-        """Send all ready packets now, because one side ends the link."""
+        """Send all ready packets now: at an event, or because one side ends the link."""
         ready_packets = self._ready_packets
-        self.end()
-        for packet in ready_packets:
-            packet()
+        self.clear()
+        for deliver in ready_packets:
+            deliver()
 
-    def end(self) -> None:
-        """Discard all ready packets, because the link has ended."""
+    def clear(self) -> None:
+        """Discard all ready packets and cancel the timer of the next event."""
         self._ready_packets = []
         if self._timer is not None:
             self._timer.cancel()

@@ -84,13 +84,13 @@ class CC2650Peripheral(Tag):
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
         """Return the series of the barometer, or for movement those of accelerometer, gyroscope and magnetometer."""
-        worn, part = self._worn, self.device.part
+        worn, chip = self._worn, self.device.chip
         if sensor == "cc2650/barometer":
             return (worn.barometer(period, BMP280, self._sensor_rng(3)),)
         motion = worn.motion(period)
         return (
-            motion.acc(part, self._sensor_rng(0)),
-            motion.gyro(part, self._sensor_rng(1)),
+            motion.acc(chip, self._sensor_rng(0)),
+            motion.gyro(chip, self._sensor_rng(1)),
             motion.mag(AK8963, self._sensor_rng(2)),
         )
 

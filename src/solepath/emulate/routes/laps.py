@@ -95,10 +95,10 @@ class LapCorner:
     """Position of the corner, m."""
     body: Vec3
     """Position of the pelvis at time `t`, projected to the ground, m."""
-    steps: dict[Foot, int]
+    stride_numbers: dict[Foot, int]
     """Number, from 1, of each foot's stride whose foot-flat is nearest to time `t`."""
-    feet: dict[Foot, Vec3]
-    """Point of the ground below each ankle after the stride of `steps`, m."""
+    footprints: dict[Foot, Vec3]
+    """Point of the ground below each ankle after the stride of `stride_numbers`, m."""
 
 
 def straight(distance: float = 20.0, speed: float = 1.3) -> Route:
@@ -250,13 +250,13 @@ def corners(walker: Walker) -> tuple[LapCorner, ...]:
 
 def _corner(walker: Walker, name: str, t: float, place: Vec3) -> LapCorner:
     x, y, _ = (float(value) for value in walker.body.pelvis(np.array([t]))[0][0])
-    steps, feet = {}, {}
+    stride_numbers, footprints = {}, {}
     for foot in Foot:
         strides = walker.plan.strides[foot]
         k = min(range(len(strides)), key=[abs(stride.foot_flat - t) for stride in strides].__getitem__)
-        steps[foot] = k + 1
-        feet[foot] = (strides[k].end.x, strides[k].end.y, strides[k].end.z)
-    return LapCorner(name, t, place, (x, y, 0.0), steps, feet)
+        stride_numbers[foot] = k + 1
+        footprints[foot] = (strides[k].end.x, strides[k].end.y, strides[k].end.z)
+    return LapCorner(name, t, place, (x, y, 0.0), stride_numbers, footprints)
 
 
 def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:

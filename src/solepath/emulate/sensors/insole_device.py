@@ -126,8 +126,8 @@ class Insole:
     """Yaw of the device's world frame in the walk's world frame, rad; it is used only with `attitude`."""
     mounting: Mounting = IN_SOLE
     """Position and attitude of the IMU on the foot."""
-    part: Imu = LSM6DSOX
-    """Errors of the IMU."""
+    chip: Imu = LSM6DSOX
+    """Chip of the IMU, with its errors."""
     cell_part: CellErrors = RESISTIVE
     """Errors of the cells."""
     ppm: float | None = None
@@ -165,8 +165,8 @@ class Insole:
         cell_layout = self._layout(foot, walker.wearer.shoe)
 
         kinematics = walker.kinematics(foot, sampling.fine_times, self.mounting)
-        measured, gyro_measured = measure_imu(kinematics, sampling, self.part, rng, 0.5 * self.rate)
-        acc, gyro = to_counts(measured, self.part.acc, ACC_COUNT), to_counts(gyro_measured, self.part.gyro, GYRO_COUNT)
+        measured, gyro_measured = measure_imu(kinematics, sampling, self.chip, rng, 0.5 * self.rate)
+        acc, gyro = to_counts(measured, self.chip.acc, ACC_COUNT), to_counts(gyro_measured, self.chip.gyro, GYRO_COUNT)
         upward_force = take_samples(kinematics.force, sampling) @ np.array(
             rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0))
         )

@@ -51,8 +51,8 @@ class CC2650:
     """Range of the accelerometer, +- g."""
     mounting: Mounting = ON_INSTEP
     """Position and attitude on the foot."""
-    part: Imu = MPU9250
-    """Errors of the inertial sensors."""
+    chip: Imu = MPU9250
+    """Chip of the inertial sensors, with its errors."""
     ppm: float | None = None
     """Rate error of the clock, ppm; None: random."""
     firmware: str = "1.40 (Nov 16 2016)"
@@ -65,7 +65,7 @@ class CC2650:
         period = 1.0 / self.rate
         worn = WornTag(walker, foot_of(site), self.mounting, draw_clock(rng, period, self.ppm))
         motion = worn.motion(period)
-        acc, gyro, mag = motion.acc(self.part, rng), motion.gyro(self.part, rng), motion.mag(AK8963, rng)
+        acc, gyro, mag = motion.acc(self.chip, rng), motion.gyro(self.chip, rng), motion.mag(AK8963, rng)
         barometer = worn.barometer(SLOW_PERIOD, BMP280, rng)
         config = cc2650.DRIVER.write("cc2650/movement-config", {**_ALL_SENSORS_ON, "range": self.range})
         device_values = {
@@ -84,10 +84,10 @@ class CC2650:
         return sorted(sent, key=attrgetter("t"))
 
     def movement(self, config: Any, acc: Array, gyro: Array, mag: Array) -> list[bytes]:
-        """Return the values of the movement channel for rows of measured values with the configuration `config`."""
+        """Encode each row of measured values as bytes of the movement channel, with the configuration `config`."""
         rows = zip(
-            counts(gyro, self.part.gyro, GYRO_COUNT, config.gyro_axes),
-            counts(acc, self.part.acc, config.range * GRAVITY / 32768, config.acc_axes),
+            counts(gyro, self.chip.gyro, GYRO_COUNT, config.gyro_axes),
+            counts(acc, self.chip.acc, config.range * GRAVITY / 32768, config.acc_axes),
             counts(mag, AK8963, AK8963_COUNT, (config.mag,) * 3),
             strict=True,
         )
@@ -116,11 +116,11 @@ class CC2541:
     rate: float = 10.0
     """Rate of the inertial sensors, Hz: 10 with stock firmware, 20 with modified firmware."""
     code: int = 3
-    """Value of the accelerometer's configuration AA12: 1, 2 or 3 for a range of +-2, +-4 or +-8 g."""
+    """Value written to the characteristic AA12: 1, 2 or 3 for an accelerometer range of +-2, +-4 or +-8 g."""
     mounting: Mounting = ON_INSTEP
     """Position and attitude on the foot."""
-    part: Imu = KXTJ9_IMU3000
-    """Errors of the inertial sensors."""
+    chip: Imu = KXTJ9_IMU3000
+    """Chips of the inertial sensors, with their errors."""
     ppm: float | None = None
     """Rate error of the clock, ppm; None: random."""
     firmware: str = "1.5 (Oct 23 2013)"
@@ -148,7 +148,7 @@ class CC2541:
         for channel, sensor_period, code in (
             ("cc2541/accelerometer", period, self.code),
             ("cc2541/gyroscope", period, ALL_AXES),
-            ("cc2541/magnetometer", SLOW_PERIOD, 1),
+            ("cc2541/magnetometer", SLOW_PERIOD, 1),  # 1: on; `encode` does not use it
             ("cc2541/barometer", SLOW_PERIOD, 1),
         ):
             series = self.measure(channel, worn, sensor_period, delays[channel], rng)
@@ -157,27 +157,27 @@ class CC2541:
         return sorted(sent, key=attrgetter("t"))
 
     def measure(self, channel: str, worn: WornTag, period: float, delay: float, rng: Rng) -> Series:
-        """Return the series of a channel: a value every `period` s, the first `delay` s after the tag's first sample.
+        """Return the series of a channel, with a value every `period` s.
 
-        The barometer has BAROMETER_DELAY instead of `delay`."""
+        The first value is `delay` s after the tag's first sample; for the barometer `delay` is ignored."""
         match channel:
             case "cc2541/accelerometer":
-                return worn.motion(period, delay).acc(self.part, rng)
+                return worn.motion(period, delay).acc(self.chip, rng)
             case "cc2541/gyroscope":
-                return worn.motion(period, delay).gyro(self.part, rng)
+                return worn.motion(period, delay).gyro(self.chip, rng)
             case "cc2541/magnetometer":
                 return worn.motion(period, delay).mag(MAG3110, rng)
         return worn.barometer(period, T5400, rng)
 
     def encode(self, channel: str, measured: Array, code: int) -> list[bytes]:
-        """Return the values of a channel for rows of measured values with the configuration `code`."""
+        """Encode each row of measured values as bytes of the channel, with the configuration `code`."""
         rows: list[dict[str, Any]]
         match channel:
             case "cc2541/accelerometer":
-                rows = [{"acc": row} for row in counts(measured, self.part.acc, GRAVITY * 2**code / 128)]
+                rows = [{"acc": row} for row in counts(measured, self.chip.acc, GRAVITY * 2**code / 128)]
             case "cc2541/gyroscope":
                 axes = [bool(code & bit) for bit in (1, 2, 4)]
-                rows = [{"gyro": row} for row in counts(measured, self.part.gyro, GYRO_COUNT, axes)]
+                rows = [{"gyro": row} for row in counts(measured, self.chip.gyro, GYRO_COUNT, axes)]
             case "cc2541/magnetometer":
                 rows = [{"mag": row} for row in counts(measured, MAG3110, MAG3110_COUNT)]
             case _:
@@ -197,11 +197,11 @@ CALIBRATION_VALUE = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_
 
 
 def raw_barometer_values(pascal: float) -> dict[str, int]:
-    """Return the raw values of the T5400 at this pressure, Pa, by the inverse of the compensation."""
+    """Return the raw values of the T5400 at this pressure, Pa: the inverse of `BarometerCalibration.pascal`."""
     c = T5400_CALIBRATION
     temperature = round((BAROMETER_TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
-    low, high = c.pascal(temperature, 0), c.pascal(temperature, 1)
-    return {"temperature": temperature, "pressure": round((pascal - low) / (high - low))}
+    at_0, at_1 = c.pascal(temperature, 0), c.pascal(temperature, 1)  # linear in the raw pressure
+    return {"temperature": temperature, "pressure": round((pascal - at_0) / (at_1 - at_0))}
 
 
 def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:

@@ -107,7 +107,7 @@ def suit(
                 attitude=attitude,
                 north=north,
                 mounting=mounting,
-                part=MPU9250,
+                chip=MPU9250,
                 cell_part=WORN_RESISTIVE,
             )
     return devices

@@ -105,7 +105,7 @@ class WornTag:
     """Clock of the tag."""
 
     def motion(self, period: float, delay: float = 0.0) -> TagMotion:
-        """Return the motion for a sensor with samples `period` s apart, the first `delay` s after that of the tag."""
+        """Return the motion for a sensor with samples `period` s apart, the first `delay` s after the tag's first."""
         sampling = make_sampling(self.walker, self.clock, period, self.clock.first + delay)
         kinematics = self.walker.kinematics(self.foot, sampling.fine_times, self.mounting)
         return TagMotion(sampling, self.clock.interval(period), kinematics)

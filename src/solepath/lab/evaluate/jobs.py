@@ -119,18 +119,18 @@ def _scored(
     processes: int,
     progress: Progress | None,
 ) -> Iterator[Result]:
-    known = Calibration() if calibration is None else calibration
+    calibration = Calibration() if calibration is None else calibration
     count = sum(len(recorded) for _, _, recorded in plan)
-    features = run_jobs(TrainingSource.features, sources, processes=processes, progress=progress, after=count)
+    features = run_jobs(TrainingSource.features, sources, processes=processes, progress=progress, jobs_after=count)
     parts = train_parts(sources, list(features))
     jobs = [
         EvaluationJob(
-            d.score, RunSettings(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta
+            d.score, RunSettings(recipe, calibration, part_for(recipe, meta, parts) if d.folds else None), path, meta
         )
         for d, recipe, recorded in plan
         for path, meta in recorded
     ]
-    outcomes = run_jobs(EvaluationJob.run, jobs, processes=processes, progress=progress, before=len(sources))
+    outcomes = run_jobs(EvaluationJob.run, jobs, processes=processes, progress=progress, jobs_before=len(sources))
     for data_set, recipe, recorded in plan:
         outcomes_of_set = list(islice(outcomes, len(recorded)))
         scores = tuple([one for one in outcomes_of_set if isinstance(one, Scored)])

@@ -1,13 +1,14 @@
-"""Gong et al. 2023: 40 rectangles of 2.8 m by 4.0 m by touchdown methods I to IV.
+"""Gong et al. 2023: positions at the corners of 40 rectangles of 2.8 m by 4.0 m, by touchdown methods I to IV.
 
 Four wearers walk ten rectangles each, with seven attitude sensors and two insoles of 99 cells at 50 Hz. The wearers are
-those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left without a halt. Of
-each foot one touchdown is nearest to a corner. The deviation at a corner is the error of the session's positions of
-these two touchdowns, averaged over both feet: estimated minus true footprint.
+those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left without a halt. For
+each corner and foot, one stride counts: that whose foot-flat is nearest to the time when the pelvis passes the corner.
+The deviation at a corner is the session's touchdown minus the true footprint of these strides, averaged over both feet.
 
 The floor is surveyed, as in the paper: sessions know the direction of the first side relative to the sensors' common
-north. Method IV compensates with the errors of the same wearer's marked walks (section 3.3). These are other walks, for
-which the sensors were strapped on again. The four touchdown methods are those of papers/walking_modes."""
+north. A touchdown is the moment at which a foot comes down. Methods I, II and III of papers/walking_modes detect it by
+height, net acceleration and pressure. IV also uses pressure, and compensates with the errors of the same wearer's walks
+over marks on the floor (section 3.3). These are other walks, for which the sensors were attached anew."""
 
 from __future__ import annotations
 
@@ -44,7 +45,7 @@ RATE = 50.0
 """Sampling rate, Hz (section 3.1)."""
 CELL_COUNT = 99
 MARKED_STEPS, MARKED_REPEATS = 50, 3
-"""Number of steps of a marked walk, and number of its repetitions.
+"""Number of steps of a walk over marks, and number of its repetitions.
 
 Section 3.3: "50 steps at a time and repeated this three times along each path"."""
 METHODS = {"I": TOUCHDOWN_HEIGHT, "II": TOUCHDOWN_ACCELERATION, "III": TOUCHDOWN_PRESSURE, "IV": WALKING_MODES}
@@ -56,7 +57,7 @@ MAX_TIME_DIFFERENCE = 0.4
 
 @frozen
 class ModesJob:
-    """One rectangle to emulate, with the wearer's number in SUBJECTS and calibration."""
+    """One rectangle to emulate, walked by the wearer of index `subject` in SUBJECTS, who has this calibration."""
 
     subject: int
     seed: int
@@ -65,7 +66,7 @@ class ModesJob:
 
 @frozen
 class MarkedWalks:
-    """The marked walks of one wearer to emulate: `steps` steps in each mode, `repeats` times."""
+    """The walks of one wearer over marks on the floor to emulate: `steps` steps in each mode, `repeats` times."""
 
     subject: int
     seed: int
@@ -90,15 +91,15 @@ def reproduce(
     marked_walks = [
         MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, MARKED_STEPS, MARKED_REPEATS) for subject in wearers
     ]
-    known = list(run_jobs(learn, marked_walks, processes=processes, progress=progress, after=count))
-    jobs = [ModesJob(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
-    results = list(run_jobs(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
+    calibrations = list(run_jobs(learn, marked_walks, processes=processes, progress=progress, jobs_after=count))
+    jobs = [ModesJob(k % len(wearers), 1000 * seed + k, calibrations[k % len(wearers)]) for k in range(count)]
+    results = list(run_jobs(walk, jobs, processes=processes, progress=progress, jobs_before=len(wearers)))
     rows = tuple(
         row_of(
             published.WALKING_MODES,
             corner_row(point, method, axis),
             [one.deviations[method][point][k] for one in results],
-            4,
+            digits=4,
         )
         for point in CORNER_POSITIONS
         for method in METHODS
@@ -125,10 +126,10 @@ def _panels(results: Sequence[ModesResults]) -> tuple[FloorPanel, FloorPanel]:
             (CORNER_POSITIONS[point][0] + dx, CORNER_POSITIONS[point][1] + dy) for point, (dx, dy) in deviations
         )
         tracks.append(PictureTrack(method, estimated_positions, DrawStyle.DOTS))
-        deviation_tracks.append(PictureTrack(method, tuple(place for _, place in deviations), DrawStyle.DOTS))
+        deviation_tracks.append(PictureTrack(method, tuple(deviation for _, deviation in deviations), DrawStyle.DOTS))
     marks = tuple((point, x, y) for point, (x, y) in CORNER_POSITIONS.items())
     return (
-        FloorPanel("where four methods have the corners (fig. 15a)", tuple(tracks), marks),
+        FloorPanel("corners as estimated by the four methods (fig. 15a)", tuple(tracks), marks),
         FloorPanel("deviations at all corners (fig. 15b)", tuple(deviation_tracks), (("", 0.0, 0.0),)),
     )
 
@@ -143,37 +144,35 @@ def _notes(results: Sequence[ModesResults]) -> tuple[str, ...]:
             mean, _, _ = published.CORNERS[point][method]
             paper_texts.append(f"{method} {100.0 * float(np.hypot(*mean)):.1f}")
         lines.append(
-            f"{point}: ours is off by {', '.join(our_texts)} cm on average; the paper's means are off by "
-            f"{', '.join(paper_texts)} cm."
+            f"{point}: the mean length of our deviations is {', '.join(our_texts)} cm; the length of the paper's mean "
+            f"deviation is {', '.join(paper_texts)} cm."
         )
     lines.append(
-        "IV compensates each wearer by what the wearer's own marked walks showed; the table that the recipe ships, the "
-        "paper's table 1, does worse on these wearers."
+        "IV compensates each wearer by the mean errors of the wearer's own walks over marks. The recipe's own "
+        "compensation, the paper's table 1, is worse for these wearers."
     )
-    lines.append(
-        "How the first side lies to the sensors' common north is given to all four methods, not found by them."
-    )
-    lines.append("The paper heads its table mm; its figures are taken for m, and so are ours. It has no quartiles.")
+    lines.append("All four methods are given the direction of the first side relative to the sensors' common north.")
+    lines.append("The heading of the paper's table says mm, but its numbers are read as m. It has no quartiles.")
     return tuple(lines)
 
 
-def known_calibration(wearer: Wearer) -> Calibration:
-    """Return the calibration that is known from a tape measure, scales and the data of the insoles."""
+def measured_calibration(wearer: Wearer) -> Calibration:
+    """Return the calibration that needs no walk: lengths of the limbs, weight, and layouts of the insoles."""
     shoe = wearer.shoe
     insoles = {foot: InsoleCalibration(layout=layout(CELL_COUNT, foot, shoe.length, shoe.width)) for foot in Foot}
     return Calibration(insoles=insoles, limbs=wearer.limbs, weight=GRAVITY * wearer.mass)
 
 
-def sample_wearer(walker: Walker, known: Calibration, seed: int) -> list[Sample]:
+def sample_wearer(walker: Walker, calibration: Calibration, seed: int) -> list[Sample]:
     """Return the samples of the seven sensors and both insoles, whose errors and mounting are drawn from `seed`."""
-    layouts = {SITE_OF_FOOT[foot]: one.layout for foot, one in known.insoles.items() if one.layout is not None}
+    layouts = {SITE_OF_FOOT[foot]: one.layout for foot, one in calibration.insoles.items() if one.layout is not None}
     return limb_samples(walker, RATE, seed=seed, layouts=layouts, cell_part=WORN_RESISTIVE)
 
 
 def learn(job: MarkedWalks) -> Calibration:
-    """Return a wearer's calibration after marked walks in every mode; each repetition has the sensors mounted again."""
+    """Return a wearer's calibration from walks over marks in every mode; sensors are attached anew for each repeat."""
     wearer = SUBJECTS[job.subject]
-    known = known_calibration(wearer)
+    measured = measured_calibration(wearer)
     errors = []
     for round_seed in range(job.seed, job.seed + job.repeats):
         for k, mode in enumerate(MODES):
@@ -183,10 +182,10 @@ def learn(job: MarkedWalks) -> Calibration:
                 for n, mark in enumerate(marks_of(walker), 1)
                 if mark.mode is mode
             ]
-            recording = DecodedRecording(tuple(sample_wearer(walker, known, round_seed)), {})
-            touchdown_events = touchdowns(recording, known, heading=0.0)
+            recording = DecodedRecording(tuple(sample_wearer(walker, measured, round_seed)), {})
+            touchdown_events = touchdowns(recording, measured, heading=0.0)
             errors += step_errors(marks, touchdown_events)
-    return merged(known, Calibration(modes=mean_errors(errors)))
+    return merged(measured, Calibration(modes=mean_errors(errors)))
 
 
 def walk(job: ModesJob) -> ModesResults:
@@ -204,8 +203,8 @@ def walk(job: ModesJob) -> ModesResults:
 def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """Return the final touchdowns by foot of a session that knows the direction of the rectangle's first side."""
     modes = next(part for part in recipe.parts if isinstance(part, Modes))
-    known = evolve(modes, settings=evolve(modes.settings, heading=0.0))
-    events = run_session(recipe.exchanged(Modes, known), samples, calibration)
+    with_heading = evolve(modes, settings=evolve(modes.settings, heading=0.0))
+    events = run_session(recipe.exchanged(Modes, with_heading), samples, calibration)
     return {foot: [e for e in events if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 
@@ -215,11 +214,10 @@ def _deviation(
     """Return the deviation (x, y) at a corner, m."""
     dx = dy = 0.0
     for foot in Foot:
-        x, y = _place(
-            walker, foot, walker.plan.strides[foot][corner.steps[foot] - 1].heel_strike, touchdown_events[foot]
-        )
-        dx += 0.5 * (x - corner.feet[foot][0])
-        dy += 0.5 * (y - corner.feet[foot][1])
+        stride = walker.plan.strides[foot][corner.stride_numbers[foot] - 1]
+        x, y = _place(walker, foot, stride.heel_strike, touchdown_events[foot])
+        dx += 0.5 * (x - corner.footprints[foot][0])
+        dy += 0.5 * (y - corner.footprints[foot][1])
     return dx, dy
 
 

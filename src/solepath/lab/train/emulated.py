@@ -54,7 +54,7 @@ def walker(seed: int, *, jogging: bool = False) -> Walker:
 def walk(seed: int, *, jogging: bool = False) -> EmulatedWalk:
     """Return the walk with a CC2650 in each sole whose inertial sensor is as noisy as an MPU-6050."""
     route, wearer = draw_route(seed, jogging=jogging)
-    tag = CC2650(rate=RATE, part=MPU6050, mounting=IN_SOLE)
+    tag = CC2650(rate=RATE, chip=MPU6050, mounting=IN_SOLE)
     return emulate(route, wearer=wearer, devices={SITE_OF_FOOT[foot]: evolve(tag) for foot in Foot}, seed=seed)
 
 
