@@ -111,7 +111,7 @@ class SwapEvidence:
     centre_at: float | None = None
     """Time of the newest value of the centre of pressure, s."""
     centre_ys: list[float] = field(factory=list)
-    """Values of the centre of pressure's y in this stance, m, sole frame."""
+    """Values of the centre of pressure's y in this stance, m, foot frame."""
 
 
 @define

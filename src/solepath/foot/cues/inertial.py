@@ -8,8 +8,8 @@ analysis (Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Ga
 stop the foot earlier or later than the rate returns through zero, so heel-strike is the middle of the impact
 (impact.py).
 
-Numbers without a source were chosen by hand on the recordings of docs/accuracy.md and not swept. Those of heel-strike
-and toe-off were chosen on the recordings that contain such events."""
+Numbers without a source were chosen by hand on the recordings of docs/accuracy.md, those of heel-strike and toe-off on
+recordings that contain such events. docs/settings.md has the effect of half and of twice each."""
 
 from __future__ import annotations
 

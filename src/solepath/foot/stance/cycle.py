@@ -9,8 +9,8 @@ r m moves the sensor at r w. The known part of this velocity follows from the he
 (sensor_height.py); it is the reference velocity. The unknown part is noise. The noise has a second term that grows with
 w^2, so that the many samples of early and late stance do not outweigh those of mid-stance.
 
-The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. A table in that
-document gives the accuracy without whole terms: one threshold for all, evidence of one noise, zero velocity for a foot
+The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md. A table in that document
+gives the accuracy without whole terms: one threshold for all, evidence of one noise, zero velocity for a foot
 that rolls, no extra noise for a foot that brakes."""
 
 from __future__ import annotations
