@@ -43,7 +43,7 @@ def measure_row(plan: DemoPlan) -> list[str]:
         stage.prepare()
         samples = sum(stage.samples)
         engine = stage.uninterrupted()
-        bare, n_bare_samples = (stage.bare(), samples) if plan.wearers <= MAX_BARE_SESSIONS else _run_bare(plan)
+        bare, n_bare_samples = (stage.run_sessions(), samples) if plan.wearers <= MAX_BARE_SESSIONS else _run_bare(plan)
     rate = samples / engine.seconds
     return [
         str(plan.wearers),
@@ -61,7 +61,7 @@ def _run_bare(plan: DemoPlan) -> tuple[Bare, int]:
     with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
         fewer = DemoStage(Path(directory), evolve(plan, wearers=MAX_BARE_SESSIONS))
         fewer.prepare()
-        return fewer.bare(), sum(fewer.samples)
+        return fewer.run_sessions(), sum(fewer.samples)
 
 
 def main() -> None:

@@ -93,10 +93,10 @@ class Fleeting(Strap):
         self.start_times.append(now)
         super().connected(now, mtu)
 
-    def hang_up(self, now: float) -> bool:
+    def must_hang_up(self, now: float) -> bool:
         nth = len(self.start_times) - 1
         lost = self.is_connected and nth < len(self.lasting) and now - self.start_times[-1] >= self.lasting[nth]
-        return super().hang_up(now) or lost
+        return super().must_hang_up(now) or lost
 
     def poll(self, now: float) -> list[Outgoing]:
         output = super().poll(now)

@@ -107,8 +107,8 @@ def test_the_same_script_damages_the_same_bits() -> None:
 def test_nothing_is_sent_after_a_loss_that_is_noticed_late() -> None:
     device = tag("2 left_foot disconnect")
     assert len([o for o in device.poll(10.0) if o.channel == MOVEMENT]) == pytest.approx(20, abs=1)
-    assert device.hang_up(10.0)
-    assert not device.hang_up(10.0)
+    assert device.must_hang_up(10.0)
+    assert not device.must_hang_up(10.0)
 
 
 def test_a_loss_while_there_is_no_link_ends_no_later_one() -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..recording import PacketWriter, printable
 from ..types import Foot
-from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_seed, parse_share
+from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_share, parse_whole_number
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def add_to(commands: Any) -> None:
         "can be.",
     )
     command.add_argument(
-        "--seed", metavar="N", type=parse_seed, default=1, help="another walk of this route (default: 1)"
+        "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
     )
     route = command.add_mutually_exclusive_group()
     route.add_argument(

@@ -1,6 +1,6 @@
-"""`solepath fleet-demo`: runs emulated wearers through a stream engine that is killed, and measures its cost.
+"""`solepath fleet-demo`: runs emulated wearers in a stream engine that is killed, and measures the cost of both.
 
-The times below were chosen by hand and not swept."""
+The durations below were chosen by hand; other values were not tried."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
-from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_seed, recipe_named
+from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_whole_number, recipe_named
 from .common.files import check_writable, write_json
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--wearers", metavar="N", type=parse_count, default=100, help="how many wearers (default: 100)"
     )
-    command.add_argument("--kills", metavar="K", type=parse_seed, default=3, help="how many kills (default: 3)")
+    command.add_argument("--kills", metavar="K", type=parse_whole_number, default=3, help="how many kills (default: 3)")
     command.add_argument(
         "--seconds",
         metavar="S",
@@ -53,7 +53,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--recipe", metavar="NAME", default="default", help="recipe of the sessions")
     command.add_argument(
-        "--seed", metavar="X", type=parse_seed, default=1, help="other wearers, other kills (default: 1)"
+        "--seed", metavar="X", type=parse_whole_number, default=1, help="other wearers, other kills (default: 1)"
     )
     command.add_argument(
         "--processes",
@@ -97,29 +97,29 @@ def run(options: argparse.Namespace) -> int:
 
 
 def run_all(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
-    """Do all runs, print each as it ends, and return how the uninterrupted run differs from plain sessions."""
-    from .fleet_table import effect_line, kill_lines
+    """Do all runs, print each as it ends, and return how the uninterrupted run differs from one without an engine."""
+    from .fleet_table import kill_lines, recovery_line
 
     plan = stage.plan
     stage.prepare()
     print(
         f"{_counted(plan.wearers, 'wearer walks', 'wearers walk')} {plan.seconds:g} s: {sum(stage.samples)} samples; "
-        f"{_counted(stage.gapped, 'loses', 'lose')} some of what is sent for good, "
-        f"{_counted(stage.poisoned, 'sends', 'send')} any bytes"
+        f"{_counted(stage.gapped, 'loses', 'lose')} some rows for ever, "
+        f"{_counted(stage.poisoned, 'sends', 'send')} random bytes"
     )
-    stage.bare()
+    stage.run_sessions()
     engine = stage.uninterrupted()
     print(
-        f"uninterrupted: {engine.whole:.1f} s, {engine.events} events in {engine.files} files, a snapshot every "
-        f"{engine.every:.2g} s",
+        f"uninterrupted: {engine.total_duration:.1f} s, {engine.events} events in {engine.files} files, a snapshot "
+        f"every {engine.snapshot_interval:.2g} s",
         flush=True,
     )
     differences = stage.compare()
-    print(f"sessions alone: {'other' if differences else 'the same'} events", flush=True)
+    print(f"sessions without an engine: {'other' if differences else 'the same'} events", flush=True)
     for number, outcome in enumerate(stage.killed(kills, keep=keep), 1):
         for line in kill_lines(engine, number, outcome):
             print(line, flush=True)
-    print(effect_line(stage.outcomes))
+    print(recovery_line(stage.outcomes))
     return differences
 
 
@@ -127,12 +127,12 @@ def _counted(count: int, singular: str, plural: str) -> str:
     return f"{count} {singular if count == 1 else plural}"
 
 
-def verdict(alone: list[str], killed: list[list[str]]) -> int:
+def verdict(without_engine: list[str], killed: list[list[str]]) -> int:
     """Return the exit status, and print the differences if it is not 0.
 
-    `alone` are the differences of sessions without an engine, `killed` those of each killed run, all from the
-    uninterrupted run."""
-    lines = [f"sessions alone: {line}" for line in alone]
+    `without_engine` are the differences of sessions without an engine, `killed` those of each killed run, all from
+    the uninterrupted run."""
+    lines = [f"sessions without an engine: {line}" for line in without_engine]
     lines += [f"killed run {number}: {line}" for number, run_lines in enumerate(killed, 1) for line in run_lines]
     if lines:
         print("\n".join(["", "The events differ from those of the uninterrupted run.", *lines]))
@@ -175,7 +175,7 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
         else:
             shutil.rmtree(directory, ignore_errors=True)
             if is_new:
-                with suppress(OSError):  # the directory is not empty
+                with suppress(OSError):  # a directory that is not empty stays
                     directory.parent.rmdir()
 
 
@@ -188,4 +188,4 @@ def _copy_events(stage: DemoStage, out: Path) -> None:
     files = f"{events_directory}/*.parquet".replace("'", "''")
     query = f"FROM '{files}' SELECT event, count(*) AS count GROUP BY event ORDER BY count DESC"
     print(f"\nThe events are in {printable(str(events_directory))}. To look at them (pip install duckdb):")
-    print(printable(f"python -c {quote(f'import duckdb; print(duckdb.sql({query!r}))')}", 5000))
+    print(printable(f"python -c {quote(f'import duckdb; print(duckdb.sql({query!r}))')}", max_length=5000))

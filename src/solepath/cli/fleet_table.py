@@ -26,7 +26,7 @@ def kill_lines(engine: Engine, run: int, outcome: Outcome) -> list[str]:
     return lines
 
 
-def effect_line(outcomes: list[Outcome]) -> str:
+def recovery_line(outcomes: list[Outcome]) -> str:
     """Return a sentence on how many kills had an effect from which the engine had to recover."""
     costs = [cost for outcome in outcomes for cost in outcome.costs]
     if not costs:
@@ -61,7 +61,7 @@ def result_table(stage: DemoStage) -> str:
         ["wearers", str(values["wearers"])],
         ["samples", str(values["samples"])],
         [f"samples/s through the engine, {values['processes']} processes", number(engine["rate"], 0)],
-        ["samples/s by as many processes of sessions alone", number(sessions["rate"], 0)],
+        ["samples/s by as many processes of sessions without an engine", number(sessions["rate"], 0)],
         ["the one by the other, %", percent(values["ratio"], 0)],
         ["s between two snapshots", number(engine["every"], 2)],
         ["snapshots before the end", str(engine["snapshots"])],
@@ -117,8 +117,8 @@ def figures(stage: DemoStage) -> dict[str, Any]:
         "engine": {
             "rate": rate,
             "seconds": engine.seconds,
-            "whole": engine.whole,
-            "every": engine.every,
+            "whole": engine.total_duration,
+            "every": engine.snapshot_interval,
             "snapshots": engine.snapshots,
             "cpu": engine.cpu,
             "memory": engine.full,

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..recording import printable
-from .common.failure import Failure, parse_count, parse_seed, require
+from .common.failure import Failure, parse_count, parse_whole_number, require
 from .common.files import check_writable, write_json
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
@@ -30,7 +30,7 @@ def add_to(commands: Any) -> None:
         "--walks", metavar="N", type=parse_count, help="so many walks, or wearers (default: as many as the paper)"
     )
     command.add_argument(
-        "--seed", metavar="S", type=parse_seed, default=1, help="other walks and other sensors (default: 1)"
+        "--seed", metavar="S", type=parse_whole_number, default=1, help="other walks and other sensors (default: 1)"
     )
     command.add_argument("--json", metavar="FILE", type=Path, help="write the table as JSON too")
     command.add_argument(

@@ -13,16 +13,12 @@ from .segments import side
 LATTICE_SPACING = 0.5
 """Distance between the points of the lattice, m; larger where there would be more than MAX_LATTICE_POINTS.
 
-Every gap wider than this is detected in a wall along x or y, and every gap wider than 0.7 m in a slanting wall."""
-
+A gap in a wall along x or y is found if it is wider than the spacing, in a slanting wall if wider than 1.4 spacings."""
 MAX_LATTICE_POINTS = 30_000
-
-_POST_DISTANCE = MAX_DOOR_OFFSET + 0.05
+_CLOSING_DISTANCE = MAX_DOOR_OFFSET + 0.05
 """Largest distance of a wall's end from a door's end at which the two are joined by a closing line, m."""
-
 OPEN_END_DISTANCE = 0.05
 """Distance from all other walls and doors beyond which a wall's end counts as open, m."""
-
 _LATTICE_MARGIN = 1e-9
 """Distance from a point of the lattice, in units of the spacing, below which a wall counts as going through it."""
 
@@ -30,7 +26,7 @@ _LATTICE_MARGIN = 1e-9
 class Enclosure:
     """The area that the walls and closed doors of a level enclose, on a lattice of points.
 
-    Construction takes about 1 us for each point, 15 to 30 ms for a storey of 56 m by 63 m. `walls` are those of the
+    Construction takes 1 to 2 us for each point, 15 to 30 ms for a storey of 56 m by 63 m. `walls` are those of the
     level, `most` is the largest number of points."""
 
     __slots__ = ("_bottom", "_hull", "_left", "_outside", "_closed_doors", "_space", "_walls", "columns", "open_end",
@@ -39,7 +35,7 @@ class Enclosure:
     def __init__(self, level: Level, walls: Walls, most: int = MAX_LATTICE_POINTS) -> None:
         self._walls = walls
         doors = [(door.start, door.end) for door in level.doors if door.start != door.end]
-        self._closed_doors = Walls(doors + _find_posts(level), min(most, MAX_CELLS))
+        self._closed_doors = Walls(doors + _find_closing_lines(level), min(most, MAX_CELLS))
         lines = self._walls.ends + self._closed_doors.ends
         xs = [x for ax, _, bx, _ in lines for x in (ax, bx)] or [0.0]
         ys = [y for _, ay, _, by in lines for y in (ay, by)] or [0.0]
@@ -53,7 +49,7 @@ class Enclosure:
         """Numbers (row times `columns` plus column) of the points outside, in the order of the flood fill."""
         self._flood(*self._find_barriers(lines))
         self.open_end: Point | None = next(self._find_open_ends(), None)
-        """End of a wall, m, that is outside and near no other wall; None when there is none."""
+        """End of a wall, door or closing line near the outside and near no other of these, m; None without one."""
         points = [point for ax, ay, bx, by in lines for point in ((ax, ay), (bx, by))]
         self._hull = _hull(points) if self.open_end is not None else []
 
@@ -90,7 +86,7 @@ class Enclosure:
         outside_numbers = self.outside_numbers = [0]
         outside[0] = 1
         for number in outside_numbers:  # the list grows in the loop
-            # number - 1 of the first column is the last point of another row, which has a barrier; rows likewise
+            # before the first column or row, the index wraps to the end of a row or column, which has a barrier
             for blocked, neighbour in (
                 (east[number], number + 1),
                 (east[number - 1], number - 1),
@@ -137,35 +133,35 @@ class Enclosure:
                 and not any(walls.crosses(x, y, *self.point(k, m)) for walls in (self._walls, self._closed_doors))
             ):
                 return not self._outside[m * self.columns + k]
-        return True
+        return True  # walls separate the point from all lattice points around it
 
 
 def _lattice_crossings(a: Point, b: Point) -> Iterator[tuple[int, int, int]]:
-    """Yield (v, first, last) for each lattice row v that the line from a to b crosses; coordinates (u, v) in spacings.
+    """Yield (row, first, last) for each lattice row that the line crosses from a to b: (column, row), in spacings.
 
-    The line crosses the row between u and u + 1 for a whole number u from `first` to `last`. Where rounding leaves
-    this open, the range includes one number too many."""
+    It crosses the row between columns i and i + 1, for a whole number i from `first` to `last`. Where rounding leaves
+    this open, the range includes one number too many. With exchanged coordinates, rows and columns are exchanged."""
     low, high = ceil(min(a[1], b[1]) - _LATTICE_MARGIN), floor(max(a[1], b[1]) + _LATTICE_MARGIN)
     height = b[1] - a[1]
-    for v in range(low, high + 1):
+    for row in range(low, high + 1):
         if abs(height) <= 2.0 * _LATTICE_MARGIN:
-            yield v, floor(min(a[0], b[0]) - _LATTICE_MARGIN), floor(max(a[0], b[0]) + _LATTICE_MARGIN)
+            yield row, floor(min(a[0], b[0]) - _LATTICE_MARGIN), floor(max(a[0], b[0]) + _LATTICE_MARGIN)
         else:
-            u = a[0] + min(max((v - a[1]) / height, 0.0), 1.0) * (b[0] - a[0])
-            yield v, floor(u - _LATTICE_MARGIN), floor(u + _LATTICE_MARGIN)
+            column = a[0] + min(max((row - a[1]) / height, 0.0), 1.0) * (b[0] - a[0])
+            yield row, floor(column - _LATTICE_MARGIN), floor(column + _LATTICE_MARGIN)
 
 
-def _find_posts(level: Level) -> list[tuple[Point, Point]]:
-    """Return lines from the ends of doors to near ends of walls, since a map may draw a door beside its gap."""
+def _find_closing_lines(level: Level) -> list[tuple[Point, Point]]:
+    """Return lines from the ends of doors to near ends of walls, as a map may draw a door on one face of its wall."""
     ends: dict[tuple[int, int], list[Point]] = {}
     for x, y in dict.fromkeys(end for wall in level.walls for end in (wall.start, wall.end)):
-        ends.setdefault((round(x / _POST_DISTANCE), round(y / _POST_DISTANCE)), []).append((x, y))
-    posts = set()
+        ends.setdefault((round(x / _CLOSING_DISTANCE), round(y / _CLOSING_DISTANCE)), []).append((x, y))
+    lines = set()
     for x, y in dict.fromkeys(end for door in level.doors for end in (door.start, door.end)):
-        i, j = round(x / _POST_DISTANCE), round(y / _POST_DISTANCE)
+        i, j = round(x / _CLOSING_DISTANCE), round(y / _CLOSING_DISTANCE)
         near_ends = [end for k in (i - 1, i, i + 1) for m in (j - 1, j, j + 1) for end in ends.get((k, m), ())]
-        posts |= {((x, y), end) for end in near_ends if 0.0 < hypot(end[0] - x, end[1] - y) <= _POST_DISTANCE}
-    return sorted(posts)
+        lines |= {((x, y), end) for end in near_ends if 0.0 < hypot(end[0] - x, end[1] - y) <= _CLOSING_DISTANCE}
+    return sorted(lines)
 
 
 def _hull(points: list[Point]) -> list[Point]:

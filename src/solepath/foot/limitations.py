@@ -50,7 +50,7 @@ class Limitations:
         if t - self.lacking_since >= LACKING_TIME:
             self.report(text, t, known_at, events)
 
-    def check_cell_count(
+    def rejects_calibration(
         self,
         layout: Layout | None,
         noise: tuple[float, ...],
@@ -59,7 +59,7 @@ class Limitations:
         known_at: float,
         events: list[Event],
     ) -> bool:
-        """Return whether a mismatch between calibration and number of cells has lasted for `MISMATCH_TIME`.
+        """Return whether the calibration is rejected, as its number of cells has been wrong for `MISMATCH_TIME`.
 
         Call it for each sample whose `count` cells do not match `layout` or `noise` of the calibration. When the result
         is True, the mismatch was reported, and this layout or noise must not be used."""

@@ -53,7 +53,7 @@ def played(device: Peripheral, until: float, channel: str = "") -> Received:
     received: Received = []
     while (due := device.next_due()) is not None and due <= until:
         received += [(due, outgoing) for outgoing in device.poll(due)]
-        if device.hang_up(due):
+        if device.must_hang_up(due):
             device.disconnected(due)
     return [(t, outgoing) for t, outgoing in received if channel in ("", outgoing.channel)]
 

@@ -26,7 +26,7 @@ class LoopbackLink:
         self._closed = self._loop.create_future()
         self._request_lock = asyncio.Lock()
         self._timer: asyncio.TimerHandle | None = None
-        device.changed = self._schedule
+        device.on_change = self._schedule
         device.connected(self._loop.time(), mtu)
 
     @property
@@ -62,7 +62,7 @@ class LoopbackLink:
         self._closed.set_result(None)
         if self._timer is not None:
             self._timer.cancel()
-        self._device.changed = None
+        self._device.on_change = None
         self._device.disconnected(self._loop.time())
         self._on_lost()
 
@@ -79,7 +79,7 @@ class LoopbackLink:
                 self._notify(outgoing)
         if not self.is_up:
             return
-        if self._device.hang_up(now):
+        if self._device.must_hang_up(now):
             self.lose()
         else:
             self._schedule()

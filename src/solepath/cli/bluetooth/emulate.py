@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.failure import parse_positive, parse_seed, require
+from ..common.failure import parse_positive, parse_whole_number, require
 from .devices import SERVE_TIME, add_duration
 
 DEFAULT_ADDRESS = "127.0.0.1:9735"
@@ -40,7 +40,7 @@ def add_to(commands: Any) -> None:
         "--distance", metavar="M", type=parse_positive, default=DEFAULT_DISTANCE, help="how far (default: 300)"
     )
     command.add_argument(
-        "--seed", metavar="N", type=parse_seed, default=1, help="another walk of this route (default: 1)"
+        "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
     )
     command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")
     command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")

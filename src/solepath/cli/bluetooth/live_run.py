@@ -59,14 +59,15 @@ async def listen(
                 devices = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile)
             packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         if address is not None:
-            drawn = None if plan is None else plan.plan
-            scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration), observer=observer)
+            floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)
+            scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, observer=observer)
             await stack.enter_async_context(serve_page(scene, address))
         # the files are opened only now: a search that finds nothing must not replace files of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
         live = LiveSession(session, observer if scene is None else scene, files)
+        end_hint = "Ctrl-C ends" if seconds is None else f"{seconds:g} s"
         try:
-            with show_state(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
+            with show_state(observer, end_hint) as report:
                 async for packet in packets_until(packets, stop, seconds):
                     live.take(packet)
                     report()
@@ -76,7 +77,7 @@ async def listen(
             note("interrupted")
         finally:
             live.finish()
-    print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))
+    print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))  # 0: no line on the speed
     if plan is not None:
         print("\n".join(place_lines(observer.places)))
     if files.failure is not None:
@@ -159,7 +160,7 @@ class LiveFiles:
 
 
 def check_all_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
-    """Raise Failure if one of these files cannot be written; their contents do not change."""
+    """Raise Failure if the recording or a file of `out` cannot be written; files keep their contents."""
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
@@ -177,21 +178,21 @@ def _error_text(error: RecordingError | OSError) -> str:
 
 
 REPORT_INTERVAL = 5.0
-"""Time between two reports of the state in lines, s; chosen by hand."""
+"""Time between two reports when the state is printed as lines, s; chosen by hand."""
 
 
 @contextmanager
-def show_state(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
+def show_state(observer: Observer, end_hint: str) -> Iterator[Callable[[], None]]:
     """Yield a function that shows the state of the session, as a picture in a terminal if rich is installed.
 
-    Otherwise it prints lines every REPORT_INTERVAL s."""
+    Otherwise it prints lines every REPORT_INTERVAL s. `end_hint`, the picture's title, says when the session ends."""
     if sys.stdout.isatty() and is_installed("rich"):
         from rich.console import Console
 
         from ...show.tables.terminal import screen
 
-        with screen(Console()) as drawn:
-            yield lambda: drawn.show(observer, title)
+        with screen(Console()) as terminal_screen:
+            yield lambda: terminal_screen.show(observer, end_hint)
         return
     started: float | None = None
     due = REPORT_INTERVAL

@@ -85,7 +85,7 @@ def parse_count(text: str) -> int:
     return value
 
 
-def parse_seed(text: str) -> int:
+def parse_whole_number(text: str) -> int:
     """Parse an option of argparse: a whole number of 0 or more."""
     if not text.isdecimal() or len(text) > 18:
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number of 0 or more")

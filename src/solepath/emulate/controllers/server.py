@@ -35,7 +35,7 @@ from .radio import VirtualRadio, enable_just_works, end_link
 _T = TypeVar("_T")
 
 ADVERTISING_INTERVAL = 62.5
-"""Advertising interval for bumble's host, ms: 100 HCI units of 0.625 ms, which its controller reads as 100 ms."""
+"""Advertising interval given to bumble's host, ms: 100 HCI units. Its controller takes a unit for 1 ms: 100 ms."""
 _CENTRAL_ADDRESS = "C0:50:1E:9A:74:01"
 _STANDARD_SERVICES = ("0000180a", "0000180f")
 """Starts of the UUIDs of services whose characteristics need no description; the Bluetooth SIG defines them."""
@@ -48,8 +48,8 @@ async def virtual_link(
     """Serve the devices in this process, by the clock of its event loop, and yield a Backend that reaches them.
 
     `mtu` is the ATT MTU that the central requests; a device may accept less. `interval` is the time between the
-    connection events of each link, s, at which all ready packets are sent, requests and answers too (0.0075 to 4 s on a
-    real link, often 0.03). None: packets do not wait."""
+    connection events of each link, s. All packets, also requests and answers, wait for the next event. On a real link
+    the interval is 0.0075 to 4 s, often 0.03. None: packets do not wait."""
     medium = VirtualMedium(interval)
     controller = VirtualController("central", medium)
 
@@ -87,7 +87,7 @@ class Server:
         self._link: Connection | None = None
         self._timer: asyncio.TimerHandle | None = None
         self._due = 0.0
-        self._link_end: asyncio.Future[bytes] | None = None
+        self._link_end: asyncio.Future[bytes] | None = None  # never gets a result; cancelled when the link ends
         self._advertising: asyncio.Task[None] | None = None
         self._stopped = False
         self._controller = VirtualController(
@@ -136,7 +136,7 @@ class Server:
     async def start(self) -> None:
         """Start the controller and advertise."""
         await self._device.power_on()
-        self.peripheral.changed = self._arm
+        self.peripheral.on_change = self._arm
         await self._advertise()
 
     async def stop(self) -> None:
@@ -147,7 +147,7 @@ class Server:
         if self._advertising is not None:
             await self._advertising
         self._disarm()
-        self.peripheral.changed = None
+        self.peripheral.on_change = None
         await self._device.power_off()
         self.medium.leave(self._controller)
 
@@ -186,7 +186,7 @@ class Server:
         if not self._stopped:
             self._advertising = self._loop.create_task(self._advertise())
 
-    # requests; the table of attributes binds the first argument, the channel
+    # requests; `_characteristic` binds the first argument, the channel
 
     async def read(self, channel: str, link: Connection) -> bytes:
         """Return the value of a channel."""
@@ -203,7 +203,7 @@ class Server:
         self._request(partial(self.peripheral.subscribe, channel, notify))
 
     def _request(self, request: Callable[[float], _T]) -> _T:
-        """Return the device's answer, or raise its error as an ATT error; set the timer again in both cases."""
+        """Return the device's answer, or raise its error as an ATT error; then set the timer (`_arm`)."""
         try:
             return request(self._loop.time())
         except AttError as error:
@@ -215,7 +215,7 @@ class Server:
             self._arm()
 
     async def _no_answer(self) -> bytes:
-        """Wait until the link ends, in place of an answer."""
+        """Wait instead of an answer until the end of the link cancels the wait."""
         if self._link_end is None:
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR)
         return await asyncio.shield(self._link_end)
@@ -226,6 +226,7 @@ class Server:
             self._timer = None
 
     def _arm(self) -> None:
+        """Set the timer for the device's next value or fault."""
         self._disarm()
         due = self.peripheral.next_due() if self._link is not None else None
         if due is not None:
@@ -240,11 +241,11 @@ class Server:
         for outgoing in self.peripheral.poll(now):
             pdu = att.ATT_Handle_Value_Notification(
                 attribute_handle=self._served[outgoing.channel].handle,
-                # Longer values are cut without an error, as usual.
+                # Longer values are cut without an error, as GATT servers do.
                 attribute_value=outgoing.value[: link.att_mtu - emulated.ATT_HEADER_SIZE],
             )
             self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
-        if self.peripheral.hang_up(now):
+        if self.peripheral.must_hang_up(now):
             for connection in list(self._controller.le_connections.values()):
                 self.medium.lose(self._controller, connection)
         else:

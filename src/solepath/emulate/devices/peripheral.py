@@ -5,9 +5,9 @@ For each connection the server does this:
 
     device.connected(now, mtu)
     ... subscribe, read, write as the host requests ...
-    at device.next_due(), and whenever `changed` was called sooner:
+    at device.next_due(), and whenever `on_change` was called sooner:
         for outgoing in device.poll(now): send it
-        if device.hang_up(now): lose the link
+        if device.must_hang_up(now): lose the link
     device.disconnected(now)
 
 A fault script (faults.py) acts inside the device; the server sees only its effects."""
@@ -55,7 +55,7 @@ class Peripheral:
         self.advertised = tuple(advertised)
         self.sent: dict[str, int] = {}
         self.log: list[Outgoing] | None = None
-        self.changed: Callable[[], None] | None = None
+        self.on_change: Callable[[], None] | None = None
         for text in (name, *(fault.argument for fault in placement.faults if fault.kind is FaultKind.NAME)):
             check_fits(text, self.advertised)
         self._name, self._mtu = name, placement.mtu
@@ -183,7 +183,7 @@ class Peripheral:
         return True
 
     def next_due(self) -> float | None:
-        """Return when to call `poll` and `hang_up` next, s of the event loop; None when nothing is due."""
+        """Return when to call `poll` and `must_hang_up` next, s of the event loop; None when nothing is due."""
         if not self.is_connected:
             return None
         soonest = min(self._flows.find_due(inf)[1], self._fault_state.next_at())
@@ -208,7 +208,7 @@ class Peripheral:
             self.log += found
         return found
 
-    def hang_up(self, now: float) -> bool:
+    def must_hang_up(self, now: float) -> bool:
         """Return True, once, when the link must be lost now, as by a supervision timeout (0x08)."""
         self._advance(now)
         must_disconnect, self._fault_state.must_disconnect = (
@@ -245,5 +245,5 @@ class Peripheral:
         return t
 
     def _notify_changed(self) -> None:
-        if self.changed is not None:
-            self.changed()
+        if self.on_change is not None:
+            self.on_change()

@@ -6,12 +6,12 @@ flat. A ruler along this part, from the point below the sensor at x_s, meets the
 
     L_r = x_f - x_s + R tan(p / 2).
 
-The distance on the ground from there to where the tip of the flat shoe (length l) would be is
+The distance on the ground from there to where the tip of the shoe (length l) stood before the heel was raised is
 
     L_p2t = l - x_f - R (p - tan(p / 2)).
 
-With these two distances, equations (6) of Chen et al. 2019 give the exact path of the sensor over the rocker, although
-the plane of the sole meets the ground behind the point where the round sole touches it."""
+With these two distances, equations (6) of Chen et al. 2019 give the exact path of the sensor over the rocker. The round
+sole touches the ground further ahead than the ruler; that point is not used (papers/kupt_dfpc/shoe.py)."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Posture:
     sensor_to_ground: float
     """Distance L_r along the sole from the point below the sensor to the ground, m."""
     ground_to_tip: float
-    """Distance L_p2t on the ground from the end of L_r to the tip of the shoe if it were flat, m."""
+    """Distance L_p2t on the ground from the end of L_r to where the tip stood before the heel was raised, m."""
 
 
 def posture(pitch: float, shoe: Shoe | None = None, mounting: Mounting = IN_SOLE) -> Posture:
@@ -65,14 +65,14 @@ def postures(
     pitches: Iterable[float] = PITCHES,
     repetitions: int = REPETITIONS,
 ) -> tuple[Posture, ...]:
-    """Return `repetitions` measurements of each posture, in which the shoe is held and the ruler read by hand."""
+    """Return `repetitions` measurements of each posture held by hand: pitch by the sensor, lengths by a ruler."""
     rng = np.random.default_rng([seed, 8])
     measurements = []
     for pitch in pitches:
         for _ in range(repetitions):
-            pitch_error, reading_error = (float(value) for value in rng.standard_normal(2))
+            pitch_error, sensor_error = (float(value) for value in rng.standard_normal(2))
             true = posture(pitch + POSTURE_ERROR * pitch_error, shoe, mounting)
-            measured = true.pitch + PITCH_ERROR * reading_error
+            measured = true.pitch + PITCH_ERROR * sensor_error
             measurements.append(Posture(measured, _read(true.sensor_to_ground), _read(true.ground_to_tip)))
     return tuple(measurements)
 
@@ -89,7 +89,7 @@ def write_postures(path: Path | str, measurements: Iterable[Posture], mounting: 
                 f"{measurement.sensor_to_ground:.3f}",
                 f"{measurement.ground_to_tip:.3f}",
             )
-            rows.writerow((*measured, f"{_read(z):.3f}", f"{_read(x):.3f}"))
+            rows.writerow((*measured, f"{_read(z):.3f}", f"{_read(x):.3f}"))  # x: heel's end to below the sensor
 
 
 def _read(length: float) -> float:

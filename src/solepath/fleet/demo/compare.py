@@ -27,7 +27,7 @@ class UnreadableEvents(Exception):
 
 
 def files(directory: Path) -> list[Path]:
-    """Return the part files that are visible to readers."""
+    """Return the finished Parquet files of a directory; hidden files are left out."""
     return sorted(directory.glob("[!._]*.parquet"))
 
 
@@ -51,7 +51,7 @@ def differences(expected: pa.Table, found: pa.Table) -> list[str]:
     )
     changes = [(row, "is missing") for row in (expected_rows - found_rows).elements()]
     changes += [
-        (row, "is there, and should not be" if row not in expected_rows else "is there twice")
+        (row, "is there, and should not be" if row not in expected_rows else "is there too often")
         for row in found_rows - expected_rows
     ]
     changes.sort(key=lambda change: (change[0][:2], change[1]))
@@ -68,7 +68,7 @@ def _shorten(lines: list[str]) -> list[str]:
 
 
 def session_events(events: pa.Table) -> pa.Table:
-    """Return the events without those of the fleet itself; each wearer's events are numbered again from 0."""
+    """Return the events without those that the fleet itself emits (FleetEvent), each wearer's numbered again from 0."""
     session_rows = events.filter(pc.invert(_is_fleet_event(events)))
     numbers: list[int] = []
     last_wearer, number = None, 0
@@ -82,19 +82,20 @@ def session_events(events: pa.Table) -> pa.Table:
 
 
 def compare_remarks(expected: Mapping[str, Iterable[Remark]], events: pa.Table) -> list[str]:
-    """Return the first few events of the fleet itself that are missing or were not expected, a sentence each."""
+    """Return the first few events of the fleet (FleetEvent) that are missing or were not expected, a sentence each."""
     expected_rows = Counter((wearer, remark) for wearer, remarks in expected.items() for remark in remarks)
     found_rows = Counter((row["wearer"], _remark(row)) for row in events.filter(_is_fleet_event(events)).to_pylist())
     wrong = [(*one, "is missing") for one in (expected_rows - found_rows).elements()]
     wrong += [(*one, "was not expected") for one in (found_rows - expected_rows).elements()]
     lines = sorted(
-        f"{wearer}, {one.event} ({one.why}) of run {one.run}, number {one.number} {fault}"
+        f"{wearer}, {one.event} ({one.why}) of row {one.number} of run {one.run} {fault}"
         for wearer, one, fault in wrong
     )
     return _shorten(lines)
 
 
 def _remark(row: dict[str, Any]) -> Remark:
+    """Return the Remark of an event: a SentRejected has a reason; one about no row has a detail, no run and number."""
     fields = json.loads(row["fields"])
     if row["event"] == "NumbersMissing":
         return Remark(row["event"], fields["run"], fields["first"], fields["count"])
@@ -107,7 +108,7 @@ def _is_fleet_event(events: pa.Table) -> Any:
 
 
 def find_number_gaps(events: pa.Table) -> list[str]:
-    """Return the first few wearers whose events are not numbered 0, 1, 2 and so on, a sentence each."""
+    """Return the first few wearers with a number missing between 0 and their last number, a sentence each."""
     counts = events.group_by("wearer").aggregate([("number", "min"), ("number", "max"), ("number", "count_distinct")])
     faulty = [
         row
@@ -115,7 +116,7 @@ def find_number_gaps(events: pa.Table) -> list[str]:
         if row["number_min"] != 0 or row["number_max"] != row["number_count_distinct"] - 1
     ]
     return [
-        f"{printable(row['wearer'])} has {row['number_count_distinct']} events numbered from {row['number_min']} to "
-        f"{row['number_max']}"
+        f"{printable(row['wearer'])} has {row['number_count_distinct']} different event numbers from "
+        f"{row['number_min']} to {row['number_max']}"
         for row in faulty[:MAX_REPORTED]
     ]

@@ -1,4 +1,4 @@
-"""The whole demonstration: the same walks through the engine, through sessions without engine, and with kills."""
+"""The whole demonstration: the same walks through the engine, through sessions without an engine, and with kills."""
 
 from __future__ import annotations
 
@@ -25,7 +25,6 @@ TARGET_SNAPSHOTS = 8
 """Number of snapshots in the time that sessions take without an engine; the engine takes longer."""
 MIN_INTERVAL, MAX_INTERVAL = 0.1, 10.0
 """Shortest and longest time between two snapshots, s; bytewax's default is the longest."""
-
 MIN_WEARERS_FOR_MEMORY = 500
 """Smallest number of wearers for a memory per wearer: with fewer, the growth of the engine itself would dominate."""
 
@@ -34,15 +33,15 @@ MIN_WEARERS_FOR_MEMORY = 500
 class Engine:
     """The measurements of an uninterrupted run.
 
-    `whole` is the duration with the start of the processes, `seconds` that from the first bundle to the end, s. `every`
-    is the time between two snapshots, s. `snapshots` is their number without the one at the end, computed from the
+    `total_duration` includes the start of the processes; `seconds` is the time from the first bundle to the end, s.
+    `snapshot_interval` is in s. `snapshots` is the number of snapshots without the one at the end, computed from the
     number of files, since each snapshot closes one file of every partition. `cpu` is the processor time, s. `empty` and
     `full` are the memory of all processes at the first bundle and at the maximum, bytes; None where the system does not
     report it. `events` and `files` are counts."""
 
-    whole: float
+    total_duration: float
     seconds: float
-    every: float
+    snapshot_interval: float
     snapshots: int
     cpu: float
     empty: int | None
@@ -71,8 +70,8 @@ class Bare:
 class DemoStage:
     """A demonstration in the empty directory `at`.
 
-    Call its methods in this order: `prepare`, `bare`, `uninterrupted`, then `killed`. They raise RunFailed when a
-    process ends with an error."""
+    Call its methods in this order: `prepare`, `run_sessions`, `uninterrupted`, then `killed`. They raise RunFailed when
+    a process ends with an error."""
 
     at: Path
     plan: DemoPlan
@@ -95,7 +94,7 @@ class DemoStage:
 
     @property
     def every(self) -> float:
-        """Time between two snapshots, s: the planned one, or a share of the duration of `bare`."""
+        """Time between two snapshots, s: the planned one, or a share of the duration of `run_sessions`."""
         if self.plan.every is not None:
             return self.plan.every
         if self.sessions is None:
@@ -125,9 +124,9 @@ class DemoStage:
         duration = monotonic() - t_start
         seconds = max(r["ended"] for r in reports) - min(r["started"] for r in reports if r["started"] is not None)
         self.engine = Engine(
-            whole=duration,
+            total_duration=duration,
             seconds=seconds,
-            every=self.every,
+            snapshot_interval=self.every,
             snapshots=max(len(files(self.events)) // self.plan.parts - 1, 0),
             cpu=sum(report["cpu"] for report in reports),
             empty=_sum(reports, "empty"),
@@ -137,7 +136,7 @@ class DemoStage:
         )
         return self.engine
 
-    def bare(self) -> Bare:
+    def run_sessions(self) -> Bare:
         """Run the same walks through sessions without an engine."""
         directory = self.at / "sessions"
         directory.mkdir()
@@ -148,7 +147,7 @@ class DemoStage:
                 children.running.append(start(module, str(directory), str(part), directory=directory, log=log))
             while not children.ended(1.0):
                 pass
-            children.check("the sessions alone", log)
+            children.check("the run without an engine", log)
         results = [json.loads((directory / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
         states = [state for result in results for state in result["states"]]
         snapshot_time = median(seconds for _, _, seconds in states)
@@ -175,7 +174,7 @@ class DemoStage:
         `keep` leaves the files of the runs."""
         engine = self.engine or self.uninterrupted()
         expected = read_events(self.events)
-        start_duration = engine.whole - engine.seconds
+        start_duration = engine.total_duration - engine.seconds
         planned = draw(kills, start_duration, engine.seconds, self.plan.parts, Random(f"kills {self.plan.seed}"))
         for number, run_kills in enumerate(planned, 1):
             directory = self.at / f"killed-{number}"

@@ -129,7 +129,7 @@ class Keyed:
             and type(sent.run) is int
             and sent.run == order.run
             and not order.held_rows
-            and not order.strays.consecutive_rows
+            and not order.strays.rising_rows
             and not order.ended
             and sent.number <= MAX_COUNT
             and type(sent.wearer) is str

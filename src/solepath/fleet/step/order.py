@@ -2,8 +2,8 @@
 
 A row in its turn passes at once. A row ahead of its turn is held until the missing rows have come, or until more than
 `window` rows or MAX_HELD_BYTES are held: then the missing rows are given up. A row that was used before is dropped
-without a report. More than `window` consecutive rows of a smaller run, or of a run that was left, mean that the phone's
-clock was corrected or that a run's number was wrong: then the current run is left, and their run becomes current."""
+without a report. More than `window` rows in rising order of a smaller run, or of a run that is no longer current, mean
+that the phone's clock was corrected or that a run's number was wrong: then their run becomes the current one."""
 
 from __future__ import annotations
 
@@ -72,26 +72,26 @@ class RowOrder:
                 return self._reject(run, number, SentRejection.LATE) if self.unused.was_given_up(run, number) else []
             if self.ended:
                 return self._reject(run, number, SentRejection.AFTER_END)
-        elif run < self.run or self.unused.was_left(run):
+        elif run < self.run or self.unused.was_current(run):
             return self._take_other_run(run, number, payload)
         if (run, number) not in self.held_rows:
-            self.strays.consecutive_rows = self.strays.number = 0
+            self.strays.rising_rows = self.strays.number = 0
             self.held_rows[run, number] = payload
             insort(self._waiting, (run, number))
             self._size += _size(payload)
         return self._release()
 
     def _take_other_run(self, run: int, number: int, payload: Payload) -> PassedRows:
-        """Add a row of a run that was left, or of a smaller run that was never used."""
+        """Add a row of a run that is no longer current, or of a smaller run that was never used."""
         unused, strays = self.unused, self.strays
         if unused.was_used(run, number):
             return []
         if not unused.may_continue(run, number):
             return self._reject(run, number, SentRejection.LATE)
-        if strays.count_consecutive(run, number) > self.window:
+        if strays.count_rising(run, number) > self.window:
             return self._switch_run(run, number, payload)
         passed = self._reject(run, number, SentRejection.LATE)
-        strays.consecutive_rows, strays.number = strays.count_consecutive(run, number), max(number, strays.number)
+        strays.rising_rows, strays.number = strays.count_rising(run, number), max(number, strays.number)
         return passed
 
     def _switch_run(self, run: int, number: int, payload: Payload) -> PassedRows:

@@ -72,7 +72,7 @@ def write_state(head: StateHead, rest: StateRest) -> bytes:
             *[_encode_counts(span.run, span.first, span.end) for span in unused.spans],
             _encode_counts(len(unused.forgotten)),
             *[_encode_counts(*runs) for runs in unused.forgotten],
-            _encode_counts(strays.run, strays.count, strays.consecutive_rows, strays.number),
+            _encode_counts(strays.run, strays.count, strays.rising_rows, strays.number),
             _encode_counts(len(rest.held_rows)),
             *[_encode_counts(*key) + _encode_payload(rest.held_rows[key]) for key in sorted(rest.held_rows)],
             _encode_pieces(_encode_text(rest.failure)),

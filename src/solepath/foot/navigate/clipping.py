@@ -141,7 +141,7 @@ class Clipping:
     def update(
         self, dt: float, readings: Vec3, previous: Vec3, earlier: Vec3, earlier_dt: float, saturated: bool
     ) -> tuple[ClippedPeak, ...]:
-        """Return the clipped peaks that end with this sample.
+        """Return the clipped peaks that become known with this sample.
 
         `readings` comes `dt` s after `previous`, which came `earlier_dt` s after `earlier`; all in rad/s or m/s^2.
         `saturated` is True when the device reports that a sensor is at the end of its range."""

@@ -1,7 +1,6 @@
 """Correction of the state of a filter for the clipped peaks of gyroscope and accelerometer.
 
-clipping.py detects clipped peaks, reintegration.py gives their effect. This module stores the samples that both need.
-"""
+clipping.py detects clipped peaks, reintegration.py gives their effect. This module stores the samples for both."""
 
 from __future__ import annotations
 
@@ -18,17 +17,18 @@ State = tuple[Quat, Vec3, Vec3, Covariance]
 
 @define
 class Recovery:
-    """The clipping of both sensors of one foot. Call `watch` for every sample before it is integrated."""
+    """The clipping of both sensors of one foot; ErrorStateFilter calls `watch` only near the ends of their ranges."""
 
     gyro_clipping: Clipping = field(factory=Clipping, init=False)
     """Clipping of the gyroscope."""
     acc_clipping: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
     """Clipping of the accelerometer."""
     last_acc: Vec3 = field(default=ZERO, init=False)
-    """Last acc, sensor frame, m/s^2."""
+    """Last acc, sensor frame, m/s^2; ErrorStateFilter sets it and the `earlier_...` fields between calls of `watch`."""
     earlier_acc: Vec3 = field(default=ZERO, init=False)
     """Acc before the last one, sensor frame, m/s^2."""
     swing: SwingSamples = field(factory=SwingSamples, init=False)
+    """Samples since the gyroscope came near the end of its range."""
     earlier_rate: Vec3 = field(default=ZERO, init=False)
     """Rate before the last one, sensor frame, rad/s."""
     earlier_dt: float = field(default=0.0, init=False)
@@ -37,7 +37,7 @@ class Recovery:
     def watch(
         self, dt: float, acc: Vec3, gyro: Vec3, previous_rate: Vec3, attitude: Quat, saturated: bool
     ) -> tuple[tuple[ClippedPeak, ...] | None, tuple[ClippedPeak, ...] | None]:
-        """Return the clipped peaks of gyroscope and accelerometer that end with this sample.
+        """Return the clipped peaks of gyroscope and accelerometer that become known with this sample.
 
         `acc` is in m/s^2, `gyro` in rad/s. `previous_rate` and `attitude` are those of the last sample. `saturated` is
         True when the device reports that a sensor is at the end of its range."""
@@ -87,10 +87,11 @@ class Recovery:
         """Return the state corrected for clipped peaks of the accelerometer, with their uncertainty."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
         for peak in acc_peaks:
-            i, j, k = (1.0 if axis == peak.axis else 0.0 for axis in (0, 1, 2))
-            ux, uy, uz = rotate(attitude, (i, j, k))
-            v, since = peak.integral, peak.age + 0.5 * peak.duration
-            x, y, z = x + v * since * ux, y + v * since * uy, z + v * since * uz
-            vx, vy, vz = vx + v * ux, vy + v * uy, vz + v * uz
-            covariance = add_error(covariance, (since * ux, since * uy, since * uz), (ux, uy, uz), ZERO, peak.sigma)
+            i, j, k = (1.0 if index == peak.axis else 0.0 for index in (0, 1, 2))
+            axis_x, axis_y, axis_z = axis = rotate(attitude, (i, j, k))
+            v, elapsed = peak.integral, peak.age + 0.5 * peak.duration  # elapsed since the middle of the peak
+            x, y, z = x + v * elapsed * axis_x, y + v * elapsed * axis_y, z + v * elapsed * axis_z
+            vx, vy, vz = vx + v * axis_x, vy + v * axis_y, vz + v * axis_z
+            shift = (elapsed * axis_x, elapsed * axis_y, elapsed * axis_z)
+            covariance = add_error(covariance, shift, axis, ZERO, peak.sigma)
         return attitude, (vx, vy, vz), (x, y, z), covariance

@@ -31,9 +31,9 @@ class Sole:
     layout_estimated: bool = field(default=False, init=False)
     """The layout is an estimate."""
     calibrated_layout: Layout | None = field(default=None, init=False)
-    """Layout of the calibration, until a sample has as many cells; None otherwise."""
+    """Layout of the calibration that waits for a sample with the same number of cells; None when none waits."""
     count_checked: bool = field(default=False, init=False)
-    """The calibration matches the number of cells, or is not used."""
+    """It is decided whether the calibration is used: it matches the number of cells, or was rejected."""
     layout_changed: bool = field(default=False, init=False)
     """The layout has changed, and detector and cues have not received it yet."""
 
@@ -42,7 +42,7 @@ class Sole:
         self.guess = LayoutGuess(self.foot)
 
     def set_layout(self, layout: Layout, limitations: Limitations) -> None:
-        """Set the layout that the device has sent."""
+        """Set the layout that the device has sent, or that of a calibration that matches the samples."""
         self.layout_estimated, self.calibrated_layout = False, None
         self._apply_layout(layout, limitations)
 
@@ -67,8 +67,8 @@ class Sole:
         known_layout = None if self.layout_estimated else self.insole.layout
         events += self.health.update(t, known_at, pressure, phase, sample.gyro, known_layout)
         health = self.health
-        mismatch = health.excluded or health.non_numeric or len(pressure) != health.count
-        cells = health.usable(pressure) if mismatch else pressure
+        has_unusable_cells = health.excluded or health.non_numeric or len(pressure) != health.count
+        cells = health.usable(pressure) if has_unusable_cells else pressure
         if not cells:
             return None
         self.had_cells = True
@@ -86,13 +86,13 @@ class Sole:
         if not health.usable(pressure):
             return None
         values = insole.above_tare(insole.cells)
-        if health.excluded or health.non_numeric:  # the cubic may have changed the 0 of a failed cell
+        if health.excluded or health.non_numeric:  # the calibration's cubic may turn 0 into a force
             failed_cells = {*health.excluded, *[i for i, _ in health.non_numeric]}
             values = tuple([0.0 if i in failed_cells else value for i, value in enumerate(values)])
-        force = sum(values)
+        force = sum(values)  # in the unit of the cells
         centre, layout = None, insole.layout
         if layout is not None and not self.layout_estimated and len(values) == len(layout.cells):
-            # after a long time in the air the range of loads is small, so the highest cell value is a limit as well
+            # after a long time in the air the range of loads is small; then the highest cell value sets the limit
             least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
             if force > least_force:
                 centre = (sum(map(mul, layout.xs, values)) / force, sum(map(mul, layout.ys, values)) / force)
@@ -108,7 +108,7 @@ class Sole:
             events.append(LayoutKnown(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], layout=layout))
             layout = None
         mismatch = layout is not None or (bool(noise) and len(noise) != count)
-        self.count_checked = not mismatch or limitations.check_cell_count(layout, noise, count, t, known_at, events)
+        self.count_checked = not mismatch or limitations.rejects_calibration(layout, noise, count, t, known_at, events)
         if mismatch and self.count_checked:
             self.calibrated_layout = None
 
@@ -139,4 +139,4 @@ class Sole:
     def _forget_layout(self) -> None:
         self.layout_estimated = False
         self.guess = LayoutGuess(self.foot)
-        self.insole = evolve(self.insole)
+        self.insole = evolve(self.insole)  # a copy with the same settings and nothing learnt

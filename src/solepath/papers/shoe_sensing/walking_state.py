@@ -1,4 +1,4 @@
-"""Walking state by the angle per metre of each stride.
+"""Walking state by the angle per metre of each stride: its inclination divided by half its horizontal length.
 
 Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.4.1. The angle and its
 thresholds are in body/activity/steepness.py. Numbers without a source were chosen by hand."""
@@ -22,7 +22,7 @@ STANDING_DELAY = 1.2
 UNKNOWN_DELAY = 5.0
 """Time of motion without a stride after which the activity is UNKNOWN, s."""
 LARGEST_CLOCK_DIFFERENCE, LONGEST_SILENCE = 5.0, 10.0
-"""Difference of the feet's times above which their clocks differ, s; longest time without samples of a foot, s."""
+"""Difference of times above which the feet's clocks are not comparable, s; time after which a foot is silent, s."""
 _ACTIVITY_OF = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}
 """Activity by the direction of a stride (`steepness`)."""
 
@@ -37,10 +37,10 @@ class AnglePerMetre(ActivityPart):
     Latency: a state that starts with a toe-off is known at the end of that stride; standing, after `STANDING_DELAY`.
 
     A stride with a larger height change than stairs have (steepness.py) is an error of the track, so its angle is not
-    used. The activity of a wearer who walked or climbed stays; STANDING becomes UNKNOWN. When the clock of one foot
-    restarts, events have the times of the other foot. A foot whose time differs by more than `LARGEST_CLOCK_DIFFERENCE`
-    is not used until the difference is smaller, the other foot's clock restarts, too, or the other foot has sent no
-    samples for `LONGEST_SILENCE`."""
+    used. The activity of a wearer who walked or climbed stays; STANDING becomes UNKNOWN. When the clock of foot A
+    restarts, events have times of foot B's clock. Samples of A are ignored while its time differs from B's by more than
+    `LARGEST_CLOCK_DIFFERENCE`. This ends when (1) the difference is smaller, (2) B's clock restarts too, or (3) B has
+    sent no samples for `LONGEST_SILENCE`."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -52,10 +52,10 @@ class AnglePerMetre(ActivityPart):
     clocks: dict[Foot, float] = field(factory=dict, init=False)
     """Newest time of each foot whose clock is used for the times of events, s."""
     waiting_since: dict[Foot, float | None] = field(factory=dict, init=False)
-    """Feet that are not used since their clocks restarted, each with the time, s, of its own clock since which the
+    """Feet that are not used since their clocks restarted, each with the time of its own clock, s, since which the
     other foot has been silent; None if the other foot is not silent."""
     moved_at: float | None = field(default=None, init=False)
-    """Last time at which a foot was off the ground or about to leave it, s; at first, the time of the first sample."""
+    """Last time at which the phase of a foot was not STATIONARY, s; at first, the time of the first sample."""
     stride_t: float | None = field(default=None, init=False)
     """End of the last stride, or last time of standing, s; at first, the time of the first sample."""
 
@@ -72,7 +72,7 @@ class AnglePerMetre(ActivityPart):
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         t = view.t
-        if view.moved_at != t or not view.levelled:
+        if view.moved_at != t or not view.levelled:  # a sample without acc or gyro, or a foot not yet tracked
             return ()
         if self.waiting_since and not self._use_clock(view.foot, t):
             return ()
@@ -105,11 +105,11 @@ class AnglePerMetre(ActivityPart):
         return events
 
     def _use_clock(self, foot: Foot, t: float) -> bool:
-        """Return whether events may have times of the clock of `foot`, whose newest time is `t` s."""
+        """Decide whether samples of `foot`, at `t` s, are used, and change to its clock if it must be used."""
         waiting_since, clocks = self.waiting_since, self.clocks
         if foot not in waiting_since and clocks:
             for other in waiting_since:
-                waiting_since[other] = None
+                waiting_since[other] = None  # `foot` is not silent
             return True
         if clocks and abs(t - max(clocks.values())) > LARGEST_CLOCK_DIFFERENCE:
             wait_start = waiting_since[foot]
@@ -129,7 +129,7 @@ class AnglePerMetre(ActivityPart):
         return True
 
     def _report(self, activity: Activity, t_start: float, known_at: float, events: list[Event]) -> None:
-        """Add an ActivityChanged to `events` if the activity changes."""
+        """Add an ActivityChanged to `events` if the activity changes, or if none is on a clock still in use."""
         if activity is self.activity and self.reported_t is not None:
             return
         t_start = t_start if self.reported_t is None else max(t_start, self.reported_t)
