@@ -116,7 +116,7 @@ def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
         steps = [line for line in lines_out if f" {foot.value} step of " in line]
         assert len(steps) >= 7 and "with a gap" not in steps[0], "a walk of 16 m, in spite of it all"
         assert any(f"{foot.value}_foot: nothing comes" in line for line in lines_out)
-        assert any(f"{foot.value}_foot: heard again" in line for line in lines_out)
+        assert any(f"{foot.value}_foot: samples again" in line for line in lines_out)
     dropped = [int(line.split()[3]) for line in lines_out if "packets dropped, the screen was too slow" in line]
     assert 100 <= sum(dropped) <= 140, "1.6 s in which 200 packets a second come, and 200 of them can wait"
     assert sum("paused" in line for line in lines_out) == 1
