@@ -123,8 +123,8 @@ def _add_square(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "square",
         help="which way positions drift, from laps of a square over marks",
-        description="From four to six laps of a square on whose edges every stride of one foot is marked, the same marks "
-        "in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
+        description="From four to six laps of a square on whose edges every stride of one foot is marked, the same "
+        "marks in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
         epilog="example: solepath calibrate square laps.jsonl --out me.json",
     )
     command.set_defaults(learn=_square)
