@@ -116,7 +116,7 @@ def test_an_insole_without_an_inertial_sensor_shows_its_cells_and_phases() -> No
     assert content["support"] is not None
 
 
-def test_sensors_without_cells_show_steps_and_no_soles() -> None:
+def test_sensors_without_cells_show_strides_and_no_soles() -> None:
     _, events = feed_session(
         emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(), Site.RIGHT_FOOT: CC2650()}, seed=1).packets
     )
