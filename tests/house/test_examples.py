@@ -114,7 +114,7 @@ def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
     lines_out = run("thread_and_queue").splitlines()
     for foot in Foot:
         strides = [line for line in lines_out if f" {foot.value} stride of " in line]
-        assert len(strides) >= 7 and "with a gap" not in steps[0], "a walk of 16 m, in spite of it all"
+        assert len(strides) >= 7 and "with a gap" not in strides[0], "a walk of 16 m, in spite of it all"
         assert any(f"{foot.value}_foot: nothing comes" in line for line in lines_out)
         assert any(f"{foot.value}_foot: samples again" in line for line in lines_out)
     dropped = [int(line.split()[3]) for line in lines_out if "packets dropped, the screen was too slow" in line]

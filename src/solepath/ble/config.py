@@ -71,7 +71,9 @@ def check_configs(configs: Sequence[DeviceConfig]) -> None:
             if config.which.upper() == earlier.which.upper() and (config.which or config.profile == earlier.profile):
                 if not config.which and reports_site(config.profile):
                     continue
-                raise ValueError(f"nothing distinguishes one {config.description} from the other: name them by their addresses")
+                raise ValueError(
+                    f"nothing distinguishes one {config.description} from the other: name them by their addresses"
+                )
 
 
 def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:
