@@ -22,7 +22,7 @@ async def listen(left: str, right: str, backend: Backend = NATIVE, seconds: floa
             for event in session.feed(packet):
                 match event:
                     case StrideTaken(foot=foot, length=length):
-                        print(f"{foot.value} step of {length:.2f} m")
+                        print(f"{foot.value} stride of {length:.2f} m")
                     case Connected(site=site, name=name):
                         print(f"{site.value}: connected to {name}")
                     case Disconnected(site=site):

@@ -20,7 +20,7 @@ walk = emulate(route, radio=Radio(loss=0.02), seed=4)
 # Each session works with its own copies of the parts, so a recipe can be used many times.
 textbook = Recipe("SHOE + linear dedrift", detector=ShoeDetector(), corrector=LinearDedrift())
 
-print(f"{'recipe':22}  {'foot':5}  steps  of  length error %  end error m")
+print(f"{'recipe':22}  {'foot':5}  strides  of  length error %  end error m")
 for recipe in (recipes.DEFAULT, textbook):
     session = Session(recipe)
     strides = [e for e in session.feed(walk.packets) + session.finish() if isinstance(e, StrideTaken)]
@@ -32,4 +32,4 @@ for recipe in (recipes.DEFAULT, textbook):
         # both positions are relative to the foot's first position and heading
         (x, y, _), end = found[-1].position, walk.truth.pose(foot, walk.truth.duration).position[0]
         distance = ((x - end[0]) ** 2 + (y - end[1]) ** 2) ** 0.5
-        print(f"{recipe.name:22}  {foot.value:5}  {len(found):5}  {len(true):2}  {100 * error:14.1f}  {distance:11.2f}")
+        print(f"{recipe.name:22}  {foot.value:5}  {len(found):7}  {len(true):2}  {100 * error:14.1f}  {distance:11.2f}")

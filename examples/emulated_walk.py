@@ -25,7 +25,7 @@ for packet in walk.packets:
                 delay = 1000 * (event.known_at - event.t)
                 print(f"{event.t:6.2f} s  {event.foot.value:5}  {type(event).__name__:10}  known {delay:3.0f} ms later")
             case StrideTaken(t=t, foot=foot, number=number, length=length, heading_change=turn):
-                print(f"{t:6.2f} s  {foot.value:5}  step {number}: {length:.2f} m, turned {degrees(turn):+.0f} deg")
+                print(f"{t:6.2f} s  {foot.value:5}  stride {number}: {length:.2f} m, turned {degrees(turn):+.0f} deg")
             case PacketsLost(count=count):
                 lost += count
             case PacketRejected():

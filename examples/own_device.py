@@ -70,7 +70,7 @@ for k, true in enumerate(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.L
     for event in session.feed(Packet(true.t + 0.008, Site.LEFT_FOOT, "shoe/motion", data)):
         match event:
             case StrideTaken(t=t, number=number, length=length, degraded=degraded):
-                print(f"{t:6.2f} s  step {number}: {length:.2f} m{', with a gap in it' if degraded else ''}")
+                print(f"{t:6.2f} s  stride {number}: {length:.2f} m{', with a gap in it' if degraded else ''}")
             case PacketsLost(t=t, count=count):
                 print(f"{t:6.2f} s  {count} packets lost")
             case BatteryLevel(level=level):

@@ -22,7 +22,7 @@ for packet in read_packets(sys.argv[1]):  # Packet(t, site, channel, data)
             case HeelStrike(foot=foot, t=t):
                 print(f"{t:7.2f} s  {foot.value} heel-strike")
             case StrideTaken(foot=foot, t=t, length=length, position=(x, y, _)):
-                print(f"{t:7.2f} s  {foot.value} step of {length:.2f} m, now at {x:.2f}, {y:.2f}")
+                print(f"{t:7.2f} s  {foot.value} stride of {length:.2f} m, now at {x:.2f}, {y:.2f}")
             case PacketRejected(t=t, reason=reason):
                 print(f"{t:7.2f} s  a packet was not used: {reason.value}")
 session.finish()

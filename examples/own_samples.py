@@ -36,9 +36,9 @@ for sample in samples_of(sys.argv[1]) if len(sys.argv) > 1 else emulated_samples
     for event in session.feed(sample):
         match event:
             case StrideTaken(t=t, number=number, length=length, position=(x, y, z)):
-                print(f"{t:7.2f} s  step {number}: {length:.2f} m, foot at ({x:.2f}, {y:.2f}, {z:.2f})")
+                print(f"{t:7.2f} s  stride {number}: {length:.2f} m, foot at ({x:.2f}, {y:.2f}, {z:.2f})")
             case SampleGap(t=t, duration=duration):
-                print(f"{t:7.2f} s  nothing for {duration:.2f} s; this step is marked degraded")
+                print(f"{t:7.2f} s  nothing for {duration:.2f} s; this stride is marked degraded")
             case SampleRejected(t=t, reason=reason, detail=detail):
                 print(f"{t:7.2f} s  sample not used: {reason.value}, {detail}")
 session.finish()

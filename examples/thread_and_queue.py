@@ -117,7 +117,7 @@ class App:
 def show(event: Event) -> None:
     match event:
         case StrideTaken(t=t, foot=foot, length=length, degraded=degraded, number=number):
-            print(f"{t:6.2f} s  {foot.value} step of {length:.2f} m{', with a gap in it' if degraded else ''}")
+            print(f"{t:6.2f} s  {foot.value} stride of {length:.2f} m{', with a gap in it' if degraded else ''}")
             blocked_until = app.clock.t + 1.6 if number == 2 and foot is Foot.LEFT else 0.0  # the screen is busy
             while app.clock.t < blocked_until and app.receiver.is_alive() and not app.receiver.must_wait:
                 app.clock.app_waits.set()
@@ -125,7 +125,7 @@ def show(event: Event) -> None:
         case PacketsDropped(t=t, site=site, count=count):
             print(f"{t:6.2f} s  {site.value}: {count} packets dropped, the screen was too slow")
         case StreamStale(t=t, site=site) | StreamResumed(t=t, site=site):
-            print(f"{t:6.2f} s  {site.value}: {'nothing comes' if isinstance(event, StreamStale) else 'heard again'}")
+            print(f"{t:6.2f} s  {site.value}: {'nothing comes' if isinstance(event, StreamStale) else 'samples again'}")
 
 
 if len(sys.argv) > 1:

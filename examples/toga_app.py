@@ -1,4 +1,4 @@
-"""An app for a phone or a desktop with BeeWare Toga: live activity, steps, gait, both soles and the track.
+"""An app for a phone or a desktop with BeeWare Toga: live activity, strides, gait, both soles and the track.
 
     pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
     python examples/toga_app.py             one button for two insoles nearby, one for an emulated wearer
@@ -19,11 +19,12 @@ from solepath import Foot, FootPressed, Layout, LayoutKnown, LinkTrouble, Packet
 from solepath.link.devices.insole import PROFILE as INSOLE
 
 COLOURS = {Foot.LEFT: "#1f77b4", Foot.RIGHT: "#d95f02"}
-FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m", "asymmetry": "asymmetry of swing"}
+FIGURES = {"strides": "strides", "cadence": "steps a minute", "length": "stride, m", "asymmetry": "asymmetry of swing"}
 
 
 async def sensors() -> AsyncIterator[Packet]:
     from solepath.ble import DeviceConfig, Devices
+
     async with Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]) as devices:
         async for packet in devices:
             yield packet
@@ -31,6 +32,7 @@ async def sensors() -> AsyncIterator[Packet]:
 
 async def emulated(speed: float = 1.0) -> AsyncIterator[Packet]:
     from solepath.emulate import Route, emulate
+
     loop = asyncio.get_running_loop()
     started_at = loop.time()
     for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2), seed=1).packets:
@@ -58,7 +60,7 @@ class GaitApp(toga.App):
         self.reset()
 
     def reset(self) -> None:
-        self.session, self.steps, self.peak, self.due = Session(pressures=True), 0, 1.0, 0.0
+        self.session, self.strides, self.peak, self.due = Session(pressures=True), 0, 1.0, 0.0
         self.layouts, self.load = dict[Foot, Layout](), dict[Foot, FootPressed]()
         self.track = {foot: deque([(0.0, 0.0)], maxlen=1000) for foot in Foot}
         self.draw()
@@ -88,13 +90,13 @@ class GaitApp(toga.App):
         for event in events:
             match event:
                 case StrideTaken(foot=foot, position=(x, y, _)):
-                    self.steps += 1
+                    self.strides += 1
                     self.track[foot].append((x, y))
                 case FootPressed(foot=foot, values=values):
                     self.load[foot] = event  # darkest is what one frame in a hundred exceeds, not a single spike
                     self.peak = max(1.0, self.peak * (1.05 if max(values) > self.peak else 0.9995))
                 case LayoutKnown(layout=layout):
-                    self.layouts[layout.foot], self.status.text = layout, f"{layout.foot.value} insole heard"
+                    self.layouts[layout.foot], self.status.text = layout, f"{layout.foot.value} insole connected"
                 case LinkTrouble() | StreamStale():
                     self.status.text = event.what if isinstance(event, LinkTrouble) else f"{event.site.value} is silent"
         if self.loop.time() >= self.due:
@@ -104,7 +106,7 @@ class GaitApp(toga.App):
     def draw(self) -> None:
         gait = self.session.gait
         length, asymmetry = (gait.both.stride_length, gait.asymmetry("swing_time")) if gait else (None, None)
-        self.figures["steps"].text = f"{self.steps}"
+        self.figures["strides"].text = f"{self.strides}"
         self.figures["cadence"].text = f"{gait.cadence:.0f}" if gait and gait.cadence else "–"
         self.figures["length"].text = f"{length.mean:.2f}" if length else "–"
         self.figures["asymmetry"].text = f"{asymmetry:+.1%}" if asymmetry is not None else "–"

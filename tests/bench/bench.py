@@ -273,7 +273,7 @@ def main() -> None:
     save, load = seconds(session.snapshot), seconds(lambda: Session.restore(saved))
 
     print(f"{machine()}, one used; medians of {RUNS}")
-    counts = f"{len(inertial_samples)} samples, {len(frames)} frames, {strides} steps of both feet"
+    counts = f"{len(inertial_samples)} samples, {len(frames)} frames, {strides} strides of both feet"
     print(f"{counts} in {duration:.0f} s of walking")
     print()
     width = max(len(what) for what, _, _ in rows)

@@ -47,7 +47,7 @@ def main() -> None:
     session = Session(calibration=calibration)
     measured: list[tuple[float, int, int]] = []
     print(f"{length:.1f} s of both feet with {CELLS} cells, {len(loop)} samples, {count} times")
-    print(f"{'hour':>6} {'us a sample':>12} {'snapshot, B':>12} {'memory, kB':>11} {'steps':>6}")
+    print(f"{'hour':>6} {'us a sample':>12} {'snapshot, B':>12} {'memory, kB':>11} {'strides':>7}")
     gc.collect()
     gc.disable()
     for k in range(count):
@@ -62,7 +62,7 @@ def main() -> None:
             size = len(json.dumps(session.snapshot()))
             measured.append((duration, size, memory_of(session)))
             hour, memory = (k + 1) * length / 3600.0, measured[-1][2] / 1000
-            print(f"{hour:6.2f} {duration:12.1f} {size:12} {memory:11.0f} {steps:6}", flush=True)
+            print(f"{hour:6.2f} {duration:12.1f} {size:12} {memory:11.0f} {steps:7}", flush=True)
         gc.collect()
     time, snapshot, memory = (last / second for last, second in zip(measured[-1], measured[1], strict=True))
     print(f"the last beside the second: time {time:.2f}, snapshot {snapshot:.2f}, memory {memory:.2f}")

@@ -32,7 +32,7 @@ def test_a_device_that_left_before_it_was_connected_is_soon_searched_for_again()
     troubles = [(p.t, parse_text(p.data)) for p in packets if p.channel == "receiver/trouble"]
     (connecting, unanswered), (searching, unheard) = troubles
     assert unanswered.startswith("the device does not answer: bring it near") and connecting == pytest.approx(10.0)
-    assert unheard.startswith("no device 'solepath L' is heard") and 20.0 < searching < 30.0
+    assert unheard.startswith("no device 'solepath L' is in range") and 20.0 < searching < 30.0
 
 
 def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_ends_not_later():

@@ -155,7 +155,7 @@ def test_a_device_that_vanishes_for_a_minute_is_stale_then_searched_for_and_back
     _, disconnected, stale, trouble, back, resumed = order
     assert disconnected.t == pytest.approx(4.0, abs=0.1)  # type: ignore[attr-defined]
     assert stale.t == pytest.approx(5.0, abs=0.1)  # type: ignore[attr-defined]
-    assert trouble.what.startswith(f"no device '{FOOT_ADDRESS}' is heard")  # type: ignore[attr-defined]
+    assert trouble.what.startswith(f"no device '{FOOT_ADDRESS}' is in range")  # type: ignore[attr-defined]
     assert 64.0 < back.t < resumed.t < 67.0  # type: ignore[attr-defined]
 
 

@@ -73,7 +73,7 @@ async def client(
 def test_without_pairing_only_the_need_to_pair_is_reported(tier: str, kind: str) -> None:
     packets = receive(tier, "0 * pairing", False, 20.0, kind)
     assert streamed(packets, KINDS[kind][0]) == []
-    assert set(troubles(packets)) == {"the device wants to be paired first: pair=True, or --pair"}
+    assert set(troubles(packets)) == {"the device must be paired first: pair=True, or --pair"}
 
 
 @pytest.mark.parametrize("tier", TIERS)
@@ -103,14 +103,14 @@ def test_pairing_with_a_device_that_does_not_need_it_changes_nothing(tier: str) 
 def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_the_remedy_is_reported(tier: str) -> None:
     packets = receive(tier, "4 * pairing", False, 12.0)
     assert 3.9 < max(streamed(packets, INSOLE)) < 4.1
-    assert any("the device wants to be paired first" in what for what in troubles(packets))
+    assert any("the device must be paired first" in what for what in troubles(packets))
 
 
 @pytest.mark.parametrize("tier", TIERS)
 def test_a_rejected_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another(tier: str) -> None:
     packets = receive(tier, "0 * pairing; 0 * refuse pairing 2", True, 5.0)  # two, since each search is good for two
     (trouble,) = troubles(packets)
-    assert "the device refused to be paired" in trouble
+    assert "the device rejected the pairing" in trouble
     assert len(streamed(packets, INSOLE)) > 300
 
 

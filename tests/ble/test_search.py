@@ -78,13 +78,13 @@ def test_a_left_insole_is_found_though_the_right_one_advertises_first() -> None:
     bench = feet(Insole())
     packets = got(bench.peripherals[::-1], [DeviceConfig(LEFT, profile=INSOLE)])
     assert connected(packets) == {LEFT: bench[LEFT].address}
-    assert troubles(packets) == ["solepath R is a right foot one: wanted at the left foot"]
+    assert troubles(packets) == ["solepath R is a right foot one: expected at the left foot"]
 
 
 def test_the_insole_of_the_other_foot_is_rejected_with_a_reason() -> None:
     packets = got(feet(Insole()).peripherals, [DeviceConfig(RIGHT, "F0:5E:00:00:00:01")], seconds=30.0)
     assert not connected(packets)
-    assert troubles(packets) == ["solepath L is a left foot one: wanted at the right foot"]
+    assert troubles(packets) == ["solepath L is a left foot one: expected at the right foot"]
 
 
 def test_two_insoles_of_one_foot_are_not_taken_for_a_pair() -> None:
@@ -215,7 +215,7 @@ def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
 def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
     packets = got((), [DeviceConfig(LEFT, "solepath L")], seconds=300.0, patience=7.0)
     [words] = troubles(packets)
-    assert words.startswith("no device 'solepath L' is heard: switch it on, bring it near")
+    assert words.startswith("no device 'solepath L' is in range: switch it on, bring it near")
     [connected_packet] = [packet for packet in packets if packet.channel == "receiver/trouble"]
     assert (connected_packet.site, connected_packet.device) == (LEFT, "")
     assert connected_packet.t == pytest.approx(7.0, abs=0.6)

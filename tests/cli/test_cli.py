@@ -37,15 +37,15 @@ def test_the_demo_ends_with_a_table_against_the_truth_in_plain_text(demo):
     assert demo.returncode == 0 and demo.stderr == ""
     assert no_control_codes(demo.stdout)
     table = {line[:30].strip(): line[30:].split() for line in demo.stdout.splitlines()[-15:]}
-    assert table["steps found"] == table["steps walked"]
-    assert table["steps invented"] == ["0", "0"]
+    assert table["strides found"] == table["strides walked"]
+    assert table["strides invented"] == ["0", "0"]
     assert all(float(error) < 5.0 for error in table["stride length, mean error %"])
 
 
 def test_the_recording_of_the_demo_gives_track_the_same_steps(demo, folder):
     result = solepath("track", folder / "demo.jsonl", "--out", folder / "demo")
     assert result.returncode == 0 and result.stderr == ""
-    found = next(line for line in demo.stdout.splitlines() if line.startswith("steps found")).split()[2:]
+    found = next(line for line in demo.stdout.splitlines() if line.startswith("strides found")).split()[2:]
     feet = [row["foot"] for row in rows_in(folder / "demo" / "strides.csv")]
     assert [str(feet.count("left")), str(feet.count("right"))] == found
 
@@ -90,4 +90,4 @@ def test_in_a_terminal_the_demo_is_drawn_as_it_goes_and_ends_with_the_same_table
         assert process.wait(TAKES) == 0
     os.close(ours)
     assert pictures.count("200 times real time") > 1 and "\x1b[" in pictures
-    assert "steps invented" in table
+    assert "strides invented" in table

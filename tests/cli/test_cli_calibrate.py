@@ -150,14 +150,14 @@ def test_unusable_input_is_rejected_in_one_line_and_nothing_is_written(packets, 
         (("noise", bare), "no pressure cells in this recording"),
         (("noise", tmp_path / "none.jsonl"), "none.jsonl: no such file"),
         (("noise", packets, "--share", "0"), "--share 0"),
-        (("shoe", odd), "odd.csv, line 1: wants one column L_p2t_m"),
-        (("square", packets), "steps are less than 3 laps of 40 marks"),
+        (("shoe", odd), "odd.csv, line 1: needs one column L_p2t_m"),
+        (("square", packets), "strides are less than 3 laps of 40 marks"),
         (("square", bare), "needs pressure cells"),
         (("square", packets, "--recipe", "default"), "recipe default takes no drift off"),
         (("square", packets, "--recipe", "circle"), "there is no recipe 'circle'"),
-        (("newton", odd), "odd.csv, line 1: wants one column counts"),
+        (("newton", odd), "odd.csv, line 1: needs one column counts"),
         (("modes", packets), "takes two files for each walk"),
-        (("modes", packets, odd), "odd.csv, line 1: wants one column foot"),
+        (("modes", packets, odd), "odd.csv, line 1: needs one column foot"),
     ]:
         assert complaint in run_failing("calibrate", *arguments, "--out", out), arguments
         assert not out.exists()

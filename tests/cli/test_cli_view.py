@@ -55,10 +55,10 @@ def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_t
         await page.send_command("seek", end - 1.0)
         await page.until(lambda frame: frame["playback"]["t"] == round(end - 1.0, 3))
         scenes = page.scenes
-        assert page.frame["feet"]["left"]["steps"] >= 2
+        assert page.frame["feet"]["left"]["strides"] >= 2
         await page.send_command("seek", 1.0)
         await page.until(lambda frame: frame["playback"]["t"] == 1.0)
-        assert page.frame["feet"]["left"]["steps"] == 0 and page.scenes > scenes
+        assert page.frame["feet"]["left"]["strides"] == 0 and page.scenes > scenes
         assert page.frame["playback"]["seeking"] is None
         await page.send_command("speed", 32)
         await page.send_command("play")

@@ -196,7 +196,7 @@ def test_a_header_alone_is_a_whole_recording_of_nothing(tmp_path):
     (tmp_path / "nothing.jsonl").write_text('{"format": "solepath-packets", "version": 1}\n')
     result = run("track", tmp_path / "nothing.jsonl", "--out", tmp_path)
     assert result.returncode == 0 and result.stderr.endswith("nothing.jsonl: holds no packets\n")
-    assert "nothing was heard of either foot" in result.stdout
+    assert "no data from either foot" in result.stdout
     assert events_in(tmp_path) == rows_in(tmp_path / "track.csv") == rows_in(tmp_path / "strides.csv") == []
 
 

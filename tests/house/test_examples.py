@@ -48,16 +48,16 @@ def test_an_emulated_walk_ends_where_its_route_ends():
 def test_emulated_insoles_are_received_over_bluetooth():
     lines_out = run("bluetooth").splitlines()
     assert {"left_foot: connected to solepath L", "right_foot: connected to solepath R"} <= set(lines_out)
-    steps = [line for line in lines_out if " step of " in line]
-    assert {line.split()[0] for line in steps} == {"left", "right"}
-    assert sum(float(line.split()[3]) for line in steps) == pytest.approx(8.0, rel=0.05)  # 4 m with each foot
+    strides = [line for line in lines_out if " stride of " in line]
+    assert {line.split()[0] for line in strides} == {"left", "right"}
+    assert sum(float(line.split()[3]) for line in strides) == pytest.approx(8.0, rel=0.05)  # 4 m with each foot
 
 
 def test_the_loop_prints_the_strides_of_a_recording(tmp_path):
     walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
     lines_out = run("own_loop", recorded(tmp_path / "walk.jsonl", walk.packets))
     for foot in Foot:
-        assert lines_out.count(f"{foot.value} step of") == len(walk.truth.strides(foot))
+        assert lines_out.count(f"{foot.value} stride of") == len(walk.truth.strides(foot))
     assert "a packet was not used: checksum" in lines_out
 
 
@@ -65,14 +65,14 @@ def test_a_walk_that_was_saved_half_way_goes_on_as_if_nothing_had_happened():
     assert "the same as without the pause: True" in run("save_and_resume")
 
 
-def test_samples_of_ones_own_give_steps(tmp_path):
-    assert "step 9" in run("own_samples")
+def test_samples_of_ones_own_give_strides(tmp_path):
+    assert "stride 9" in run("own_samples")
     samples = Walker(ROUTE).samples(Foot.RIGHT, 100.0)
     rows = [(sample.t, *(sample.acc or ()), *(sample.gyro or ())) for sample in samples]
     header = "t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z"
     np.savetxt(tmp_path / "walk.csv", rows, delimiter=",", header=header, comments="")
     true = len(Walker(ROUTE).truth().strides(Foot.RIGHT))
-    assert run("own_samples", tmp_path / "walk.csv").count(" step ") == true
+    assert run("own_samples", tmp_path / "walk.csv").count(" stride ") == true
 
 
 def test_two_recipes_on_one_walk_are_set_beside_the_truth():
@@ -87,7 +87,7 @@ def test_a_device_of_ones_own_is_one_file_and_its_vectors():
     first, *lines_out = run("own_device").splitlines()
     assert first == "the vectors agree"
     true = len(Walker(Route().stand(2).walk(8).stop(2)).truth().strides(Foot.LEFT))
-    assert sum(" step " in line for line in lines_out) == true
+    assert sum(" stride " in line for line in lines_out) == true
     assert sum("3 packets lost" in line for line in lines_out) == 1
     assert sum("with a gap in it" in line for line in lines_out) == 1
     assert "battery 87%" in lines_out[0]
@@ -113,10 +113,10 @@ def test_in_a_building_walls_leave_one_place_of_many():
 def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
     lines_out = run("thread_and_queue").splitlines()
     for foot in Foot:
-        steps = [line for line in lines_out if f" {foot.value} step of " in line]
-        assert len(steps) >= 7 and "with a gap" not in steps[0], "a walk of 16 m, in spite of it all"
+        strides = [line for line in lines_out if f" {foot.value} stride of " in line]
+        assert len(strides) >= 7 and "with a gap" not in strides[0], "a walk of 16 m, in spite of it all"
         assert any(f"{foot.value}_foot: nothing comes" in line for line in lines_out)
-        assert any(f"{foot.value}_foot: heard again" in line for line in lines_out)
+        assert any(f"{foot.value}_foot: samples again" in line for line in lines_out)
     dropped = [int(line.split()[3]) for line in lines_out if "packets dropped, the screen was too slow" in line]
     assert 100 <= sum(dropped) <= 140, "1.6 s in which 200 packets a second come, and 200 of them can wait"
     assert sum("paused" in line for line in lines_out) == 1
@@ -126,4 +126,4 @@ def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
 def test_an_app_of_a_thread_and_a_queue_plays_a_recording(tmp_path):
     walk = recorded(tmp_path / "walk.jsonl", emulate(ROUTE, seed=2).packets)
     lines_out = run("thread_and_queue", walk, "inf")
-    assert "left step of" in lines_out and "right step of" in lines_out
+    assert "left stride of" in lines_out and "right stride of" in lines_out

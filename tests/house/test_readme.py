@@ -42,7 +42,7 @@ def test_its_loop_gets_every_stride_of_a_walk(tmp_path, monkeypatch):
     with redirect_stdout(io.StringIO()) as out:
         exec(compile(program, "README.md", "exec"), {"__name__": "readme"})
     for foot in Foot:
-        assert out.getvalue().count(f"{foot.value} step of") == len(walk.truth.strides(foot))
+        assert out.getvalue().count(f"{foot.value} stride of") == len(walk.truth.strides(foot))
         assert f"s: {foot.value} heel-strike" in out.getvalue()
     assert "a packet was not used: checksum" in out.getvalue()
 
@@ -75,8 +75,8 @@ def test_its_demonstration_is_the_one_that_the_command_gives():
     assert [NUMBER.sub("#", " ".join(line.split())) for line in shown] == [
         NUMBER.sub("#", " ".join(line.split())) for line in given
     ]
-    counted = [line for line in shown if line.startswith("steps ")]
-    assert len(counted) == 3 and counted == [line for line in given if line.startswith("steps ")]
+    counted = [line for line in shown if line.startswith("strides ")]
+    assert len(counted) == 3 and counted == [line for line in given if line.startswith("strides ")]
 
 
 def test_its_table_of_accuracy_is_the_long_ones_in_short():

@@ -58,7 +58,7 @@ async def test_after_a_walk_the_labels_show_the_walk_and_the_canvases_show_it(ex
     await app.listening
     labels = {name: label.text for name, label in app.figures.items()}
     true = [step for foot in Foot for step in WALK.truth.strides(foot)]
-    assert int(labels["steps"]) == len(true)
+    assert int(labels["strides"]) == len(true)
     assert float(labels["length"]) == pytest.approx(1.4, abs=0.1)
     assert float(labels["cadence"]) == pytest.approx(111, abs=5)
     assert abs(float(labels["asymmetry"].rstrip("%"))) < 5.0
@@ -95,12 +95,12 @@ async def test_the_emulated_wearer_can_be_stopped_and_the_reason_why_sensors_sto
     app = opened(example)
     app.toggle_listening(example.emulated(100.0))
     listening = app.listening
-    while app.steps < 4:
+    while app.strides < 4:
         await asyncio.sleep(0.01)
     app.toggle_listening(of(()))  # the button says Stop by now
     await asyncio.wait([listening])
-    assert app.status.text == "stopped" and app.listening is None and app.steps >= 4
+    assert app.status.text == "stopped" and app.listening is None and app.strides >= 4
     app.toggle_listening(broken())
     await asyncio.wait([app.listening])
     assert app.status.text == "Bluetooth is off: switch it on"
-    assert app.steps == 0 and app.start.text == "Insoles"
+    assert app.strides == 0 and app.start.text == "Insoles"

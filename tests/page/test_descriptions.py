@@ -40,9 +40,9 @@ async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser
             scene.take(None, [Disconnected(t=12.0, known_at=12.0, site=site)])
         scene.tick(15.0)
         await view.until("document.getElementById('activity').textContent === 'Not known, last: walking'")
-        assert await view.text("since") in ("no foot is heard for 2 s", "no foot is heard for 3 s")
+        assert await view.text("since") in ("no data from any foot for 2 s", "no data from any foot for 3 s")
         assert [await view.text(name) for name in FIGURES] == ["–", "–"]
-        assert int(await view.text("steps")) > 10, "what was walked is still known"
+        assert int(await view.text("strides")) > 10, "what was walked is still known"
         await view.until("document.getElementById('announcer').textContent.includes('Not known, last: walking')")
         links = await view.text("links")
         assert "loss" not in links and "lost" in links

@@ -285,7 +285,7 @@ def test_samples_play_like_packets():
     session = Session(poses=True, pressures=True)
     session.feed(sample for sample in samples if sample.t <= samples[-1].t - 0.3)
     assert player.session.snapshot() == session.snapshot()
-    assert shown(player)["frame"]["feet"]["left"]["steps"] > 0
+    assert shown(player)["frame"]["feet"]["left"]["strides"] > 0
 
 
 @given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK_SIZE), st.integers(0, 2**32))

@@ -49,7 +49,7 @@ def test_a_page_shows_where_the_feet_and_the_wearer_are() -> None:
         assert one["position"] == [round(v, 3) for v in session.feet[foot].position]
         assert one["phase"] == session.phase(foot).value  # type: ignore[union-attr]
         taken = [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
-        assert one["steps"] == len(taken)
+        assert one["strides"] == len(taken)
         assert one["distance"] == round(sum(event.length for event in taken), 2)
     last = [event for event in events if isinstance(event, WearerMoved)][-1]
     assert content["wearer"]["position"] == [round(v, 3) for v in last.position]
@@ -101,7 +101,7 @@ def test_one_foot_alone_is_shown_alone() -> None:
     _, events = feed_session([packet for packet in insoles().packets if packet.site is Site.RIGHT_FOOT])
     content = frame(shown(events))
     assert content["feet"]["left"] is None
-    assert content["feet"]["right"]["steps"] > 2
+    assert content["feet"]["right"]["strides"] > 2
     assert content["support"] is None
     assert [*content["links"]] == ["right foot"]
 
@@ -116,7 +116,7 @@ def test_an_insole_without_an_inertial_sensor_shows_its_cells_and_phases() -> No
     assert content["support"] is not None
 
 
-def test_sensors_without_cells_show_steps_and_no_soles() -> None:
+def test_sensors_without_cells_show_strides_and_no_soles() -> None:
     _, events = feed_session(
         emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(), Site.RIGHT_FOOT: CC2650()}, seed=1).packets
     )
@@ -132,7 +132,9 @@ def test_sensors_without_cells_show_steps_and_no_soles() -> None:
 def test_other_recipes_are_shown_as_well() -> None:
     _, events = feed_session(insoles().packets, PRESSURE_CONTOUR)
     content = frame(shown(events))
-    assert content["feet"]["left"]["steps"] == len([e for e in events if isinstance(e, StrideTaken) and e.foot is LEFT])
+    assert content["feet"]["left"]["strides"] == len(
+        [e for e in events if isinstance(e, StrideTaken) and e.foot is LEFT]
+    )
     assert content["feet"]["right"]["phase"] is not None
 
 
@@ -143,7 +145,7 @@ def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
     scene.tick(end + 5.0)
     for one in frame(scene)["feet"].values():
         assert one["phase"] is None and one["cells"] is None and one["centre"] is None and one["rate"] == 0
-        assert one["steps"] > 2, "what they did is still known"
+        assert one["strides"] > 2, "what they did is still known"
     assert frame(scene)["links"]["left foot"]["state"] == "silent"
     assert 4.9 < frame(scene)["links"]["left foot"]["silent_for"] < 5.2
     shown([later(event, 20.0) for event in events], scene)

@@ -51,7 +51,7 @@ async def test_a_watcher_sees_the_walk() -> None:
             if news["type"] == "scene":  # the soles are known now
                 points = 0
             points += len(news.get("tracks", {}).get("left", []))
-            steps = (news.get("frame", news).get("feet", {}).get("left") or {}).get("steps", steps)
+            steps = (news.get("frame", news).get("feet", {}).get("left") or {}).get("strides", steps)
         assert steps > 2 and points == steps + 1 and frames > 2
 
 

@@ -18,7 +18,7 @@ def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> 
         options = ["--floorplan", plan, "--start", "0,9,6.2,0", "--out", out_directory, "--duration", 9]
         result = run("live", "--via", where, *options)
     assert "place: level 0, (" in result.stdout
-    assert "place: found after 1 step" in result.stdout and "at the end: level 0, (" in result.stdout
+    assert "place: found after 1 stride" in result.stdout and "at the end: level 0, (" in result.stdout
     rows = list(csv.DictReader((out_directory / "places.csv").open(encoding="utf-8")))
     assert len(rows) > 3 and {row["level"] for row in rows} == {"0"}
 

@@ -50,7 +50,7 @@ def test_the_picture_has_a_panel_for_every_level_a_scale_and_where_the_wearer_wa
     tracks = [line for line in svg.iter() if line.tag.endswith("polyline")]
     assert len({line.get("stroke") for line in tracks}) > 5, "coloured by time"
     dots = [float(dot.get("fill-opacity", "1")) for dot in svg.iter() if dot.get("r") == "2.2"]
-    assert len(dots) > 50 and min(dots) < 0.15 < max(dots), "candidates are the fainter the less they are believed"
+    assert len(dots) > 50 and min(dots) < 0.15 < max(dots), "candidates are the fainter the less likely"
 
 
 def test_a_picture_with_an_anchor_shows_north_and_a_known_start_is_called_so() -> None:
@@ -93,7 +93,7 @@ def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels()
             places.add(event)
     assert places.last is not None and places.last.level == "1"
     lines = place_lines(places)
-    assert lines[0].startswith("place: found after ") and " steps, at " in lines[0]
+    assert lines[0].startswith("place: found after ") and " strides, at " in lines[0]
     assert lines[1].startswith("at the end: level 1, (") and "within" in lines[1]
     assert lines[2].startswith("levels: 0 from ") and ", 1 from " in lines[2]
     assert lines[3].endswith("no start was given, so the place is not known before the first stairs or lift")
@@ -103,7 +103,7 @@ def test_the_summary_of_a_wearer_who_was_never_found_contains_that() -> None:
     places = PlaceCounts()
     places.add(PlaceLost(t=3.0, known_at=3.0, what="the plan is of another building"))
     lines = place_lines(places)
-    assert lines[0] == "place: not found; 0 steps with several candidates"
+    assert lines[0] == "place: not found; 0 strides with several candidates"
     assert lines[1] == "from 3.0 s without a place: the plan is of another building"
 
 
@@ -128,7 +128,7 @@ def test_track_writes_places_and_the_picture_and_prints_where_the_wearer_is(
 ) -> None:
     done = run("track", walk, "--floorplan", hall, "--start", "0,10,10,30", "--out", tmp_path)
     assert done.returncode == 0
-    assert "place: found after 1 step, at" in done.stdout and "at the end: level 0, (1" in done.stdout
+    assert "place: found after 1 stride, at" in done.stdout and "at the end: level 0, (1" in done.stdout
     with (tmp_path / "places.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) >= 4 and {row["level"] for row in rows} == {"0"}

@@ -81,7 +81,7 @@ def test_what_was_written_counts_when_the_device_took_it(tmp_path):
     found, reports = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT})
     assert data_of(found, "cc2650/movement-config") == [b"\x7f\x02"]
     assert data_of(found, "cc2650/movement-period") == [b"\x0a"]
-    assert reports == ["writes that were refused: 1"]
+    assert reports == ["writes that were rejected: 1"]
 
 
 def test_other_ways_to_discover_to_read_and_to_notify(tmp_path):

@@ -142,7 +142,7 @@ def test_the_events_in_it_are_a_sessions(exported):
         ("LOADING", 0), ("STATIONARY", 1), ("PUSH_OFF", 2), ("SWING", 3),
     }  # fmt: skip
     strides = [e for e in events if isinstance(e, StrideTaken) and e.final and e.foot.value == "left"]
-    rows = exported["/left_foot/steps"]
+    rows = exported["/left_foot/strides"]
     assert [(fields["number"], fields["stride_length"]) for _, _, fields in rows] == [
         (stride.number, stride.length) for stride in strides
     ] != []  # fmt: skip

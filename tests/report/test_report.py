@@ -227,7 +227,7 @@ def test_there_is_a_sentence_for_what_there_is_not() -> None:
     page = shown(Report("nothing"))
     assert not page.all("svg") and not page.all("table")
     for sentence in (
-        "Nothing was heard of either foot.", "No stride was measured", "There is no track", "There is no pressure",
+        "No data from either foot.", "No stride was measured", "There is no track", "There is no pressure",
         "No activity was reported",
     ):  # fmt: skip
         assert sentence in page.text

@@ -78,7 +78,7 @@ def test_a_summary_counts_the_events_of_each_foot():
     assert (left.events[HeelStrike], left.strides, left.degraded, left.distance) == (1, 1, 1, 1.25)
     text = summary(observer, title="walk.npz", seconds=2.0)
     assert text.splitlines()[0] == "walk.npz: 4.0 s"
-    assert "left: 1 of 1 steps degraded" in text and "2 times as fast as walked" in text
+    assert "left: 1 of 1 strides degraded" in text and "2 times as fast as walked" in text
     # 62.5 ms, and only of what is final; a half is rounded to the even millisecond
     assert "known after it happened, median: heel-strike 62 ms\n" in text
 

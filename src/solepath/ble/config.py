@@ -26,7 +26,7 @@ class DeviceConfig:
 
     def __attrs_post_init__(self) -> None:
         if not self.which and self.profile is None:
-            raise ValueError("say which device is wanted: its address, its name, or its profile")
+            raise ValueError("say which device is requested: its address, its name, or its profile")
         if self.site is None and self.profile is not None and not reports_site(self.profile):
             raise ValueError(f"a {self.profile.name} does not say where it is worn: name a site")
 
@@ -59,19 +59,21 @@ def reports_site(profile: Profile | None) -> bool:
 def check_configs(configs: Sequence[DeviceConfig]) -> None:
     """Raise ValueError without a config, or if two share a site or may mean one device, or insoles exceed free feet."""
     if not configs:
-        raise ValueError("no device is wanted")
+        raise ValueError("no device is requested")
     sites = [config.site for config in configs if config.site is not None]
     if len(set(sites)) < len(sites):
         raise ValueError("two devices cannot be at one site")
     free_feet = len({*SITE_OF_FOOT.values()} - {*sites})
     if len(configs) - len(sites) > free_feet:
-        raise ValueError("more insoles are wanted than there are feet for them")
+        raise ValueError("more insoles are requested than there are feet for them")
     for k, config in enumerate(configs):
         for earlier in configs[:k]:
             if config.which.upper() == earlier.which.upper() and (config.which or config.profile == earlier.profile):
                 if not config.which and reports_site(config.profile):
                     continue
-                raise ValueError(f"nothing tells one {config.description} from the other: name them by their addresses")
+                raise ValueError(
+                    f"nothing distinguishes one {config.description} from the other: name them by their addresses"
+                )
 
 
 def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:

@@ -201,7 +201,7 @@ class Connection:
         if site is None:
             raise WrongDevice(f"{name} does not say where it is worn: name a site")
         if requested is not None and site is not requested:
-            raise WrongDevice(f"{name} is a {_describe(site)} one: wanted at the {_describe(requested)}")
+            raise WrongDevice(f"{name} is a {_describe(site)} one: expected at the {_describe(requested)}")
         same_site = [other for other in self.siblings if other is not self and other.site is site]
         if any(other.address or other.config.site is not None for other in same_site):
             raise WrongDevice(f"{name} is one more for the {_describe(site)}")

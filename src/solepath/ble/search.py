@@ -62,7 +62,7 @@ class Search:
                     return device_found
                 if not self._found and now >= report_at:
                     self._report_once(
-                        f"no {self.config.description} is heard: switch it on, bring it near, "
+                        f"no {self.config.description} is in range: switch it on, bring it near, "
                         "and see that no other program or phone holds it"
                     )
                 self._advertised.clear()

@@ -72,7 +72,7 @@ _DBUS_SENTENCES = {
     "org.bluez.Error.NotPermitted": "another program listens to this device: close it",
     "org.bluez.Error.InProgress": "another program uses the Bluetooth adapter just now",
 }
-_NOT_PAIRED = "the device wants to be paired first: pair=True, or --pair"
+_NOT_PAIRED = "the device must be paired first: pair=True, or --pair"
 _NOT_PAIRED_OVER_DBUS = ("org.bluez.Error.NotPermitted", "Not paired")
 """D-Bus error of BlueZ for the codes of `_PAIRING_CODES`, except insufficient authorization."""
 _PAIRING_CODES = {

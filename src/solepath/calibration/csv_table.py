@@ -67,7 +67,7 @@ def read_rows(path: Path | str, columns: Collection[str]) -> list[TableRow]:
     header = lines[0] if lines else []
     missing = [column for column in columns if header.count(column) != 1]
     if missing:
-        raise CalibrationError(f"{path}, line 1: wants one column {' and one column '.join(missing)}")
+        raise CalibrationError(f"{path}, line 1: needs one column {' and one column '.join(missing)}")
     rows = []
     for number, line in enumerate(lines[1:], 2):
         if not any(line):

@@ -123,8 +123,8 @@ def _add_square(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "square",
         help="which way positions drift, from laps of a square over marks",
-        description="From four to six laps of a square on whose edges every step of one foot is marked, the same marks "
-        "in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
+        description="From four to six laps of a square on whose edges every stride of one foot is marked, the same "
+        "marks in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
         epilog="example: solepath calibrate square laps.jsonl --out me.json",
     )
     command.set_defaults(learn=_square)
@@ -192,14 +192,14 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> LearntCalibrati
     rows = [
         [one.foot.value, str(one.strides), number(one.along, 2), angle] for one, angle in zip(feet, angles, strict=True)
     ]
-    lines = [table(["foot", "steps", "along the foot m", "toe-out degrees"], rows)]
+    lines = [table(["foot", "strides", "along the foot m", "toe-out degrees"], rows)]
     if all([foot.angle is None for foot in feet]):
         lengths = " and ".join([f"{foot.along:.1f} m of the {foot.foot} foot" for foot in feet])
         raise Failure(
-            f"nothing is learnt: the steps come to {lengths}, less than the {options.distance:g} m of the walk"
+            f"nothing is learnt: the strides come to {lengths}, less than the {options.distance:g} m of the walk"
         )
     if "none" in angles:
-        lines.append("none: these steps come to less than the walk, which no angle explains: nothing is learnt of it")
+        lines.append("none: these strides come to less than the walk, which no angle explains: nothing is learnt of it")
     return toe_out_calibration(feet), lines
 
 

@@ -163,7 +163,7 @@ def _print_progress(demo: Demo) -> None:
     for packet in demo.play():
         if packet.t >= due:
             due += REPORT_INTERVAL
-            feet = (f"{foot} {demo.observer.foot(foot).strides} steps" for foot in Foot)
+            feet = (f"{foot} {demo.observer.foot(foot).strides} strides" for foot in Foot)
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
     print(
         "\n".join(

@@ -23,7 +23,7 @@ COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate, repr
 def parser() -> argparse.ArgumentParser:
     """Return the parser with all commands."""
     top = argparse.ArgumentParser(
-        prog="solepath", description="Gait events and indoor tracks from foot-worn sensors: bytes in, steps out."
+        prog="solepath", description="Gait events and indoor tracks from foot-worn sensors: bytes in, strides out."
     )
     top.add_argument("--version", action="store_true", help="print the version and exit")
     commands = top.add_subparsers(metavar="COMMAND", dest="command")

@@ -8,7 +8,7 @@ Every message is JSON with a JSON schema, and has `t`, the exact time on the rec
 | `/SITE/samples` | samples that the session used, SI units; `pressure` is the sum over the cells | sample time |
 | `/SITE/pose` | position and velocity at each sample, world frame; phase by name and number | sample time |
 | `/SITE/gait` | heel-strikes, foot-flats, heel-offs, toe-offs | event time |
-| `/SITE/steps` | final strides | end of the stride |
+| `/SITE/strides` | final strides | end of the stride |
 | `/events` | every event as in `events.jsonl` | event time |
 
 The publish time is `known_at`. Log times count from 1970 if the recording has its start time, else from the zero of the
@@ -69,7 +69,7 @@ SCHEMAS: dict[str, dict[str, Any]] = {
     ),
     "solepath.Pose": _object(t=NUMBER, position=VECTOR, velocity=VECTOR, phase=TEXT, phase_number=INTEGER),
     "solepath.Gait": _object(t=NUMBER, event=TEXT),
-    "solepath.Step": _object(
+    "solepath.Stride": _object(
         t=NUMBER,
         number=INTEGER,
         t_start=NUMBER,
@@ -208,7 +208,9 @@ class McapWriter:
                 data |= {"number": event.number, "t_start": event.t_start, "stride_length": event.length}
                 data |= {"heading_change": event.heading_change, "height_change": event.height_change}
                 data |= {"position": _to_xyz(event.position), "degraded": event.degraded}
-                self._write_message(_make_topic(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)
+                self._write_message(
+                    _make_topic(event.foot, "strides"), "solepath.Stride", event.t, event.known_at, data
+                )
 
     def _write_message(
         self, topic: str, schema: str, t: float, known_at: float, data: Any, metadata: dict[str, str] | None = None

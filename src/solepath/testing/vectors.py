@@ -57,7 +57,7 @@ def _check_vector(driver: Driver, channel: str, vector: Mapping[str, Any]) -> It
         yield f"'result' is 'valid' or 'invalid', not {result!r}"
         return
     if result == "invalid" and not isinstance(vector.get("reason"), str):
-        yield "no 'reason' that it is refused for"
+        yield "no 'reason' that it is rejected for"
         return
     if not isinstance(physical, Mapping) or not _has_numbers(physical.get("known", {})):
         yield "'physical' is no object of values, with numbers in its 'known'"

@@ -89,7 +89,7 @@ def walked(printed: str) -> list[Row]:
             case [what, ours, theirs]:
                 left[what], right[what] = ours, theirs
     steps = (
-        f"{name} {foot['steps found']} of {foot['steps walked']} found, {foot['steps invented']} invented"
+        f"{name} {foot['strides found']} of {foot['strides walked']} found, {foot['strides invented']} invented"
         for name, foot in (("left", left), ("right", right))
     )
 
@@ -98,7 +98,7 @@ def walked(printed: str) -> list[Row]:
 
     offsets = (f"{event} {both(f'{event}, median offset', 'ms')}" for event in EVENTS)
     return [
-        ("steps", "; ".join(steps)),
+        ("strides", "; ".join(steps)),
         ("median offsets, left and right", "; ".join(offsets)),
         ("stride length error, mean, left and right", both("stride length, mean error", "%")),
         ("end position, error, left and right", both("end position, error", "m")),

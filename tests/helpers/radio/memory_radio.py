@@ -135,7 +135,7 @@ class _MemoryClient(BaseBleakClient):
         if device.address in self.radio.paired:
             return
         if not await link.request(device.accepts_pairing):
-            raise BleakError("the device refused to be paired")
+            raise BleakError("the device rejected the pairing")
         await link.request(lambda now: _encrypt_link(device))
         self.radio.paired.add(device.address)
 

@@ -231,7 +231,7 @@ def test_a_walk_of_another_length_or_of_no_steps_is_rejected() -> None:
     packets = corridor_walk(15.0).packets
     with pytest.raises(CalibrationError, match="length of the walk"):
         toe_out(packets, 5.0)
-    with pytest.raises(CalibrationError, match="steps of a foot"):
+    with pytest.raises(CalibrationError, match="strides of a foot"):
         toe_out(packets[:200], 5.0)
     for distance in (0.0, -1.0, float("nan"), float("inf")):
         with pytest.raises(ValueError, match="distance"):
@@ -255,7 +255,7 @@ def test_calibrate_toe_out_writes_the_angles_of_a_walk_and_nothing_where_it_has_
     assert set(read_calibration(out).toe_out) == set(Foot)
     for distance in ("20", "80", "1e308"):
         failure = run_failing("calibrate", "toe-out", file, "--distance", distance, "--out", other)
-        assert "nothing is learnt: the steps come to " in failure and "m of the left foot and " in failure
+        assert "nothing is learnt: the strides come to " in failure and "m of the left foot and " in failure
     for distance in ("3", "-3"):
         assert run("calibrate", "toe-out", file, "--distance", distance, "--out", other).returncode == 2
     assert not other.exists()

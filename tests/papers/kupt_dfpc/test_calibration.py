@@ -118,9 +118,9 @@ def test_postures_of_a_shoe_give_its_curves(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("", "line 1: wants one column pitch_deg"),
+        ("", "line 1: needs one column pitch_deg"),
         (HEADER, "holds no postures"),
-        ("pitch_deg,L_r_m\n1,2\n", "line 1: wants one column L_p2t_m"),
+        ("pitch_deg,L_r_m\n1,2\n", "line 1: needs one column L_p2t_m"),
         (HEADER + "0,0.07,0.09\n15,long,0.08\n", "line 3: L_r_m is 'long', not a number"),
         (HEADER + "0,0.07\n", "line 2: 2 values, and the header has 3"),
         (HEADER + "0,7.0,9.0\n", "line 2: L_r_m is 7.0, which is not between 0 and 0.5 m"),

@@ -173,10 +173,10 @@ def failure_of(**changes: object) -> str:
 
 def test_an_unusable_walk_is_reported_in_one_line() -> None:
     assert "less than 3 laps of 40 marks" in failure_of(steps_per_lap=40)
-    assert failure_of(items=()) == "no step of the left foot in the recording"
-    assert failure_of(foot=Foot.RIGHT) == "no step of the right foot in the recording"
+    assert failure_of(items=()) == "no stride of the left foot in the recording"
+    assert failure_of(foot=Foot.RIGHT) == "no stride of the right foot in the recording"
     assert failure_of(recipe=DEFAULT) == "recipe default takes no drift off"
-    assert failure_of(marks=[CornerMark("a", 1e4)]) == "no step ends at mark a near 10000.00 s"
+    assert failure_of(marks=[CornerMark("a", 1e4)]) == "no stride ends at mark a near 10000.00 s"
     assert failure_of(marks=[CornerMark("a", 5.0)]) == "no mark was stood on 3 times"
     assert failure_of(steps_per_lap=0) == "0 marks are no square"
 
@@ -193,9 +193,9 @@ def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
         ("mark,t\nA1,soon\n", "line 2: t is 'soon', not a number"),
         ("mark,t\nA1,1.0\n,2.0\n", "line 3: nothing in column mark"),
         ("mark,t\nA1,nan\n", "line 2: t is 'nan', not a finite number"),
-        ("a,b\n1,2\n", "line 1: wants one column mark and one column t"),
+        ("a,b\n1,2\n", "line 1: needs one column mark and one column t"),
         ("mark,t\n", "no visits of marks"),
-        ("", "line 1: wants one column mark"),
+        ("", "line 1: needs one column mark"),
     ],
 )
 def test_a_table_of_something_else_is_named(tmp_path: Path, text: str, message: str) -> None:

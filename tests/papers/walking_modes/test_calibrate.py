@@ -75,7 +75,7 @@ def test_a_bad_line_is_named(tmp_path: Path, lines: tuple[str, ...], message: st
 def test_a_table_that_is_none_is_rejected(tmp_path: Path) -> None:
     empty, short, falling = (tmp_path / name for name in ("empty.csv", "short.csv", "falling.csv"))
     empty.write_text("")
-    with pytest.raises(CalibrationError, match="line 1: wants one column counts"):
+    with pytest.raises(CalibrationError, match="line 1: needs one column counts"):
         fit_gauge(empty)
     with pytest.raises(CalibrationError, match="4 different counts"):
         fit_gauge(write_gauge(short, [0.0, 1000.0, 2000.0, 3000.0]))

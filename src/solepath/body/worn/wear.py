@@ -32,7 +32,7 @@ class FootSilence:
 class WearSettings:
     """The settings of `Wear`."""
 
-    steps: int = 3
+    strides: int = 3
     """Number of strides of the other foot, since the last sample of a foot, from which that foot is silent."""
     seconds: float = 3.0
     """Least time since the last sample of a foot before that foot is silent, s."""
@@ -42,7 +42,7 @@ class WearSettings:
 class Wear(Part):
     """Detects a silent foot and exchanged feet from the samples of both feet.
 
-    A foot that had samples is silent when, since its last sample, the other foot has taken `steps` strides and
+    A foot that had samples is silent when, since its last sample, the other foot has taken `strides` strides and
     `seconds` have passed. FootSilent reports the silence; FootResumed comes with the foot's next sample. Nothing is
     reported while the wearer stands, or for a foot that never had a sample, because a recording may be of one foot.
     Recipes of two feet continue with the other foot. FeetSwapped is reported once, when `Sides` detects exchanged
@@ -85,7 +85,7 @@ class Wear(Part):
         if other.strides_since and other.t is not None and not other.silent:
             if t < other.t:
                 other.strides_since = 0  # this foot's samples are late, or its clock has restarted
-            elif other.strides_since >= self.settings.steps and t - other.t >= self.settings.seconds:
+            elif other.strides_since >= self.settings.strides and t - other.t >= self.settings.seconds:
                 other.silent = True
                 silent_foot = Foot.RIGHT if is_left else LEFT
                 outputs.append(FootSilent(t=t, known_at=view.known_at, foot=silent_foot, silent_for=t - other.t))

@@ -104,11 +104,11 @@ def choose_devices(found: list[Advertisement], kind: str | None) -> list[DeviceC
         note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
         return [DeviceConfig(Site.RIGHT_FOOT, known[0].address, named or known[0].profile)]
     if not known and named is not None:
-        raise Failure(f"no {named.name} is heard: switch it on, or say which device it is with --left and --right")
+        raise Failure(f"no {named.name} is in range: switch it on, or say which device it is with --left and --right")
     if not known:
-        raise Failure("no device is heard that is known here: switch it on, or say which with --left and --right")
+        raise Failure("no device in range is known here: switch it on, or say which with --left and --right")
     names = ", ".join(f"{device.address} ({device.name})" for device in known)
-    raise Failure(f"{len(known)} devices are heard, {names}: say which is where with --left and --right")
+    raise Failure(f"{len(known)} devices are in range, {names}: say which is where with --left and --right")
 
 
 def need_bleak() -> None:

@@ -19,7 +19,7 @@ def add_to(commands: Any) -> None:
         "live",
         help="listen to sensors and show what they say",
         description="Connect to sensors on the feet and show gait, track and links as they are worn. Without "
-        "--left and --right it takes two insoles when it hears any, who know their feet.",
+        "--left and --right it takes two insoles when any are in range, which know their feet.",
         epilog="example: solepath live --left F0:5E:00:00:00:01 --right F0:5E:00:00:00:02 --record walk.jsonl",
     )
     add_devices(live)

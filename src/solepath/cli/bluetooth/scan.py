@@ -18,7 +18,7 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "scan",
-        help="list the sensors that can be heard",
+        help="list the sensors in range",
         description="List the sensors that advertise, the nearest first.",
         epilog="example: solepath scan --seconds 8",
     )
@@ -66,6 +66,6 @@ def _print_devices(found: list[Advertisement], show_all: bool) -> None:
         ]
         print(table(["address", "kind", "dBm", "name"], rows))
     else:
-        print("no sensor is heard: switch it on, bring it near, and see that no other program or phone holds it")
+        print("no sensor is in range: switch it on, bring it near, and see that no other program or phone holds it")
     if not show_all and len(known) < len(found):
         print(f"{len(found) - len(known)} of other kinds (--all shows them)")

@@ -32,7 +32,7 @@ _T = TypeVar("_T")
 _PAIRING_TIMEOUT = 30.0
 """Time after which a pairing has failed, s (Bluetooth Core, vol 3 part H, 3.4)."""
 _PAIRING_ERRORS: dict[tuple[str, int | None], str] = {
-    ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device refused to be paired",
+    ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device rejected the pairing",
     ("hci", int(hci.HCI_ErrorCode.PIN_OR_KEY_MISSING_ERROR)): "the device has forgotten the pairing: unpair it here "
     "too, and pair again",
 }

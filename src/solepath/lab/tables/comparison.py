@@ -16,9 +16,9 @@ EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "h
 def comparison_table(comparisons: Sequence[FootComparison]) -> str:
     """Return the table that compares the strides and events of both feet with the truth."""
     rows = [
-        ["steps walked", *(str(c.strides_true) for c in comparisons)],
-        ["steps found", *(str(c.strides_found) for c in comparisons)],
-        ["steps invented", *(str(c.strides_invented) for c in comparisons)],
+        ["strides walked", *(str(c.strides_true) for c in comparisons)],
+        ["strides found", *(str(c.strides_found) for c in comparisons)],
+        ["strides invented", *(str(c.strides_invented) for c in comparisons)],
         ["stride length, mean error %", *(percent(c.length_errors.mean) for c in comparisons)],
         ["end position, error m", *(number(c.end_error) for c in comparisons)],
     ]
@@ -32,10 +32,10 @@ def comparison_table(comparisons: Sequence[FootComparison]) -> str:
 def place_table(score: PlaceScore) -> str:
     """Return the table of the score of positions on the floor plan."""
     rows = [
-        ["steps placed", str(score.strides)],
-        ["one candidate, the true one, after steps", "-" if score.decided is None else str(score.decided)],
-        ["steps with one candidate, a wrong one", str(score.wrong)],
-        ["steps without the true candidate", str(score.dropped)],
+        ["strides placed", str(score.strides)],
+        ["one candidate, the true one, after strides", "-" if score.decided is None else str(score.decided)],
+        ["strides with one candidate, a wrong one", str(score.wrong)],
+        ["strides without the true candidate", str(score.dropped)],
         ["from the second turn on, median error m", number(median(score.off)) if score.off else "-"],
     ]
     return table(["place against the truth", "wearer"], rows)

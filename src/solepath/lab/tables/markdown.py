@@ -125,7 +125,7 @@ def _activity_lines(summary: Summary) -> list[tuple[str, str]]:
     if (accuracy := pooled.get("accuracy")) is not None:
         entries.append(("labelled time classified correctly", f"{percent(accuracy)} %"))
         entries.append(
-            ("the same by always telling the most frequent activity", f"{percent(pooled['most_frequent'])} %")
+            ("the same by always reporting the most frequent activity", f"{percent(pooled['most_frequent'])} %")
         )
         f1 = {activity: pooled[f"f1_{activity.value.lower()}"] for activity in CLASSES}
         entries += [

@@ -55,12 +55,12 @@ def toe_out(items: Iterable[Packet | Sample], distance: float) -> list[ToeOut]:
         along = sum(lengths[foot])
         angle = acos(distance / along) if along >= distance else None
         if angle is not None and angle > LARGEST_ANGLE:
-            sentence = f"the steps of the {foot.value} foot come to {along:.1f} m of {distance:g} m"
+            sentence = f"the strides of the {foot.value} foot come to {along:.1f} m of {distance:g} m"
             raise CalibrationError(f"{sentence}: is that the length of the walk?")
         toe_outs.append(ToeOut(foot, len(lengths[foot]), along, angle))
     if not toe_outs:
         stride_count = max([len(one) for one in lengths.values()], default=0)
-        raise CalibrationError(f"{stride_count} steps of a foot in this recording; {FEWEST_STRIDES} are wanted")
+        raise CalibrationError(f"{stride_count} strides of a foot in this recording; {FEWEST_STRIDES} are needed")
     return toe_outs
 
 

@@ -52,7 +52,7 @@ def _insole_noise(foot: Foot, rows: list[tuple[float, ...]], share: float) -> In
     count = round(share * len(pressure))
     if count < FEWEST_SAMPLES:
         reason = (
-            f"{len(pressure)} samples of the {foot.value} insole, {count} of them in swing; {FEWEST_SAMPLES} are wanted"
+            f"{len(pressure)} samples of the {foot.value} insole, {count} of them in swing; {FEWEST_SAMPLES} are needed"
         )
         raise CalibrationError(f"too short a walk: {reason}")
     # by P_total; a stable sort keeps ties in the order of time, so that every platform gives the same noise

@@ -104,7 +104,7 @@ def square_drift(
             strides[event.foot].append(event)
     chosen = foot or (Foot.RIGHT if strides[Foot.RIGHT] else Foot.LEFT)
     if not strides[chosen]:
-        raise CalibrationError(f"no step of the {chosen.value} foot in the recording")
+        raise CalibrationError(f"no stride of the {chosen.value} foot in the recording")
     visits = (
         _visits_by_count(strides[chosen], steps_per_lap) if marks is None else _visits_by_marks(strides[chosen], marks)
     )
@@ -137,7 +137,7 @@ def _visits_by_count(strides: Sequence[StrideTaken], steps_per_lap: int) -> Visi
     if steps_per_lap < 4:
         raise CalibrationError(f"{steps_per_lap} marks are no square")
     if len(strides) < FEWEST_LAPS * steps_per_lap:
-        raise CalibrationError(f"{len(strides)} steps are less than {FEWEST_LAPS} laps of {steps_per_lap} marks")
+        raise CalibrationError(f"{len(strides)} strides are less than {FEWEST_LAPS} laps of {steps_per_lap} marks")
     visits: Visits = {}
     for number, stride in enumerate(strides):
         visits.setdefault(str(number % steps_per_lap), []).append((stride.t, stride.position))
@@ -150,7 +150,7 @@ def _visits_by_marks(strides: Sequence[StrideTaken], marks: Sequence[CornerMark]
     for mark in marks:
         nearest = int(np.argmin(np.abs(ends - mark.t)))
         if abs(ends[nearest] - mark.t) > MARK_TOLERANCE:
-            raise CalibrationError(f"no step ends at mark {mark.name} near {mark.t:.2f} s")
+            raise CalibrationError(f"no stride ends at mark {mark.name} near {mark.t:.2f} s")
         visits.setdefault(mark.name, []).append((strides[nearest].t, strides[nearest].position))
     return visits
 
@@ -203,10 +203,10 @@ def check_laps(drift: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]
         if distance > LARGEST_DRIFT * duration + CLOSURE_SHARE * diagonal:
             raise CalibrationError(
                 f"the laps do not close: a mark lies {distance:.1f} m from where it lay a lap before, "
-                f"the diagonal of all marks is {diagonal:.1f} m; is the number of steps a lap right?"
+                f"the diagonal of all marks is {diagonal:.1f} m; is the number of marks a lap right?"
             )
     speed = hypot(*drift.slope)
     if speed > LARGEST_DRIFT:
         raise CalibrationError(
-            f"a drift of {100.0 * speed:.1f} cm/s: more than {100.0 * LARGEST_DRIFT:.0f} cm/s are no drift of steps"
+            f"a drift of {100.0 * speed:.1f} cm/s: more than {100.0 * LARGEST_DRIFT:.0f} cm/s are no drift of strides"
         )

@@ -43,7 +43,7 @@ def fit_gauge(path: Path | str) -> GaugeFit:
     forces = np.array([row.number("newtons", 0.0, HIGHEST_FORCE, "N") for row in rows])
     distinct_counts = len(set(counts.tolist()))
     if distinct_counts < LEAST_POINTS:
-        raise CalibrationError(f"{path}: {distinct_counts} different counts, and a cubic wants {LEAST_POINTS} or more")
+        raise CalibrationError(f"{path}: {distinct_counts} different counts, and a cubic needs {LEAST_POINTS} or more")
     unit = float(np.abs(counts).max())
     # fit over counts divided by the largest one: the third power of a 14-bit count would cost half of the digits
     coefficients = np.polynomial.polynomial.polyfit(counts / unit, forces, 3)

@@ -190,7 +190,7 @@ class Conversation:
         match opcode, request:
             case AttOpcode.ERROR, _:
                 if parse_whole(ERROR_RESPONSE, body).request == AttOpcode.WRITE:
-                    self.flaws["writes that were refused"] += 1
+                    self.flaws["writes that were rejected"] += 1
                 self._end_read()
             case AttOpcode.MTU_RESPONSE, AttOpcode.MTU_REQUEST:
                 self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, body).mtu, request_body.mtu))

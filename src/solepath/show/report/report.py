@@ -183,7 +183,7 @@ class Report:
         footprints = {foot: list(strides) for foot, strides in self.footprints.items() if len(strides)}
         wearer_track: Sequence[TimedPosition] = list(self.wearer_track) or max(footprints.values(), key=len, default=[])
         if not track_figure(figures, wearer_track, footprints, clock):
-            add(figures, "p", "There is no track: no foot with a motion sensor took two steps.")
+            add(figures, "p", "There is no track: no foot with a motion sensor took two strides.")
         height_figure(figures, {foot: list(heights) for foot, heights in self.heights.items()}, clock)
 
     def _health(self, parent: Element) -> None:

@@ -67,7 +67,7 @@ svg path.bar { fill: var(--accent); }
 .centre { stroke: #10202e; stroke-width: 2.2; stroke-linecap: round; stroke-linejoin: round; }
 .under { stroke: #fff; stroke-width: 4.6; stroke-linecap: round; stroke-linejoin: round; }
 .single { stroke: #10202e; stroke-width: .6; opacity: .45; }
-.begin { fill: #fff; stroke: #10202e; stroke-width: 1.8; }
+.path-start { fill: #fff; stroke: #10202e; stroke-width: 1.8; }
 @media screen and (prefers-color-scheme: dark) { svg.plan { filter: invert(.92) hue-rotate(180deg); } }
 svg.plan { font-family: system-ui, sans-serif; }
 @media screen and (max-width: 34rem) {

@@ -27,7 +27,7 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_count
     `has_data` says that there was any event. `cycle_counts`, the number of gait cycles of each foot, is used for a foot
     without a track."""
     if not has_data:
-        return ["Nothing was heard of either foot."]
+        return ["No data from either foot."]
     time = observer.covered_time
     lines = [f"The recording lasts {duration_text(time.total if time.span_count else clock.end - clock.start)}."]
     if time.span_count > 1:
@@ -40,7 +40,7 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_count
         if count and foot not in tracked:
             lines.append(f"The {foot} foot took {count} stride{'s' * (count != 1)}; how far is not known.")
     if not tracked and not any(cycle_counts.values()):
-        lines.append("No foot took a step.")
+        lines.append("No foot took a stride.")
     if observer.fused is not None:
         lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
     durations = observer.timeline.durations(clock.end)
@@ -87,7 +87,7 @@ def sensors(observer: Observer) -> str:
         name = f" ({printable(link.name, MAX_NAME_LENGTH)})" if link.name else ""
         kinds = [kind for kind, present in (("motion", link.has_motion), ("pressure", link.has_pressure)) if present]
         lines.append(f"{site.words}{name}{': ' + ' and '.join(kinds) if kinds else ''}")
-    return "; ".join(lines) if lines else "none was heard"
+    return "; ".join(lines) if lines else "no data from any"
 
 
 def link_rows(observer: Observer) -> list[list[str]]:

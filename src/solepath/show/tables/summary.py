@@ -39,8 +39,8 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
 def _foot_table(observer: Observer) -> list[str]:
     """Return a table of the feet, and lines about missing samples."""
     if not observer.known_feet:
-        return ["nothing was heard of either foot"]
-    header = ["foot", "samples", "Hz", "steps", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
+        return ["no data from either foot"]
+    header = ["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
     rows, missing = [], []
     for foot in observer.known_feet:
         counts = observer.feet.get(foot, FootCounts())
@@ -51,7 +51,7 @@ def _foot_table(observer: Observer) -> list[str]:
             missing.append(f"{foot}: {link.gaps} gaps in the samples, {link.gap_time:.2f} s in all")
         if counts.degraded:
             missing.append(
-                f"{foot}: {counts.degraded} of {counts.strides} steps degraded by missing or saturated samples"
+                f"{foot}: {counts.degraded} of {counts.strides} strides degraded by missing or saturated samples"
             )
     return ["", table(header, rows), "", *missing]
 
@@ -152,10 +152,10 @@ def place_lines(counts: PlaceCounts) -> list[str]:
     lines = []
     if counts.first_decided is not None:
         strides, t = counts.first_decided
-        share = f"; one place for {counts.decided_count} of {counts.places} steps"
-        lines.append(f"place: found after {strides} step{'s' * (strides != 1)}, at {number(t, 1)} s{share}")
+        share = f"; one place for {counts.decided_count} of {counts.places} strides"
+        lines.append(f"place: found after {strides} stride{'s' * (strides != 1)}, at {number(t, 1)} s{share}")
     else:
-        lines.append(f"place: not found; {counts.places} steps with several candidates")
+        lines.append(f"place: not found; {counts.places} strides with several candidates")
     if counts.last is not None:
         x, y, _ = counts.last.position
         position = f"({number(x, 1)}, {number(y, 1)}) m"

@@ -73,7 +73,7 @@ def _foot(observer: Observer, foot: Foot) -> tuple[Text, ...]:
     return (
         Text(f"{foot}"),
         phase,
-        Text(f"{counts.strides:3d} steps"),
+        Text(f"{counts.strides:3d} strides"),
         Text(f"{counts.distance:6.2f} m"),
         Text(position),
     )

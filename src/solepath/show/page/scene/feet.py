@@ -114,7 +114,7 @@ class FootScene:
             "force": None if cells is None else rounded(self.force, 1),
             "centre": None if self.centre is None or cells is None else rounded_all(self.centre, 4),
             "rate": rate,
-            "steps": counts.strides,
+            "strides": counts.strides,
             "distance": rounded(counts.distance, 2),
         }
 

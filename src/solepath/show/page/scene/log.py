@@ -135,9 +135,9 @@ def _gait(event: Event) -> tuple[str, str] | None:
     match event:
         case TurnMade(turn=turn, angle=angle, final=True) if turn is not None:
             return "gait", f"{TURNS[turn]} by {abs(degrees(angle)):.0f} degrees"
-        case FlightClimbed(up=up, steps=steps, height=height, final=True):
+        case FlightClimbed(up=up, steps=strides, height=height, final=True):
             direction = "up" if up else "down"
-            return "gait", f"stairs {direction}: {steps} step{'s' * (steps != 1)}, {abs(height):.1f} m"
+            return "gait", f"stairs {direction}: {strides} stride{'s' * (strides != 1)}, {abs(height):.1f} m"
         case LiftRidden(up=up, height=height, final=True):
             height_text = "" if height is None else f", {abs(height):.1f} m"
             return "gait", f"a lift {'up' if up else 'down'}{height_text}"

@@ -54,9 +54,9 @@ class PageAccess:
             try:
                 parts = urlsplit(origin)
             except ValueError:
-                raise AccessDenied("a page with a malformed origin wants to watch") from None
+                raise AccessDenied("a page with a malformed origin requested to watch") from None
             if parts.scheme not in ("http", "https") or parts.netloc.lower() != host.lower():
-                raise AccessDenied("a page of another origin wants to watch")
+                raise AccessDenied("a page of another origin requested to watch")
 
     def may_control(self, tokens: list[str]) -> bool:
         """Return whether a watcher that sends these tokens may control the page.
@@ -65,10 +65,10 @@ class PageAccess:
         raised for a wrong token, and for a missing one if other machines can reach the page."""
         if not tokens:
             if self.is_public:
-                raise AccessDenied("somebody without a token wants to watch from another machine")
+                raise AccessDenied("somebody without a token requested to watch from another machine")
             return False
         if len(tokens) > 1 or not compare_digest(tokens[0].encode("utf-8", "replace"), self.token.encode()):
-            raise AccessDenied("somebody with a wrong token wants to watch")
+            raise AccessDenied("somebody with a wrong token requested to watch")
         return True
 
 

@@ -96,7 +96,7 @@ class Page:
     def _connect(self) -> asyncio.BaseProtocol:
         """Return the protocol for a new connection."""
         if self._server is None or len(self._server.connections) >= MAX_CONNECTIONS:
-            self.client_errors.report(f"more than {MAX_CONNECTIONS} connections at once: one is refused")
+            self.client_errors.report(f"more than {MAX_CONNECTIONS} connections at once: one is turned away")
             return ImmediateClose()
         return BrowserConnection(self._server, IDLE_TIMEOUT)
 
@@ -113,7 +113,7 @@ class Page:
                     return await self._watched(request, host or "")
             return self._file(request)
         except AccessDenied as denied:
-            self.client_errors.report(f"{denied}: refused")
+            self.client_errors.report(f"{denied}: turned away")
             return web.Response(status=denied.status, text=f"{denied}\n", headers=HEADERS)
         except ConnectionError:
             return web.Response(headers=HEADERS)  # the client has gone, so nobody gets it
@@ -132,11 +132,11 @@ class Page:
         if request.method != "GET":
             raise AccessDenied("a request for the socket is none for a WebSocket", 400)
         if "Sec-WebSocket-Protocol" in request.headers:
-            raise AccessDenied("somebody wants to speak another protocol", 400)
+            raise AccessDenied("somebody requested another protocol", 400)
         self._access.check_origin(request.headers.getall("Origin", []), host)
         may_control = self._access.may_control(request.query.getall("token", []))
         if len(self._watchers) >= MAX_WATCHERS:
-            raise AccessDenied(f"more than {MAX_WATCHERS} browsers want to watch", 503)
+            raise AccessDenied(f"more than {MAX_WATCHERS} browsers requested to watch", 503)
         watcher = Watcher(self, may_control)
         self._watchers.add(watcher)
         try:

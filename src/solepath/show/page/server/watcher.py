@@ -161,9 +161,9 @@ class Watcher:
             code = WSCloseCode.POLICY_VIOLATION if error.is_json else WSCloseCode.INVALID_TEXT
             return code, f"{error}: its connection is closed"
         if not self._may_control:
-            return WSCloseCode.POLICY_VIOLATION, f"a browser without the token wants to {command.do}"
+            return WSCloseCode.POLICY_VIOLATION, f"a browser without the token requested to {command.do}"
         if self._page.commands is None:
-            return WSCloseCode.POLICY_VIOLATION, f"a browser wants to {command.do}, and there is nothing to play"
+            return WSCloseCode.POLICY_VIOLATION, f"a browser requested to {command.do}, and there is nothing to play"
         self._page.commands(command)
         return None
 

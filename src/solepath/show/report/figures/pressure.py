@@ -97,7 +97,7 @@ def _map(
     write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
     notes = [f"{text[0].upper()}{text[1:]}." for text in texts]
     if paths:
-        notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single steps.")
+        notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single strides.")
     figure(parent, svg, title, *notes)
 
 
@@ -129,7 +129,7 @@ def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked:
         if len(mean) > 1:
             add(svg, "path", d=line(mean), class_="under")
             add(svg, "path", d=line(mean), class_="centre")
-            add(svg, "circle", cx=px(mean[0][0]), cy=px(mean[0][1]), r="4", class_="begin")
+            add(svg, "circle", cx=px(mean[0][0]), cy=px(mean[0][1]), r="4", class_="path-start")
 
 
 def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:

@@ -166,7 +166,7 @@ def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | Plac
     svg.set("role", "img")
     svg.set("class", "plan")
     del svg.attrib["xmlns"], svg.attrib["width"], svg.attrib["height"], svg.attrib["font-family"]
-    notes = ["Colours go from the start to the end; dots are candidates, the fainter the less they are believed."]
+    notes = ["Colours go from the start to the end; dots are candidates, the fainter the less likely."]
     if len(levels) < len(plan.levels):
         notes.append("Levels where the wearer was not are left out.")
     figure(parent, svg, "Track on the floor plan", *notes)

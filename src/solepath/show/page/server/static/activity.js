@@ -6,7 +6,7 @@ export class ActivityPanel {
   uses = ["activity", "support", "pace", "feet", "scene", "second"];
 
   constructor() {
-    for (const id of ["activity", "since", "support", "cadence", "speed", "steps", "distance"])
+    for (const id of ["activity", "since", "support", "cadence", "speed", "strides", "distance"])
       this[id] = document.getElementById(id);
     this.icon = document.getElementById("activity-icon");
     this.supportWord = document.getElementById("support-word");
@@ -20,15 +20,15 @@ export class ActivityPanel {
     setData(this.activity, { activity: name, known: !silent });
     const icon = `#icon-${Object.hasOwn(ACTIVITIES, name) ? name : "UNKNOWN"}`;
     describe(this.icon, "href", icon);
-    const dated = activity?.since != null && activity.since >= state.begin;
+    const dated = activity?.since != null && activity.since >= state.start;
     const since = dated ? `for ${span(state.t - activity.since)}` : "";
-    write(this.since, silent ? `no foot is heard ${since}` : since);
+    write(this.since, silent ? `no data from any foot ${since}` : since);
     setData(this.support, { support: support ?? "" });
     write(this.supportWord, support ? wordOf(SUPPORTS, support) : "");
     write(this.cadence, fixed(pace?.cadence ?? NaN));
     write(this.speed, fixed(pace?.speed ?? NaN, 2));
     const sending = Object.values(feet).filter((foot) => foot !== null);
-    write(this.steps, sending.length > 0 ? String(sending.reduce((sum, foot) => sum + (foot.steps || 0), 0)) : "–");
+    write(this.strides, sending.length > 0 ? String(sending.reduce((sum, foot) => sum + (foot.strides || 0), 0)) : "–");
     // each foot goes about as far as the wearer
     const lengths = sending.map((foot) => foot.distance || 0);
     write(this.distance, sending.length > 0 ? fixed(lengths.reduce((a, b) => a + b, 0) / lengths.length, 1) : "–");

@@ -37,8 +37,8 @@ export class Announcer {
     if (changed.has("links")) {
       for (const [site, { state: how }] of Object.entries(state.links)) {
         const broken = how === "lost" || how === "silent";
-        if (broken && !this.#broken.has(site)) announce(`Nothing heard of the ${site}`);
-        if (how === "ok" && this.#broken.has(site)) announce(`${capital(site)} heard again`);
+        if (broken && !this.#broken.has(site)) announce(`No data from the ${site}`);
+        if (how === "ok" && this.#broken.has(site)) announce(`${capital(site)} samples again`);
         if (broken) this.#broken.add(site);
         if (how === "ok") this.#broken.delete(site);
       }

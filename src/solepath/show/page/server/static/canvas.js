@@ -28,7 +28,7 @@ export class Surface {
   }
 
   // Clear the canvas; sizes are in CSS px.
-  begin() {
+  start() {
     this.context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     this.context.clearRect(0, 0, this.width, this.height);
     return this.context;

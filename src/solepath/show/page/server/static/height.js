@@ -22,14 +22,14 @@ export class Height {
   draw(state, now, changed) {
     if (now - this.drawn < REDRAW_INTERVAL && !changed.has("theme") && !changed.has("scene")) return "later";
     this.drawn = now;
-    const context = this.surface.begin();
+    const context = this.surface.start();
     const { width, height } = this.surface;
     const { points, lines } = series(state);
     const last = points.at(-1);
     write(this.now, last ? `${lines.length > 0 ? fixed(last[1], 1) : signed(last[1], 1)} m` : "");
     const against = lines.length > 0 ? "above the plan's zero" : "against the start";
     this.alternative.setText(() =>
-      last ? `Height over time: now ${fixed(last[1], 1)} m ${against}` : "Height: no step yet",
+      last ? `Height over time: now ${fixed(last[1], 1)} m ${against}` : "Height: no stride yet",
     );
     let [low, high] = points.reduce(([a, b], [, z]) => [Math.min(a, z), Math.max(b, z)], [Infinity, -Infinity]);
     if (!last) [low, high] = [0, 0];
@@ -63,7 +63,7 @@ export class Height {
       if (lines.length > 0) context.fillText(name, 2, y(z) - 4);
       else context.fillText(name, side - 6, y(z) + 4);
     }
-    this.#times(context, from, to, x, side, state.begin);
+    this.#times(context, from, to, x, side, state.start);
     if (!last) return "done";
     context.beginPath();
     let shown = -Infinity;
@@ -83,15 +83,15 @@ export class Height {
     return "done";
   }
 
-  #times(context, from, to, x, side, begin) {
+  #times(context, from, to, x, side, start) {
     const step =
       [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200].find(
         (s) => ((to - from) / s) * 52 < this.surface.width - side,
       ) ?? round((to - from) / 4);
     context.textAlign = "center";
     context.fillStyle = theme.colours.muted;
-    for (let t = Math.ceil((from - begin) / step) * step; t <= to - begin; t += step) {
-      const at = x(begin + t);
+    for (let t = Math.ceil((from - start) / step) * step; t <= to - start; t += step) {
+      const at = x(start + t);
       if (at > side + 12 && at < this.surface.width - 14) context.fillText(clock(t), at, this.surface.height - 4);
     }
   }

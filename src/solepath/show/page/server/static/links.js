@@ -28,7 +28,7 @@ export class Links {
         .map((name) => {
           const { state, silent_for } = links[name];
           const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
-          return `${capital(name)} ${wordOf(LINKS, state)}: nothing heard${since}.`;
+          return `${capital(name)} ${wordOf(LINKS, state)}: no data${since}.`;
         })
         .join(" "),
     );

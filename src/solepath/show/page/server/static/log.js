@@ -11,7 +11,7 @@ export class Log {
     this.scroll = document.getElementById("log-scroll");
   }
 
-  draw({ log, begin }) {
+  draw({ log, start }) {
     this.waiting.hidden = log.length > 0;
     this.scroll.hidden = log.length === 0;
     this.list.replaceChildren(
@@ -19,7 +19,7 @@ export class Log {
         .map(([t, kind, words]) => {
           const item = document.createElement("li");
           item.dataset.kind = kind;
-          child(item, "time").textContent = clock(t - begin);
+          child(item, "time").textContent = clock(t - start);
           child(item, "span").textContent = words;
           return item;
         })

@@ -51,8 +51,8 @@ export function spacing(cells) {
 // Extent of the cells to both sides, station by station from heel to toe, smoothed and closed by round ends.
 function hull(cells, back, front, spacing) {
   const margin = Math.min(0.012, Math.max(0.006, 0.75 * spacing));
-  const [begin, end] = [back - margin, front + margin];
-  const stations = Array.from({ length: STATION_COUNT }, (_, i) => begin + ((end - begin) * i) / (STATION_COUNT - 1));
+  const [start, end] = [back - margin, front + margin];
+  const stations = Array.from({ length: STATION_COUNT }, (_, i) => start + ((end - start) * i) / (STATION_COUNT - 1));
   const reach = stations.map((x) => {
     const off = Math.max(1.1 * spacing, Math.min(...cells.map((cell) => Math.abs(cell[0] - x))) + 1e-6);
     const ys = cells.filter((cell) => Math.abs(cell[0] - x) <= off).map((cell) => cell[1]);
@@ -68,11 +68,11 @@ function hull(cells, back, front, spacing) {
     });
     return [left / sum, right / sum];
   });
-  const cap = Math.min(0.16 * (end - begin), 3 * margin);
+  const cap = Math.min(0.16 * (end - start), 3 * margin);
   const ring = (edge) =>
     stations.map((x, i) => {
       const middle = 0.5 * (smooth[i][0] + smooth[i][1]);
-      const off = Math.min(1, (x - begin) / cap, (end - x) / cap);
+      const off = Math.min(1, (x - start) / cap, (end - x) / cap);
       return [x, middle + (smooth[i][edge] - middle) * Math.sqrt(Math.max(0, 1 - (1 - off) ** 2))];
     });
   return rounded([...ring(0), ...ring(1).reverse().slice(1, -1)]);

@@ -36,18 +36,18 @@ export class Playback {
     this.state = state;
     show(this.playback, playback !== null);
     if (playback === null) return "done";
-    const { begin, end, t, state: how, speed, seeking } = playback;
+    const { start, end, t, state: how, speed, seeking } = playback;
     const requested = this.#requested && performance.now() - this.#requested.at < MAX_WAIT ? this.#requested.t : null;
     const shown = this.#dragged ? Number(this.seek.value) : (seeking ?? requested ?? t);
     setData(this.playback, { state: how });
     describe(this.play, "aria-label", how === "playing" ? "Pause" : how === "ended" ? "Play again" : "Play");
-    describe(this.seek, "min", String(begin));
-    describe(this.seek, "max", String(Math.max(end, begin + 0.1)));
+    describe(this.seek, "min", String(start));
+    describe(this.seek, "max", String(Math.max(end, start + 0.1)));
     if (!this.#dragged) this.seek.value = shown;
     const whither = seeking === null ? "" : "on the way to ";
-    describe(this.seek, "aria-valuetext", `${whither}${clock(shown - begin)} of ${clock(end - begin)}`);
-    write(this["time-now"], clock((seeking === null ? shown : t) - begin)); // the bar already shows the target
-    write(this["time-end"], clock(end - begin));
+    describe(this.seek, "aria-valuetext", `${whither}${clock(shown - start)} of ${clock(end - start)}`);
+    write(this["time-now"], clock((seeking === null ? shown : t) - start)); // the bar already shows the target
+    write(this["time-end"], clock(end - start));
     this.#speed(speed);
     for (const part of [this.play, this.seek, this["speed-choice"]])
       if (part.disabled === control) part.disabled = !control;
@@ -62,8 +62,8 @@ export class Playback {
 
   toggle() {
     if (!this.#mayControl()) return;
-    const { state, begin } = this.state.playback;
-    if (state === "ended") this.#request(begin, true);
+    const { state, start } = this.state.playback;
+    if (state === "ended") this.#request(start, true);
     this.send({ do: state === "playing" ? "pause" : "play" });
   }
 
@@ -88,9 +88,9 @@ export class Playback {
   }
 
   #request(t, surely) {
-    const { begin, end } = this.state.playback;
+    const { start, end } = this.state.playback;
     const now = performance.now();
-    const value = Math.min(end, Math.max(begin, t));
+    const value = Math.min(end, Math.max(start, t));
     this.#requested = { t: value, at: now };
     if (surely || now - this.#sent > SEEK_INTERVAL) {
       this.#sent = now;

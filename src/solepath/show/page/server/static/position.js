@@ -35,7 +35,7 @@ export function spokenOnPlan(state, level) {
 }
 
 export function spokenTrack({ wearer }) {
-  if (!wearer) return "Track: no step yet";
+  if (!wearer) return "Track: no stride yet";
   const [x, y] = wearer.position;
   const ahead = `${fixed(Math.abs(x), 1)} m ${x < 0 ? "behind" : "ahead of"} the start`;
   const aside = `${fixed(Math.abs(y), 1)} m to the ${y < 0 ? "right" : "left"}`;

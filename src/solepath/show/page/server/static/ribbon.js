@@ -26,7 +26,7 @@ export class Ribbon {
   draw(state, now, changed, t) {
     if (reducedMotion.matches && now - this.drawn < SLOW_INTERVAL && !changed.has("theme")) return "later";
     this.drawn = now;
-    const context = this.surface.begin();
+    const context = this.surface.start();
     const { width, height } = this.surface;
     const scale = (width - LABEL_WIDTH) / TIME_WINDOW;
     const x = (when) => LABEL_WIDTH + Math.max(0, (when - t + TIME_WINDOW) * scale);
@@ -46,7 +46,7 @@ export class Ribbon {
       context.fillText(foot === "left" ? "L" : "R", 2, rows[foot][0] + band / 2 + 4);
     }
     this.alternative.setText(() => {
-      const words = FEET.map((foot) => `${foot} ${heard(state, foot)}`);
+      const words = FEET.map((foot) => `${foot} ${phaseWords(state, foot)}`);
       const ground = wordOf(SUPPORTS, state.support) || "not known";
       const now = `Now: ${words.join(", ")}; on the ground: ${ground}`;
       return `Phases of both feet over the last ${TIME_WINDOW} seconds. ${now}`;
@@ -58,9 +58,9 @@ export class Ribbon {
     context.font = FONT;
     context.textAlign = "center";
     context.lineWidth = 1;
-    const begin = state.begin;
-    for (let second = Math.ceil(t - begin - TIME_WINDOW); second <= t - begin; second++) {
-      const at = Math.round(x(begin + second)) + 0.5;
+    const start = state.start;
+    for (let second = Math.ceil(t - start - TIME_WINDOW); second <= t - start; second++) {
+      const at = Math.round(x(start + second)) + 0.5;
       if (second < 0 || at < LABEL_WIDTH + 1) continue;
       context.strokeStyle = theme.colours.grid;
       context.beginPath();
@@ -101,12 +101,12 @@ export class Ribbon {
   }
 }
 
-function heard({ phases, links }, foot) {
+function phaseWords({ phases, links }, foot) {
   const phase = phases[foot].at(-1)?.[1];
   if (phase) return wordOf(PHASES, phase);
   const link = links[`${foot} foot`]?.state;
   if (link === "lost" || link === "silent") return wordOf(LINKS, link);
-  return phases[foot].length > 0 ? "not heard any more" : "not heard yet";
+  return phases[foot].length > 0 ? "no data any more" : "no data yet";
 }
 
 // Intersection of two lists of [from, to] in order of time.

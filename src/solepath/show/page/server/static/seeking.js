@@ -19,7 +19,7 @@ export class Seeking {
   }
 
   draw({ playback }, now) {
-    const { begin, end, t, seeking } = playback ?? { seeking: null };
+    const { start, end, t, seeking } = playback ?? { seeking: null };
     const going = seeking !== null;
     this.#since = going ? (this.#since ?? now) : null;
     const passed = going ? now - this.#since : 0;
@@ -29,11 +29,11 @@ export class Seeking {
     show(this["seek-way"], seen);
     if (!going) this.#announced = false;
     if (!seen) return going ? "later" : "done";
-    write(this.seeking, `Going to ${clock(seeking - begin)}, now at ${clock(t - begin)}`);
-    this["seek-done"].style.width = `${(100 * (t - begin)) / Math.max(0.1, end - begin)}%`;
+    write(this.seeking, `Going to ${clock(seeking - start)}, now at ${clock(t - start)}`);
+    this["seek-done"].style.width = `${(100 * (t - start)) / Math.max(0.1, end - start)}%`;
     if (passed >= ANNOUNCE_DELAY && !this.#announced) {
       this.#announced = true;
-      this.announce(`Going to ${clock(seeking - begin)}`);
+      this.announce(`Going to ${clock(seeking - start)}`);
     }
     return "done";
   }

@@ -99,7 +99,7 @@ class Sole {
     setData(this.figure, { link, shows: this.shows, phase: foot?.phase ?? "" });
     this.#words(foot, layout, lost, link, now);
 
-    const context = this.surface.begin();
+    const context = this.surface.start();
     const place = this.#placed();
     const outline = this.#path(this.ring.map(place));
     context.globalAlpha = lost ? 0.3 : 1;
@@ -127,7 +127,7 @@ class Sole {
       this.put();
       const side = capital(this.foot);
       if (lost) return `${side} sole: no signal`;
-      if (!foot) return `${side} sole: nothing heard yet`;
+      if (!foot) return `${side} sole: no data yet`;
       const load = force && `, ${force} ${layout?.forces ? "newton" : "counts"}`;
       return `${side} sole: ${phase}${load}${this.#where(foot)}`;
     });

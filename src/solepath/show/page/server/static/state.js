@@ -30,7 +30,7 @@ export class State {
     this.plan = null;
     this.layouts = { left: null, right: null };
     this.t = 0;
-    this.begin = 0; // session time that is shown as 0:00, s
+    this.start = 0; // session time that is shown as 0:00, s
     this.anyData = false; // true once a sensor has sent anything
     this.feet = { left: null, right: null };
     this.trails = { left: [], right: [] };
@@ -73,7 +73,7 @@ export class State {
   #frame(message) {
     const changed = new Set();
     if (number(message.t) !== null) this.t = message.t;
-    this.#begins(message);
+    this.#setStart(message);
     for (const foot of FEET) {
       const news = record(message.feet)[foot];
       if (news !== undefined && news !== null) this.#foot(foot, record(news), changed);
@@ -116,20 +116,20 @@ export class State {
   }
 
   // A recording states its start. A live session starts at the first known time, on a clock with any origin.
-  #begins({ playback, tracks, phases, log, feet, links }) {
-    if (number(playback?.begin) !== null) this.begin = playback.begin;
+  #setStart({ playback, tracks, phases, log, feet, links }) {
+    if (number(playback?.begin) !== null) this.start = playback.begin;
     else if (this.playback === null && !this.anyData) {
       const firsts = [...Object.values(record(tracks)), ...Object.values(record(phases)), log].map((some) =>
         number(list(some)[0]?.[0]),
       );
       this.anyData = [feet, links].some((one) => Object.keys(record(one)).length > 0) || firsts.some((t) => t !== null);
-      if (this.anyData) this.begin = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
-      if (!Number.isFinite(this.begin)) this.begin = 0;
+      if (this.anyData) this.start = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
+      if (!Number.isFinite(this.start)) this.start = 0;
     }
   }
 
   #foot(foot, news, changed) {
-    const old = this.feet[foot] ?? { steps: 0, distance: 0, cells: null };
+    const old = this.feet[foot] ?? { strides: 0, distance: 0, cells: null };
     const one = { ...old, ...news };
     if ("cells" in news) one.cells = bytes(news.cells);
     if (!numbers(one.position, 3)) one.position = null;
@@ -246,8 +246,8 @@ function gait(value) {
 
 function playback(value) {
   if (!numbers([value?.begin, value?.end, value?.t], 3)) return null;
-  const { begin, end, t } = value;
-  return { begin, end, t, state: text(value.state), speed: number(value.speed) ?? 1, seeking: number(value.seeking) };
+  const { begin: start, end, t } = value;
+  return { start, end, t, state: text(value.state), speed: number(value.speed) ?? 1, seeking: number(value.seeking) };
 }
 
 function plan(value) {

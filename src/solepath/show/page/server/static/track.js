@@ -86,7 +86,7 @@ export class Track {
     ];
 
     this.#still(state, level, px, scale, `${x} ${y}`);
-    const context = this.surface.begin();
+    const context = this.surface.start();
     if (this.layer.width > 0 && this.layer.height > 0) context.drawImage(this.layer, 0, 0, width, height);
     if (onPlan) this.#place(context, state, level, px, scale);
     else this.#now(context, state, px, scale);
