@@ -85,7 +85,7 @@ def test_a_row_stands_for_every_figure_of_the_paper(monkeypatch: pytest.MonkeyPa
     done = shoe_sensing.reproduce(1, 1)
     assert set(PAPER) <= set(done.table)
     assert all(len(row.values) for row in done.rows)
-    assert done.table["walking, height of 100 strides after m"].mean == pytest.approx(0.0, abs=0.1)
+    assert done.table["walking, height of 100 steps after m"].mean == pytest.approx(0.0, abs=0.1)
     assert len(done.panels) == 2
     notes = " ".join(done.notes)
     for claim in ("by construction", " of 1 tracks end exactly", "the end is off by", "in the method corrects it"):

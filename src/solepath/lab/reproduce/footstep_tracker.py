@@ -39,15 +39,13 @@ def reproduce(
         _row("corridor, one foot %", [100.0 * one.one_foot_error / CORRIDOR_LENGTH for one in results]),
         _row("corridor, by height %", [100.0 * one.stature_error / CORRIDOR_LENGTH for one in results]),
         _row("corridor, two feet %", [100.0 * one.two_feet_error / CORRIDOR_LENGTH for one in results]),
-        _row("stride, one foot m", [abs(off) for one in results for off in one.one_foot_stride_errors]),
-        _row("stride, two feet m", [abs(off) for one in results for off in one.two_feet_stride_errors]),
+        _row("step, one foot m", [abs(off) for one in results for off in one.one_foot_stride_errors]),
+        _row("step, two feet m", [abs(off) for one in results for off in one.two_feet_stride_errors]),
         _row("activities %", [100.0 * (one.windows.accuracy or 0.0) for one in results]),
         _row("turn angle deg", [off for one in results for off in one.turn_errors.values()], digits=1),
         _row("turn classes %", [_share(one.classes.values()) for one in results]),
         _row("place m", [sum(place.off) / len(place.off) for place in places if place.off]),
-        _row(
-            "strides until decided", [float(place.decided) for place in places if place.decided is not None], digits=0
-        ),
+        _row("steps until decided", [float(place.decided) for place in places if place.decided is not None], digits=0),
     ]
     return Reproduction(
         name=NAME,
@@ -98,8 +96,8 @@ def _notes(results: list[FootstepResults]) -> tuple[str, ...]:
     n_undecided = sum([place.decided is None for place in places])
     lines.append(
         f"Of {len(places)} walks on the plan, half along the way of the figure, the others along ways of their own: "
-        f"the true candidate was missing at some stride in {n_missing}, a wrong one was alone at some stride in "
-        f"{n_wrong}, and in {n_undecided} it never came down to the true one."
+        f"the true candidate was missing at some step in {n_missing}, a wrong one was alone at some step in {n_wrong}, "
+        f"and in {n_undecided} it never came down to the true one."
     )
-    lines.append("After how many strides it is decided is a matter of the building: six in the paper's, for one user.")
+    lines.append("After how many steps it is decided is a matter of the building: six in the paper's, for one user.")
     return tuple(lines)

@@ -130,7 +130,7 @@ FOOTSTEP_TRACKER: Table = {
     "activities %": Statistics(mean=96.2),
     "turn classes %": Statistics(mean=98.3),
     "place m": Statistics(mean=1.0),
-    "strides until decided": Statistics(mean=6.0),
+    "steps until decided": Statistics(mean=6.0),
 }
 """Figures in the text of sections V-C to V-F.
 

@@ -2,7 +2,7 @@
 
 Twenty wearers take a hundred strides at a walk and at a jog, two flights of stairs upwards and two downwards, and walk
 for five minutes (shoe_walks.py). The values of a row are the single strides of all wearers, unless stated otherwise.
-The paper calls strides steps. It draws figures 21 and 22 and does not print their values."""
+The paper calls strides steps, and so do the rows. It draws figures 21 and 22 and does not print their values."""
 
 from __future__ import annotations
 
@@ -49,9 +49,9 @@ def _extraction(results: Sequence[ShoeResults]) -> list[FigureRow]:
     """Return the rows of figs. 21 and 22, with one value for each wearer."""
     rows = []
     for state in STATES:
-        rows.append(_row(f"{state}, strides by energy %", [one.energy[state].stride_f1 for one in results], digits=1))
+        rows.append(_row(f"{state}, steps by energy %", [one.energy[state].stride_f1 for one in results], digits=1))
         rows.append(
-            _row(f"{state}, strides by magnitude %", [one.magnitude[state].stride_f1 for one in results], digits=1)
+            _row(f"{state}, steps by magnitude %", [one.magnitude[state].stride_f1 for one in results], digits=1)
         )
     rows += [
         _row(f"{state}, state right %", [one.energy[state].right_share for one in results], digits=1)
@@ -75,7 +75,7 @@ def _heights(results: Sequence[ShoeResults]) -> list[FigureRow]:
         by_name = {"before": [one.before[state] for one in results], "after": [one.energy[state] for one in results]}
         for name, scores in by_name.items():
             rows.append(_row(f"{state}, height {name} m", [abs(error) for one in scores for error, _ in one.heights]))
-            rows.append(_row(f"{state}, height of 100 strides {name} m", [abs(one.height) for one in scores]))
+            rows.append(_row(f"{state}, height of 100 steps {name} m", [abs(one.height) for one in scores]))
     return rows
 
 
@@ -134,20 +134,19 @@ def _notes(results: Sequence[ShoeResults]) -> tuple[str, ...]:
 
 
 DEFINITIONS = (
-    'Rows: length and height are errors of single strides without their signs, all wearers together; "height of 100 '
-    'strides" is what the track of a whole level walk gained, one figure a wearer; course is the direction of single '
-    "strides over the first 19.2 m, the first two metres laid on the truth; strides by energy or magnitude is F1 of "
-    "strides that end within 0.3 s of a true one; state right is the share of the strides found whose own angle is of "
-    "the state walked; table 2 is a wearer's mean error over the mean length, divided by 22.5, of the height upstairs "
-    "and of the length otherwise; before is without and after is with the elimination of height errors on level "
-    "strides.",
-    "Table 1 is of strides before their heights are corrected. What theta' is made of is in "
-    "body/activity/steepness.py; the paper's words for it do not fit its figures.",
+    'Rows: length and height are errors of single steps without their signs, all wearers together; "height of 100 '
+    'steps" is what the track of a whole level walk gained, one figure a wearer; course is the direction of single '
+    "steps over the first 19.2 m, the first two metres laid on the truth; steps by energy or magnitude is F1 of steps "
+    "that end within 0.3 s of a true one; state right is the share of the steps found whose own angle is of the state "
+    "walked; table 2 is a wearer's mean error over the mean length, divided by 22.5, of the height upstairs and of the "
+    "length otherwise; before is without and after is with the elimination of height errors on level steps.",
+    "Table 1 is of steps before their heights are corrected. What theta' is made of is in body/activity/steepness.py; "
+    "the paper's words for it do not fit its figures.",
 )
 PAPER_NOTES = (
     "The paper: lengths right to 90.8 % walking, 91.9 % jogging, 90.8 % upstairs and 80.0 % downstairs, at worst "
-    "off by 0.34, 0.49, 0.32 and 0.38 m; heights of level strides after elimination at worst off by 0.26 m walking and "
-    "0.61 m jogging; states above 95 %, strides nearly 100 %; of the five minutes it has a picture and no figure.",
+    "off by 0.34, 0.49, 0.32 and 0.38 m; heights of level steps after elimination at worst off by 0.26 m walking and "
+    "0.61 m jogging; states above 95 %, steps nearly 100 %; of the five minutes it has a picture and no figure.",
 )
 
 
@@ -161,13 +160,13 @@ def _length_notes(results: Sequence[ShoeResults]) -> list[str]:
         merged, split = sum([one.merged for one in stride_errors]), sum([one.split for one in stride_errors])
         worst = max([abs(error) for error, _ in lengths])
         line = (
-            f"{state.capitalize()}: strides of {np.mean([true for _, true in lengths]):.2f} m on average, lengths "
-            f"right to {100.0 * (1.0 - _relative(lengths)):.1f} %, at worst off by {worst:.2f} m"
+            f"{state.capitalize()}: steps of {np.mean([true for _, true in lengths]):.2f} m on average, lengths right "
+            f"to {100.0 * (1.0 - _relative(lengths)):.1f} %, at worst off by {worst:.2f} m"
         )
         others = [abs(error) for one in stride_errors for error in one.whole]
         if merged + split and others:
             line += (
-                f"; of {len(lengths)} strides {merged} were joined with the stride before, whose stance was missed, "
+                f"; of {len(lengths)} steps {merged} were joined with the step before, whose stance was missed, "
                 f"and {split} in two pieces; the others are at worst off by {max(others):.2f} m"
             )
         lines.append(f"{line}.")
@@ -176,23 +175,23 @@ def _length_notes(results: Sequence[ShoeResults]) -> list[str]:
 
 def _height_notes(results: Sequence[ShoeResults]) -> list[str]:
     lines = [
-        "Heights after elimination say little: a stride that is judged level ends exactly as high as it began, by "
-        "construction, on any floor, a ramp too. What is left comes of level strides that were not judged so."
+        "Heights after elimination say little: a step that is judged level ends exactly as high as it began, by "
+        "construction, on any floor, a ramp too. What is left comes of level steps that were not judged so."
     ]
     for state in STATES[:2]:
         before = [abs(one.before[state].height) for one in results]
         after = [abs(one.energy[state].height) for one in results]
         n_level = sum([height < 1e-6 for height in after])
         lines.append(
-            f"{state.capitalize()} 100 strides on the level: {n_level} of {len(results)} tracks end exactly as high "
+            f"{state.capitalize()} 100 steps on the level: {n_level} of {len(results)} tracks end exactly as high "
             f"as they began, at worst {max(after):.2f} m off; without elimination they drift by "
             f"{np.mean(before):.2f} m on average and {max(before):.2f} m at worst."
         )
     lines.append(
         'The paper\'s heights before elimination (0.12 m walking, 0.17 m jogging) are of "100 sets of data", and it '
-        "does not say how many strides a set has; they stand beside ours of single strides. Ours of a whole walk are "
+        "does not say how many steps a set has; they stand beside ours of single steps. Ours of a whole walk are "
         "metres where the paper has decimetres: an offset of the accelerometer, emulated as large as its data sheet "
-        "has it, tilts every stride the same way, and without elimination nothing in the method finds it."
+        "has it, tilts every step the same way, and without elimination nothing in the method finds it."
     )
     return lines
 
@@ -208,7 +207,7 @@ def _tour_notes(results: Sequence[ShoeResults]) -> list[str]:
         f"Five minutes: flights reported exactly in {n_exact} of {len(results)} walks; the end is off by "
         f"{np.mean(errors):.1f} m on average, {share:.1f} % of the way, and by {max(errors):.1f} m at worst, its "
         f"height by {np.mean(heights):.2f} m and {max(heights):.2f} m.",
-        f"The heading of the five minutes' last strides is off by {np.mean(headings):.0f} degrees on average and "
+        f"The heading of the five minutes' last steps is off by {np.mean(headings):.0f} degrees on average and "
         f"{max(headings):.0f} at worst: it is integrated from the gyroscope, and nothing in the method corrects it. "
         "The way goes round and back, which hides much of that at its end.",
     ]
