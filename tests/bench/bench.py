@@ -14,7 +14,7 @@ from time import perf_counter
 from typing import Any
 
 from measure import RUNS, machine, measure_memory, no_garbage_collection, seconds
-from solepath.body.layout_calibration.wear import Wear
+from solepath.body.worn.wear import Wear
 from yardstick import TunedFilter, UsualFilter
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
