@@ -14,13 +14,13 @@ from time import perf_counter
 from typing import Any
 
 from measure import RUNS, machine, measure_memory, no_garbage_collection, seconds
-from solepath.body.worn.wear import Wear
 from yardstick import TunedFilter, UsualFilter
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.gait.turns import Turns
 from solepath.body.part import ActivityPart, Part, TrackPart
 from solepath.body.place.place_hypotheses import PlaceHypotheses
+from solepath.body.worn.wear import Wear
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.building import BUILDING

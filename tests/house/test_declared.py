@@ -18,12 +18,9 @@ FIELD_PLACES = (
 """Folders and modules whose public fields have docstrings."""
 NUMERIC = re.compile(r"\b(?:float|int|Vec3|Quat)\b")
 REAL = re.compile(r"\b(?:float|Vec3|Quat)\b")
+UNITS = "s|us|ms|m|mm|rad|Hz|N|Pa|hPa|kg|V|T|g|u|%|m\\^2|1/min|bytes|counts|seconds|degrees|dBm|ppm"
 UNIT = re.compile(
-    r"(?:^|[\s(,])(?:s|ms|m|mm|cm|rad|deg|Hz|N|Pa|hPa|kPa|kg|V|mV|uT|g|degrees?|seconds?|lux|dBm?|bytes?|bits?|%"
-    r"|m/s|m/s\^2|m\^2|m\^2/s\^5|rad/s|1/s|1/m|N/m|m\^2/s\^4|deg C|degrees Celsius|m/s/sqrt\(s\))(?=$|[\s,.;:)])"
-    r"|[a-z0-9)]/(?:s|m|Hz|sqrt)|\b0 to 1\b|-1 to 1\b|\bshare\b|\bno unit\b|\bratio\b|\bquaternion\b|\bprobability\b"
-    r"|\bunit vector\b|\bBPM\b|\bppm\b|\bfactor\b",
-    re.IGNORECASE,
+    rf"(?:^|[\s(])(?:{UNITS})(?=$|[\s,.;:)])|[a-z0-9)]/(?:s|m|Hz|sqrt)|0 to 1|-1 to 1|\b(?:share|no unit|ratio|quaternion)\b"
 )
 """Words by which the docstring of a real number names its unit."""
 
