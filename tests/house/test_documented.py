@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import builtins
 from collections.abc import Iterator
 
 from here import ROOT
@@ -39,6 +40,13 @@ def inherited(cls: ast.ClassDef, known: dict[str, list[ast.ClassDef]]) -> set[st
     return set().union(*(described(base) | inherited(base, known) for base in bases))
 
 
+def is_foreign(cls: ast.ClassDef, known: dict[str, list[ast.ClassDef]]) -> bool:
+    """Return whether a base, however far up, is of another package, which documents the methods that are overridden."""
+    own_bases = [base for name in names(cls.bases) for base in known.get(name, ()) if base is not cls]
+    plain = {"Protocol", "Generic", "Enum", "IntEnum", "NamedTuple", "TypedDict", *dir(builtins)}
+    return bool(names(cls.bases) - known.keys() - plain) or any(is_foreign(base, known) for base in own_bases)
+
+
 def bare(sources: dict[str, str]) -> Iterator[str]:
     """Yield path, line and name of each public definition without docstring."""
     known = classes(sources)
@@ -50,7 +58,7 @@ def bare(sources: dict[str, str]) -> Iterator[str]:
                 continue
             if not ast.get_docstring(node):
                 yield f"{path}:{node.lineno} {node.name}"
-            if isinstance(node, ast.ClassDef):
+            if isinstance(node, ast.ClassDef) and not is_foreign(node, known):
                 done = promised | inherited(node, known)
                 for one in node.body:
                     if (isinstance(one, Function) and not one.name.startswith("_") and not ast.get_docstring(one)

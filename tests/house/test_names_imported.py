@@ -36,13 +36,17 @@ def find(module: str, beside: Path) -> Path | None:
 def bound(file: Path) -> set[str]:
     """Return the names that a module has: those it defines or imports, its submodules, and those it loads on request."""
     tree = ast.parse(file.read_text("utf-8"))
-    names = {node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)}
+    names = {
+        node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
+    }
     names |= {node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
     for node in ast.walk(tree):
         if isinstance(node, ast.Import | ast.ImportFrom):
             names |= {(alias.asname or alias.name).partition(".")[0] for alias in node.names}
     if "__getattr__" in names:
-        names |= {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+        names |= {
+            node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)
+        }
     if file.name == "__init__.py":
         names |= {path.stem for path in file.parent.iterdir()}
     return names

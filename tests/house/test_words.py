@@ -40,7 +40,7 @@ PRIVATE, STANDARD = private_words()
 STEM_LENGTH = 4
 """Length from which a listed form is found at the start of a longer word as well."""
 STEMS = tuple(sorted(word for word in PRIVATE if len(word) >= STEM_LENGTH))
-STANDARD_WORDS = frozenset([])
+STANDARD_WORDS = frozenset(["heart", "heartbeat"])
 """Standard words that start like a private one."""
 
 
@@ -68,7 +68,9 @@ def identifiers(source: str) -> set[str]:
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
     names = {token.string for token in tokens if token.type == tokenize.NAME}
     for node in ast.walk(ast.parse(source)):
-        names |= {getattr(node, field) for field in ("id", "attr", "arg") if isinstance(getattr(node, field, None), str)}
+        names |= {
+            getattr(node, field) for field in ("id", "attr", "arg") if isinstance(getattr(node, field, None), str)
+        }
     return {name for name in names if not iskeyword(name)}
 
 
@@ -77,7 +79,11 @@ def test_no_identifier_holds_a_private_word(top: Path) -> None:
     found = {
         path.relative_to(ROOT).as_posix(): held
         for path in python(top)
-        if (held := sorted(n for n in identifiers(path.read_text("utf-8")) - STANDARD if any(map(is_private, words_of(n)))))
+        if (
+            held := sorted(
+                n for n in identifiers(path.read_text("utf-8")) - STANDARD if any(map(is_private, words_of(n)))
+            )
+        )
     }
     assert found == {}, "docs/words.txt says what to say instead"
 
@@ -150,7 +156,17 @@ def test_every_public_docstring_is_a_sentence_that_stands_alone() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["Of them.", "and", "downwards, negative,", "Whether it stands.", "s of standing", "A number", "m; x to", "It has a list:\n\nOne."]
+    "text",
+    [
+        "Of them.",
+        "and",
+        "downwards, negative,",
+        "Whether it stands.",
+        "s of standing",
+        "A number",
+        "m; x to",
+        "It has a list:\n\nOne.",
+    ],
 )
 def test_what_leans_on_its_neighbours_is_no_sentence(text: str) -> None:
     assert fault(text) is not None

@@ -43,7 +43,9 @@ ABLATED_RECIPES: dict[str, Recipe] = {
     "zero velocity, no rolling foot": _cycle(rolls=False),
     "no extra noise of a foot that is braked": _cycle(noise_per_acceleration_square=0.0),
     "no innovation gate": _filter(innovation_gate=UNREACHABLE_LIMIT),
-    "no recovery after gated evidence": _filter(time_until_lost=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT),
+    "no recovery after gated evidence": _filter(
+        time_until_lost=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT
+    ),
     "no level, slope or stair": _filter(level=False),
     "no tilt aiding": _filter(tilt_rate=0.0),
     "no noise of what lies between samples": _filter(noise_per_difference=0.0),

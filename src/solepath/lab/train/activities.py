@@ -275,6 +275,7 @@ def train_model(data: Path, without: int | None) -> MotionModel:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Train the activity model and return the exit status."""
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.train.activities", description=__doc__)
     parser.add_argument("data", type=Path)
     parser.add_argument("--out", type=Path, default=Path(motion.__file__).with_name("activities.json"))
