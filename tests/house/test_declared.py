@@ -20,7 +20,8 @@ NUMERIC = re.compile(r"\b(?:float|int|Vec3|Quat)\b")
 REAL = re.compile(r"\b(?:float|Vec3|Quat)\b")
 UNITS = "s|us|ms|m|mm|rad|Hz|N|Pa|hPa|kg|V|T|g|u|%|m\\^2|1/min|bytes|counts|seconds|degrees|dBm|ppm"
 UNIT = re.compile(
-    rf"(?:^|[\s(])(?:{UNITS})(?=$|[\s,.;:)])|[a-z0-9)]/(?:s|m|Hz|sqrt)|0 to 1|-1 to 1|\b(?:[Ss]hare|no unit|ratio|quaternion)\b"
+    rf"(?:^|[\s(])(?:{UNITS})(?=$|[\s,.;:)])|[a-z0-9)]/(?:s|m|Hz|sqrt)|0 to 1|-1 to 1"
+    r"|\b(?:[Ss]hare|no unit|ratio|quaternion)\b"
 )
 """Words by which the docstring of a real number names its unit."""
 

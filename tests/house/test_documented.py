@@ -61,8 +61,9 @@ def bare(sources: dict[str, str]) -> Iterator[str]:
             if isinstance(node, ast.ClassDef) and not is_foreign(node, known):
                 done = promised | inherited(node, known)
                 for one in node.body:
-                    if (isinstance(one, Function) and not one.name.startswith("_") and not ast.get_docstring(one)
-                            and one.name not in done and not names(one.decorator_list) & {"overload", "setter"}):  # fmt: skip
+                    if not isinstance(one, Function) or one.name.startswith("_") or one.name in done:
+                        continue
+                    if not ast.get_docstring(one) and not names(one.decorator_list) & {"overload", "setter"}:
                         yield f"{path}:{one.lineno} {node.name}.{one.name}"
 
 

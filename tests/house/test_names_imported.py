@@ -10,6 +10,7 @@ from pathlib import Path
 from here import EXAMPLES, HELPERS, ROOT, TESTS
 
 SRC = ROOT / "src"
+Scope = ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 FOLDERS = (SRC, HELPERS, *sorted(path for path in HELPERS.iterdir() if path.is_dir()))
 """Folders from which the tests import by a top name."""
 
@@ -32,21 +33,25 @@ def find(module: str, beside: Path) -> Path | None:
     return None
 
 
+def outside_functions(tree: ast.AST) -> Iterator[ast.AST]:
+    """Yield the nodes of a module that are within neither a function nor a class, and the functions and classes."""
+    for node in ast.iter_child_nodes(tree):
+        yield node
+        if not isinstance(node, Scope):
+            yield from outside_functions(node)
+
+
 @cache
 def bound(file: Path) -> set[str]:
-    """Return the names that a module has: those it defines or imports, its submodules, and those it loads on request."""
-    tree = ast.parse(file.read_text("utf-8"))
-    names = {
-        node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
-    }
-    names |= {node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
-    for node in ast.walk(tree):
+    """Return the names of a module: those it defines or imports, its submodules, and those it loads on request."""
+    nodes = list(outside_functions(ast.parse(file.read_text("utf-8"))))
+    names = {node.name for node in nodes if isinstance(node, Scope)}
+    names |= {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)}
+    for node in nodes:
         if isinstance(node, ast.Import | ast.ImportFrom):
             names |= {(alias.asname or alias.name).partition(".")[0] for alias in node.names}
     if "__getattr__" in names:
-        names |= {
-            node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)
-        }
+        names |= {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
     if file.name == "__init__.py":
         names |= {path.stem for path in file.parent.iterdir()}
     return names

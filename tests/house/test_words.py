@@ -54,13 +54,11 @@ def words_of(identifier: str) -> list[str]:
 
 
 def python(top: Path) -> list[Path]:
-    """Return the Python files below a folder: those with the suffix, and programs that name Python in the first line."""
+    """Return the Python files below a folder: those with the suffix, and programs whose first line names Python."""
+    paths = [path for path in sorted(top.rglob("*")) if path.is_file() and "__pycache__" not in path.parts]
     return [
-        path
-        for path in sorted(top.rglob("*"))
-        if path.is_file() and "__pycache__" not in path.parts
-        and (path.suffix == ".py" or not path.suffix and path.read_bytes()[:64].partition(b"\n")[0].endswith(b"python3"))
-    ]  # fmt: skip
+        path for path in paths if path.suffix == ".py" or path.read_bytes()[:64].split(b"\n")[0].endswith(b"python3")
+    ]
 
 
 def identifiers(source: str) -> set[str]:
@@ -72,6 +70,11 @@ def identifiers(source: str) -> set[str]:
             getattr(node, field) for field in ("id", "attr", "arg") if isinstance(getattr(node, field, None), str)
         }
     return {name for name in names if not iskeyword(name)}
+
+
+def held_by(path: Path) -> list[str]:
+    names = identifiers(path.read_text("utf-8")) - STANDARD
+    return sorted(name for name in names if any(map(is_private, words_of(name))))
 
 
 @pytest.mark.parametrize("top", [SRC, EXAMPLES, TESTS, ROOT / ".ci"], ids=lambda top: top.name)
