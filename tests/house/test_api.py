@@ -126,7 +126,7 @@ def test_each_method_has_an_entry_with_its_docstring(cls: type, module: str) -> 
             assert first in page, name
 
 
-def test_every_room_that_says_what_is_public_is_listed() -> None:
+def test_every_room_with_public_names_is_listed() -> None:
     assert rooms() - THROUGH_THE_PACKAGE - COMMAND <= listed()
 
 
@@ -148,7 +148,7 @@ def test_each_field_of_an_event_has_an_entry_with_its_docstring(cls: type) -> No
         assert letters(text) in letters(words(entry)), name
 
 
-def test_there_are_events_whose_fields_are_looked_up() -> None:
+def test_the_events_and_their_fields_are_found() -> None:
     assert {"StrideTaken", "HeelStrike", "WearerMoved"} <= {cls.__name__ for cls in EVENT_CLASSES}
     assert set(field_texts(Happening)) == {"t", "known_at", "final"}
 

@@ -281,8 +281,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=Path(motion.__file__).with_name("activities.json"))
     parser.add_argument("--without", type=int, choices=range(len(FOLDS)))
     options = parser.parse_args(arguments)
-    model = train_model(options.data, options.without)
-    options.out.write_text(_lines(to_json(model), 0) + "\n", encoding="utf-8")
+    options.out.write_text(_lines(to_json(train_model(options.data, options.without)), 0) + "\n", encoding="utf-8")
     return 0
 
 
