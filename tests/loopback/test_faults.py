@@ -138,7 +138,7 @@ def test_a_name_may_be_another_one() -> None:
     assert device.name == "SensorTag 2.0"
 
 
-def test_seconds_count_from_the_walks_beginning() -> None:
+def test_seconds_count_from_the_walks_start() -> None:
     device = worn(CC2650(), faults="2 left_foot disconnect", started_at=100.0)
     set_up(device, cc2650.PROFILE, now=90.0)
     assert played(device, 200.0)[-1][0] == pytest.approx(102.0, abs=0.11)

@@ -127,8 +127,8 @@ async def test_both_soles_change_in_picture_and_description(chromium: Browser) -
                     seen[foot].add(await picture(view, f"sole-{foot}"))
                     descriptions[foot].add(await words(view, f"sole-{foot}"))
                 await asyncio.sleep(0.05)
-        for foot, sayings in descriptions.items():
-            assert all(description and description.startswith(f"{foot.capitalize()} sole: ") for description in sayings)
+        for foot, found in descriptions.items():
+            assert all(description and description.startswith(f"{foot.capitalize()} sole: ") for description in found)
 
 
 async def test_the_track_and_the_ribbon_grow_with_every_step(chromium: Browser) -> None:

@@ -88,8 +88,8 @@ def test_any_bytes_end_one_connection_at_the_most(sent: list[bytes]) -> None:
     async def main() -> None:
         asyncio.get_running_loop().set_exception_handler(lambda loop, context: problems.append(context))
         async with asyncio.timeout(30.0), served() as (page, client, url):
-            for beginning in (b"", handshake()):
-                await fetch_reply(page, beginning + b"".join(sent), ends=True)
+            for opening in (b"", handshake()):
+                await fetch_reply(page, opening + b"".join(sent), ends=True)
             await check_watching(client, url)
 
     asyncio.run(main())

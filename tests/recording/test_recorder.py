@@ -132,7 +132,7 @@ def test_the_header_of_one_recording_can_be_that_of_another_whatever_its_keys(tm
     assert second_path.read_bytes() == first_path.read_bytes()
 
 
-def test_what_is_recorded_live_may_have_anothers_header_but_its_own_beginning(tmp_path):
+def test_what_is_recorded_live_may_have_anothers_header_but_its_own_start(tmp_path):
     pytest.importorskip("bleak", reason="the extra ble is not installed")
     from solepath.ble import record
 

@@ -21,21 +21,23 @@ from ..types.attrs import frozen
 
 @frozen
 class Shift:
-    """A correction of a flat foot: `yaw`, rad, is added to its heading and `by`, m, world frame, to its position."""
+    """A correction of the position and the heading of a foot that is flat on the ground."""
 
     foot: Foot
     yaw: float
+    """Angle that is added to the foot's heading, rad."""
     by: Vec3
+    """Vector that is added to the foot's position, world frame, m."""
 
 
 @frozen
 class HeightShift:
-    """A correction of the wearer's height that holds until the next one: `above`, m, is added to the feet's heights.
-
-    `variance` is in m^2."""
+    """A correction of the wearer's height that holds until the next one."""
 
     above: float
+    """Height that is added to the heights of the feet, m."""
     variance: float
+    """Variance of `above`, m^2."""
 
 
 @frozen
@@ -48,10 +50,11 @@ class Replacement:
 
 @frozen
 class ClockUnsettled:
-    """A notice that times of a site up to `until`, s, cannot be compared with those of other sites; None: all can."""
+    """A notice that times of a site cannot be compared with those of other sites."""
 
     site: Site
     until: float | None
+    """Time up to which they cannot be compared, s; None when all can."""
 
 
 @frozen
@@ -66,11 +69,14 @@ class LayoutReported:
 
 @frozen
 class Position:
-    """The position of the wearer at `t`, s, world frame, m, with covariance xx, xy, xz, yy, yz, zz, m^2."""
+    """The position of the wearer at one time."""
 
     t: float
+    """Time of the position, s."""
     position: Vec3
+    """Position in the world frame, m."""
     covariance: Covariance3
+    """Covariance of `position`: xx, xy, xz, yy, yz, zz, m^2."""
 
 
 PartOutput = Happening | Shift | HeightShift | Replacement

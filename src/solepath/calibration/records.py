@@ -18,34 +18,32 @@ class CalibrationError(ValueError):
 class Newtons:
     """Cubic that turns a cell's raw value c into newtons: N = a + b c + c2 c^2 + c3 c^3.
 
-    It is fitted to measurements with a force gauge (Gong et al. 2023, Sensors 23, 5417, fig. 6). `coefficients` are a,
-    b, c2 and c3. A force below `threshold` (N) becomes 0, one above `most` (N) becomes `most`."""
+    It is fitted to measurements with a force gauge (Gong et al. 2023, Sensors 23, 5417, fig. 6)."""
 
     coefficients: tuple[float, float, float, float]
+    """Coefficients a, b, c2 and c3, N per power of the raw value."""
     threshold: float = 5.0
+    """Force below which the result is 0, N."""
     most: float = 200.0
+    """Largest force, N: the result for every force above it."""
 
 
 @frozen
 class InsoleCalibration:
-    """Calibration of one insole.
-
-    `layout` has the positions of the cells, for devices and files that do not send them. `newtons` converts raw values
-    to N. `noise` has the value of each unloaded cell, in N if there are `newtons`, otherwise in the unit of the samples
-    (Chen et al. 2019, equation (1))."""
+    """Calibration of one insole."""
 
     layout: Layout | None = None
+    """Positions of the cells, for devices and files that do not send them."""
     newtons: Newtons | None = None
+    """Conversion of raw values to N; None when the values stay in their own unit."""
     noise: tuple[float, ...] = ()
+    """Value of each unloaded cell, in N if there are `newtons`, otherwise in the unit of the samples (Chen et al. 2019,
+    equation (1))."""
 
 
 @frozen
 class ShoeGeometry:
-    """Geometry of a shoe, m, as in figs. 5 to 7 of Chen et al. 2019. The defaults are their shoe (10.5 US).
-
-    `heel_radius` is L_r of the heel, from its rear end to the point of the sole below the sensor. `height` is H_imu,
-    from that point up to the sensor. `forefoot_radius` and `pivot_to_toe` are L_r and L_p2t of the forefoot, as
-    polynomials of the pitch (rad, heel up positive), constant first. They hold from 0 to `steepest` (rad).
+    """Geometry of a shoe, as in figs. 5 to 7 of Chen et al. 2019. The defaults are their shoe (10.5 US).
 
     The paper gives no coefficients for the forefoot. The defaults come from geometry: a shoe of 28.5 cm with the sensor
     12.5 cm in front of the heel's rear end. The sole is flat and rigid up to 19.5 cm. In front of that it is a rocker:
@@ -59,18 +57,20 @@ class ShoeGeometry:
     to `steepest`."""
 
     heel_radius: float = 0.125
+    """Radius L_r of the heel, from its rear end to the point of the sole below the sensor, m."""
     height: float = 0.029
+    """Height H_imu of the sensor above that point of the sole, m."""
     forefoot_radius: tuple[float, ...] = (0.070, 0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0)
+    """Radius L_r of the forefoot, m, as a polynomial of the pitch (rad, heel up positive), constant first."""
     pivot_to_toe: tuple[float, ...] = (0.090, -0.025, 0.0, 0.05 / 24.0, 0.0, 0.05 / 240.0)
+    """Distance L_p2t of the forefoot, m, as a polynomial of the pitch (rad, heel up positive), constant first."""
     steepest: float = 1.3
+    """Largest pitch for which the polynomials hold, rad; the smallest is 0."""
 
 
 @frozen
 class Limbs:
-    """Lengths of the lower limbs, m.
-
-    `hip_width` is the distance between the hip joints, `foot` reaches from below the ankle to the end of the foot, and
-    `ankle_height` is the height of the ankle above the ground.
+    """Lengths of the lower limbs.
 
     The defaults are those of a wearer of 1.75 m. Thigh 0.245, shank 0.246, foot 0.152 and ankle 0.039 of the height are
     the proportions of Drillis and Contini (1966), as in Winter, Biomechanics and Motor Control of Human Movement; three
@@ -79,30 +79,38 @@ class Limbs:
     (Bell, Brand and Pedersen 1989, Human Movement Science 8)."""
 
     hip_width: float = 0.173
+    """Distance between the hip joints, m."""
     thigh: float = 0.429
+    """Length of the thigh, m."""
     shank: float = 0.431
+    """Length of the shank, m."""
     foot: float = 0.200
+    """Length from below the ankle to the end of the foot, m."""
     ankle_height: float = 0.068
+    """Height of the ankle above the ground, m."""
 
 
 @frozen
 class Calibration:
-    """The calibration of one wearer; a value that was not calibrated is None or absent.
-
-    `drift` is the rate at which the position of a foot drifts, m/s (x, y). If the device sends its attitude, `drift` is
-    in the world frame of the device. Otherwise it is in the navigation frame, whose heading is that of the sensor at
-    the start, so it holds for walks that start with the same heading as the calibration. `weight` is that of the
-    wearer, N. `modes` is the compensation of a touchdown by foot and walking mode, (forward, left), m. `toe_out` is the
-    angle from the direction of walking to the foot's long axis, outwards positive, rad (Liu et al. 2015, equation (1)).
-    """
+    """The calibration of one wearer; a value that was not calibrated is None or absent."""
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)
+    """Calibrations of the insoles by foot."""
     shoe: ShoeGeometry | None = None
+    """Geometry of the shoes."""
     drift: dict[Foot, tuple[float, float]] = field(factory=dict)
+    """Rate at which the position of each foot drifts, (x, y), m/s. If the device sends its attitude, it is in the world
+    frame of the device. Otherwise it is in the navigation frame, whose heading is that of the sensor at the start, so
+    it holds for walks that start with the same heading as the calibration."""
     limbs: Limbs | None = None
+    """Lengths of the wearer's lower limbs."""
     weight: float | None = None
+    """Weight of the wearer, N."""
     modes: dict[Foot, dict[WalkingMode, tuple[float, float]]] | None = None
+    """Compensation of a touchdown by foot and walking mode, (forward, left), m."""
     toe_out: dict[Foot, float] = field(factory=dict)
+    """Angle from the direction of walking to each foot's long axis, outwards positive, rad (Liu et al. 2015, equation
+    (1))."""
 
     def insole(self, foot: Foot) -> InsoleCalibration:
         """Return the calibration of this foot's insole, or an empty one."""

@@ -23,7 +23,7 @@ class StrideFused(Happening):
     own_length: float
     """Stride length d that this foot alone measured, m."""
     similarity: float | None
-    """Similarity r of both feet's strides by (9); None without a stride of the other foot to compare with."""
+    """Similarity r of both feet's strides by (9), no unit; None without a stride of the other foot to compare with."""
     error_index: float | None
     """Error index EI by (10), m/s; None for an abnormal stride, which is not used for calibration."""
     coefficient: float

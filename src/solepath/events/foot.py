@@ -45,25 +45,28 @@ class ToeOff(_Phase):
 class StrideFeatures:
     """Measurements of one stride; a field that the sensors cannot measure is None.
 
-    `clearance`: highest rise of the sensor above the higher end of the stride, m. `peak_speed`: largest speed, m/s.
-    `swing_pitch`: range of the pitch angle over the stride, rad. `contact_load`: mean load from foot-flat to toe-off,
-    in the unit of the samples. `cop`: path (x, y) of the centre of pressure from foot-flat to toe-off, foot frame, m,
-    at most 32 points at equal intervals of samples. `error_index`: difference of the integrated velocity from the known
-    velocity at toe-off and heel-strike, m/s (Chen et al. 2019, equation (10)); None if the velocity of the rolling shoe
-    was not used. `toe_off_angle`: pitch at toe-off relative to the foot-flat before it, rad, positive when the heel
-    is up. `heel_strike_angle`: pitch at heel-strike relative to the foot-flat after it, rad, positive when the toe is
-    up. Both angles are about the axis to the wearer's left, which is known after the foot's first push-off. `rise`:
-    height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
+    Both angles are about the axis to the wearer's left, which is known after the foot's first push-off."""
 
     clearance: float
+    """Highest rise of the sensor above the higher end of the stride, m."""
     peak_speed: float
+    """Largest speed of the sensor, m/s."""
     swing_pitch: float
+    """Range of the pitch angle over the stride, rad."""
     contact_load: float | None = None
+    """Mean load from foot-flat to toe-off, in the unit of the samples (N if a calibration converts counts to N)."""
     cop: tuple[tuple[float, float], ...] = ()
+    """Path (x, y) of the centre of pressure from foot-flat to toe-off, foot frame, m, at most 32 points at equal
+    intervals of samples."""
     error_index: float | None = None
+    """Difference of the integrated velocity from the known velocity at toe-off and heel-strike, m/s (Chen et al. 2019,
+    equation (10)); None if the velocity of the rolling shoe was not used."""
     toe_off_angle: float | None = None
+    """Pitch at toe-off relative to the foot-flat before it, rad, positive when the heel is up."""
     heel_strike_angle: float | None = None
+    """Pitch at heel-strike relative to the foot-flat after it, rad, positive when the toe is up."""
     rise: float | None = None
+    """Height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
 
 
 @frozen(kw_only=True)

@@ -43,7 +43,7 @@ class GaitCycleMeasured(Happening):
     swing_time: float
     """Time from toe-off to contact, s."""
     cadence: float
-    """Steps a minute of both feet, 120 / `stride_time`, because a cycle has two steps."""
+    """Steps a minute of both feet, 1/min: 120 / `stride_time`, because a cycle has two steps."""
     step_time: float | None
     """Time from the other foot's contact to the contact that ends the cycle, s."""
     initial_double_support: float | None

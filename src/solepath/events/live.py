@@ -48,7 +48,7 @@ class FootPressed(Happening):
     """Value of each cell in the layout's order, in the unit of the samples (N if a calibration converts counts to N).
     The cell's noise is subtracted, and after the first swing also its tare. A failed cell has 0."""
     force: float
-    """Sum of `values`, in their unit."""
+    """Sum of `values`, in their unit (N or counts)."""
     centre: tuple[float, float] | None
     """Centre of pressure: mean position of the cells weighted by `values`, foot frame, m. None while there is hardly
     any load, and while the positions of the cells are not known from the device or a calibration (LayoutKnown)."""

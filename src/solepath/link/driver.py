@@ -40,49 +40,57 @@ It is for devices without sequence numbers. With fewer ticks, samples would have
 
 @frozen
 class Measured:
-    """One sample as its device sent it, sensor frame, SI units; a quantity that it does not have is None.
-
-    `acc`: specific force, m/s^2. `gyro`: angular rate, rad/s. `mag`: magnetic field, T. `air_pressure`: Pa. `pressure`:
-    value of each cell, as in types.Sample. `quat`: attitude, sensor to world, as a quaternion of any length; all zero
-    when the device does not know it. `saturated`: True when a sensor was at the end of its range."""
+    """One sample as its device sent it, sensor frame, SI units; a quantity that it does not have is None."""
 
     acc: Vec3 | None = None
+    """Specific force, m/s^2."""
     gyro: Vec3 | None = None
+    """Angular rate, rad/s."""
     pressure: tuple[float, ...] | None = None
+    """Value of each cell, as in types.Sample: N when the device declares a scale, otherwise counts."""
     quat: Quat | None = None
+    """Attitude, sensor to world, as a quaternion of any length; all zero when the device does not know it."""
     mag: Vec3 | None = None
+    """Magnetic flux density, T."""
     air_pressure: float | None = None
+    """Air pressure, Pa."""
     saturated: bool = False
+    """True when a sensor was at the end of its range."""
 
 
 @frozen
 class Reading:
-    """The content of one value of a channel; a field that the value does not hold is None.
-
-    `samples`: samples at equal time intervals, the oldest first. `sequence`: sequence number of the notification.
-    `ticks`: the device's time of the first sample. `interval`: ticks from one sample to the next, if the packet has it.
-    `mag` (T) and `air_pressure` (Pa): values measured separately, which are attached to the next sample.
-
-    `battery`: battery level, 0 to 1. `keys`: names of the keys that are down. `foot`: foot that wears the device.
-    `layout`: layout of the pressure cells. `rate`: samples a second from this value on. `period`: time from one
-    notification to the next, s, for a device without counters. `silent`: True when the device may be silent from now
-    on, because it is off or waits for motion. `known`: numbers that are passed to the readers of later values;
-    "acc_range" is the accelerometer's full scale in g."""
+    """The content of one value of a channel; a field that the value does not hold is None."""
 
     samples: tuple[Measured, ...] = ()
+    """Samples at equal time intervals, the oldest first."""
     sequence: int | None = None
+    """Sequence number of the notification."""
     ticks: int | None = None
+    """The device's time of the first sample, in ticks."""
     interval: int | None = None
+    """Number of ticks from one sample to the next, if the packet has it."""
     mag: Vec3 | None = None
+    """Magnetic flux density, T, measured separately; it is attached to the next sample."""
     air_pressure: float | None = None
+    """Air pressure, Pa, measured separately; it is attached to the next sample."""
     battery: float | None = None
+    """Battery level, 0 to 1."""
     keys: tuple[str, ...] | None = None
+    """Names of the keys that are down."""
     foot: Foot | None = None
+    """Foot that wears the device."""
     layout: Layout | None = None
+    """Layout of the pressure cells."""
     rate: float | None = None
+    """Samples a second from this value on, Hz."""
     period: float | None = None
+    """Time from one notification to the next, s, for a device without counters."""
     silent: bool | None = None
+    """True when the device may be silent from now on, because it is off or waits for motion."""
     known: Mapping[str, float] = field(factory=dict)
+    """Numbers that are passed to the readers of later values, by name; "acc_range" is the accelerometer's full scale in
+    g."""
 
 
 Known = Mapping[str, float]
@@ -109,35 +117,46 @@ class DriverSignature:
     built_in: bool
     """True if the device is built in (devices/), not added by an app."""
     stream: str
+    """Name of the channel with samples."""
     nominal_rate: float
+    """Samples a second after the setup, Hz."""
     axis: TimeAxis
+    """Source of sample times."""
     sequence: int
+    """Number of values of the sequence counter; 0 without one."""
     tick_rate: float
+    """Ticks a second of the device's time, Hz; 0 without one."""
     tick_modulus: int
+    """Number of values of the device's time; 0 without one."""
     acc_range: float
+    """Full scale of the accelerometer, g, until a value reports another."""
 
 
 @frozen
 class Driver:
     """The declaration of one kind of device, which is data except for the readers.
 
-    `profile`: advertisement, channels and setup; its name is the prefix of the device's channels, and exactly one of
-    them is a stream with samples. `formats`: construct of each channel's values, also of written ones, except for the
-    standard channels (device/...). A construct reads a whole value: a value with bytes left over is rejected, even if
-    the construct does not end in Terminated. `readers`: reader of each channel whose values are used. `sequence`:
-    number of values of the sequence counter (65536 for u16); 0 without one. `tick_rate`: ticks a second of the device's
-    time; 0 without one. `tick_modulus`: number of values of that time; 0 without one. `acc_range`: full scale of the
-    accelerometer, g, until a value reports another. `limitation`: sentence on what the device cannot do, which is
-    reported once; "" for none. ValueError when these contradict each other."""
+    ValueError when its fields contradict each other."""
 
     profile: Profile
+    """Advertisement, channels and setup. Its name is the prefix of the device's channels, and exactly one of them is a
+    stream with samples."""
     formats: Mapping[str, Definition]
+    """Construct of each channel's values, also of written ones, except for the standard channels (device/...). A
+    construct reads a whole value: a value with bytes left over is rejected, even if the construct does not end in
+    Terminated."""
     readers: Mapping[str, Reader]
+    """Reader of each channel whose values are used."""
     sequence: int = 0
+    """Number of values of the sequence counter (65536 for u16); 0 without one."""
     tick_rate: float = 0.0
+    """Ticks a second of the device's time, Hz; 0 without one."""
     tick_modulus: int = 0
+    """Number of values of the device's time; 0 without one."""
     acc_range: float = 16.0
+    """Full scale of the accelerometer, g, until a value reports another."""
     limitation: str = ""
+    """Sentence on what the device cannot do, which is reported once; "" for none."""
 
     def __attrs_post_init__(self) -> None:
         channel_names = {c.name for c in self.profile.channels if not c.name.startswith("device/")}

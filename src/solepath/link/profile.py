@@ -46,22 +46,28 @@ class Write:
 class Profile:
     """The profile of one kind of device.
 
-    `name`: prefix of its channels. `names`: complete names that it may advertise. `prefixes`: starts of names that it
-    may advertise. `services`: UUIDs of the services that it advertises. `setup`: writes that start it, in order.
-    `reads`: channels to be read once after connecting, if the device has them. `nominal_rate`: samples a second after
-    `setup`. `streams`: channels that must not fall silent. `stale_after`: time after which a stream counts as silent,
-    s. ValueError when these contradict each other."""
+    ValueError when its fields contradict each other."""
 
     name: str
+    """Prefix of the names of its channels."""
     names: tuple[str, ...]
+    """Complete names that it may advertise."""
     services: tuple[str, ...]
+    """UUIDs of the services that it advertises."""
     channels: tuple[Channel, ...]
+    """Channels of the device."""
     setup: tuple[Write, ...]
+    """Writes that start the device, in order."""
     reads: tuple[str, ...]
+    """Channels to be read once after connecting, if the device has them."""
     nominal_rate: float
+    """Samples a second after `setup`, Hz."""
     streams: tuple[str, ...]
+    """Channels that must not fall silent."""
     stale_after: float
+    """Time after which a stream counts as silent, s."""
     prefixes: tuple[str, ...] = ()
+    """Starts of names that it may advertise."""
 
     @cached_property
     def channel_names(self) -> frozenset[str]:

@@ -25,14 +25,15 @@ class Source:
     """The packets or samples of a recording, in the order in which a session needs them.
 
     Iterating raises RecordingError at data that cannot be used, after all packets or samples before them. A recording
-    of packets that has only a header is no error, but is reported. `foot`, `report`: as in `open_source`. `total`: size
-    of a recording of packets, bytes, or number of samples. `done`: part of `total` that was iterated."""
+    of packets that has only a header is no error, but is reported. `foot`, `report`: as in `open_source`."""
 
     path: Path
     foot: Foot | None
     report: Report
     total: int = 0
+    """Size of a recording of packets, bytes, or number of samples."""
     done: int = 0
+    """Part of `total` that was iterated, in the same unit."""
     samples: SampleRecording | None = None
     """Samples of the recording; None for a recording of packets."""
 

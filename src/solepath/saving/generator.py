@@ -63,6 +63,7 @@ class CodeGenerator:
         return name
 
     def new_name(self) -> str:
+        """Return a variable name that the code does not use yet."""
         self.name_count += 1
         return f"x{self.name_count - 1}"
 
@@ -133,6 +134,7 @@ class CodeGenerator:
                     self.write(of, f"{variable}.{name}")
 
     def write_sequence(self, kind: type, of: Node, variable: str) -> None:
+        """Write the code that saves a sequence of this kind in `variable`."""
         if kind is deque:
             self.write(MaybeNode(ScalarNode(int)), f"{variable}.maxlen")
         self.pending_numbers["N"].append(f"len({variable})")

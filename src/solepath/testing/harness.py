@@ -113,6 +113,7 @@ class FootHarness(WalkHarness):
 
     @property
     def part(self) -> Any:
+        """Part under test."""
         return getattr(self.tracker, self.name)
 
     @part.setter
@@ -183,6 +184,7 @@ class WearerHarness(WalkHarness):
 
     @property
     def part(self) -> Any:
+        """Part under test, the last of the wearer's parts."""
         return self.wearer.parts[-1]
 
     @part.setter

@@ -129,17 +129,18 @@ class Turn(Word):
 
 @frozen
 class Packet:
-    """A notification of a device, or a value read from it, as it was received.
-
-    `t` is the arrival time on the receiver's clock, s. `channel` names the format of `data` ("insole/frame",
-    "cc2650/movement", ...), so that a recording describes itself. `device` is the address of the device, "" when it is
-    unknown."""
+    """A notification of a device, or a value read from it, as it was received."""
 
     t: float
+    """Arrival time on the receiver's clock, s."""
     site: Site
+    """Site of the device."""
     channel: str
+    """Name of the format of `data` ("insole/frame", "cc2650/movement", ...), so that a recording describes itself."""
     data: bytes = field(repr=lambda data: data.hex())
+    """Data of the notification or of the value, as received."""
     device: str = ""
+    """Address of the device; "" when it is unknown."""
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> str | tuple[Any, ...]:
         # takes a fifth of attrs' own time: stream engines pickle every packet that changes processes
@@ -150,25 +151,29 @@ class Packet:
 
 @frozen
 class Sample:
-    """The measurements of the sensors of one site at one instant; a value that was not measured is None.
-
-    `t` is the time of the measurement, s; `known_at` is the time at which it was known, s, by default `t`. `acc` is the
-    specific force, m/s^2, sensor frame (+9.81 upwards at rest). `gyro` is the angular rate, rad/s, sensor frame.
-    `pressure` has one value per cell in the order of the layout: N when the device declares a scale, otherwise counts;
-    more is more load. `quat` is the attitude that the device itself estimates. `mag` is the magnetic flux density, T,
-    sensor frame. `air_pressure` is in Pa. `saturated` is True when the device reports that a sensor was at the end of
-    its range."""
+    """The measurements of the sensors of one site at one instant; a value that was not measured is None."""
 
     t: float
+    """Time of the measurement, s."""
     site: Site
+    """Site of the sensors."""
     acc: Vec3 | None = None
+    """Specific force, m/s^2, sensor frame (+9.81 upwards at rest)."""
     gyro: Vec3 | None = None
+    """Angular rate, rad/s, sensor frame."""
     pressure: tuple[float, ...] | None = None
+    """One value per cell in the order of the layout: N when the device declares a scale, otherwise counts; more is more
+    load."""
     quat: Quat | None = None
+    """Attitude that the device itself estimates, sensor to world, as a unit quaternion."""
     mag: Vec3 | None = None
+    """Magnetic flux density, T, sensor frame."""
     air_pressure: float | None = None
+    """Air pressure, Pa."""
     known_at: float = field()
+    """Time at which the measurement was known, s, by default `t`."""
     saturated: bool = False
+    """True when the device reports that a sensor was at the end of its range."""
 
     @known_at.default
     def _at_once(self) -> float:
@@ -177,29 +182,35 @@ class Sample:
 
 @frozen
 class Cell:
-    """A pressure cell: its centre (x, y) in the foot frame, m, and its area, m^2.
+    """A pressure cell of an insole.
 
     The foot frame has x to the toe, y to the left, and its origin at the heel's rear end on the insole's midline."""
 
     x: float
+    """Position of the centre along the foot's x axis, to the toe, m."""
     y: float
+    """Position of the centre along the foot's y axis, to the left, m."""
     area: float = 1e-4
+    """Area of the cell, m^2."""
 
 
 @frozen
 class Layout:
-    """The pressure cells of one insole, in the order in which samples have them.
-
-    `length` is the distance from heel to toe, m. `scale` is the force of one transmitted count, N: 1.0 when the device
-    sends newtons, None when it is unknown, so that loads are in counts. `full_scale` is the largest value that a cell
-    can report, in the unit of the samples."""
+    """The pressure cells of one insole, in the order in which samples have them."""
 
     id: int
+    """Number by which the device names the layout."""
     foot: Foot
+    """Foot that wears the insole."""
     cells: tuple[Cell, ...]
+    """Cells in the order in which samples have them."""
     length: float
+    """Distance from heel to toe, m."""
     scale: float | None = None
+    """Force of one transmitted count, N: 1.0 when the device sends newtons, None when it is unknown, so that loads are
+    in counts."""
     full_scale: float = 4095.0
+    """Largest value that a cell can report, in the unit of the samples (N or counts)."""
 
     @cached_property
     def xs(self) -> tuple[float, ...]:

@@ -109,12 +109,12 @@ values = st.none() | st.floats(-1e6, 1e6)
 @given(st.lists(st.tuples(st.floats(-10.0, 10.0), *[values] * 8), max_size=30))
 def test_for_any_states_there_is_one_reference_or_none(samples: list[tuple[float | None, ...]]) -> None:
     methods: list[AnyTouchdown] = [Height(), NetAcceleration(), PressureTouchdown()]
-    carriers = [ReferenceFoot() for _ in methods]
+    references = [ReferenceFoot() for _ in methods]
     for t, *shown in samples:
         left, right = FootState(*shown[:4]), FootState(*shown[4:])
         for k, method in enumerate(methods):
             flags = method.update(t or 0.0, left, right)
-            taken = carriers[k].update(flags)
-            assert taken is None or taken[0] is carriers[k].foot
+            taken = references[k].update(flags)
+            assert taken is None or taken[0] is references[k].foot
             again = machine.load(type(method), json.loads(json.dumps(machine.save(method), allow_nan=False)))
             assert again == method

@@ -26,9 +26,12 @@ class FootTrack(Protocol):
     """Position, m, and velocity, m/s, of a foot, z up."""
 
     @property
-    def position(self) -> Vec3: ...
+    def position(self) -> Vec3:
+        """Position of the foot, world frame, m."""
+
     @property
-    def velocity(self) -> Vec3: ...
+    def velocity(self) -> Vec3:
+        """Velocity of the foot, world frame, m/s."""
 
 
 @define

@@ -111,6 +111,7 @@ class VirtualController(Controller):
         self.advertisement = advertisement
 
     def send_advertising_pdu(self, packet: ll.AdvertisingPdu) -> None:
+        """Send a PDU on the advertising channels; an advertisement has the data that the device has now."""
         if isinstance(packet, ll.AdvInd) and self.advertisement is not None:
             data = self.advertisement()
             if data is None:

@@ -18,6 +18,7 @@ class AttributeServer(Server):
     of a program that has not done so itself. This class answers such a request without bumble."""
 
     def on_att_read_by_type_request(self, bearer: att.Bearer, request: att.ATT_Read_By_Type_Request) -> None:
+        """Answer a request for the attributes of a type, also one that finds none."""
         first, last = request.starting_handle, request.ending_handle
         found = any(each.type == request.attribute_type and first <= each.handle <= last for each in self.attributes)
         if found or not 0 < first <= last:

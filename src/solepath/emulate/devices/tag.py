@@ -56,11 +56,14 @@ class _SensorState:
 
 @frozen(eq=False)
 class TimedSource:
-    """A ValueSource: value k is measured at `first` + k `step`, s, and is `encode(k)`; None is not sent."""
+    """A ValueSource of a sensor that measures at equal intervals."""
 
     first: float
+    """Time of the first value, s."""
     step: float
+    """Time from one value to the next, s."""
     encode: Callable[[int], bytes | None]
+    """Function that returns the data of value k from its number; None is not sent."""
 
     def first_number_from(self, t: float) -> int:
         return ceil((t - self.first) / self.step)
@@ -75,11 +78,14 @@ class TimedSource:
 
 @frozen
 class KeyPresses:
-    """A ValueSource of a key: it sends `down` at each of the times `presses`, s, and `up` at each release."""
+    """A ValueSource of a key, which sends a value at each press and at each release."""
 
     presses: tuple[float, ...]
+    """Times at which the key is pressed, s."""
     down: bytes
+    """Data of a press."""
     up: bytes
+    """Data of a release."""
 
     def first_number_from(self, t: float) -> int:
         return sum(self.due(k) < t for k in range(2 * len(self.presses)))

@@ -56,7 +56,8 @@ class Style:
     mid_swing_shift: float = 0.0
     """Horizontal shift of the path in mid-swing, as a share of the stride's length; positive forwards."""
     early_rise: float = 0.0
-    """Weight of LEVELLING (curves.py) in the height of the foot in swing, per two risers; the foot rises earlier."""
+    """Weight of LEVELLING (curves.py) in the height of the foot in swing, per two risers, no unit; the foot rises
+    earlier."""
     deviation_factor: float = 1.0
     """Roll and yaw of the foot in mid-swing, as a ratio to those in walking."""
     forefoot_share: float = 0.0

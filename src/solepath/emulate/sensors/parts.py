@@ -33,9 +33,9 @@ class TriadErrors:
     drift: float
     """Variation of the bias over time, u: a first-order Gauss-Markov process with this standard deviation."""
     scale: float
-    """Relative scale error."""
+    """Relative scale error, no unit."""
     cross: float
-    """Relative cross-axis error."""
+    """Relative cross-axis error, no unit."""
     bandwidth: float
     """Bandwidth of the sensor's own second-order low pass, Hz."""
     correlation_time: float = 300.0
@@ -168,7 +168,7 @@ class CellErrors:
     name: str
     """Name of the cell."""
     gain: float
-    """Relative spread of the gain."""
+    """Relative spread of the gain, no unit."""
     preload: float
     """Mean of the constant load of a cell in the shoe, N; cells have values from 0 to twice the mean, uniformly."""
     noise: float

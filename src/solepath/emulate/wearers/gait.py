@@ -48,9 +48,9 @@ class Wearer:
     first_foot: Foot = Foot.LEFT
     """Foot that makes the first step."""
     length_variation: float = 0.025
-    """Variation of the step length, relative to the mean."""
+    """Variation of the step length, as a ratio to the mean."""
     time_variation: float = 0.018
-    """Variation of the step time, relative to the mean."""
+    """Variation of the step time, as a ratio to the mean."""
     width_variation: float = 0.012
     """Variation of the foot's lateral position, m."""
     angle_variation: float = 0.035

@@ -112,6 +112,7 @@ class ProcessReport:
     full: int | None = None
 
     def note_start(self) -> None:
+        """Record the time and the memory at the first call; later calls do nothing."""
         if self.started is None:
             # `write` adds the processor time at the end
             self.started, self.cpu, self.empty = time(), -process_time(), memory()

@@ -180,6 +180,7 @@ class Wearers:
 
     @property
     def recipe(self) -> Recipe:
+        """Recipe of the plan."""
         return by_name(self.plan.recipe)
 
     @property

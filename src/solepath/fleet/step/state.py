@@ -63,6 +63,7 @@ class StateRest:
 
 
 def write_state(head: StateHead, rest: StateRest) -> bytes:
+    """Return the bytes of a state."""
     first = _HEAD_FORMAT.pack(MAGIC, VERSION, head.run, head.next, head.next_event, head.known)
     unused, strays = rest.unused, rest.strays
     other = b"".join(

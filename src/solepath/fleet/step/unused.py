@@ -26,6 +26,7 @@ class NumberSpan:
 
     @property
     def is_open(self) -> bool:
+        """True when the span has no last number."""
         return self.end > MAX_COUNT
 
 
@@ -41,6 +42,7 @@ class UnusedNumbers:
     When there are too many ranges, the two with the smallest gap become one, together with the runs between them."""
 
     def add(self, span: NumberSpan) -> None:
+        """Add a span; when there are too many, the oldest is discarded."""
         if len(self.spans) >= MAX_SPANS:
             oldest = self.spans.pop(0)
             if oldest.is_open:
@@ -56,6 +58,7 @@ class UnusedNumbers:
         return 0
 
     def was_current(self, run: int) -> bool:
+        """Return whether this run was the wearer's current run before."""
         return self._is_forgotten(run) or any([span.run == run for span in self.spans])
 
     def was_used(self, run: int, number: int) -> bool:

@@ -44,6 +44,7 @@ class Feature:
     lines: tuple[tuple[tuple[Position, ...], ...], ...] = ()
 
     def fail(self, what: str) -> NoReturn:
+        """Raise FloorPlanError with the feature's name and `what`."""
         raise FloorPlanError(f"{self.name}: {what}")
 
     def text(self, key: str, default: str | None = None) -> str:
@@ -189,6 +190,7 @@ def find_anchor(features: Iterable[Feature]) -> Anchor:
 
 
 def parse_number(value: object, what: str) -> float:
+    """Return the value as a number; FloorPlanError, which names it `what`, for anything else."""
     if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < MAX_NUMBER:  # also if NaN
         raise FloorPlanError(f"{what} is {describe(value)}, not a number that can be")
     return float(value)

@@ -4,7 +4,8 @@
 
 prints the table of docs/settings.md as Markdown. DIR holds recorded data with a reference. The numbers are the settings
 of the detector (`CycleSettings`), the settings of the filter (`ErrorStateSettings`) and the constants of the inertial
-cues (foot/cues/inertial.py). The run takes about 45 minutes on two processors."""
+cues (foot/cues/inertial.py). A count is rounded to a whole number of at least 1. The run takes about 45 minutes on two
+processors."""
 
 from __future__ import annotations
 
@@ -77,8 +78,10 @@ class Number:
     """Field of the recipe that the number belongs to: "detector", "corrector" or "cues"."""
 
     def scale(self, factor: float) -> tuple[Recipe, dict[str, float]]:
-        """Return the default recipe with this number times `factor`, and the module constants to change for it."""
-        value = factor * self.value
+        """Return the default recipe with this number times `factor`, and the module constants to change for it.
+
+        A count stays a whole number of at least 1: half of 3 is rounded to 2."""
+        value = max(1, round(factor * self.value)) if isinstance(self.value, int) else factor * self.value
         name = f"{self.name} x {factor:g}"
         if self.part not in PARTS:
             return evolve(DEFAULT, name=name), {self.name: value}
@@ -129,7 +132,7 @@ class SensitivityJob:
         """Score the recording while the constants are changed in this process."""
         defaults = {name: getattr(inertial, name) for name in self.constants}
         for name, value in self.constants.items():
-            setattr(inertial, name, type(defaults[name])(value))
+            setattr(inertial, name, value)
         try:
             return self.job.run()
         finally:

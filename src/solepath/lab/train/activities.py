@@ -275,13 +275,13 @@ def train_model(data: Path, without: int | None) -> MotionModel:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
+    """Train the activity model and return the exit status."""
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.train.activities", description=__doc__)
     parser.add_argument("data", type=Path)
     parser.add_argument("--out", type=Path, default=Path(motion.__file__).with_name("activities.json"))
     parser.add_argument("--without", type=int, choices=range(len(FOLDS)))
     options = parser.parse_args(arguments)
-    model = train_model(options.data, options.without)
-    options.out.write_text(_lines(to_json(model), 0) + "\n", encoding="utf-8")
+    options.out.write_text(_lines(to_json(train_model(options.data, options.without)), 0) + "\n", encoding="utf-8")
     return 0
 
 

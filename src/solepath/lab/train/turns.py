@@ -133,6 +133,7 @@ def write(examples: list[Example], path: Path = TURNS_FILE) -> None:
 
 
 def main() -> None:
+    """Train the turn model and print its weights."""
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.train.turns", description=__doc__)
     parser.add_argument("--emulate", action="store_true", help="write turns.csv again")
     if parser.parse_args().emulate:

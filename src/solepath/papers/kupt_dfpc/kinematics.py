@@ -105,6 +105,7 @@ class Sagittal:
     """Direction of the foot, horizontal unit vector in the navigation frame."""
 
     def add_flat_sample(self, dt: float, attitude: Quat) -> None:
+        """Add a sample of `dt` s in which the foot is flat."""
         x, y, z = _up(attitude)
         if self.up is None:
             self.up = (x, y, z)

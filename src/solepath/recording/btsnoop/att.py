@@ -107,6 +107,7 @@ class AttValue:
 
     operation: AttOperation
     handle: int
+    """Handle of the attribute, a number from 1."""
     value: bytes
 
 
@@ -121,14 +122,14 @@ def uuid_text(octets: bytes) -> str:
 
 @define
 class Conversation:
-    """The decoder of the PDUs between one client and one server on one connection.
-
-    `types`: discovered UUIDs by handle, shared by all conversations with this server. `flaws` counts PDUs that could
-    not be decoded. `mtu`: size of the largest PDU that client and server agreed on, bytes."""
+    """The decoder of the PDUs between one client and one server on one connection."""
 
     types: dict[int, str]
+    """Discovered UUIDs by handle, shared by all conversations with this server."""
     flaws: Counter[str]
+    """Counts of PDUs that could not be decoded, by kind."""
     mtu: int = SMALLEST_MTU
+    """Size of the largest PDU that client and server agreed on, bytes."""
     _request: tuple[int, Any] | None = None
     """Request that waits for its answer."""
     _partial_read: AttValue | None = None

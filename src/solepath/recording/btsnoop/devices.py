@@ -35,16 +35,16 @@ notification or writing may be read as well."""
 
 @define
 class LoggedDevice:
-    """One device of a log.
-
-    `address`: address, or the name of the connection (HciConnection.peer). `site`: None if unknown. `profile`: None if
-    the log does not hold its discovery, or for an unknown device. `channels`: channel names by attribute handle and
-    operation."""
+    """One device of a log."""
 
     address: str
+    """Address, or the name of the connection (HciConnection.peer)."""
     site: Site | None = None
+    """Site of the device; None if unknown."""
     profile: Profile | None = None
+    """Profile of the device; None if the log does not hold its discovery, or for an unknown device."""
     channels: dict[tuple[int, AttOperation], str] = field(factory=dict)
+    """Channel names by attribute handle and operation."""
     evidence_by_handle: dict[int, ValueEvidence] = field(factory=dict)
     """Summary of the values of each attribute handle."""
 

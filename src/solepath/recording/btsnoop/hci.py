@@ -50,15 +50,16 @@ FIRST_DYNAMIC_CHANNEL = 0x40
 
 @define
 class HciConnection:
-    """The record of one connection.
-
-    `number`: index among the connections of the log, from 0. `adapter`: number of the host's Bluetooth adapter.
-    `handle`: connection handle. `address`: address of the peer; "" if the connection is older than the log."""
+    """The record of one connection."""
 
     number: int
+    """Index among the connections of the log, from 0."""
     adapter: int
+    """Number of the host's Bluetooth adapter."""
     handle: int
+    """Number by which the adapter names the connection."""
     address: str
+    """Address of the peer; "" if the connection is older than the log."""
     pieces: dict[bool, bytearray] = field(factory=dict)
     """Incomplete L2CAP PDUs; the key is True for a PDU that the host sends."""
 
@@ -70,24 +71,28 @@ class HciConnection:
 
 @frozen
 class ConnectionChange:
-    """The start or the end of a connection at `t`, us since 1970."""
+    """The start or the end of a connection."""
 
     t: int
+    """Time of the change, us since 1970."""
     connection: HciConnection
+    """Connection that started or ended."""
     connected: bool
+    """True for the start."""
 
 
 @frozen
 class Pdu:
-    """One PDU of the attribute protocol; `sent` is True if the host sent it.
-
-    `own_address`: address of the host, "" if the log does not have it."""
+    """One PDU of the attribute protocol."""
 
     t: int
+    """Time of the PDU, us since 1970."""
     connection: HciConnection
     sent: bool
+    """True if the host sent it."""
     data: bytes
     own_address: str
+    """Address of the host; "" if the log does not have it."""
 
 
 def address_text(octets: bytes) -> str:

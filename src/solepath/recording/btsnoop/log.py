@@ -28,14 +28,16 @@ from .values import LoggedValue, ValueListener
 class BtsnoopLog:
     """The usable content of a btsnoop log; iterating gives its packets in order of arrival.
 
-    `started_at`: time of the first record, us since 1970, at which the packets' `t` is 0. `total`: size of the log,
-    bytes. `done`: number of bytes that were iterated. Damage raises RecordingError after all packets before it."""
+    Damage raises RecordingError after all packets before it."""
 
     path: Path
     devices: dict[str, LoggedDevice]
     started_at: int
+    """Time of the first record, us since 1970, at which the packets' `t` is 0."""
     total: int
+    """Size of the log, bytes."""
     done: int = 0
+    """Number of bytes that were iterated."""
 
     @property
     def header(self) -> dict[str, Any]:

@@ -52,31 +52,34 @@ class RecordKind(Enum):
 
 @frozen
 class HciRecord:
-    """One HCI packet of the log.
-
-    `t`: time on the logger's clock, us since 1970, UTC. `adapter`: number of the host's Bluetooth adapter. `sent`: True
-    if the host sent the packet to its controller. `whole`: False if the logger kept only the start of the packet."""
+    """One HCI packet of the log."""
 
     t: int
+    """Time on the logger's clock, us since 1970, UTC."""
     adapter: int
+    """Number of the host's Bluetooth adapter."""
     kind: RecordKind
     sent: bool
+    """True if the host sent the packet to its controller."""
     data: bytes
     whole: bool
+    """False if the logger kept only the start of the packet."""
 
 
 @frozen
 class RecordHeader:
-    """The header of a record.
-
-    `original_size`: size of the packet, bytes. `included_size`: size of its part in the file, bytes. `drops`: number of
-    records that the logger lost since the log started. `t`: us since the year 0."""
+    """The header of a record."""
 
     original_size: int
+    """Size of the packet, bytes."""
     included_size: int
+    """Size of the part of the packet that the file holds, bytes."""
     flags: int
+    """Bits for the direction and the kind of the packet."""
     drops: int
+    """Number of records that the logger lost since the log started."""
     t: int
+    """Time on the logger's clock, us since the year 0."""
 
 
 RECORD_HEADER = Fields(">IIIIq", RecordHeader)

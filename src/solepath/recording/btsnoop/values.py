@@ -16,27 +16,27 @@ from .records import read_records
 
 @frozen
 class LoggedValue:
-    """One value of a log.
-
-    `t`: us since 1970. `device`: address of the server, or its HciConnection.peer if unknown."""
+    """One value of a log."""
 
     t: int
+    """Time of the value, us since 1970."""
     connection: HciConnection
     device: str
+    """Address of the server, or its HciConnection.peer if unknown."""
     att_value: AttValue
 
 
 @define
 class ValueListener:
-    """Reads all values of a log in order, with the starts and ends of the connections.
-
-    `flaws` counts parts of the log that could not be used. `types`: discovered UUIDs by device and attribute handle.
-    They remain valid after a connection, because a host stores them and does not repeat the discovery."""
+    """Reads all values of a log in order, with the starts and ends of the connections."""
 
     path: Path
     report: Report
     flaws: Counter[str] = field(factory=Counter)
+    """Counts of the parts of the log that could not be used, by kind."""
     types: dict[str, dict[int, str]] = field(factory=dict)
+    """Discovered UUIDs by device and attribute handle. They remain valid after a connection, because a host stores them
+    and does not repeat the discovery."""
     _conversations: dict[tuple[int, bool], Conversation] = field(factory=dict)
     """Conversations by number of the connection and by role of the peer, which is True if it is the server."""
 
