@@ -43,6 +43,7 @@ EXAMPLES_OF_A_KIND = {
 """Modules that the documentation imports as one of several, without a page."""
 SIGNATURES = {
     "solepath.recipes", "solepath.floorplan.plan", "solepath.foot.view", "solepath.foot.navigate.corrector",
+    "solepath.events.foot",
 }  # fmt: skip
 """Modules of the classes that the methods of an extension, or a session, receive and return."""
 
@@ -142,10 +143,13 @@ def test_each_public_class_and_function_of_a_listed_module_is_on_its_page(module
 
 @pytest.mark.parametrize("cls", EVENT_CLASSES, ids=lambda cls: cls.__name__)
 def test_each_field_of_an_event_has_an_entry_with_its_docstring(cls: type) -> None:
-    entries = re.split(r'(?=<div id="|<section id=")', pages()["solepath"])
-    for name, text in field_texts(cls).items():
-        (entry,) = [one for one in entries if one.startswith(f'<div id="{cls.__name__}.{name}"')]
-        assert letters(text) in letters(words(entry)), name
+    """Fields that a class inherits have their entry on the page of the class that declares them."""
+    for declaring in cls.__mro__[:-1]:
+        page = pages()["solepath" if hasattr(solepath, declaring.__name__) else declaring.__module__]
+        entries = re.split(r'(?=<div id="|<section id=")', page)
+        for name, text in field_texts(declaring).items():
+            (entry,) = [one for one in entries if one.startswith(f'<div id="{declaring.__name__}.{name}"')]
+            assert letters(text) in letters(words(entry)), name
 
 
 def test_the_events_and_their_fields_are_found() -> None:

@@ -8,7 +8,9 @@ from .happening import Happening
 
 
 @frozen(kw_only=True)
-class _Phase(Happening):
+class GaitEvent(Happening):
+    """The fields of HeelStrike, FootFlat, HeelOff and ToeOff; only these are reported."""
+
     foot: Foot
     """Foot of the event."""
     inferred: bool = False
@@ -16,7 +18,7 @@ class _Phase(Happening):
 
 
 @frozen(kw_only=True)
-class HeelStrike(_Phase):
+class HeelStrike(GaitEvent):
     """The foot touched the ground; LOADING starts. `t` is the middle of the impact, or the time when cells show load.
 
     Latency with the default cues: one sample with pressure cells, about 40 ms without; if no impact shows, the time
@@ -24,12 +26,12 @@ class HeelStrike(_Phase):
 
 
 @frozen(kw_only=True)
-class FootFlat(_Phase):
+class FootFlat(GaitEvent):
     """The whole sole is on the ground and still; STATIONARY starts, and a stride may end. Latency: about 40 ms."""
 
 
 @frozen(kw_only=True)
-class HeelOff(_Phase):
+class HeelOff(GaitEvent):
     """The heel left the ground; PUSH_OFF starts.
 
     The heel lifts slowly, so `t` is earlier than the sample that shows it. Latency: 40 to 140 ms, in slow walking up to
@@ -37,7 +39,7 @@ class HeelOff(_Phase):
 
 
 @frozen(kw_only=True)
-class ToeOff(_Phase):
+class ToeOff(GaitEvent):
     """The toe left the ground; SWING starts. Latency: one sample, after the first push-off of this foot."""
 
 
