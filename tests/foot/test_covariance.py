@@ -7,7 +7,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.foot.navigate.covariance import HEIGHT, Covariance, constrain_height, propagate, update
+from solepath.foot.navigate.covariance import (
+    HEIGHT,
+    Covariance,
+    constrain_height,
+    propagate,
+    scale,
+    squared_innovation,
+    update,
+)
 
 BLOCKS = [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
 
@@ -76,3 +84,16 @@ def test_a_height_known_from_elsewhere_leaves_a_covariance(seed: int, left: floa
     result = constrain_height(to_covariance(p), left)
     np.testing.assert_allclose(to_matrix(result), d @ p @ d, rtol=1e-9, atol=1e-12)
     assert result[HEIGHT] == pytest.approx(left * p[2, 2])
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_squared_innovation_is_that_of_the_matrix_form_and_of_the_gate(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(9, 9))
+    covariance, innovation, r = to_covariance(root @ root.T), rng.normal(size=3), 0.1
+    s = to_matrix(covariance)[3:6, 3:6] + r * np.eye(3)
+    squared = squared_innovation(covariance, *innovation.tolist(), r)
+    assert squared == pytest.approx(innovation @ np.linalg.solve(s, innovation))
+    assert update(covariance, *innovation.tolist(), r, squared * 1.001) is not None
+    assert update(covariance, *innovation.tolist(), r, squared * 0.999) is None
+    assert to_matrix(scale(covariance, 3.0)) == pytest.approx(3.0 * to_matrix(covariance))

@@ -261,6 +261,25 @@ def update(
     )
 
 
+def squared_innovation(covariance: Covariance, ix: float, iy: float, iz: float, r: float) -> float:
+    """Return the squared innovation of a velocity, weighted by its covariance S = H P H' + r I; no unit, 3 on average.
+
+    `ix`, `iy`, `iz` is the innovation, m/s, and `r` the variance of the evidence, (m/s)^2, as in `update`."""
+    xx, xy, xz, yy, yz, zz = covariance[VELOCITY_X : VELOCITY_Z + 1]
+    xx += r
+    yy += r
+    zz += r
+    cxx, cxy, cxz = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
+    cyy, cyz, czz = xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy
+    weighted = ix * (cxx * ix + 2.0 * (cxy * iy + cxz * iz)) + iy * (cyy * iy + 2.0 * cyz * iz) + czz * iz * iz
+    return weighted / (xx * cxx + xy * cxy + xz * cxz)
+
+
+def scale(covariance: Covariance, factor: float) -> Covariance:
+    """Return the covariance times `factor`: a fading memory (Bar-Shalom et al. 2001)."""
+    return tuple([factor * p for p in covariance])
+
+
 def constrain_height(covariance: Covariance, remaining_share: float) -> Covariance:
     """Return the covariance after the height was corrected, with `remaining_share` (0 to 1) of its variance.
 

@@ -21,10 +21,11 @@ from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
 from .clipping import ClippedPeak
 from .corrector import LONGEST_BRIDGE
-from .covariance import HEIGHT, constrain_height, update
+from .covariance import HEIGHT, constrain_height, scale, squared_innovation, update
 from .level import FLOOR_SIGMA, LevelGround
 from .propagated import PropagatedCovariance
 from .recovery import Recovery
+from .stance_rhythm import StanceRhythm
 from .strapdown import WIDEST_SERIES
 
 STATIONARY: Final = Phase.STATIONARY
@@ -49,10 +50,8 @@ LOST_STATISTIC_RATIO = 3.0
 """Largest ratio of a statistic that a lost filter accepts to the least statistic that its gate has rejected."""
 LOST_SPEED, LOST_TILT = 0.3, 0.03
 """Standard deviations that inflate the covariance of a lost filter: velocity, m/s, and tilt, rad."""
-LASTING_TILT = 0.1
-"""Standard deviation that inflates the tilt when evidence has lasted for `ErrorStateSettings.time_until_ungated`, rad.
-
-The velocity is inflated by its whole difference from the evidence."""
+EXPECTED_SQUARED_INNOVATION = 3.0
+"""Mean of the squared innovation, weighted by its covariance, of a filter that is right: its degrees of freedom."""
 
 
 @define
@@ -74,6 +73,8 @@ class ErrorStateFilter(PropagatedCovariance):
     """Smallest statistic that the gate has rejected since `accepted_at`."""
     evidence_since: float | None = field(default=None, init=False)
     """Start of the current unbroken evidence, s; None without evidence."""
+    rhythm: StanceRhythm = field(factory=StanceRhythm, init=False)
+    """Usual durations of stance and swing, for evidence that the gate rejects."""
     recovery: Recovery = field(factory=Recovery, init=False)
     """Recovery of the clipped peaks of both sensors."""
 
@@ -218,9 +219,12 @@ class ErrorStateFilter(PropagatedCovariance):
             and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated_statistic
         ):
             self._inflate(velocity=LOST_SPEED, tilt=LOST_TILT)
-        elif min(t - self.evidence_since, t - self.accepted_at) > settings.time_until_ungated - TIE:
-            # a foot in the air is never still for so long, so the foot stands and the velocity is wrong
-            self._inflate(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=LASTING_TILT)
+        elif self._stands_after_all(t, self.evidence_since, self.accepted_at):
+            # The foot stands, so the motion since the last stance was less certain than its covariance says. The whole
+            # covariance is scaled, so that the position is corrected too: its error has the same cause.
+            squared = squared_innovation(self.uncertainty, rx - vx, ry - vy, rz - vz, r)
+            if squared > EXPECTED_SQUARED_INNOVATION:
+                self.uncertainty = scale(self.uncertainty, squared / EXPECTED_SQUARED_INNOVATION)
         outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if stands else settings.innovation_gate)
         if outcome is None:
             self.least_gated_statistic = min(self.least_gated_statistic, stance.statistic)
@@ -228,15 +232,24 @@ class ErrorStateFilter(PropagatedCovariance):
         self.uncertainty, error = outcome
         tx, ty = self._tilt_correction(share) if stands else (0.0, 0.0)
         self._inject(error, tx, ty)
+        self.rhythm.add(t, self.accepted_at)
         self.accepted_at = t
         self.least_gated_statistic = NO_STATISTIC
         return True
+
+    def _stands_after_all(self, t: float, evidence_since: float, accepted_at: float) -> bool:
+        """Return whether evidence that the gate rejects has lasted so long that the foot stands."""
+        longest = self.settings.time_until_ungated
+        if accepted_at >= evidence_since:  # the gate let the start of this stance pass
+            return t - accepted_at > self.rhythm.time_until_stance(inf, longest) - TIE
+        return t - evidence_since > self.rhythm.time_until_stance(evidence_since - accepted_at, longest) - TIE
 
     def bridge(self, dt: float) -> float:
         if dt > LONGEST_BRIDGE:
             self.recovery.reset()
         if dt == inf:  # times restart
             self.accepted_at = self.evidence_since = None
+            self.rhythm.reset()
         return PropagatedCovariance.bridge(self, dt)
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:

@@ -1,0 +1,80 @@
+"""A stance is found although the velocity drifted in the swing before it, and slow swings are no stances."""
+
+from __future__ import annotations
+
+from math import hypot, inf, pi, sin
+from pathlib import Path
+
+import numpy as np
+import pytest
+from attrs import evolve
+
+from solepath import Foot, Sample, Session, Site, StrideTaken
+from solepath.emulate import Route, Walker
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.foot.navigate.stance_rhythm import FIRST_STANCE, STANCE_SHARE, StanceRhythm
+
+PULSE_TIME = 0.4
+"""Duration of an error of the accelerometer before heel-strike, s."""
+
+
+def drifted(sample: Sample, heel_strikes: list[float], drift: float) -> Sample:
+    """Return a sample of a foot that trembles in stance, with an error of `drift` m/s before each of some contacts."""
+    assert sample.acc is not None and sample.gyro is not None
+    t, (ax, ay, az), (gx, gy, gz) = sample.t, sample.acc, sample.gyro
+    for start in (t_contact - PULSE_TIME - 0.02 for t_contact in heel_strikes):
+        if start <= t < start + PULSE_TIME:
+            ax += 2.0 * drift / PULSE_TIME * sin(pi * (t - start) / PULSE_TIME) ** 2
+    return evolve(sample, acc=(ax, ay, az), gyro=(gx, gy + 0.2 * sin(8.0 * pi * t), gz + 0.1 * sin(33.3 * t)))
+
+
+@pytest.mark.parametrize("speed", [1.3, 1.7])
+@pytest.mark.parametrize("drift", [0.5, 0.7, 0.9])
+def test_no_two_strides_merge_after_a_swing_with_a_wrong_velocity(speed: float, drift: float) -> None:
+    walker = Walker(Route().stand(2.0).walk(40.0, speed).stop(2.0), seed=3)
+    true = walker.truth().strides(Foot.LEFT)
+    heel_strikes = [stride.t_heel_strike for stride in true[2::3]]
+    session = Session()
+    samples = [drifted(sample, heel_strikes, drift) for sample in walker.samples(Foot.LEFT, 200.0, LSM6DSOX)]
+    events = session.feed(samples) + session.finish()
+    strides = [event for event in events if isinstance(event, StrideTaken)]
+    assert len(strides) == len(true)
+    for found, stride in zip(strides, true, strict=True):
+        # less than the way by which the error alone moves the track: half of drift times PULSE_TIME
+        assert found.length == pytest.approx(hypot(*stride.displacement[:2]), abs=0.5 * PULSE_TIME * drift)
+    assert session.position is not None and abs(session.position.position[2]) < 0.05
+
+
+def test_a_wearer_with_short_stances_needs_less_evidence() -> None:
+    rhythm = StanceRhythm()
+    assert rhythm.time_until_stance(inf, 0.35) == pytest.approx(min(0.35, STANCE_SHARE * FIRST_STANCE))
+    t = last = 0.0
+    for _ in range(30):  # stances of 0.2 s, swings of 0.4 s
+        for k in range(21):
+            rhythm.add(t + 0.01 * k, last)
+            last = t + 0.01 * k
+        t += 0.6
+    assert rhythm.time_until_stance(inf, 0.35) == pytest.approx(0.1, abs=0.01)
+    assert rhythm.time_until_stance(0.1, 0.35) == 0.35, "evidence in the first half of a swing"
+
+
+def test_standing_does_not_count_as_a_stance_of_walking() -> None:
+    rhythm = StanceRhythm()
+    rhythm.add(0.0, 0.0)
+    rhythm.add(20.0, 20.0 - 0.01)
+    rhythm.add(20.6, 20.0)
+    assert rhythm.usual_stance == FIRST_STANCE
+
+
+@pytest.mark.parametrize(
+    "name, strides", [("m02", 47), ("m30", 51), ("m32", 50), ("m34", 50), ("m36", 51), ("m38", 51), ("m44", 43)]
+)
+def test_each_stance_of_brisk_loops_is_found(data_dir: Path, name: str, strides: int) -> None:
+    """`openshoe_loops`: 5 km/h and 7 km/h (m44), stances of 0.25 s, a sensor whose swings drift by up to 0.7 m/s."""
+    data = np.load(data_dir / "openshoe_loops" / f"{name}.npz")
+    session = Session()
+    rows = zip(data["t"].tolist(), data["acc"].tolist(), data["gyro"].tolist(), strict=True)
+    samples = [Sample(t=t, site=Site.RIGHT_FOOT, acc=tuple(acc), gyro=tuple(gyro)) for t, acc, gyro in rows]
+    events = session.feed(samples) + session.finish()
+    lengths = [event.length for event in events if isinstance(event, StrideTaken)]
+    assert len(lengths) == strides and max(lengths) < 2.2
