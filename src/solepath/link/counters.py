@@ -97,7 +97,8 @@ class PacketRun:
 
         The counter wraps at `modulus`, so the number may include whole rounds: it is the possible value that is nearest
         to `expected`, the number of packets that the time difference suggests."""
-        difference = signed_difference(sequence - self.sequence, modulus)
+        half = modulus // 2
+        difference = (sequence - self.sequence + half) % modulus - half
         return difference, difference + modulus * round((expected - difference) / modulus)
 
     def accept(self, position: PacketPosition, rate: float, arrival: float, new_fit: bool = False) -> SampleTimes:

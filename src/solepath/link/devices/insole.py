@@ -20,7 +20,7 @@ from ...wire.fragment import is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
-from ..counters import PacketPosition, PacketRun, signed_difference
+from ..counters import PacketPosition, PacketRun
 from ..device_link import DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
 from ..rest_check import FULL_SCALE_COUNTS, RestCheck
@@ -175,7 +175,8 @@ class InsoleLink(DeviceLink):
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
         run = self.packet_run
-        ticks_after = signed_difference(frame.ticks - run.ticks, TICK_MODULUS)
+        half = TICK_MODULUS // 2
+        ticks_after = (frame.ticks - run.ticks + half) % TICK_MODULUS - half  # nearest to zero
         difference, packets = run.count_packets(frame.sequence, SEQUENCE_MODULUS, ticks_after / run.packet_ticks)
         position = PacketPosition(
             frame.sequence,
