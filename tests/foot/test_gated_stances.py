@@ -12,7 +12,7 @@ from attrs import evolve
 from solepath import Foot, Sample, Session, Site, StrideTaken
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.foot.navigate.stance_rhythm import FIRST_STANCE, STANCE_SHARE, StanceRhythm
+from solepath.foot.navigate.stance_rhythm import FIRST_STANCE, StanceRhythm
 
 PULSE_TIME = 0.4
 """Duration of an error of the accelerometer before heel-strike, s."""
@@ -47,15 +47,15 @@ def test_no_two_strides_merge_after_a_swing_with_a_wrong_velocity(speed: float, 
 
 def test_a_wearer_with_short_stances_needs_less_evidence() -> None:
     rhythm = StanceRhythm()
-    assert rhythm.time_until_stance(inf, 0.35) == pytest.approx(min(0.35, STANCE_SHARE * FIRST_STANCE))
+    assert rhythm.time_until_stance(inf, 0.5, 0.35) == 0.35
     t = last = 0.0
     for _ in range(30):  # stances of 0.2 s, swings of 0.4 s
         for k in range(21):
             rhythm.add(t + 0.01 * k, last)
             last = t + 0.01 * k
         t += 0.6
-    assert rhythm.time_until_stance(inf, 0.35) == pytest.approx(0.1, abs=0.01)
-    assert rhythm.time_until_stance(0.1, 0.35) == 0.35, "evidence in the first half of a swing"
+    assert rhythm.time_until_stance(inf, 0.5, 0.35) == pytest.approx(0.1, abs=0.01)
+    assert rhythm.time_until_stance(0.1, 0.5, 0.35) == 0.35, "evidence in the first half of a swing"
 
 
 def test_standing_does_not_count_as_a_stance_of_walking() -> None:

@@ -117,8 +117,12 @@ class ErrorStateSettings:
     It is the 99.3 % point of chi-square with three degrees of freedom."""
     time_until_lost: float = 2.0
     """Time without accepted evidence after which the filter is lost, s."""
+    stance_share: float = 0.5
+    """Share of the wearer's usual stance for which gated evidence must last until the foot stands for certain.
+
+    From 0.35 to 0.6 `openshoe_loops` has the same strides."""
     time_until_ungated: float = 0.35
-    """Duration of unbroken evidence after which the innovation gate no longer rejects it, s."""
+    """Longest duration of unbroken evidence that the innovation gate rejects, s, whatever the usual stance."""
     tilt_rate: float = 2.0
     """Inverse time constant with which gravity corrects the tilt of a foot that stands for certain, 1/s."""
     level: bool = True

@@ -239,10 +239,11 @@ class ErrorStateFilter(PropagatedCovariance):
 
     def _stands_after_all(self, t: float, evidence_since: float, accepted_at: float) -> bool:
         """Return whether evidence that the gate rejects has lasted so long that the foot stands."""
-        longest = self.settings.time_until_ungated
+        share, longest = self.settings.stance_share, self.settings.time_until_ungated
         if accepted_at >= evidence_since:  # the gate let the start of this stance pass
-            return t - accepted_at > self.rhythm.time_until_stance(inf, longest) - TIE
-        return t - evidence_since > self.rhythm.time_until_stance(evidence_since - accepted_at, longest) - TIE
+            return t - accepted_at > self.rhythm.time_until_stance(inf, share, longest) - TIE
+        until = self.rhythm.time_until_stance(evidence_since - accepted_at, share, longest)
+        return t - evidence_since > until - TIE
 
     def bridge(self, dt: float) -> float:
         if dt > LONGEST_BRIDGE:

@@ -11,8 +11,6 @@ from ...types.attrs import define, field
 
 FIRST_STANCE, FIRST_SWING = 0.7, 0.5
 """Durations of stance and swing that are assumed before any were measured, s: those of slow walking."""
-STANCE_SHARE = 0.5
-"""Share of the usual stance for which evidence must last. From 0.35 to 0.6 `openshoe_loops` has the same strides."""
 SWING_SHARE = 0.5
 """Share of the usual swing that must have passed before evidence can be a stance; chosen by hand."""
 SHORTEST_SWING = 0.15
@@ -48,13 +46,13 @@ class StanceRhythm:
                 self.usual_swing = _average(self.usual_swing, swing)
             self.stance_start = t
 
-    def time_until_stance(self, since_last: float, longest: float) -> float:
+    def time_until_stance(self, since_last: float, share: float, longest: float) -> float:
         """Return how long evidence must last until the foot stands for certain, s, at most `longest`.
 
-        The evidence started `since_last` s after the last accepted one."""
+        The evidence started `since_last` s after the last accepted one. It must last for `share` of the usual stance."""
         if since_last < SWING_SHARE * self.usual_swing:
             return longest
-        return min(longest, STANCE_SHARE * self.usual_stance)
+        return min(longest, share * self.usual_stance)
 
     def reset(self) -> None:
         """Discard the times of the current stance, because times restart."""

@@ -44,7 +44,7 @@ ABLATED_RECIPES: dict[str, Recipe] = {
     "no extra noise of a foot that is braked": _cycle(noise_per_acceleration_square=0.0),
     "no innovation gate": _filter(innovation_gate=UNREACHABLE_LIMIT),
     "no recovery after gated evidence": _filter(
-        time_until_lost=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT
+        time_until_lost=UNREACHABLE_LIMIT, stance_share=UNREACHABLE_LIMIT, time_until_ungated=UNREACHABLE_LIMIT
     ),
     "no level, slope or stair": _filter(level=False),
     "no tilt aiding": _filter(tilt_rate=0.0),
