@@ -49,7 +49,7 @@ class StanceRhythm:
     def time_until_stance(self, since_last: float, share: float, longest: float) -> float:
         """Return how long evidence must last until the foot stands for certain, s, at most `longest`.
 
-        The evidence started `since_last` s after the last accepted one. It must last for `share` of the usual stance."""
+        The evidence started `since_last` s after the last accepted one. `share` is that of the usual stance."""
         if since_last < SWING_SHARE * self.usual_swing:
             return longest
         return min(longest, share * self.usual_stance)
