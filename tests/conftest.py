@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 from collections.abc import Callable, Iterator
 from functools import cache
 from inspect import iscoroutinefunction, signature
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 settings.register_profile("unhurried", deadline=None)  # the time of a case depends on the machine
 settings.load_profile("unhurried")
+
+# A shell starts what runs in its background with Ctrl-C ignored, and programs that tests start would inherit that.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")

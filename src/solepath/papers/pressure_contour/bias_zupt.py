@@ -47,8 +47,8 @@ class BiasZupt(LinearDedrift):
 
     If the device reports its attitude, as the paper's InertiaCube3 does, that attitude is used. A constant is added to
     its heading, so that the heading of navigation continues. Otherwise the attitude is integrated, and tilted towards
-    gravity while the foot stands. Then a horizontal bias cannot be told from a tilt; only the vertical one can be
-    estimated."""
+    gravity while the foot stands. Then a horizontal bias looks the same as a tilt, so the filter can learn the vertical
+    bias only."""
 
     settings: BiasZuptSettings = BiasZuptSettings()
     bias: AccelerometerBias = field(factory=AccelerometerBias)
