@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from .activity import ActivityChanged, FlightClimbed, LiftRidden, TurnMade
 from .body import StrideFused, TouchedDown, WalkingModeChanged
+from .defect import Defect, DefectFound
 from .foot import FootFlat, HeelOff, HeelStrike, StrideFeatures, StrideTaken, ToeOff
 from .gait_cycle import GaitCycleMeasured
 from .link import (
@@ -36,13 +37,13 @@ from .wear import CellFault, CellsFailed, FeetSwapped, FootResumed, FootSilent, 
 
 __all__ = [
     "ActivityChanged", "ActivityEvent", "BatteryLevel", "BodyEvent", "Candidate", "CellFault", "CellsFailed",
-    "ClockReset", "Connected", "Disconnected", "Event", "FeetSwapped", "FlightClimbed", "FootFlat", "FootResumed",
-    "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike", "InsoleNeverUnloads",
-    "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble", "LiveEvent",
-    "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed", "Rejection",
-    "SampleGap", "SampleRejected", "ScaleSuspect", "StrideFeatures", "StrideTaken", "StreamRestarted",
-    "StreamResumed", "StreamStale", "StrideFused", "GaitCycleMeasured", "ToeOff", "TouchedDown", "TurnMade",
-    "WalkingModeChanged", "WearEvent", "WearerMoved",
+    "ClockReset", "Connected", "Defect", "DefectFound", "Disconnected", "Event", "FeetSwapped", "FlightClimbed",
+    "FootFlat", "FootResumed", "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike",
+    "InsoleNeverUnloads", "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble",
+    "LiveEvent", "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed", "Rejection",
+    "SampleGap", "SampleRejected", "ScaleSuspect", "StrideFeatures", "StrideTaken", "StreamRestarted", "StreamResumed",
+    "StreamStale", "StrideFused", "GaitCycleMeasured", "ToeOff", "TouchedDown", "TurnMade", "WalkingModeChanged",
+    "WearEvent", "WearerMoved",
 ]  # fmt: skip
 
 GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StrideTaken
@@ -73,8 +74,8 @@ ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
 """Events of the wearer's activity."""
 PlaceEvent = Placed | PlaceLost
 """Events of the wearer's place on a floor plan."""
-WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootResumed
-"""Events of faults in how sensors are worn."""
+WearEvent = DefectFound | CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootResumed
+"""Events of defects of the data, and of faults in how sensors are worn."""
 LiveEvent = FootMoved | FootPressed | WearerMoved
 """Events of every sample or stride for live display, which are emitted only on request."""
 Event = GaitEvent | LinkEvent | BodyEvent | ActivityEvent | PlaceEvent | WearEvent | LiveEvent

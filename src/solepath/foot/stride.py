@@ -81,9 +81,9 @@ class StrideBuilder:
     t_heel_strike: float | None = field(default=None, init=False)
     """Time of heel-strike, s; None before it."""
     degraded: bool = field(default=False, init=False)
-    """Samples of the stride are missing or saturated."""
+    """Samples of the stride are missing or saturated, or a defect spoils them."""
     degraded_until: float | None = field(default=None, init=False)
-    """Time up to which samples were missing or saturated, s; None if none were since times restarted."""
+    """Time up to which samples cannot be trusted, s; None at first."""
     peak_height: float = field(default=0.0, init=False)
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = field(default=0.0, init=False)
@@ -133,9 +133,10 @@ class StrideBuilder:
         self.cop_skipped = 0
 
     def mark_degraded(self, until: float | None) -> None:
-        """Mark that samples up to `until`, s, are missing or saturated; None if times restart."""
+        """Mark that samples up to `until`, s, cannot be trusted; None if times restart."""
         self.degraded = True
-        self.degraded_until = until
+        if until is None or self.degraded_until is None or until > self.degraded_until:
+            self.degraded_until = until
 
     def add_motion(self, t: float, dt: float, height: float, speed: float, sagittal: float) -> None:
         """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown)."""

@@ -22,7 +22,7 @@ from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
-from .rejection import rejected, rejection_reason
+from .rejection import ABSURD_TIME, rejected, rejection_reason
 from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
@@ -128,6 +128,10 @@ class FootTracker:
             corrector.position, corrector.velocity, corrector.attitude, gait.world.north,
             rest.bias, rest.grain if rest.count else 0.0, pressed, after,
         )  # fmt: skip
+
+    def spoil(self) -> None:
+        """Mark all strides as degraded from now until `reset`, because a defect of the data was found."""
+        self.gait.stride.mark_degraded(ABSURD_TIME)
 
     def shift(self, yaw: float, by: Vec3) -> None:
         """Turn the foot by `yaw` rad and move it by `by` m, world frame, from now on.

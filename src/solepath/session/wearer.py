@@ -19,7 +19,7 @@ from ..body.part import (
     TrackPart,
 )
 from ..calibration import Calibration
-from ..events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected, StrideTaken, WearerMoved
+from ..events import ClockReset, DefectFound, Event, LayoutKnown, Limitation, SampleRejected, StrideTaken, WearerMoved
 from ..foot.pressure.sole import Sole
 from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.settings import FootSettings
@@ -206,6 +206,8 @@ class WearerParts:
             elif isinstance(item, Replacement):
                 events[:] = [item.by if event is item.event else event for event in events]
             else:
+                if isinstance(item, DefectFound) and item.spoils and item.site.foot in self.feet:
+                    self.feet[item.site.foot].spoil()
                 events.append(item)
 
     def _make_moved(self, known_at: float) -> WearerMoved | None:

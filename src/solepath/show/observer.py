@@ -20,6 +20,7 @@ from ..events import (
     ActivityChanged,
     CellsFailed,
     ClockReset,
+    DefectFound,
     Event,
     FeetSwapped,
     FlightClimbed,
@@ -123,6 +124,8 @@ class Observer:
     """For each gait event, how often each latency occurred; latencies are in units of 0.1 ms."""
     limitations: list[str] = field(factory=list)
     """Different sentences on limitations of the session."""
+    defects: list[str] = field(factory=list)
+    """Different sentences on data that contradict themselves or physics."""
     suspect_scales: list[str] = field(factory=list)
     """Different sentences on accelerometers whose scale cannot be right."""
     wear_problems: list[str] = field(factory=list)
@@ -245,6 +248,8 @@ class Observer:
     def _add_fault(self, event: Event) -> None:
         """Add a sentence on a fault, unless it is there already."""
         match event:
+            case DefectFound(site=site, what=what):
+                _add_new_sentence(self.defects, f"{site.words}: {what}")
             case LinkTrouble(site=site, what=what):
                 _add_new_sentence(self.troubles, f"{site.words}: {what}")
             case Limitation(site=site, what=what):

@@ -60,7 +60,7 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_count
 
 def problems(observer: Observer) -> list[str]:
     """Return sentences on the faults of sensors, their wearing and their links; none without faults."""
-    faults = [*wear_lines(observer), *link_health(observer)]
+    faults = [*observer.defects, *wear_lines(observer), *link_health(observer)]
     faults += [
         f"{foot} foot: in {counts.degraded} of {counts.strides} strides samples are missing or saturated"
         for foot in Foot

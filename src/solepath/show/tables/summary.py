@@ -19,6 +19,7 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that computing it took."""
     duration = observer.covered_time.total
     lines = [f"{title}: {duration:.1f} s"]
+    lines += [f"DEFECT, {printable(what)}" for what in observer.defects]
     lines += _foot_table(observer)
     lines += _fused_feet(observer)
     lines += activity_lines(observer)

@@ -12,6 +12,7 @@ from ....events import (
     CellsFailed,
     ClockReset,
     Connected,
+    DefectFound,
     Disconnected,
     Event,
     FeetSwapped,
@@ -112,6 +113,8 @@ def _link(event: Event) -> tuple[str, str] | None:
 
 def _wear(event: Event) -> tuple[str, str] | None:
     match event:
+        case DefectFound(site=site, what=what):
+            return "wear", f"{site.words}: {what}"
         case Limitation(site=site, what=what):
             return "wear", what if site is None else f"{site.words}: {what}"
         case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):

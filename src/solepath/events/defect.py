@@ -1,0 +1,63 @@
+"""The event for data that contradict themselves or physics, with a sentence that a person can act on."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from ..types import Site
+from ..types.attrs import frozen
+from .happening import Happening
+
+
+class Defect(Enum):
+    """A kind of wrong data of a sensor; the values are words for people and files."""
+
+    TIME_UNIT = "unit of time"
+    """The times of the samples are not in seconds."""
+    ACC_UNIT = "unit of specific force"
+    """The specific force is not in m/s^2."""
+    GYRO_UNIT = "unit of angular rate"
+    """The angular rate is not in rad/s."""
+    PRESSURE_UNIT = "unit of pressure"
+    """The pressure of the cells is not in the unit that its layout or calibration says."""
+    NO_GRAVITY = "gravity removed"
+    """The specific force lacks gravity, which many devices subtract before they send."""
+    WRONG_SCALE = "scale"
+    """The specific force of a foot that stands is not 1 g."""
+    CLIPPED = "range"
+    """The motion is larger than the range of the sensor, so its peaks are cut off."""
+    LOW_RATE = "rate"
+    """Too few samples a second for steps to be found or for an impact to be followed."""
+    REPEATED = "repeated samples"
+    """One sensor repeats its values while the other one measures."""
+    AXES = "axes"
+    """The axes of the gyroscope are mirrored or exchanged against those of the accelerometer."""
+    CLOCKS = "clocks of the feet"
+    """The times of the two feet are not on one clock."""
+    IMPOSSIBLE_MOTION = "motion"
+    """A speed, an angle or a height that no person has."""
+
+
+@frozen(kw_only=True)
+class DefectFound(Happening):
+    """The data of a sensor contradict themselves or physics, so what follows from them cannot be trusted.
+
+    `t` is the time of the sample or stride that showed it, with which it is reported. Each defect of a site is reported
+    once, and again only after another device was connected there. While a defect that `spoils` lasts, the strides of
+    the foot are marked degraded."""
+
+    site: Site
+    """Site whose data are wrong; for clocks, the foot whose times would have to be shifted."""
+    defect: Defect
+    what: str
+    """Sentences for the person who wears or mounts the sensor: the fault, and what to do about it."""
+    spoils: bool = True
+    """Flag: strides and gait parameters cannot be right; False for a defect that only makes them less accurate."""
+    axes: tuple[int, int, int] | None = None
+    """Correction of AXES: number of the gyroscope's axis, 1 to 3, that belongs to each axis of the accelerometer.
+
+    A negative number means that this axis has the wrong sign. None for other defects."""
+    offset: float | None = None
+    """Correction of CLOCKS: time to add to the times of this foot, s. None for other defects."""
+    sigma: float | None = None
+    """Standard deviation of `offset`, s; None without an offset."""
