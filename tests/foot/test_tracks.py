@@ -14,6 +14,8 @@ from walks import LEFT, of
 
 from solepath import (
     ActivityChanged,
+    Defect,
+    DefectFound,
     Foot,
     FootMoved,
     HeelStrike,
@@ -22,7 +24,6 @@ from solepath import (
     Recipe,
     Sample,
     SampleGap,
-    ScaleSuspect,
     Session,
     Site,
     StrideTaken,
@@ -37,7 +38,7 @@ from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.recipes import DEFAULT
-from solepath.types.vector import GRAVITY, conjugate, from_yaw, multiply, normalise, rotate
+from solepath.types.vector import conjugate, from_yaw, multiply, normalise, rotate
 from solepath.wire.insole_info import build_info, parse_info
 
 ROUTE = Route().stand(3.0).walk(20.0, 1.3).stop(2.0)
@@ -190,19 +191,20 @@ def test_a_wrong_scale_is_reported_once_by_the_link_that_knows_the_range() -> No
 
     session = Session()
     events = session.feed([wrong(packet) for packet in emulate(Route().stand(4.0).walk(4.0), seed=1).packets])
-    reported = of(ScaleSuspect, events)
+    reported = of(DefectFound, events)
     assert {event.site for event in reported} == {Site.LEFT_FOOT, Site.RIGHT_FOOT} and len(reported) == 2
-    assert all("full scale assumed" in event.suggestion for event in reported)
+    assert {event.defect for event in reported} == {Defect.WRONG_SCALE}
+    assert all(stride.degraded for stride in of(StrideTaken, events))
 
 
 def test_an_accelerometer_of_the_wrong_range_is_named_and_one_a_little_off_is_put_right() -> None:
     def scaled(k: float) -> list[Sample]:
         return [evolve(s, acc=(k * s.acc[0], k * s.acc[1], k * s.acc[2])) for s in samples_of_walk()]
 
-    (reported,) = of(ScaleSuspect, run_session(scaled(0.5)))
-    assert reported.magnitude == pytest.approx(0.5 * GRAVITY, rel=0.02) and "2" in reported.suggestion
+    (reported,) = of(DefectFound, run_session(scaled(0.5)))
+    assert reported.defect is Defect.WRONG_SCALE and "2 times the range" in reported.what
     off = run_session(scaled(1.03))
-    assert of(ScaleSuspect, off) == []
+    assert of(DefectFound, off) == []
     assert [s.length for s in of(StrideTaken, off)] == pytest.approx(
         [s.length for s in of(StrideTaken, run_session(samples_of_walk()))], abs=0.02
     )

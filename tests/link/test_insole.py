@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from math import radians
-from random import Random
 
 import pytest
 from attrs import evolve
@@ -21,7 +20,7 @@ from decoded import (
 )
 from walks import of
 
-from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection, ScaleSuspect
+from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection
 from solepath.link.decoder import Decoder
 from solepath.saving import codec
 from solepath.types import Sample, Site
@@ -167,19 +166,3 @@ def test_fragments_without_end_do_not_fill_the_memory() -> None:
         decoder.feed(packet(float(k) / 100, "insole/frame", bytes([(k % 5) << 5 | k % 16]) + bytes(400)))
         assert decoder.link is not None
         assert len(json.dumps(codec.save(decoder))) < 5000
-
-
-def test_an_insole_of_the_wrong_scale_is_suspected_once() -> None:
-    decoder = Decoder(site=LEFT)
-    feed(decoder, packet(9.0, "insole/info", info_value()))
-    outputs = feed(decoder, *[frame_packet(k, acc=2048) for k in range(400)])
-    [suspect] = of(ScaleSuspect, outputs)
-    assert suspect.magnitude == pytest.approx(GRAVITY / 2)
-    assert "16 g would fit" in suspect.suggestion
-
-
-def test_a_foot_that_moves_is_not_at_rest() -> None:
-    decoder, random = Decoder(site=LEFT), Random(1)
-    feed(decoder, packet(9.0, "insole/info", info_value()))
-    outputs = feed(decoder, *[frame_packet(k, acc=random.randrange(0, 4000)) for k in range(600)])
-    assert of(ScaleSuspect, outputs) == []

@@ -8,7 +8,7 @@ import pytest
 from decoded import LEFT, acc_packet, cc2541_packet, cc2650_config_packet, cc2650_value, feed, gyro_packet, packet
 from walks import of
 
-from solepath.events import BatteryLevel, KeysChanged, Limitation, ScaleSuspect
+from solepath.events import BatteryLevel, KeysChanged, Limitation
 from solepath.link.decoder import Decoder
 from solepath.link.devices.cc2541 import counts_per_g
 from solepath.types import Sample
@@ -69,14 +69,6 @@ def test_firmware_may_be_read_after_the_tag_started() -> None:
     feed(decoder, acc_packet(1.0), gyro_packet(1.05), packet(1.06, "device/firmware", build_firmware("1.4 (Jul 2013)")))
     [sample] = feed(decoder, acc_packet(1.1, (0, 0, 64)), gyro_packet(1.15))
     assert sample.acc == pytest.approx((0.0, 0.0, GRAVITY))
-
-
-def test_a_wrong_range_shows_at_rest() -> None:
-    decoder = Decoder(site=LEFT)
-    outputs = feed(decoder, *[acc_packet(1.0 + 0.1 * k, (0, 0, 64)) for k in range(40)])
-    [suspect] = of(ScaleSuspect, outputs)
-    assert suspect.magnitude == pytest.approx(4 * GRAVITY)
-    assert "2 g would fit" in suspect.suggestion
 
 
 def test_a_gyroscope_that_stops_does_not_stop_the_samples() -> None:

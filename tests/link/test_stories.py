@@ -9,16 +9,7 @@ from typing import Any
 import pytest
 from here import PROTOCOL
 
-from solepath.events import (
-    ClockReset,
-    LayoutKnown,
-    Limitation,
-    PacketRejected,
-    PacketsLost,
-    ScaleSuspect,
-    StreamResumed,
-    StreamStale,
-)
+from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, StreamResumed, StreamStale
 from solepath.link.decoder import Decoder
 from solepath.recipes import part_class
 from solepath.saving import codec
@@ -35,7 +26,6 @@ KIND_OF_OUTPUT = {
     StreamResumed: "resumed",
     Limitation: "limitation",
     LayoutKnown: "layout known",
-    ScaleSuspect: "scale suspect",
 }
 
 

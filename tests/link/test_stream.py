@@ -24,7 +24,6 @@ from solepath.events import (
     PacketRejected,
     PacketsLost,
     Rejection,
-    ScaleSuspect,
     StreamStale,
 )
 from solepath.link.catalogue import DECLARED
@@ -257,12 +256,11 @@ def test_silence_is_an_event_unless_the_device_reported_that_it_may_be_silent() 
         assert len(of(StreamStale, device.decoder.advance(5.0, make_kinds([NUMBERED])))) == stale
 
 
-def test_a_limitation_is_reported_once_and_a_wrong_range_is_suspected() -> None:
+def test_a_limitation_is_reported_once() -> None:
     device = toy(evolve(NUMBERED, limitation="it is a toy"))
     output = [item for k in range(300) for item in device.send_data(1.0 + 0.01 * k, k, up=4.9)]
-    (limitation,), (suspect,) = of(Limitation, output), of(ScaleSuspect, output)
+    (limitation,) = of(Limitation, output)
     assert limitation.what == "it is a toy" and output.index(limitation) == 0
-    assert "8 g would fit" not in suspect.suggestion and "0.50 g at rest with 16 g" in suspect.suggestion
 
 
 @pytest.mark.parametrize("name", KIND)

@@ -8,6 +8,8 @@ from strides import stride
 from solepath.events import (
     CellFault,
     CellsFailed,
+    Defect,
+    DefectFound,
     FeetSwapped,
     FootResumed,
     FootSilent,
@@ -18,7 +20,6 @@ from solepath.events import (
     PacketsLost,
     Rejection,
     SampleGap,
-    ScaleSuspect,
     StrideFused,
     TouchedDown,
 )
@@ -96,13 +97,13 @@ def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
     assert link_health(observer) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
 
 
-def test_limitations_and_suspect_scales_are_reported():
+def test_defects_are_the_first_lines_of_a_summary_and_limitations_are_reported():
     observer = Observer()
     observer.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
-    observer.add(ScaleSuspect(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, magnitude=4.9, suggestion="16 g, not 8 g"))
+    observer.add(DefectFound(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, defect=Defect.WRONG_SCALE, what="reads 4.9"))
     text = summary(observer, title="walk", seconds=0.0)
     assert "limitation, left foot: no gyroscope" in text
-    assert "suspect scale, left foot: |acc| is 4.90 m/s^2 at rest: 16 g, not 8 g" in text
+    assert text.splitlines()[1] == "DEFECT, left foot: reads 4.9"
 
 
 FUSED = StrideFused(

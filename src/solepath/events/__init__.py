@@ -26,7 +26,6 @@ from .link import (
     Rejection,
     SampleGap,
     SampleRejected,
-    ScaleSuspect,
     StreamRestarted,
     StreamResumed,
     StreamStale,
@@ -41,7 +40,7 @@ __all__ = [
     "FootFlat", "FootResumed", "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike",
     "InsoleNeverUnloads", "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble",
     "LiveEvent", "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed", "Rejection",
-    "SampleGap", "SampleRejected", "ScaleSuspect", "StrideFeatures", "StrideTaken", "StreamRestarted", "StreamResumed",
+    "SampleGap", "SampleRejected", "StrideFeatures", "StrideTaken", "StreamRestarted", "StreamResumed",
     "StreamStale", "StrideFused", "GaitCycleMeasured", "ToeOff", "TouchedDown", "TurnMade", "WalkingModeChanged",
     "WearEvent", "WearerMoved",
 ]  # fmt: skip
@@ -61,7 +60,6 @@ LinkEvent = (
     | PacketsDropped
     | StreamRestarted
     | LinkTrouble
-    | ScaleSuspect
     | LayoutKnown
     | BatteryLevel
     | KeysChanged

@@ -167,20 +167,6 @@ class LinkTrouble(Happening):
 
 
 @frozen(kw_only=True)
-class ScaleSuspect(Happening):
-    """The accelerometer reads over 15 % more or less than 1 g at rest, so the assumed range or scale is wrong.
-
-    It is reported once. `t` is the end of a rest of 1.5 s if the session gets packets, or 0.5 s if it gets samples, at
-    which it is reported."""
-
-    site: Site
-    magnitude: float
-    """Mean |acc| at rest, m/s^2."""
-    suggestion: str = ""
-    """Factor by which to multiply values, or range that the device may have, in words."""
-
-
-@frozen(kw_only=True)
 class LayoutKnown(Happening):
     """The layout of the pressure cells is known from the device or from the calibration.
 

@@ -6,10 +6,7 @@ swept."""
 
 from __future__ import annotations
 
-from math import inf, isfinite
-
-from ..events import ScaleSuspect
-from ..types import Quat, Site, Vec3
+from ..types import Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import GRAVITY, TIE, ZERO, levelling
 
@@ -31,8 +28,6 @@ SPANS_OF_KNOWN_SCALE, LARGEST_SCALE_CHANGE = 4, 0.02
 """Number of spans of rest after which the scale is known, and largest relative change of the scale from then on.
 
 A larger change comes from an elevator that starts or stops."""
-LARGEST_SCALE_DEVIATION = 0.15
-"""Relative deviation from 1 g at rest above which the scale of an accelerometer is reported."""
 LEVEL_SPAN, REST_SPAN = 0.25, 0.5
 """Duration of a span for the first attitude and of a span of rest, s."""
 LEVEL_ACC_SIGMA = 0.6
@@ -171,8 +166,6 @@ class Rest:
     """Factor for acc that makes it read 1 g at rest."""
     count: int = field(default=0, init=False)
     """Number of spans of rest so far."""
-    magnitude: float | None = field(default=None, init=False)
-    """Norm of the mean acc of the last span of rest, m/s^2; None before any."""
     grain: float = field(default=COARSEST_COUNT, init=False)
     """Value of one accelerometer count, m/s^2: the least difference of two readings so far."""
     last: Vec3 = field(default=ZERO, init=False)
@@ -228,8 +221,8 @@ class Rest:
         limit = LARGEST_BIAS_CHANGE if self.count else LARGEST_BIAS
         if max(abs(gx - x), abs(gy - y), abs(gz - z)) > limit:
             return False
-        self.magnitude = (ax * ax + ay * ay + az * az) ** 0.5
-        scale = GRAVITY / self.magnitude if self.magnitude > 0.0 else 0.0
+        magnitude = (ax * ax + ay * ay + az * az) ** 0.5
+        scale = GRAVITY / magnitude if magnitude > 0.0 else 0.0
         spans = min(self.count + 1, MOST_REST_SPANS)
         if LEAST_SCALE < scale < LARGEST_SCALE and (
             self.count < SPANS_OF_KNOWN_SCALE or abs(scale / self.scale - 1.0) < LARGEST_SCALE_CHANGE
@@ -240,12 +233,3 @@ class Rest:
         self.bias = (x + (gx - x) * weight, y + (gy - y) * weight, z + (gz - z) * weight)
         self.count += 1
         return True
-
-
-def check_scale(t: float, known_at: float, site: Site, magnitude: float | None) -> ScaleSuspect | None:
-    """Return a `ScaleSuspect` event if `magnitude`, the norm of acc at rest in m/s^2, is not about 1 g."""
-    if magnitude is None or 1.0 - LARGEST_SCALE_DEVIATION < magnitude / GRAVITY < 1.0 + LARGEST_SCALE_DEVIATION:
-        return None
-    ratio = GRAVITY / magnitude if magnitude > 0.0 else inf
-    suggestion = f"multiply acc by {ratio:.3g}" if isfinite(ratio) else "acc reads nothing at all"
-    return ScaleSuspect(t=t, known_at=known_at, site=site, magnitude=magnitude, suggestion=suggestion)

@@ -12,7 +12,7 @@ from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define, evolve, field
 from ..types.vector import ZERO
-from .attitude import Levelling, Rest, check_scale
+from .attitude import Levelling, Rest
 from .cues.cues import Cues, TimedCue
 from .cues.gait_cues import GaitCues
 from .gait import Gait
@@ -64,8 +64,6 @@ class FootTracker:
     rest: Rest = field(factory=Rest, init=False)
     gait: Gait = field(init=False)
     limitations: Limitations = field(init=False)
-    scale_reported: bool = field(default=False, init=False)
-    """A wrong accelerometer scale was reported, or another part reports it."""
 
     def __attrs_post_init__(self) -> None:
         self.gait = Gait(self.foot)
@@ -253,10 +251,6 @@ class FootTracker:
     ) -> None:  # fmt: skip
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
-            warning = None if self.scale_reported else check_scale(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
-            if warning is not None:
-                self.scale_reported = True
-                events.append(warning)
             self.detector.scaled(rest.scale)
         k, (bx, by, bz) = rest.scale, rest.bias
         x, y, z = acc

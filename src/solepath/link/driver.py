@@ -26,6 +26,8 @@ from ..wire.error import WireError
 from ..wire.fields import Definition, build_whole, malformed, parse_whole
 from .profile import Profile, Write
 
+FULL_SCALE_COUNTS = 32768
+"""Counts that are the full scale of a sensor with 16 bits."""
 MAX_COUNTER = 1 << 64
 """Number of values of the largest counter, which has 64 bits."""
 READING_ERRORS = (ValueError, LookupError, ArithmeticError, StructError)

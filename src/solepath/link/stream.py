@@ -13,7 +13,7 @@ from __future__ import annotations
 from ..events import BatteryLevel, KeysChanged, LayoutKnown, Limitation, Rejection
 from ..types import Sample, Site, Vec3
 from ..types.attrs import define, field
-from ..types.vector import GRAVITY, unit
+from ..types.vector import unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
 from .clock import MIN_INCREMENT
@@ -22,7 +22,6 @@ from .device_link import DeviceLink, Output
 from .driver import MIN_SAMPLE_TICKS, Driver, DriverSignature, Reading, TimeAxis
 from .periodic import PeriodicClock, make_periodic_clock
 from .reading_check import MIN_RATE, check_reading
-from .rest_check import FULL_SCALE_COUNTS, RestCheck
 
 MAX_PRESSURE_WAIT = 1.0
 """Time without samples after which air pressure no longer waits for a sample, s."""
@@ -55,7 +54,6 @@ class StreamLink(DeviceLink):
     """Numbers of the driver that the link was made with."""
     rate: float
     """Nominal rate, samples a second."""
-    rest_check: RestCheck
     """Check of the accelerometer's scale."""
     known: dict[str, float] = field(factory=dict)
     """Numbers from earlier values that are passed to the readers of later values."""
@@ -127,10 +125,7 @@ class StreamLink(DeviceLink):
 
     def _update_settings(self, driver: Driver, reading: Reading) -> None:
         if reading.known:
-            range_before = self._acc_range(driver)
             self.known = {**self.known, **{name: float(value) for name, value in reading.known.items()}}
-            if self._acc_range(driver) != range_before:
-                self.rest_check = RestCheck(self._acc_range(driver) * GRAVITY / FULL_SCALE_COUNTS)
         if reading.silent is not None:
             self.may_be_silent = reading.silent
         if reading.rate is not None and not reading.samples:
@@ -142,9 +137,6 @@ class StreamLink(DeviceLink):
                 self.periodic = make_periodic_clock(reading.period)
             elif reading.period != self.periodic.period:
                 self.periodic.set_period(reading.period)
-
-    def _acc_range(self, driver: Driver) -> float:
-        return self.known.get("acc_range", driver.acc_range)
 
     def _set_rate(self, rate: float) -> None:
         if rate != self.rate:
@@ -209,8 +201,6 @@ class StreamLink(DeviceLink):
                 t, self.site, raw.acc, raw.gyro, raw.pressure, quat, mag, air_pressure, known_at, raw.saturated
             )
             out.append(sample)
-            if raw.acc is not None and not self.rest_check.is_finished:
-                out += self.rest_check.check(sample, self._acc_range(driver))
         return out
 
     def _locate_by_ticks(self, driver: Driver, reading: Reading, rate: float) -> PacketPosition:
@@ -296,5 +286,4 @@ class StreamLink(DeviceLink):
 
 def make_stream_link(driver: Driver, built_in: bool, site: Site, firmware: str) -> StreamLink:
     """Return a fresh link of this kind of device at `site`."""
-    rest_check = RestCheck(driver.acc_range * GRAVITY / FULL_SCALE_COUNTS)
-    return StreamLink(site, driver.name, driver.signature(built_in), driver.profile.nominal_rate, rest_check)
+    return StreamLink(site, driver.name, driver.signature(built_in), driver.profile.nominal_rate)

@@ -170,7 +170,7 @@ class Session:
         t, site = sample.t, sample.site
         if not isinstance(site, Site) or not isinstance(t, NUMBER_TYPES):
             raise TypeError("a sample holds a time and a Site")
-        events = state.wearer.feed(sample, site in state.decoders)
+        events = state.wearer.feed(sample)
         rejected = events and any([isinstance(event, SampleRejected) for event in events])
         if not rejected and (state.now is None or t > state.now):
             state.now = t
@@ -180,7 +180,7 @@ class Session:
         """Pass the samples and events of a link to the wearer, and add the events that follow."""
         wearer = self._state.wearer
         for item in items:
-            events += wearer.feed(item, True) if isinstance(item, Sample) else wearer.receive(site, item)
+            events += wearer.feed(item) if isinstance(item, Sample) else wearer.receive(site, item)
 
     @property
     def now(self) -> float | None:

@@ -87,10 +87,8 @@ class WearerParts:
     def _choose_sampled(self) -> None:
         self.sampled = tuple([part for part in self.parts if part.needs_samples and not part.idle])
 
-    def feed(self, sample: Sample, scale_reported: bool) -> list[Event]:
-        """Add a sample of any site and return the events.
-
-        `scale_reported` is True when the link, which knows the range, checks the scale instead of the foot."""
+    def feed(self, sample: Sample) -> list[Event]:
+        """Add a sample of any site and return the events."""
         if sample.quat is not None:
             sample = with_sound_attitude(sample)
         foot = sample.site.foot
@@ -98,8 +96,6 @@ class WearerParts:
             return self._feed_limb(sample)
         known_tracker = self.feet.get(foot)
         tracker = self._tracker(foot) if known_tracker is None else known_tracker
-        if scale_reported:
-            tracker.scale_reported = True
         events = tracker.feed(sample)
         if tracker.t is None:  # the sample could not be used, and the foot has no earlier sample
             return events

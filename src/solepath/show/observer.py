@@ -37,7 +37,6 @@ from ..events import (
     LinkTrouble,
     PacketRejected,
     SampleRejected,
-    ScaleSuspect,
     StrideFused,
     StrideTaken,
     ToeOff,
@@ -126,8 +125,6 @@ class Observer:
     """Different sentences on limitations of the session."""
     defects: list[str] = field(factory=list)
     """Different sentences on data that contradict themselves or physics."""
-    suspect_scales: list[str] = field(factory=list)
-    """Different sentences on accelerometers whose scale cannot be right."""
     wear_problems: list[str] = field(factory=list)
     """Different sentences on sensors that are worn wrongly, and on faulty cells."""
     troubles: list[str] = field(factory=list)
@@ -254,9 +251,6 @@ class Observer:
                 _add_new_sentence(self.troubles, f"{site.words}: {what}")
             case Limitation(site=site, what=what):
                 _add_new_sentence(self.limitations, what if site is None else f"{site.words}: {what}")
-            case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
-                more = f": {suggestion}" if suggestion else ""
-                _add_new_sentence(self.suspect_scales, f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{more}")
             case CellsFailed(site=site, fault=fault, cells=cells):
                 _add_new_sentence(self.wear_problems, f"{site.words}: {_cell_words(cells)} {fault.value}, left out")
             case InsoleNeverUnloads(site=site):

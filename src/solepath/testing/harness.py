@@ -198,7 +198,7 @@ class WearerHarness(WalkHarness):
 
     def feed(self, sample: Sample) -> Any:
         self.t = sample.t
-        return self.wearer.feed(sample, False)
+        return self.wearer.feed(sample)
 
     def finish(self) -> list[Any]:
         return [self.wearer.finish(self.t)]

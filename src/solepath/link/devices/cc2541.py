@@ -11,7 +11,7 @@ from typing import ClassVar
 from construct import Array, BitsInteger, BitsSwapped, BitStruct, Const, Flag, Int8ul, Int16sl, Int16ul, OneOf, Struct
 
 from ...events import KeysChanged, Limitation
-from ...types import Sample, Site, Vec3
+from ...types import Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
@@ -19,7 +19,6 @@ from ...wire.sensortag import ON_OFF, PERIOD
 from ..device_link import DeviceLink, Output
 from ..periodic import PeriodicClock, make_periodic_clock
 from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
-from ..rest_check import RestCheck
 from .assembler import Assembler
 
 STOCK_PERIOD = 0.1
@@ -170,7 +169,6 @@ class Cc2541Link(DeviceLink):
     calibration: BarometerCalibration | None = None
     limitation_reported: bool = False
     """True if the Limitation about the barometer was reported."""
-    rest_check: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN_ACC_CODE]))
 
     @property
     def may_be_silent(self) -> bool:
@@ -213,10 +211,7 @@ class Cc2541Link(DeviceLink):
 
     def set_firmware(self, firmware: str) -> None:
         """Set the firmware revision, on which the accelerometer's scale depends."""
-        scale_before = counts_per_g(self.firmware, self.code)
         self.firmware = firmware
-        if counts_per_g(firmware, self.code) != scale_before:
-            self._restart_scale_check()
 
     def restart_clock(self) -> None:
         """Restart the clock fits and the times, because the receiver's clock was set back."""
@@ -235,13 +230,7 @@ class Cc2541Link(DeviceLink):
     def _set_acc_config(self, code: int) -> None:
         self.acc_on = code != 0
         if code and code != self.code:
-            scale_before = counts_per_g(self.firmware, self.code)
             self.code = code
-            if counts_per_g(self.firmware, code) != scale_before:
-                self._restart_scale_check()
-
-    def _restart_scale_check(self) -> None:
-        self.rest_check = RestCheck(GRAVITY / counts_per_g(self.firmware, self.code))
 
     def _set_period(self, clock: PeriodicClock, period: float) -> None:
         if period != clock.period:
@@ -249,13 +238,11 @@ class Cc2541Link(DeviceLink):
 
     def _read_acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
         per_g = counts_per_g(self.firmware, self.code)
-        full_scale, acc = FULL_SCALE_ACC_COUNTS / per_g, _scale(counts, GRAVITY / per_g)
+        acc = _scale(counts, GRAVITY / per_g)
         sample_times = self.acc_clock.add_packet(arrival)
         (t,) = sample_times.times
         out: Output = [*sample_times.make_events(self.site, "cc2541/accelerometer", arrival)]
         out += self.assembler.add_acc(t, acc, self.acc_clock.period, arrival)
-        if not self.rest_check.is_finished:
-            out += self.rest_check.check(Sample(t, self.site, acc, known_at=max(arrival, t)), full_scale)
         return out
 
     def _read_gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:

@@ -13,9 +13,8 @@ from construct import Mapping as Named
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields
 from ...wire.sensortag import ON_OFF, PERIOD
-from ..driver import Driver, Known, Measured, Reading
+from ..driver import FULL_SCALE_COUNTS, Driver, Known, Measured, Reading
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
-from ..rest_check import FULL_SCALE_COUNTS
 
 ACC_RANGE = 8.0
 """Full scale of the accelerometer that the profile's setup sets, g."""

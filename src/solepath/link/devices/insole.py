@@ -22,8 +22,8 @@ from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
 from ..counters import PacketPosition, PacketRun
 from ..device_link import DeviceLink, Output
+from ..driver import FULL_SCALE_COUNTS
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
-from ..rest_check import FULL_SCALE_COUNTS, RestCheck
 from .reassembly import Reassembly
 
 ASSUMED_ACC_SCALE = 16.0 * GRAVITY / FULL_SCALE_COUNTS
@@ -91,7 +91,6 @@ class InsoleLink(DeviceLink):
     """True if the Limitation about missing INFO was reported."""
     packet_run: PacketRun = field(factory=PacketRun)
     reassembly: Reassembly = field(factory=Reassembly)
-    rest_check: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC_SCALE))
 
     @property
     def unsettled_until(self) -> float | None:
@@ -151,8 +150,6 @@ class InsoleLink(DeviceLink):
             return []
         self.info_digest = digest
         self.layout, self.cells, self.rate = info.layout, len(info.cells), info.tick_rate
-        if info.acc_scale != self.acc_scale:
-            self.rest_check = RestCheck(info.acc_scale)
         self.acc_scale, self.gyro_scale, self.pressure_scale = info.acc_scale, info.gyro_scale, info.pressure_scale
         is_calibrated = info.pressure_scale > 0.0
         layout = Layout(
@@ -214,8 +211,6 @@ class InsoleLink(DeviceLink):
             known_at = arrival if arrival > t else t
             sample = Sample(t, self.site, acc, gyro, pressure, quat, known_at=known_at, saturated=frame.saturated)
             out.append(sample)
-            if acc is not None and not self.rest_check.is_finished:
-                out += self.rest_check.check(sample, a * FULL_SCALE_COUNTS / GRAVITY)
         return out
 
 

@@ -26,9 +26,8 @@ from construct import (
 from ...types import Foot
 from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, Hex
-from ..driver import Driver, Known, Measured, Reading
+from ..driver import FULL_SCALE_COUNTS, Driver, Known, Measured, Reading
 from ..profile import FIRMWARE, Access, Channel, Profile, Write
-from ..rest_check import FULL_SCALE_COUNTS
 
 RATE_BY_HEADER = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
 """Samples a second, by the header (first byte) of a notification.

@@ -71,7 +71,6 @@ def problems(observer: Observer) -> list[str]:
         for foot in Foot
         if (link := observer.links.get(SITE_OF_FOOT[foot])) is not None and link.gaps
     ]
-    faults += [f"suspect scale, {text}" for text in observer.suspect_scales]
     return [f"{text[0].upper()}{text[1:]}." for text in faults if text]
 
 

@@ -29,7 +29,6 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
     lines += link_health(observer)
     lines += latency(observer)
     lines += [f"limitation, {printable(what)}" for what in observer.limitations]
-    lines += [f"suspect scale, {printable(what)}" for what in observer.suspect_scales]
     samples = sum([observer.samples(foot) for foot in Foot])
     if seconds > 0.0 and samples:
         pace = f", {1e6 * seconds / samples:.0f} us a sample"

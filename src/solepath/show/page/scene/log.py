@@ -25,7 +25,6 @@ from ....events import (
     LinkTrouble,
     PacketsDropped,
     PlaceLost,
-    ScaleSuspect,
     StreamRestarted,
     StreamResumed,
     StreamStale,
@@ -117,9 +116,6 @@ def _wear(event: Event) -> tuple[str, str] | None:
             return "wear", f"{site.words}: {what}"
         case Limitation(site=site, what=what):
             return "wear", what if site is None else f"{site.words}: {what}"
-        case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
-            more = f": {suggestion}" if suggestion else ""
-            return "wear", f"{site.words}: the accelerometer reads {magnitude:.1f} m/s^2 at rest, not 9.8{more}"
         case CellsFailed(site=site, fault=fault, cells=cells):
             return "wear", f"{site.words}: {len(cells)} {FAULTS[fault][len(cells) != 1]}; left out from now on"
         case InsoleNeverUnloads(site=site):

@@ -1,0 +1,131 @@
+"""Closure of the velocity of a stride, for each way in which the gyroscope's axes can be mounted.
+
+From stance to stance the velocity does not change. So the mean of the specific force, turned by the integrated angular
+rate into the frame of the stride's beginning, is gravity upwards: the integral of R(t) a(t) dt equals g T u, with u the
+direction of the specific force in stance. This fails when the axes of the gyroscope do not belong to those of the
+accelerometer. The 48 signed permutations P of the axes need two integrations only. With M_ijk the integral of R_ij a_k
+dt, a proper rotation P turns R into P R P^T, so that the integral becomes, in components,
+s_i * sum over k of s_k * M(p_i, p_k, k), with p_i the axis and s_i the sign of row i of P. An improper P is the
+negative of a proper one, and needs M of the negative angular rate."""
+
+from __future__ import annotations
+
+from itertools import permutations, product
+from math import log, sqrt
+from typing import Final
+
+from ...types import Vec3
+from .stances import ClosedStride, Interval
+
+Axes = tuple[int, int, int]
+"""Gyroscope axis, 1 to 3, for each accelerometer axis; negative for the opposite direction."""
+Matrix = tuple[Vec3, Vec3, Vec3]
+"""Matrix by rows."""
+
+AXES: Final[tuple[Axes, ...]] = tuple(
+    (a * i, b * j, c * k) for i, j, k in permutations((1, 2, 3)) for a, b, c in product((1, -1), repeat=3)
+)
+"""The signed permutations; the first one leaves the axes as they are."""
+LEAST_RESIDUAL = 0.05
+"""Residual, m/s^2, that is added to each one, so that a nearly perfect closure does not count without limit."""
+LARGEST_LOG = 1.0
+"""Limit of what one stride says for or against axes, in the logarithm of a ratio; it makes the sum robust."""
+
+
+def closure_ratios(stride: ClosedStride) -> list[float] | None:
+    """Return the logarithm of each residual in AXES over that of the axes as they are; None without any gravity.
+
+    Negative values support other axes. The residual is the worse one of the two ends of the stride, m/s^2."""
+    g = 0.5 * (_norm(stride.first) + _norm(stride.last))
+    if g <= 0.0:
+        return None
+    first, last = _unit(stride.first), _unit(stride.last)
+    total = 0.0
+    for interval in stride.intervals:
+        total += interval.duration
+    proper, improper = _integrals(stride.intervals, 1.0), _integrals(stride.intervals, -1.0)
+    residuals = [
+        _residual(axes, improper if _is_improper(axes) else proper, 1.0 / total, first, last, g) for axes in AXES
+    ]
+    reference = log(residuals[0] + LEAST_RESIDUAL)
+    return [max(-LARGEST_LOG, min(LARGEST_LOG, log(r + LEAST_RESIDUAL) - reference)) for r in residuals]
+
+
+def _is_improper(axes: Axes) -> bool:
+    a, b, c = axes
+    odd = (abs(a), abs(b), abs(c)) in ((1, 3, 2), (2, 1, 3), (3, 2, 1))
+    return (a * b * c < 0) != odd
+
+
+def _integrals(intervals: tuple[Interval, ...], sign: float) -> tuple[list[Vec3], Matrix]:
+    """Return M as rows 3 i + j, each over k, m/s, and the rotation of the whole stride; `sign` is that of the rate."""
+    w, x, y, z = 1.0, 0.0, 0.0, 0.0
+    before: Vec3 = (0.0, 0.0, 0.0)
+    sums: list[Vec3] = [(0.0, 0.0, 0.0)] * 9
+    for interval in intervals:
+        tx, ty, tz = interval.turn
+        half: Vec3 = (0.5 * sign * tx, 0.5 * sign * ty, 0.5 * sign * tz)
+        # from the middle of the interval before to the middle of this one
+        w, x, y, z = _turned(w, x, y, z, before[0] + half[0], before[1] + half[1], before[2] + half[2])
+        before = half
+        a, b, c = interval.acc
+        dt = interval.duration
+        a, b, c = a * dt, b * dt, c * dt
+        rotation = _matrix(w, x, y, z)
+        rows = (*rotation[0], *rotation[1], *rotation[2])
+        sums = [(p + r * a, q + r * b, s + r * c) for (p, q, s), r in zip(sums, rows, strict=True)]
+    return sums, _matrix(*_turned(w, x, y, z, *before))
+
+
+def _turned(w: float, x: float, y: float, z: float, a: float, b: float, c: float) -> tuple[float, float, float, float]:
+    """Return the quaternion (w, x, y, z) times that of the rotation vector (a, b, c), rad, normalised."""
+    square = 0.25 * (a * a + b * b + c * c)
+    k = 0.5 - square * (1.0 / 12.0 - square / 240.0)  # sin(h) / (2 h), h half of the angle
+    e = 1.0 - square * (0.5 - square / 24.0)  # cos(h)
+    a, b, c = k * a, k * b, k * c
+    w, x, y, z = (
+        w * e - x * a - y * b - z * c,
+        w * a + x * e + y * c - z * b,
+        w * b - x * c + y * e + z * a,
+        w * c + x * b - y * a + z * e,
+    )
+    n = 1.0 / sqrt(w * w + x * x + y * y + z * z)
+    return w * n, x * n, y * n, z * n
+
+
+def _matrix(w: float, x: float, y: float, z: float) -> Matrix:
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
+        (2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)),
+        (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
+    )
+
+
+def _residual(
+    axes: Axes, integrals: tuple[list[Vec3], Matrix], per_time: float, first: Vec3, last: Vec3, g: float
+) -> float:
+    """Return the worse of the residuals |S / T - g u| of the two ends, m/s^2, in the accelerometer's frame."""
+    sums, turn = integrals
+    rows = [(abs(axis) - 1, 1.0 if axis > 0 else -1.0) for axis in axes]
+    from_first = from_last = 0.0
+    for i, (p, s) in enumerate(rows):
+        force = up = 0.0
+        for k, (q, r) in enumerate(rows):
+            force += r * sums[3 * p + q][k]
+            up += r * turn[p][q] * last[k]
+        force *= s * per_time
+        from_first += (force - g * first[i]) ** 2
+        from_last += (force - g * s * up) ** 2
+    return sqrt(max(from_first, from_last))
+
+
+def _norm(v: Vec3) -> float:
+    x, y, z = v
+    return sqrt(x * x + y * y + z * z)
+
+
+def _unit(v: Vec3) -> Vec3:
+    x, y, z = v
+    n = _norm(v)
+    k = 1.0 / n if n > 0.0 else 0.0
+    return k * x, k * y, k * z

@@ -1,0 +1,98 @@
+"""Detection of a sensor whose range is too small for the motion, from peaks that end at the same value."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ...events import Defect
+from ...types import Vec3
+from ...types.attrs import define, field
+from .finding import Finding
+
+SAME = 1e-4
+"""Relative difference within which two values are the same end of a range; peaks differ by more."""
+LEAST_BLOCKS, LEAST_PAIRS = 3, 5
+"""Number of blocks with, and of pairs of neighbours among, samples at the end of a range that show clipping.
+
+Of 378 recordings of a foot, none of a sensor that does not clip has more than one pair in 20 s of walking."""
+SPOILING_SHARE = 0.01
+"""Share of samples at the end of a range, since it was reached first, above which a track cannot be trusted."""
+
+Extremes = tuple[float, float, float, float, float, float]
+"""Largest value of x, of -x, of y, of -y, of z and of -z in a block, m/s^2 or rad/s."""
+
+
+class RangeKind(NamedTuple):
+    """The properties of a kind of sensor."""
+
+    name: str
+    """Name in sentences."""
+    unit: str
+    """Unit in sentences."""
+    least: float
+    """Smallest end of a range that counts; a smaller value is gravity, or the noise of a foot at rest."""
+
+
+ACCELEROMETER = RangeKind("accelerometer", "m/s^2", 12.0)
+"""An accelerometer, m/s^2."""
+GYROSCOPE = RangeKind("gyroscope", "rad/s", 2.0)
+"""A gyroscope, rad/s."""
+
+
+def find_extremes(values: Sequence[Vec3]) -> Extremes:
+    """Return the extremes of a block."""
+    x, y, z = zip(*values, strict=True)
+    return max(x), -min(x), max(y), -min(y), max(z), -min(z)
+
+
+@define
+class ChannelEnd:
+    """One end of the range of one axis: the largest value so far, and how often it came."""
+
+    largest: float = 0.0
+    """Largest value so far, m/s^2 or rad/s."""
+    samples: int = 0
+    """Number of samples at `largest`."""
+    pairs: int = 0
+    """Number of neighbours that are both at `largest`."""
+    blocks: int = 0
+    """Number of blocks with samples at `largest`."""
+    first: int = 0
+    """Number of samples before the block in which `largest` was reached for the first time."""
+
+
+@define
+class RangeCheck:
+    """Looks at the largest and the smallest value of each axis of one sensor."""
+
+    ends: list[ChannelEnd] = field(factory=lambda: [ChannelEnd() for _ in range(6)])
+    """Ends of the ranges: upper and lower end of x, then of y, then of z."""
+    samples: int = 0
+    """Number of samples so far."""
+
+    def add(self, kind: RangeKind, values: Sequence[Vec3], extremes: Extremes) -> Finding | None:
+        """Add a block of samples with its extremes; return an end of the range that cuts off peaks, if any does."""
+        found = None
+        for i, (end, extreme) in enumerate(zip(self.ends, extremes, strict=True)):
+            if extreme > kind.least and extreme >= end.largest * (1.0 - SAME):
+                axis, sign = i // 2, -1.0 if i % 2 else 1.0
+                if self._add_extreme(end, extreme, [sign * value[axis] for value in values]):
+                    found = end
+        self.samples += len(values)
+        if found is None:
+            return None
+        share = found.samples / (self.samples - found.first)
+        text = f"the {kind.name} cuts off peaks at {found.largest:.3g} {kind.unit}, in {100.0 * share:.2g} % of samples"
+        return Finding(Defect.CLIPPED, f"{text}: choose a larger range", spoils=share > SPOILING_SHARE)
+
+    def _add_extreme(self, end: ChannelEnd, extreme: float, channel: list[float]) -> bool:
+        """Add a block that reaches the end of the range; return whether it now is seen to cut off peaks."""
+        if extreme > end.largest * (1.0 + SAME):
+            end.largest, end.samples, end.pairs, end.blocks, end.first = extreme, 0, 0, 0, self.samples
+        limit = end.largest * (1.0 - SAME)
+        at_end = [value >= limit for value in channel]
+        end.blocks += 1
+        end.samples += at_end.count(True)
+        end.pairs += [a and b for a, b in zip(at_end, at_end[1:], strict=False)].count(True)
+        return end.blocks >= LEAST_BLOCKS and end.pairs >= LEAST_PAIRS

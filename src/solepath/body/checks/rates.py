@@ -1,0 +1,91 @@
+"""Checks of the times of samples, and of sensors that repeat their values."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from operator import eq
+
+from ...events import Defect
+from ...types import Vec3
+from ...types.attrs import define
+from .finding import Finding
+
+LONGEST_INTERVAL = 0.5
+"""Longest usual interval between two samples of a foot, s; a longer one shows another unit of time."""
+SHORTEST_INTERVAL = 1.0 / 5000.0
+"""Shortest usual interval between two samples of a foot, s; a shorter one shows another unit of time."""
+TIME_BLOCKS = 2
+"""Number of successive blocks that show another unit of time before it is reported."""
+SLOW_BLOCKS = 6
+"""Number of successive blocks of motion at too low a rate before it is reported."""
+LEAST_RATE = 18.0
+"""Rate, samples a second, below which a walk is not followed; the slowest of the five published systems has 20."""
+UNITS_OF_TIME = ((1e3, "milliseconds"), (1e6, "microseconds"), (1e9, "nanoseconds"))
+"""Usual units of time, with their number in a second."""
+REPEAT_SAMPLES, REPEAT_SHARE = 160, 0.1
+"""Number of samples in motion after which repeats are judged, and share of them above which they are reported."""
+
+
+@define
+class RateCheck:
+    """Looks at the intervals between samples, and at values that are exactly those of the sample before."""
+
+    t: float | None = None
+    """Time of the last sample of the block before, s; None before any."""
+    strange_blocks: int = 0
+    """Number of successive blocks whose times cannot be in s."""
+    slow_blocks: int = 0
+    """Number of successive blocks of motion with too low a rate."""
+    moving: int = 0
+    """Number of samples in motion since repeats were judged last."""
+    acc_repeats: int = 0
+    """Number of them whose specific force is that of the sample before."""
+    gyro_repeats: int = 0
+    """Number of them whose angular rate is that of the sample before."""
+
+    def add_times(self, times: Sequence[float], moves: bool, least_rate: float) -> Finding | None:
+        """Add the times of a block, s; return a wrong unit, or a rate that is too low, once some blocks show it."""
+        t, self.t = self.t, times[-1]
+        interval = (times[-1] - times[0]) / (len(times) - 1) if t is None else (times[-1] - t) / len(times)
+        if interval >= SHORTEST_INTERVAL and interval * least_rate < 1.0:
+            self.strange_blocks = self.slow_blocks = 0
+            return None
+        steps = sorted([b - a for a, b in zip(times, times[1:], strict=False)])
+        interval = steps[len(steps) // 2]
+        if not SHORTEST_INTERVAL <= interval <= LONGEST_INTERVAL:
+            self.strange_blocks += 1
+            self.slow_blocks = 0
+            return wrong_time_unit(interval) if self.strange_blocks >= TIME_BLOCKS else None
+        self.strange_blocks = 0
+        if moves and interval * least_rate >= 1.0:
+            self.slow_blocks += 1
+            if self.slow_blocks >= SLOW_BLOCKS:
+                rate = 1.0 / interval
+                text = f"{rate:.3g} samples a second are too few to see every impact of a foot: choose 50 or more"
+                return Finding(Defect.LOW_RATE, text, spoils=False)
+        return None
+
+    def add_values(self, accs: Sequence[Vec3], gyros: Sequence[Vec3]) -> Finding | None:
+        """Add a block of motion; return which sensor repeats its values, if one does."""
+        self.acc_repeats += [*map(eq, accs, accs[1:])].count(True)
+        self.gyro_repeats += [*map(eq, gyros, gyros[1:])].count(True)
+        self.moving += len(accs) - 1
+        if self.moving < REPEAT_SAMPLES:
+            return None
+        limit = REPEAT_SHARE * self.moving
+        acc_repeats, gyro_repeats = self.acc_repeats > limit, self.gyro_repeats > limit
+        self.moving = self.acc_repeats = self.gyro_repeats = 0
+        if not (acc_repeats or gyro_repeats):
+            return None
+        name = "the accelerometer repeats" if acc_repeats else "the gyroscope repeats"
+        text = f"{'both sensors repeat' if acc_repeats and gyro_repeats else name} values: samples come more often than"
+        return Finding(Defect.REPEATED, f"{text} it measures; choose the rate at which it measures", spoils=False)
+
+
+def wrong_time_unit(interval: float) -> Finding:
+    """Return the finding of a median interval of `interval`, in the unit of the times, that cannot be in s."""
+    for count, name in UNITS_OF_TIME:
+        if SHORTEST_INTERVAL <= interval / count <= LONGEST_INTERVAL and interval > 1.0:
+            text = f"the times look like {name}, one sample each {interval:.4g}: divide them by {count:g}"
+            return Finding(Defect.TIME_UNIT, text)
+    return Finding(Defect.TIME_UNIT, f"one sample each {interval:.4g} s cannot be: the times must be in seconds")

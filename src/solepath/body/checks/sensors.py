@@ -1,0 +1,153 @@
+"""Checks of what each foot's sensors send, at any mounting: units, gravity, axes, ranges, rates and repeats."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import ClassVar, Final
+
+from ...events import Defect, DefectFound
+from ...foot.view import FootView
+from ...types import SITE_OF_FOOT, Foot, Site, Vec3
+from ...types.attrs import define, field, frozen
+from ..part import Part, PartInput, PartOutput
+from .axes import AxesCheck, wrong_axes
+from .finding import Finding
+from .gravity import MOVING_GYRO, GravityCheck
+from .ranges import ACCELEROMETER, GYROSCOPE, RangeCheck, find_extremes
+from .rates import LEAST_RATE, RateCheck
+from .stances import StanceFinder
+
+LEFT: Final = Foot.LEFT
+"""The left foot, looked up once: access to an enum member costs as much as five multiplications."""
+BLOCK = 16
+"""Number of samples that are examined together, because this costs less than one by one."""
+EXAMINED_AGAIN = 300.0
+"""Time after which axes and gravity are examined once more, s."""
+
+Row = tuple[float, Vec3, Vec3]
+"""Time, s, specific force, m/s^2, and angular rate, rad/s, of a sample."""
+
+
+@frozen
+class SensorChecksSettings:
+    """The settings of `SensorChecks`."""
+
+    least_rate: float = LEAST_RATE
+    """Rate, samples a second, below which a foot's samples are too few; recipes for slower sensors have a lower one."""
+
+
+@define
+class SensorCheck:
+    """The checks of the sensors of one foot."""
+
+    rows: list[Row] = field(factory=list)
+    """Samples since the last block."""
+    rates: RateCheck = field(factory=RateCheck)
+    acc_range: RangeCheck = field(factory=RangeCheck)
+    gyro_range: RangeCheck = field(factory=RangeCheck)
+    gravity: GravityCheck = field(factory=GravityCheck)
+    stances: StanceFinder = field(factory=StanceFinder)
+    axes: AxesCheck = field(factory=AxesCheck)
+    settled_at: float = 0.0
+    """Time at which the axes were settled, s."""
+    reported: list[Defect] = field(factory=list)
+    """Defects that were reported."""
+
+
+@define
+class SensorChecks(Part):
+    """Reports what cannot be right in the samples of a foot, as DefectFound; a defect is reported once for a device.
+
+    Units of time, specific force and angular rate; gravity that is missing or has a wrong size; peaks cut off at the
+    end of a range; samples that are too rare or repeated; a gyroscope whose axes do not fit those of the accelerometer.
+    Nothing depends on the mounting, because stances are found by the sizes of the two vectors. Latency: times in
+    another unit after 32 samples; a unit, gravity and a range after some stances or a second of rest; axes after 8
+    strides, and at most 16 s after the first of them. A mirror of both sensors together cannot be seen.
+
+    Cost: sums over blocks of 16 samples; strides are examined until the axes are settled, and again after 300 s."""
+
+    needs_samples: ClassVar[bool] = True
+
+    settings: SensorChecksSettings = SensorChecksSettings()
+    left: SensorCheck = field(factory=SensorCheck, init=False)
+    right: SensorCheck = field(factory=SensorCheck, init=False)
+
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
+        """Add a sample; return the defects that its block shows."""
+        sample = view.sample
+        acc, gyro = sample.acc, sample.gyro
+        if acc is None or gyro is None:
+            return ()
+        check = self.left if view.foot is LEFT else self.right  # as _check, without the cost of a call
+        rows = check.rows
+        rows.append((view.t, acc, gyro))
+        if len(rows) < BLOCK:
+            return ()
+        check.rows = []
+        return self._report(view.foot, view.t, view.known_at, self._examine(check, rows))
+
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+        """Receive a defect that others have reported."""
+        if isinstance(event, DefectFound) and event.site.foot is not None:
+            self._check(event.site.foot).reported.append(event.defect)
+        return ()
+
+    def reset(self, site: Site) -> None:
+        """Forget what was found at a site, where another device is worn or the clock has restarted."""
+        if site.foot is LEFT:
+            self.left = SensorCheck()
+        elif site.foot is not None:
+            self.right = SensorCheck()
+
+    def finish(self, now: float) -> Sequence[PartOutput]:
+        """Return wrong axes that too few strides have shown for them to be reported before."""
+        found: list[PartOutput] = []
+        for foot in Foot:
+            axes = self._check(foot).axes
+            if axes.wrong:
+                found += self._report(foot, now, now, [wrong_axes(axes.correction)])
+        return found
+
+    def _check(self, foot: Foot) -> SensorCheck:
+        return self.left if foot is LEFT else self.right
+
+    def _report(self, foot: Foot, t: float, known_at: float, findings: Iterable[Finding | None]) -> list[DefectFound]:
+        """Return the events for the findings that were not reported before."""
+        reported, events, site = self._check(foot).reported, [], SITE_OF_FOOT[foot]
+        for finding in findings:
+            if finding is not None and finding.defect not in reported:
+                defect, what, spoils, axes = finding
+                reported.append(defect)
+                event = DefectFound(
+                    t=t, known_at=known_at, site=site, defect=defect, what=what, spoils=spoils, axes=axes
+                )
+                events.append(event)
+        return events
+
+    def _examine(self, check: SensorCheck, rows: list[Row]) -> list[Finding | None]:
+        """Examine a block of samples and return what it shows."""
+        times = [row[0] for row in rows]
+        accs = [row[1] for row in rows]
+        gyros = [row[2] for row in rows]
+        acc_ends, gyro_ends = find_extremes(accs), find_extremes(gyros)
+        acc_range = max(acc_ends[0] + acc_ends[1], acc_ends[2] + acc_ends[3], acc_ends[4] + acc_ends[5])
+        gyro_peak = max(gyro_ends)
+        moves = gyro_peak > MOVING_GYRO
+        findings = [
+            check.rates.add_times(times, moves, self.settings.least_rate),
+            check.rates.add_values(accs, gyros) if moves else None,
+            check.acc_range.add(ACCELEROMETER, accs, acc_ends),
+            check.gyro_range.add(GYROSCOPE, gyros, gyro_ends),
+            check.gravity.add_block(times[0], times[-1], accs, acc_range, gyro_peak),
+        ]
+        if check.axes.settled:
+            if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
+                check.axes, check.stances = AxesCheck(), StanceFinder()
+            return findings
+        for t, acc, gyro in rows:
+            stride = check.stances.add(t, acc, gyro)
+            if stride is not None:
+                findings += [check.gravity.add_stance(stride.last), check.axes.add(stride)]
+        if check.axes.settled:
+            check.settled_at = times[-1]
+        return findings

@@ -1,0 +1,190 @@
+"""Strides from the raw samples of one foot, for checks that must work when the tracker of the foot cannot.
+
+The samples are summed to intervals of about 20 ms. A stance is found by the size of the angular rate and by the
+steadiness of the specific force, which do not depend on the mounting, on mirrored axes, or on gravity."""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import NamedTuple
+
+from ...types import Vec3
+from ...types.attrs import define, field, frozen
+
+INTERVAL = 0.0185
+"""Shortest duration of an interval, s: two samples at 100 Hz, four at 200 Hz."""
+LONGEST_SAMPLE = 0.15
+"""Longest time between two samples that is integrated over, s; a stride with a longer one is discarded."""
+HALF_WINDOW = 2
+"""Number of intervals before and after an instant over which its motion is averaged: 0.1 s in all."""
+STEADINESS_WEIGHT = 0.2
+"""Motion for each unit of standard deviation of the specific force, (rad/s)/(m/s^2)."""
+SWING_MOTION, STANCE_MOTION = 2.0, 1.0
+"""Motion above which a foot swings, and below which it stands, rad/s."""
+BEST_WITHIN = 0.4
+"""Time, s, after the first and before the last instant of a stance in which its stillest instant is searched."""
+MOST_INTERVALS = 140
+"""Largest number of intervals of a stride, 2.6 s; the start of a longer one is forgotten."""
+
+
+@frozen
+class Interval:
+    """The sums of some samples."""
+
+    t: float
+    """Time of the last sample, s."""
+    duration: float
+    """Duration of the samples, s."""
+    turn: Vec3
+    """Integral of the angular rate, sensor frame, rad."""
+    acc: Vec3
+    """Mean specific force, sensor frame, m/s^2."""
+    rate: float
+    """Norm of the mean angular rate, rad/s."""
+
+
+class ClosedStride(NamedTuple):
+    """The motion of a foot from the stillest instant of a stance to that of the next one."""
+
+    intervals: tuple[Interval, ...]
+    """Intervals after the first instant, up to the second one."""
+    first: Vec3
+    """Mean specific force around the first instant, sensor frame, m/s^2."""
+    last: Vec3
+    """Mean specific force around the second instant, sensor frame, m/s^2."""
+
+
+@define
+class StanceFinder:
+    """Divides the samples of one foot into strides, each from the stillest instant of a stance to the next one's."""
+
+    t: float | None = None
+    """Time of the last sample, s; None before any."""
+    duration: float = 0.0
+    """Duration of the interval under way, s."""
+    turn: Vec3 = (0.0, 0.0, 0.0)
+    """Integral of the angular rate over the interval under way, rad."""
+    force: Vec3 = (0.0, 0.0, 0.0)
+    """Integral of the specific force over the interval under way, m/s."""
+    intervals: list[Interval] = field(factory=list)
+    """Newest intervals: those of the stride under way and `HALF_WINDOW` before it."""
+    start: int | None = None
+    """Index of the instant at which the stride under way began; None when it is unknown."""
+    best: int | None = None
+    """Index of the stillest instant at the beginning of the current stance; None in a swing."""
+    latest: int | None = None
+    """Index of the stillest recent instant of the current stance, where the next stride begins; None in a swing."""
+    best_motion: float = 0.0
+    """Motion at `best`, rad/s."""
+    latest_motion: float = 0.0
+    """Motion at `latest`, rad/s."""
+
+    def add(self, t: float, acc: Vec3, gyro: Vec3) -> ClosedStride | None:
+        """Add a sample; return the stride that it shows to be finished, if any."""
+        t_last, self.t = self.t, t
+        if t_last is None:
+            return None
+        dt = t - t_last
+        if not 0.0 < dt < LONGEST_SAMPLE:
+            self._restart()
+            return None
+        duration = self.duration = self.duration + dt
+        x, y, z = gyro
+        a, b, c = self.turn
+        turn = self.turn = (a + x * dt, b + y * dt, c + z * dt)
+        x, y, z = acc
+        a, b, c = self.force
+        force = self.force = (a + x * dt, b + y * dt, c + z * dt)
+        if duration < INTERVAL:
+            return None
+        x, y, z = turn
+        k = 1.0 / duration
+        a, b, c = force
+        self.intervals.append(Interval(t, duration, turn, (k * a, k * b, k * c), k * sqrt(x * x + y * y + z * z)))
+        self.duration, self.turn, self.force = 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        return self._add_instant(len(self.intervals) - 1 - HALF_WINDOW)
+
+    def _restart(self) -> None:
+        self.duration, self.turn, self.force = 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        self.intervals = []
+        self.start = self.best = self.latest = None
+
+    def _add_instant(self, i: int) -> ClosedStride | None:
+        """Use the motion at interval number `i`, which has `HALF_WINDOW` intervals after it."""
+        if i < HALF_WINDOW:
+            return None
+        motion = self._motion(i)
+        stride = None
+        if motion > SWING_MOTION:
+            if self.best is not None and self.latest is not None:
+                stride = self._close(self.best)
+                self._forget_before(self.latest)
+            self.best = self.latest = None
+        elif motion < STANCE_MOTION:
+            stride = self._add_still(i, motion)
+        if len(self.intervals) > MOST_INTERVALS:
+            self._restart()
+        return stride
+
+    def _add_still(self, i: int, motion: float) -> ClosedStride | None:
+        """Use an instant of a stance; the stride before it is finished once a stiller instant is not expected."""
+        intervals, stride = self.intervals, None
+        if self.best is None or self.latest is None:
+            self.best = self.latest = i
+            self.best_motion = self.latest_motion = motion
+            return None
+        t = intervals[i].t
+        if t - intervals[self.best].t >= BEST_WITHIN and self.start is not None:
+            stride = self._close(self.best)
+        elif motion < self.best_motion:
+            self.best, self.best_motion = i, motion
+        if motion < self.latest_motion or t - intervals[self.latest].t >= BEST_WITHIN:
+            self.latest, self.latest_motion = i, motion
+            if self.start is None:
+                self.best = self.latest
+                self._forget_before(self.latest, opens_stride=False)
+        return stride
+
+    def _motion(self, i: int) -> float:
+        """Return the mean rate around interval `i`, plus the weighted standard deviation of the specific force."""
+        around = self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1]
+        rate = around[0].rate + around[1].rate + around[2].rate + around[3].rate + around[4].rate
+        k = 1.0 / len(around)
+        if rate * k > SWING_MOTION:
+            return rate * k
+        x, y, z = _mean_acc(around)
+        variance = 0.0
+        for interval in around:
+            a, b, c = interval.acc
+            variance += (a - x) * (a - x) + (b - y) * (b - y) + (c - z) * (c - z)
+        return rate * k + STEADINESS_WEIGHT * sqrt(k * variance)
+
+    def _close(self, end: int) -> ClosedStride | None:
+        """Return the stride that ends at interval `end`; after it, none is under way."""
+        start, self.start = self.start, None
+        if start is None or end <= start:
+            return None
+        around_start = self.intervals[start - HALF_WINDOW : start + HALF_WINDOW + 1]
+        around_end = self.intervals[end - HALF_WINDOW : end + HALF_WINDOW + 1]
+        return ClosedStride(tuple(self.intervals[start + 1 : end + 1]), _mean_acc(around_start), _mean_acc(around_end))
+
+    def _forget_before(self, i: int, *, opens_stride: bool = True) -> None:
+        """Discard what comes before the instant `i`, where a stride begins if `opens_stride`."""
+        dropped = i - HALF_WINDOW
+        del self.intervals[:dropped]
+        if opens_stride:
+            self.start = HALF_WINDOW
+        if self.best is not None:
+            self.best = max(HALF_WINDOW, self.best - dropped)
+        if self.latest is not None:
+            self.latest -= dropped
+
+
+def _mean_acc(intervals: list[Interval]) -> Vec3:
+    """Return the mean specific force of some intervals, m/s^2."""
+    x = y = z = 0.0
+    for interval in intervals:
+        a, b, c = interval.acc
+        x, y, z = x + a, y + b, z + c
+    k = 1.0 / len(intervals)
+    return k * x, k * y, k * z
