@@ -1,7 +1,7 @@
 """`solepath`: parses the command line, runs the command and reports its errors.
 
-Exit status: 0 for success; 1 if `fleet-demo` found different events; 2 for an error in the command line or a file, with
-one line on stderr; 130 if interrupted before all input was processed.
+Exit status: 0 for success; 1 if `fleet-demo` found different events or `check` something to mend; 2 for an error in the
+command line or a file, with one line on stderr; 130 if interrupted before all input was processed.
 """
 
 from __future__ import annotations
@@ -10,19 +10,58 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 from ..calibration import CalibrationError
 from ..recording import RecordingError
-from . import calibrate, convert, demo, evaluate, fleet_demo, reproduce, track
+from . import calibrate, check, convert, demo, evaluate, fleet_demo, reproduce, track
 from .bluetooth import emulate, live, scan
 from .common.failure import Failure, note
 
-COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate, reproduce, fleet_demo)  # live adds record
+COMMANDS = (
+    demo,
+    track,
+    check,
+    scan,
+    live,
+    emulate,
+    convert,
+    calibrate,
+    evaluate,
+    reproduce,
+    fleet_demo,
+)  # live adds record
+
+
+class _Once(argparse.Action):
+    """An option with a value, which may be given once: a second value would replace the first one silently."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,
+    ) -> None:
+        given: set[str] = namespace.__dict__.setdefault("given", set())
+        if option_string is not None and self.dest in given:
+            parser.error(f"{option_string} was given twice")
+        given.add(self.dest)
+        setattr(namespace, self.dest, values)
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose options, and those of its commands, may be given once."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.register("action", None, _Once)
+        self.register("action", "store", _Once)
 
 
 def parser() -> argparse.ArgumentParser:
     """Return the parser with all commands."""
-    top = argparse.ArgumentParser(
+    top = _Parser(
         prog="solepath", description="Gait events and indoor tracks from foot-worn sensors: bytes in, strides out."
     )
     top.add_argument("--version", action="store_true", help="print the version and exit")
