@@ -17,6 +17,7 @@ from measure import RUNS, machine, measure_memory, no_garbage_collection, second
 from yardstick import TunedFilter, UsualFilter
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
+from solepath.body.checks.sensors import SensorChecks
 from solepath.body.gait.turns import Turns
 from solepath.body.part import ActivityPart, Part, TrackPart
 from solepath.body.place.place_hypotheses import PlaceHypotheses
@@ -122,6 +123,7 @@ SAMPLE_PARTS: dict[str, str | type[Part]] = {
     "cells": "sole",
     "activities": ActivityPart,
     "turns": Turns,
+    "checks": SensorChecks,
     "how it is worn": Wear,
     "body": TrackPart,
 }

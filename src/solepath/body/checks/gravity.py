@@ -17,7 +17,7 @@ TOLERANCE = 0.15
 Of the sensors in 378 recordings of a foot, the worst reads 1.08 g."""
 LEAST_GRAVITY, LEAST_SCALE = 0.3, 0.05
 """Part of 1 g below which gravity is missing in a foot that walks, and below which it is in a foot at rest."""
-MOVING_GYRO, ENOUGH_BLOCKS = 1.0, 12
+MOVING_GYRO, ENOUGH_BLOCKS = 1.0, 6
 """Largest angular rate in a block of a foot that moves, rad/s, and number of such blocks that show how it moves."""
 STANCES = 6
 """Number of stances whose median is judged."""
@@ -33,13 +33,13 @@ WALKING_RANGE = 5.0
 """Mean range of an axis in a block of motion, m/s^2, of a foot that walks; in units of g it is 1 to 3."""
 FASTEST_RATE = 45.0
 """Angular rate of an axis, rad/s, that no foot reaches; the fastest kicks have about 35."""
-FAST_BLOCKS = 3
+FAST_BLOCKS = 2
 """Number of blocks with a faster rate before it is reported."""
 SHAKEN_ACC, IDLE_GYRO = 10.0, 0.25
 """Range of an axis in a block, m/s^2, of a foot that walks, and angular rate, rad/s, that it always exceeds.
 
 A foot at rest stays below the latter."""
-IDLE_BLOCKS = 30
+IDLE_BLOCKS = 15
 """Number of blocks of a foot that walks without any angular rate before it is reported."""
 
 

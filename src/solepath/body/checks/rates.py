@@ -16,7 +16,7 @@ SHORTEST_INTERVAL = 1.0 / 5000.0
 """Shortest usual interval between two samples of a foot, s; a shorter one shows another unit of time."""
 TIME_BLOCKS = 2
 """Number of successive blocks that show another unit of time before it is reported."""
-SLOW_BLOCKS = 6
+SLOW_BLOCKS = 3
 """Number of successive blocks of motion at too low a rate before it is reported."""
 LEAST_RATE = 18.0
 """Rate, samples a second, below which a walk is not followed; the slowest of the five published systems has 20."""

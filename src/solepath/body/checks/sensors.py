@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import ClassVar, Final
 
-from ...events import Defect, DefectFound
+from ...events import Defect, DefectFound, HeelStrike, StrideTaken
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
@@ -13,13 +13,14 @@ from ..part import Part, PartInput, PartOutput
 from .axes import AxesCheck, wrong_axes
 from .finding import Finding
 from .gravity import MOVING_GYRO, GravityCheck
+from .loads import LoadCheck
 from .ranges import ACCELEROMETER, GYROSCOPE, RangeCheck, find_extremes
 from .rates import LEAST_RATE, RateCheck
 from .stances import StanceFinder
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
-BLOCK = 16
+BLOCK = 32
 """Number of samples that are examined together, because this costs less than one by one."""
 EXAMINED_AGAIN = 300.0
 """Time after which axes and gravity are examined once more, s."""
@@ -48,6 +49,9 @@ class SensorCheck:
     gravity: GravityCheck = field(factory=GravityCheck)
     stances: StanceFinder = field(factory=StanceFinder)
     axes: AxesCheck = field(factory=AxesCheck)
+    loads: LoadCheck = field(factory=LoadCheck)
+    in_newtons: bool = False
+    """Flag: the cells of the insole are in N."""
     settled_at: float = 0.0
     """Time at which the axes were settled, s."""
     reported: list[Defect] = field(factory=list)
@@ -58,13 +62,13 @@ class SensorCheck:
 class SensorChecks(Part):
     """Reports what cannot be right in the samples of a foot, as DefectFound; a defect is reported once for a device.
 
-    Units of time, specific force and angular rate; gravity that is missing or has a wrong size; peaks cut off at the
-    end of a range; samples that are too rare or repeated; a gyroscope whose axes do not fit those of the accelerometer.
+    Units of time, specific force, angular rate and pressure; gravity that is missing or has a wrong size; peaks cut off
+    at the end of a range; samples that are too rare or repeated; a gyroscope whose axes do not fit those of the accelerometer.
     Nothing depends on the mounting, because stances are found by the sizes of the two vectors. Latency: times in
-    another unit after 32 samples; a unit, gravity and a range after some stances or a second of rest; axes after 8
+    another unit after 64 samples; a unit, gravity and a range after some stances or a second of rest; axes after 8
     strides, and at most 16 s after the first of them. A mirror of both sensors together cannot be seen.
 
-    Cost: sums over blocks of 16 samples; strides are examined until the axes are settled, and again after 300 s."""
+    Cost: sums over blocks of 32 samples; strides are examined until the axes are settled, and again after 300 s."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -84,11 +88,19 @@ class SensorChecks(Part):
         if len(rows) < BLOCK:
             return ()
         check.rows = []
+        pressed = view.pressed
+        check.in_newtons = pressed is not None and pressed.in_newtons
         return self._report(view.foot, view.t, view.known_at, self._examine(check, rows))
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive a defect that others have reported."""
-        if isinstance(event, DefectFound) and event.site.foot is not None:
+        """Receive contacts and strides, which an insole may contradict, and defects that others have reported."""
+        if isinstance(event, HeelStrike):
+            self._check(event.foot).loads.new_contacts += 1
+        elif isinstance(event, StrideTaken):
+            check = self._check(event.foot)
+            finding = check.loads.add_stride(event, check.in_newtons)
+            return self._report(event.foot, event.t, event.known_at, [finding])
+        elif isinstance(event, DefectFound) and event.site.foot is not None:
             self._check(event.site.foot).reported.append(event.defect)
         return ()
 
