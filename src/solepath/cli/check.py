@@ -13,7 +13,7 @@ from ..recording import RecordingError, open_file, printable
 from ..session import Session
 from ..types import Packet, Sample
 from .common.failure import recipe_named
-from .common.inputs import add_calibration, add_foot, calibration_of, foot_of, source_of
+from .common.inputs import add_calibration, add_foot, assumed_foot, calibration_of, foot_of, source_of
 
 UNSEEN = (
     "a mirror of both sensors of a foot together, which turns left into right",
@@ -58,7 +58,9 @@ def run(options: argparse.Namespace) -> int:
                 (must if must_mend else may).append(f"{event.site.words}: {event.what}")
 
     try:
-        for item in source_of(options.file, foot_of(options)):
+        source = source_of(options.file, foot_of(options))
+        may += filter(None, [assumed_foot(source)])
+        for item in source:
             take(item, session.feed(item))
     except RecordingError as error:
         must.append(str(error))

@@ -16,6 +16,7 @@ from .common.inputs import (
     add_calibration,
     add_floorplan,
     add_foot,
+    assumed_foot,
     calibration_of,
     check_pressure,
     floorplan_of,
@@ -110,6 +111,8 @@ def run(options: argparse.Namespace) -> int:
         if recording.failure is None or results.observer.item_count:
             results.write_and_print(seconds)
     if recording.failure is None:
+        if (sentence := assumed_foot(source)) is not None:
+            note(sentence)
         return 0
     if shown:
         return 2  # the reason was already printed

@@ -41,6 +41,8 @@ STEADY_PACKETS = 6
 """Number of packets in a row at a steady distance that shows that the rate is wrong."""
 RATE_TOLERANCE = 0.2
 """Largest relative deviation of a packet's distance from the predicted one, and of a steady distance from the last."""
+UNUSED_TICKS = "the ticks of this device are not used, because its driver has no tick_rate and tick_modulus"
+"""Limitation of a reader that gives ticks which nobody can convert to seconds."""
 
 
 @define
@@ -75,7 +77,7 @@ class StreamLink(DeviceLink):
     air_pressure: float | None = None
     """Air pressure that waits for the next sample, Pa."""
     limitation_reported: bool = False
-    """True if the driver's limitation was reported."""
+    """True if the driver's limitation, or ticks that cannot be used, were reported."""
 
     @property
     def unsettled_until(self) -> float | None:
@@ -184,9 +186,11 @@ class StreamLink(DeviceLink):
             self._set_rate(rate)
             self.coarse_ticks = int(reading.ticks or 0)
         out: Output = [*sample_times.make_events(self.site, channel, arrival)]
-        if driver.limitation and not self.limitation_reported:
+        unused = UNUSED_TICKS if reading.ticks is not None and not driver.tick_rate else ""
+        if (driver.limitation or unused) and not self.limitation_reported:
             self.limitation_reported = True
-            out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=driver.limitation))
+            what = "; ".join(filter(None, (driver.limitation, unused)))
+            out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
         self.newest_arrival = arrival
         for raw, assigned_t in zip(reading.samples, sample_times.times, strict=True):
             t = self._make_increasing(assigned_t)

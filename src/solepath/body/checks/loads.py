@@ -10,7 +10,7 @@ STRIDES = 6
 """Number of strides after which the contacts of a foot are judged."""
 LONGEST_STANCE = 0.6
 """Longest time between two strides that follow each other, s."""
-MOST_CONTACTS = 1.5
+MOST_CONTACTS = 1.75
 """Number of heel-strikes a stride above which the load contradicts the motion."""
 LEAST_LOAD, LARGEST_LOAD = 40.0, 4000.0
 """Mean load of a foot on the ground, N, of an insole that covers part of the sole of a child, and of a heavy runner."""

@@ -62,11 +62,12 @@ class SensorCheck:
 class SensorChecks(Part):
     """Reports what cannot be right in the samples of a foot, as DefectFound; a defect is reported once for a device.
 
-    Units of time, specific force, angular rate and pressure; gravity that is missing or has a wrong size; peaks cut off
-    at the end of a range; samples that are too rare or repeated; a gyroscope whose axes do not fit those of the accelerometer.
-    Nothing depends on the mounting, because stances are found by the sizes of the two vectors. Latency: times in
-    another unit after 64 samples; a unit, gravity and a range after some stances or a second of rest; axes after 8
-    strides, and at most 16 s after the first of them. A mirror of both sensors together cannot be seen.
+    It looks for another unit of time, specific force, angular rate or pressure; for gravity that is missing or has a
+    wrong size; for peaks cut off at the end of a range; for samples that are too rare or repeated; and for a gyroscope
+    whose axes do not fit those of the accelerometer. Nothing depends on the mounting, because stances are found by the
+    sizes of the two vectors. Latency: times in another unit after 64 samples; units, gravity and ranges after some
+    stances or a second of rest; axes after 8 strides, and at most 16 s after the first of them. A mirror of both
+    sensors together cannot be seen.
 
     Cost: sums over blocks of 32 samples; strides are examined until the axes are settled, and again after 300 s."""
 

@@ -38,6 +38,14 @@ def source_of(path: Path, foot: Foot | None = None) -> Source:
     return open_source(path, foot, report=note)
 
 
+def assumed_foot(source: Source) -> str | None:
+    """Return the sentence on a recording of samples that does not say of which foot it is; None for any other."""
+    tables = () if source.samples is None else source.samples.tables
+    if source.foot is not None or len(tables) != 1 or any("_" in name for name in tables[0].names.values()):
+        return None
+    return f"the file does not say of which foot it is: taken as the {tables[0].foot} one; --foot says otherwise"
+
+
 def check_pressure(recipe: Recipe, source: Source) -> None:
     """Raise Failure when the recipe needs pressure cells and the recording has none."""
     if recipe.needs_pressure and not _has_pressure(source):

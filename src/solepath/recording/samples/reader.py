@@ -53,14 +53,14 @@ class SampleRecording:
 def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> SampleRecording:
     """Return the samples in an .npz or .csv file, all read into memory.
 
-    `foot`: for samples that name no foot, the foot that wore the sensor (None: the right foot); else the only foot to
-    read (None: both). `report` receives one sentence about an incomplete last line. RecordingError when nothing can be
-    used."""
+    `foot`: for samples that name no foot, the foot that wore the sensor (None: the left foot if the name of the file
+    has "left" in it, else the right one); else the only foot to read (None: both). `report` receives one sentence about
+    an incomplete last line. RecordingError when nothing can be used."""
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in SAMPLE_SUFFIXES:
         raise RecordingError(path, f"is neither {' nor '.join(SAMPLE_SUFFIXES)}, so it holds no samples")
-    one_foot = foot or Foot.RIGHT
+    one_foot = foot or (Foot.LEFT if "left" in path.stem.lower() else Foot.RIGHT)
     if suffix == ".npz":
         tables, flaw = read_npz(path, one_foot), None
     else:
