@@ -19,7 +19,7 @@ from solepath.foot.world import World
 from solepath.recording import read_samples
 from solepath.types.vector import IDENTITY, ZERO, from_rotation_vector
 
-ASKEW = Mounting(ON_INSTEP.position, from_rotation_vector((0.5, -2.2, 0.9)))
+TILTED = Mounting(ON_INSTEP.position, from_rotation_vector((0.5, -2.2, 0.9)))
 
 
 STRIDE_TIME, CONTACT_TIME, FLAT_AT, STILL_UNTIL = 1.1, 0.7, 0.05, 0.5
@@ -34,7 +34,7 @@ def steady_cycles(samples: Iterable[Sample]) -> list[GaitCycleMeasured]:
     return [event for event in events if isinstance(event, GaitCycleMeasured) and event.steady]
 
 
-@pytest.mark.parametrize("mounting", [IN_SOLE, ON_HEEL, ON_INSTEP, ASKEW])
+@pytest.mark.parametrize("mounting", [IN_SOLE, ON_HEEL, ON_INSTEP, TILTED])
 def test_angles_at_contact_are_the_true_pitch_at_any_mounting(mounting: Mounting) -> None:
     walker = Walker(Route().stand(1.5).walk(20.0, 1.3).stop(1.0), seed=7)
     samples = walker.samples(Foot.LEFT, 100.0, LSM6DSOX, mounting=mounting)

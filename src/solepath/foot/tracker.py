@@ -278,8 +278,7 @@ class FootTracker:
         accepted = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
-        cues = self.cues
-        still = accepted and speed < FLAT_SPEED
+        cues, still = self.cues, accepted and speed < FLAT_SPEED
         timed_cues = cues.update(t, dt, acc, gyro, still, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
