@@ -78,7 +78,7 @@ def test_turns_that_are_written_out_are_those_of_the_quaternions(before: Quat, a
 def test_pitches_are_kept_as_singles(rates: list[float]) -> None:
     stride, pitch = StrideBuilder(Foot.LEFT), 0.0
     for k, rate in enumerate(rates):
-        stride.add_motion(0.01 * k, 0.01, 0.0, 0.0, rate)
+        stride.add_motion(0.01 * k, 0.01, 0.0, 0.0, rate, False)
         pitch += rate * 0.01
         assert stride.pitches[stride.next_pitch - 1] == single(pitch)
 

@@ -84,6 +84,14 @@ def test_events_within_a_quarter_of_a_second_match_and_give_bias_and_spread():
     assert matching.mad == 0.0625
 
 
+def test_scatter_leaves_out_the_offset_between_the_clocks_of_two_feet():
+    true = [1.0, 2.0, 3.0, 4.0]
+    both = match(true, true) + match(true, [t + 0.125 for t in true])
+    assert both.mad == 0.0625
+    assert both.scatter == 0.0
+    assert match([1.0], []).scatter is None
+
+
 def test_an_event_found_twice_counts_once_and_the_nearer_one_matches():
     matching = match([1.0, 2.0], [1.125, 1.0625, 2.0])
     assert matching == Matching(2, 3, (0.0625, 0.0))

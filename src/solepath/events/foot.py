@@ -64,9 +64,12 @@ class StrideFeatures:
     """Difference of the integrated velocity from the known velocity at toe-off and heel-strike, m/s (Chen et al. 2019,
     equation (10)); None if the velocity of the rolling shoe was not used."""
     toe_off_angle: float | None = None
-    """Pitch at toe-off relative to the foot-flat before it, rad, positive when the heel is up."""
+    """Pitch at toe-off relative to the flat sole at mid-stance before it, rad, positive when the heel is up."""
     heel_strike_angle: float | None = None
-    """Pitch at heel-strike relative to the foot-flat after it, rad, positive when the toe is up."""
+    """Pitch at heel-strike relative to the flat sole after it, rad, positive when the toe is up.
+
+    Mid-stance is still to come, so earlier stances show how far the sensor turns from foot-flat to mid-stance; the
+    angle is None in the first stride."""
     rise: float | None = None
     """Height of the stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
 

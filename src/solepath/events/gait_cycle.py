@@ -70,9 +70,9 @@ class GaitCycleMeasured(Happening):
     """Highest rise of the sensor above the higher of the two foot-flats, m. It is not the minimum toe clearance, which
     a sensor on the instep cannot measure (Mariani et al. 2012, IEEE Trans. Biomed. Eng. 59, use the shoe's size)."""
     toe_off_angle: float | None
-    """Pitch of the foot at toe-off relative to the foot-flat before it, rad; positive when the heel is up."""
+    """Pitch of the foot at toe-off relative to the flat sole at mid-stance, rad; positive when the heel is up."""
     heel_strike_angle: float | None
-    """Pitch of the foot at the contact that ends the cycle, relative to the next foot-flat, rad; positive toe up."""
+    """Pitch of the foot at the contact that ends the cycle, relative to the flat sole, rad; positive toe up."""
     turning_angle: float | None
     """Turn of the foot about the vertical over the stride, rad, counter-clockwise positive (Mariani et al. 2010)."""
     rise: float | None

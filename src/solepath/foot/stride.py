@@ -20,6 +20,12 @@ LONGEST_SWING = 3.0
 """Longest swing of a single stride, s."""
 FASTEST_STRIDE = 10.0
 """Largest mean speed of a stride that is possible, m/s; nobody runs faster."""
+CONTACT_PER_SWING = 1.5
+"""Usual ratio of the time on the ground to the time of the swing before it: 60 to 40 % of a gait cycle (Perry 1992)."""
+LONGEST_CONTACT = 3.0
+"""Longest time on the ground of a foot that walks, s; a foot that stays longer stands. Chosen by hand."""
+FLAT_PITCH_GAIN = 0.25
+"""Weight of the newest stance in `StrideBuilder.usual_flat_pitch`, 0 to 1; a mean over about four stances."""
 
 
 @define
@@ -104,6 +110,18 @@ class StrideBuilder:
     """Pitch at toe-off, toe down positive, rad; None if unknown."""
     heel_strike_pitch: float | None = field(default=None, init=False)
     """Pitch at heel-strike, toe down positive, rad; None if unknown."""
+    t_contact: float | None = field(default=None, init=False)
+    """Time of the heel-strike before this stance, s; None if the foot stands or has not walked."""
+    t_mid_stance: float = field(default=0.0, init=False)
+    """Expected middle of the contact that started at `t_contact`, s."""
+    contact_time: float | None = field(default=None, init=False)
+    """Duration of the last contact, s; None before any."""
+    first_pitch: float = field(default=0.0, init=False)
+    """Pitch at the first foot-flat of this contact, rad."""
+    flat_pitch: float = field(default=0.0, init=False)
+    """Pitch of the flat sole, rad: that of the still foot at mid-stance, or the newest one of a foot that stands."""
+    usual_flat_pitch: float | None = field(default=None, init=False)
+    """Mean of `flat_pitch` relative to the first foot-flat of a contact, rad; None before the first stance."""
     load_sum: float = field(default=0.0, init=False)
     """Sum of the total load over the samples on the ground."""
     load_count: int = field(default=0, init=False)
@@ -120,6 +138,14 @@ class StrideBuilder:
         self.t_start = t
         self.start = position
         self.attitude = attitude
+        if self.t_heel_strike is not None and self.t_toe_off is not None:
+            self.t_contact = self.t_heel_strike
+            expected = self.contact_time or CONTACT_PER_SWING * (self.t_heel_strike - self.t_toe_off)
+            self.t_mid_stance = self.t_heel_strike + 0.5 * expected
+            self.first_pitch = self.flat_pitch = 0.0
+        else:  # another foot-flat of the same contact
+            self.first_pitch -= self.pitch
+            self.flat_pitch -= self.pitch
         self.t_toe_off = self.t_heel_strike = None
         self.toe_off_pitch = self.heel_strike_pitch = None
         # the foot-flat may be dated back into a gap; the rest of the gap then degrades the new stride
@@ -138,8 +164,10 @@ class StrideBuilder:
         if until is None or self.degraded_until is None or until > self.degraded_until:
             self.degraded_until = until
 
-    def add_motion(self, t: float, dt: float, height: float, speed: float, sagittal: float) -> None:
-        """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown)."""
+    def add_motion(self, t: float, dt: float, height: float, speed: float, sagittal: float, still: bool) -> None:
+        """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown).
+
+        `still` is True when zero-velocity evidence was accepted."""
         if height > self.peak_height:
             self.peak_height = height
         if speed > self.peak_speed:
@@ -153,11 +181,20 @@ class StrideBuilder:
             self.pitch_low = pitch
         elif pitch > self.pitch_high:
             self.pitch_high = pitch
+        if still and self.t_toe_off is None:
+            t_contact = self.t_contact
+            if t_contact is None or t <= self.t_mid_stance or t - t_contact > LONGEST_CONTACT:
+                self.flat_pitch = pitch
 
     def add_toe_off(self, t: float, interval: float) -> None:
         """Set the toe-off at `t`, s; `interval` is the usual interval between samples, s."""
         self.t_toe_off = t
         self.toe_off_pitch = self._pitch_at(t, interval)
+        if self.t_contact is not None and 0.0 < t - self.t_contact < LONGEST_CONTACT and self.toe_off_pitch is not None:
+            self.contact_time = t - self.t_contact
+            flat_pitch, usual = self.flat_pitch - self.first_pitch, self.usual_flat_pitch
+            self.usual_flat_pitch = flat_pitch if usual is None else usual + FLAT_PITCH_GAIN * (flat_pitch - usual)
+        self.t_contact = None
 
     def add_heel_strike(self, t: float, interval: float) -> None:
         """Set the heel-strike at `t`, s; `interval` is the usual interval between samples, s."""
@@ -175,6 +212,16 @@ class StrideBuilder:
         k = int(samples_back)
         later, earlier = self.pitches[self.next_pitch - 1 - k], self.pitches[self.next_pitch - 2 - k]
         return later + (samples_back - k) * (earlier - later)
+
+    def _heel_strike_angle(self) -> float | None:
+        """Return the angle at heel-strike against the flat sole, rad, positive toe up; None if unknown.
+
+        A sensor at the ankle or on the laces turns with the shank while the sole lies flat, by 20 degrees in the stance
+        of some wearers, so the foot-flat is not enough. The stance that follows is still to come; the earlier ones show
+        how far the sensor turns from the foot-flat to mid-stance."""
+        if self.heel_strike_pitch is None or self.usual_flat_pitch is None:
+            return None
+        return self.pitch + self.usual_flat_pitch - self.heel_strike_pitch
 
     def add_load(self, total: float, cop: tuple[float, float] | None) -> None:
         """Add one sample of a foot on the ground: total load, and centre of pressure, foot frame, m.
@@ -240,9 +287,8 @@ class StrideBuilder:
                 clearance=self.peak_height - max(position[2], self.start[2]),
                 peak_speed=self.peak_speed,
                 swing_pitch=self.pitch_high - self.pitch_low,
-                toe_off_angle=self.toe_off_pitch,
-                # the reference is the sole at the foot-flat that ends the stride
-                heel_strike_angle=None if self.heel_strike_pitch is None else self.pitch - self.heel_strike_pitch,
+                toe_off_angle=None if self.toe_off_pitch is None else self.toe_off_pitch - self.flat_pitch,
+                heel_strike_angle=self._heel_strike_angle(),
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
                 cop=tuple(self.cop),
                 error_index=error_index,

@@ -272,14 +272,14 @@ class FootTracker:
         accepted = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
-        cues = self.cues
-        timed_cues = cues.update(t, dt, acc, gyro, accepted and speed < FLAT_SPEED, speed, gait.phase, load, stance)
+        cues, still = self.cues, accepted and speed < FLAT_SPEED
+        timed_cues = cues.update(t, dt, acc, gyro, still, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
         template, position = gait.template, corrector.position
         if template.t_heel_off is not None and t >= template.t_next_moment:
             template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
-        gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal)
+        gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal, still)
         if timed_cues:
             for timed_cue in timed_cues:
                 self._apply_cue(timed_cue, known_at, events)

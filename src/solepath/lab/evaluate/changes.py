@@ -34,9 +34,9 @@ _LESS = (
     "armse_2d", "rms_2d", "rms_3d", "rms_z", "relative", "position_mean", "position_end", "position_max",
     "end_error", "end_error_2d", "end_height", "end_relative", "largest_relative", "height_end", "height_max",
     "strides_invented", "stride_error", "stride_error_median", "stride_error_track", "heel_strike_mad",
-    "heel_strike_off", "toe_off_mad", "toe_off_off", "stride_time_error", "stride_time_error_median", "leg_error",
-    "leg_error_median", "body_leg_error", "body_leg_error_median", "leg_spread", "uturn_angle", "uturn_invented",
-    "rides_invented", "level_called",
+    "heel_strike_scatter", "heel_strike_off", "toe_off_mad", "toe_off_scatter", "toe_off_off", "stride_time_error",
+    "stride_time_error_median", "leg_error", "leg_error_median", "body_leg_error", "body_leg_error_median",
+    "leg_spread", "uturn_angle", "uturn_invented", "rides_invented", "level_called",
 )  # fmt: skip
 _NEARER_ZERO = ("heel_strike_bias", "toe_off_bias", "stride_time_bias", "leg_bias", "body_leg_bias")
 _MORE = (

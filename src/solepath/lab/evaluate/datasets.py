@@ -53,11 +53,14 @@ def _is_surveyed(name: str, meta: Meta) -> bool:
 TRACK_FIGURES = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
 STRIDE_FIGURES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
 HEEL_STRIKE_FIGURES = (
-    "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad", "heel_strike_off",
+    "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad",
+    "heel_strike_scatter", "heel_strike_off",
 )  # fmt: skip
 ACTIVITY_FIGURES = ("accuracy", "most_frequent", *(f"f1_{activity.value.lower()}" for activity in CLASSES))
 RIDE_FIGURES = ("rides_true", "rides_found", "rides_invented")
-TOE_OFF_FIGURES = ("toe_off_true", "toe_off_found", "toe_off_f1", "toe_off_bias", "toe_off_mad", "toe_off_off")
+TOE_OFF_FIGURES = (
+    "toe_off_true", "toe_off_found", "toe_off_f1", "toe_off_bias", "toe_off_mad", "toe_off_scatter", "toe_off_off",
+)  # fmt: skip
 LEG_FIGURES = ("leg_error_median", "leg_error", "leg_bias")
 BODY_LEG_FIGURES = ("body_leg_error_median", "body_leg_error", "body_leg_bias")
 STRIDE_TIME_FIGURES = ("stride_time_error_median", "stride_time_error", "stride_time_bias")

@@ -6,7 +6,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from attrs import frozen
+from attrs import field, frozen
 
 
 @frozen
@@ -46,9 +46,16 @@ class Matching:
     n_found: int = 0
     offsets: tuple[float, ...] = ()
     """Time of the found event minus that of the true one, s, for each match."""
+    deviations: tuple[float, ...] = field(default=(), eq=False)
+    """Offset minus the median offset of the same foot and recording, s, for each match."""
 
     def __add__(self, other: Matching) -> Matching:
-        return Matching(self.n_true + other.n_true, self.n_found + other.n_found, self.offsets + other.offsets)
+        return Matching(
+            self.n_true + other.n_true,
+            self.n_found + other.n_found,
+            self.offsets + other.offsets,
+            self.deviations + other.deviations,
+        )
 
     @property
     def f1(self) -> float | None:
@@ -71,6 +78,11 @@ class Matching:
         """Median absolute deviation of the offsets from their median, s."""
         return float(np.median(np.abs(np.array(self.offsets) - np.median(self.offsets)))) if self.offsets else None
 
+    @property
+    def scatter(self) -> float | None:
+        """Median magnitude of `deviations`, s: the MAD without what the clocks of feet and recordings add to it."""
+        return float(np.median(np.abs(self.deviations))) if self.deviations else None
+
 
 def match(
     true: Iterable[float], found: Iterable[float], *, windows: Sequence[tuple[float, float]] | None = None
@@ -84,7 +96,9 @@ def match(
         windows = [(truth[0], truth[-1])] if truth else []
     inside = sorted(t for t in found if any(a - TOLERANCE <= t <= b + TOLERANCE for a, b in windows))
     matched = pairs(truth, inside, TOLERANCE)
-    return Matching(len(truth), len(inside), tuple(inside[j] - truth[i] for i, j in matched))
+    offsets = tuple(inside[j] - truth[i] for i, j in matched)
+    middle = float(np.median(offsets)) if offsets else 0.0
+    return Matching(len(truth), len(inside), offsets, tuple(offset - middle for offset in offsets))
 
 
 def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:

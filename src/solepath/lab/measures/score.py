@@ -46,6 +46,7 @@ class Scored:
                 f"{kind}_f1": matching.f1,
                 f"{kind}_bias": matching.bias,
                 f"{kind}_mad": matching.mad,
+                f"{kind}_scatter": matching.scatter,
                 f"{kind}_off": matching.median_magnitude,
             }
         if self.strides is not None:
