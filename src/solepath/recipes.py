@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import Any
 
 from .body.activity.activities import Activities
+from .body.checks.clocks import FootClocks
 from .body.fuse.both_feet import BothFeet, BothFeetSettings
 from .body.fuse.position import MeanOfFeet
 from .body.gait.cycles import GaitCycles
@@ -38,8 +39,8 @@ def usual_parts(
 
     They are: Wear, the position of the wearer (`track`; MeanOfFeet when it is None), the activity (`activity`;
     Activities when it is None), Turns, the height from elevators and air pressure (`altitude`; when it is None, heights
-    are those of the feet), and GaitCycles."""
-    parts = (Wear(), track or MeanOfFeet(), activity or Activities(), Turns(), altitude, GaitCycles())
+    are those of the feet), FootClocks, and GaitCycles."""
+    parts = (Wear(), track or MeanOfFeet(), activity or Activities(), Turns(), altitude, FootClocks(), GaitCycles())
     return tuple([part for part in parts if part is not None])
 
 
@@ -142,6 +143,7 @@ PARTS: dict[str, str] = {
     "Activities": _BODY + "activity.activities",
     "Turns": _BODY + "gait.turns",
     "Altitude": _BODY + "height.altitude",
+    "FootClocks": _BODY + "checks.clocks",
     "GaitCycles": _BODY + "gait.cycles",
     "Particles": _BODY + "place.particles",
     "KnownVelocity": _KUPT + "known_velocity",

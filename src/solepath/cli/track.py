@@ -14,6 +14,7 @@ from ..types import Packet, Sample
 from .common.failure import note, recipe_named
 from .common.inputs import (
     add_calibration,
+    add_clocks,
     add_floorplan,
     add_foot,
     calibration_of,
@@ -21,6 +22,7 @@ from .common.inputs import (
     floorplan_of,
     foot_of,
     source_of,
+    undo_clocks,
 )
 from .common.view import (
     PageAddress,
@@ -56,6 +58,7 @@ def add_to(commands: Any) -> None:
     add_calibration(command)
     add_floorplan(command)
     add_foot(command)
+    add_clocks(command)
     command.add_argument(
         "--out",
         metavar="DIR",
@@ -82,6 +85,7 @@ def run(options: argparse.Namespace) -> int:
     address = page_address_of(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
     source = source_of(options.file, foot_of(options))
+    undo_clocks(source, options)
     check_pressure(recipe, source)
     plan, start = floorplan_of(options)
     session = Session(
