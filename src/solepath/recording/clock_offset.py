@@ -10,13 +10,11 @@ from ..types.attrs import evolve
 from .errors import RecordingError
 
 
-def shift_clock(
-    items: Iterable[Packet | Sample], offset: float, foot: Foot = Foot.RIGHT
-) -> Iterator[Packet | Sample]:
+def shift_clock(items: Iterable[Packet | Sample], offset: float, foot: Foot = Foot.RIGHT) -> Iterator[Packet | Sample]:
     """Yield the items in order of time after `offset`, s, is added to the times of one foot.
 
-    The offset is that of a DefectFound of the clocks, or one that is known from an event that both feet felt at the same
-    time. An error of `items` is raised after the items before it. Items of |offset| s are held back."""
+    The offset is that of a DefectFound of the clocks, or is known from an event that both feet felt at the same time.
+    An error of `items` is raised after the items before it. Items of |offset| s are held back."""
     held: list[tuple[float, int, Packet | Sample]] = []
     earliest, flaw = min(0.0, offset), None
     source = enumerate(items)

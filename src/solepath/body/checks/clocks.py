@@ -234,8 +234,8 @@ def _sentences(offset: Offset) -> str:
     late, size = offset.value < 0.0, 1000.0 * abs(offset.value)
     other = f" (or {1000.0 * offset.cycle - size:.0f} ms {'early' if late else 'late'})" if size > 250.0 else ""
     return (
-        f"its times are about {size:.0f} ms {'late' if late else 'early'}{other} against the left foot's, so step time and "
-        "double support are left out: record both feet with one clock, or undo the offset"
+        f"its times are about {size:.0f} ms {'late' if late else 'early'}{other} against the left foot's, so step time "
+        "and double support are left out: record both feet with one clock, or undo the offset"
     )
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import sqrt
+from typing import Any
 
 from ...events import GaitCycleMeasured
 from ...types import Foot, Word
@@ -217,6 +218,12 @@ def _swing(means: dict[Parameter, RunningMean]) -> float:
     return means[Parameter.SWING_TIME].mean
 
 
+def without_other_foot(stride: GaitCycleMeasured) -> GaitCycleMeasured:
+    """Return the stride without the values that compare the times of the feet."""
+    unknown: dict[str, Any] = dict.fromkeys([parameter.value for parameter in BETWEEN_FEET])
+    return evolve(stride, **unknown)
+
+
 @define
 class GaitMeans:
     """The running means of the steady strides of both feet.
@@ -245,12 +252,16 @@ class GaitMeans:
 
     def separate_feet(self) -> None:
         """Discard the means that compare the times of the feet, because the feet have separate clocks."""
-        for means in (self.walking_means.left, self.walking_means.right, self.running_means.left, self.running_means.right):
+        for means in (
+            self.walking_means.left,
+            self.walking_means.right,
+            self.running_means.left,
+            self.running_means.right,
+        ):
             for parameter in (*BETWEEN_FEET, Parameter.OFF_PHASE):
                 means.pop(parameter, None)
-        unknown = {parameter.value: None for parameter in BETWEEN_FEET}
-        self.left = None if self.left is None else evolve(self.left, **unknown)
-        self.right = None if self.right is None else evolve(self.right, **unknown)
+        self.left = None if self.left is None else without_other_foot(self.left)
+        self.right = None if self.right is None else without_other_foot(self.right)
 
     def reset(self, foot: Foot) -> None:
         """Reset a foot, so that its next stride does not count as following the newest one."""
