@@ -169,7 +169,7 @@ def test_a_cycle_with_missing_samples_is_not_compared() -> None:
             yield event
             if isinstance(event, ToeOff):
                 site = LEFT if event.foot is Foot.LEFT else RIGHT
-                yield SampleGap(t=event.t, known_at=event.t, site=site, duration=0.05)
+                yield SampleGap(t=event.t, known_at=event.t, site=site, duration=0.1)
 
     assert not of_steps(with_gaps())
 

@@ -79,18 +79,18 @@ class ClockJob:
 
 
 @frozen
-class Outcome:
+class ClockOutcome:
     """The report of the clocks in one run."""
 
     walking: float
-    """Time that the left foot walked in the whole run, s."""
+    """Time that both feet walked in the whole run, s: that of the foot with fewer cycles."""
     walked: float | None
     """Time that it had walked when the clocks were reported, s; None when they were not."""
     offset: float | None
     """Offset that was reported first, s; None when none was."""
 
 
-def run_job(job: ClockJob) -> Outcome | str:
+def run_job(job: ClockJob) -> ClockOutcome | str:
     """Run a job; return its outcome, or the reason why the recording cannot be used."""
     samples: Iterable[Sample]
     calibration = CALIBRATIONS.get(job.data_set, Calibration)()
@@ -107,19 +107,21 @@ def run_job(job: ClockJob) -> Outcome | str:
             return "one foot"
         _damage(recording, job)
         samples = recording
-    session, reported, walking, contact, walked = Session(calibration=calibration), None, 0.0, None, None
+    session, reported, walked = Session(calibration=calibration), None, None
+    walking, contacts = dict.fromkeys(Foot, 0.0), dict[Foot, float]()
     try:
         for sample in samples:
             for event in session.feed(sample):
-                if isinstance(event, HeelStrike) and event.foot is Foot.LEFT:
-                    if contact is not None and event.t - contact < PAUSE:
-                        walking += event.t - contact
-                    contact = event.t
+                if isinstance(event, HeelStrike):
+                    time = event.t - contacts.get(event.foot, -np.inf)
+                    if time < PAUSE:
+                        walking[event.foot] += time
+                    contacts[event.foot] = event.t
                 elif isinstance(event, DefectFound) and event.defect is Defect.CLOCKS and reported is None:
-                    reported, walked = event.offset, walking
+                    reported, walked = event.offset, min(walking.values())
     except RecordingError:
         pass  # the samples before the fault count
-    return Outcome(walking, walked, reported)
+    return ClockOutcome(min(walking.values()), walked, reported)
 
 
 def _shift(sample: Sample, job: ClockJob) -> Sample:
@@ -147,7 +149,7 @@ class Row:
 
     data_set: str
     damage: str
-    runs: list[tuple[ClockJob, Outcome]]
+    runs: list[tuple[ClockJob, ClockOutcome]]
     limit: float
     """Time of walking within which the clocks have to be reported, s."""
 
@@ -168,7 +170,7 @@ class Row:
         return f"| {' | '.join(cells)} |"
 
 
-def _error(run: tuple[ClockJob, Outcome]) -> float | None:
+def _error(run: tuple[ClockJob, ClockOutcome]) -> float | None:
     """Return the error of the reported offset, s; None for clocks of different rates, whose offset changes."""
     job, outcome = run
     return None if outcome.offset is None or job.rate or not job.offset else outcome.offset + job.offset
@@ -195,7 +197,7 @@ def table(folder: Path, names: Sequence[str], processes: int) -> Iterator[str]:
     run_all = partial(run_jobs, run_job, processes=processes)
     jobs = find_recordings(folder, names)
     emulated = [ClockJob(EMULATED, str(seed), None) for seed in SEEDS if EMULATED in names]
-    undamaged = [(job, one) for job, one in zip(jobs, run_all(jobs), strict=True) if isinstance(one, Outcome)]
+    undamaged = [(job, one) for job, one in zip(jobs, run_all(jobs), strict=True) if isinstance(one, ClockOutcome)]
     scored = [(job, one) for job, one in undamaged if one.walking >= MIN_WALKING and not is_known_apart(job)]
     yield HEADER
     data_sets = list(dict.fromkeys(job.data_set for job, _ in scored))
@@ -204,7 +206,7 @@ def table(folder: Path, names: Sequence[str], processes: int) -> Iterator[str]:
     yield Row("all", "undamaged", scored, np.inf).line()
     for size in OFFSETS:
         damaged = [evolve(job, offset=sign * size) for job, _ in scored for sign in (1.0, -1.0)]
-        runs = [(job, one) for job, one in zip(damaged, run_all(damaged), strict=True) if isinstance(one, Outcome)]
+        runs = [(job, one) for job, one in zip(damaged, run_all(damaged), strict=True) if isinstance(one, ClockOutcome)]
         for name in data_sets:
             of_set = [one for one in runs if one[0].data_set == name]
             yield Row(name, f"{1e3 * size:.0f} ms early or late", of_set, MINUTE).line()
@@ -213,7 +215,7 @@ def table(folder: Path, names: Sequence[str], processes: int) -> Iterator[str]:
     for rate, damage in ((0.0, "undamaged, repeated to 10 minutes"), (RATE, "200 ppm fast or slow")):
         stretched = [evolve(job, rate=sign * rate) for job in long for sign in ((1.0, -1.0) if rate else (1.0,))]
         outcomes = run_all(stretched)
-        runs = [(job, one) for job, one in zip(stretched, outcomes, strict=True) if isinstance(one, Outcome)]
+        runs = [(job, one) for job, one in zip(stretched, outcomes, strict=True) if isinstance(one, ClockOutcome)]
         yield Row("recordings and emulated walks", damage, runs, LONG if rate else np.inf).line()
     yield "\nReported although undamaged:\n"
     alarms = [(job, one) for job, one in scored if one.offset is not None]
