@@ -2,31 +2,32 @@
 
     python -m solepath.lab.evaluate.clocks DIR [--only NAME] [--processes N]
 
-prints a table as Markdown. DIR holds recorded data. The times of the right foot are shifted by an offset, or stretched
-as by a clock that runs at another rate; recordings of at least a minute of walking, repeated to ten minutes, and
-emulated walks of that length are stretched. The session receives the shifted samples. The recordings in `KNOWN_APART`
-have separate clocks already; they are listed below the table with what is reported. The run takes about 30 minutes on
-one processor."""
+prints a table as Markdown. DIR holds recorded data. The times of the right foot's events are shifted by an offset, or
+stretched as by a clock that runs at another rate. A foot's events do not depend on the other foot's clock, so the
+samples are processed once. Walks of at least a minute are repeated to ten minutes for clocks of different rates. The
+recordings in `KNOWN_APART` have separate clocks already; they are listed below the table with what is reported. The run
+takes two minutes on one processor."""
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable, Iterator, Sequence
-from functools import partial
+from math import ceil, inf, isfinite
 from pathlib import Path
 from statistics import median
 
 import numpy as np
 from attrs import evolve, frozen
 
+from ...body.checks.clocks import FootClocks
 from ...calibration import Calibration
 from ...emulate.walk import sampled
 from ...emulate.wearers.gait import Wearer
-from ...events import Defect, DefectFound, HeelStrike
+from ...events import DefectFound, Event, FootFlat, HeelStrike, SampleGap, ToeOff
 from ...recording import RecordingError
-from ...recording.samples import SampleRecording, load_samples
+from ...recording.samples import load_samples
 from ...session import Session
-from ...types import SITE_OF_FOOT, Foot, Sample
+from ...types import Foot, Sample
 from ..emulated.walks import insoles_of, long_walk
 from ..processes import run_jobs
 from .insoles import force_sensors, switches
@@ -62,42 +63,42 @@ CALIBRATIONS = {"marpino_heel_toe": switches, "gaitpdb_vgrf": force_sensors}
 """Functions that return the calibration of a data set's insoles."""
 
 
+FootEvent = HeelStrike | ToeOff | FootFlat | SampleGap
+
+
 @frozen
 class ClockJob:
-    """A recording, or an emulated walk, with the damage to the clock of its right foot."""
+    """A recording of both feet, or an emulated walk."""
 
     data_set: str
     name: str
-    path: Path | None
+    path: Path | None = None
     """The recording; None for an emulated walk, whose seed is its name."""
-    offset: float = 0.0
-    """Offset that is added to the times of the right foot, s."""
-    rate: float = 0.0
-    """Relative difference of the rate of the right foot's clock."""
-    duration: float = 0.0
-    """Least duration to which the recording is repeated, s."""
 
 
 @frozen
-class ClockOutcome:
-    """The report of the clocks in one run."""
+class ClockWalk:
+    """The events of both feet in a walk."""
 
-    walking: float
-    """Time that both feet walked in the whole run, s: that of the foot with fewer cycles."""
-    walked: float | None
-    """Time that it had walked when the clocks were reported, s; None when they were not."""
-    offset: float | None
-    """Offset that was reported first, s; None when none was."""
+    job: ClockJob
+    events: tuple[FootEvent, ...]
+    end: float
+    """Time of the last sample, s."""
+
+    @property
+    def is_known_apart(self) -> bool:
+        """True if the feet have separate clocks already."""
+        return self.job.data_set in KNOWN_APART or self.job.name in KNOWN_APART
 
 
-def run_job(job: ClockJob) -> ClockOutcome | str:
-    """Run a job; return its outcome, or the reason why the recording cannot be used."""
-    samples: Iterable[Sample]
+def read_walk(job: ClockJob) -> ClockWalk | str:
+    """Return the events of a walk, or the reason why the recording cannot be used."""
     calibration = CALIBRATIONS.get(job.data_set, Calibration)()
+    session, events = Session(calibration=calibration), list[Event]()
+    samples: Iterable[Sample]
     if job.path is None:
         seed = int(job.name)
-        walk = sampled(long_walk(seed).walk(300.0), wearer=Wearer(), insoles=insoles_of(seed), seed=seed)
-        samples = sorted([_shift(sample, job) for sample in walk.samples], key=lambda sample: sample.t)
+        samples = sampled(long_walk(seed).walk(300.0), wearer=Wearer(), insoles=insoles_of(seed), seed=seed).samples
     else:
         try:
             recording = load_samples(job.path)
@@ -105,75 +106,69 @@ def run_job(job: ClockJob) -> ClockOutcome | str:
             return str(error)
         if len(recording.tables) < 2:
             return "one foot"
-        _damage(recording, job)
         samples = recording
-    session, reported, walked = Session(calibration=calibration), None, None
-    walking, contacts = dict.fromkeys(Foot, 0.0), dict[Foot, float]()
     try:
         for sample in samples:
-            for event in session.feed(sample):
-                if isinstance(event, HeelStrike):
-                    time = event.t - contacts.get(event.foot, -np.inf)
-                    if time < PAUSE:
-                        walking[event.foot] += time
-                    contacts[event.foot] = event.t
-                elif isinstance(event, DefectFound) and event.defect is Defect.CLOCKS and reported is None:
-                    reported, walked = event.offset, min(walking.values())
+            events += session.feed(sample)
     except RecordingError:
         pass  # the samples before the fault count
-    return ClockOutcome(min(walking.values()), walked, reported)
-
-
-def _shift(sample: Sample, job: ClockJob) -> Sample:
-    if sample.site is not SITE_OF_FOOT[Foot.RIGHT]:
-        return sample
-    t = (1.0 + job.rate) * sample.t + job.offset
-    return evolve(sample, t=t, known_at=t)
-
-
-def _damage(recording: SampleRecording, job: ClockJob) -> None:
-    """Repeat the recording to the job's duration and change the clock of the right foot."""
-    start = min(float(table.t[0]) for table in recording.tables)
-    period = max(float(table.t[-1]) for table in recording.tables) - start + 0.02
-    count = max(1, int(np.ceil(job.duration / period)))
-    for table in recording.tables:
-        table.t = np.concatenate([table.t + period * number for number in range(count)])
-        table.columns = {key: np.concatenate([column] * count) for key, column in table.columns.items()}
-        if table.foot is Foot.RIGHT:
-            table.t = (1.0 + job.rate) * table.t + job.offset
+    return ClockWalk(job, tuple([event for event in events if isinstance(event, FootEvent)]), session.now or 0.0)
 
 
 @frozen
-class Row:
-    """A row of the table: the outcomes of the runs of a data set with one damage."""
+class ClockOutcome:
+    """The report of the clocks in one walk, with damage to the clock of the right foot."""
 
-    data_set: str
-    damage: str
-    runs: list[tuple[ClockJob, ClockOutcome]]
-    limit: float
-    """Time of walking within which the clocks have to be reported, s."""
-
-    def line(self) -> str:
-        """Return the row as a line of Markdown."""
-        found = [one for one in self.runs if one[1].walked is not None and one[1].walked <= self.limit]
-        short = sum(outcome.walking < self.limit for _, outcome in self.runs)
-        times = [outcome.walked for _, outcome in found if outcome.walked is not None]
-        errors = [abs(error) for error in map(_error, found) if error is not None]
-        cells = [
-            self.data_set,
-            self.damage,
-            f"{len(found)} of {len(self.runs)}",
-            str(short) if np.isfinite(self.limit) else "-",
-            f"{median(times):.0f} s" if times else "-",
-            f"{1e3 * median(errors):.0f} / {1e3 * float(np.percentile(errors, 95)):.0f} ms" if errors else "-",
-        ]
-        return f"| {' | '.join(cells)} |"
+    walking: float
+    """Time that both feet walked in the whole walk, s: that of the foot with fewer cycles."""
+    walked: float | None
+    """Time that they had walked when the clocks were reported, s; None when they were not."""
+    reported: float | None
+    """Offset that was reported first, s; None when none was."""
+    offset: float
+    """Offset that was added to the times of the right foot, s."""
 
 
-def _error(run: tuple[ClockJob, ClockOutcome]) -> float | None:
-    """Return the error of the reported offset, s; None for clocks of different rates, whose offset changes."""
-    job, outcome = run
-    return None if outcome.offset is None or job.rate or not job.offset else outcome.offset + job.offset
+def find_outcome(walk: ClockWalk, offset: float = 0.0, rate: float = 0.0, duration: float = 0.0) -> ClockOutcome:
+    """Return what the part for clocks reports of a walk that is repeated to at least `duration`, s.
+
+    The times of the right foot are shifted by `offset`, s, and stretched by 1 + `rate`."""
+    damaged: list[FootEvent] = []
+    for number in range(max(1, ceil(duration / (walk.end + PAUSE)))):
+        start = number * (walk.end + PAUSE)
+        for event in walk.events:
+            foot = event.site.foot if isinstance(event, SampleGap) else event.foot
+            scale, shift = (1.0 + rate, offset) if foot is Foot.RIGHT else (1.0, 0.0)
+            t, known_at = scale * (start + event.t) + shift, scale * (start + event.known_at) + shift
+            damaged.append(evolve(event, t=t, known_at=known_at))
+    part, reported, walked = FootClocks(), None, None
+    walking, contacts = dict.fromkeys(Foot, 0.0), dict[Foot, float]()
+    for event in sorted(damaged, key=lambda event: event.known_at):
+        if isinstance(event, HeelStrike):
+            time = event.t - contacts.get(event.foot, -inf)
+            if time < PAUSE:
+                walking[event.foot] += time
+            contacts[event.foot] = event.t
+        for output in part.receive(event):
+            if isinstance(output, DefectFound) and reported is None:
+                reported, walked = output.offset, min(walking.values())
+    return ClockOutcome(min(walking.values()), walked, reported, offset)
+
+
+def row(data: str, damage: str, outcomes: Sequence[ClockOutcome], limit: float) -> str:
+    """Return a row of the table as Markdown; the clocks have to be reported within `limit` s of walking."""
+    found = [(one.walked, one) for one in outcomes if one.walked is not None and one.walked <= limit]
+    short = sum(one.walking < limit for one in outcomes)
+    errors = [abs(one.reported + one.offset) for _, one in found if one.reported is not None and one.offset]
+    cells = [
+        data,
+        damage,
+        f"{len(found)} of {len(outcomes)}",
+        str(short) if isfinite(limit) else "-",
+        f"{median([walked for walked, _ in found]):.0f} s" if found else "-",
+        f"{1e3 * median(errors):.0f} / {1e3 * float(np.percentile(errors, 95)):.0f} ms" if errors else "-",
+    ]
+    return f"| {' | '.join(cells)} |"
 
 
 HEADER = """\
@@ -181,53 +176,50 @@ HEADER = """\
 |---|---|---|---|---|---|"""
 
 
-def find_recordings(folder: Path, names: Sequence[str]) -> list[ClockJob]:
-    """Return an undamaged job for each recording of the data sets `names` in `folder`."""
-    chosen = [name for name in DATA_SETS if name in names]
-    return [ClockJob(name, path.stem, path) for name in chosen for path in sorted((folder / name).glob("*.npz"))]
-
-
-def is_known_apart(job: ClockJob) -> bool:
-    """Return whether the feet of the recording have separate clocks already."""
-    return job.data_set in KNOWN_APART or job.name in KNOWN_APART
+def find_jobs(folder: Path, names: Sequence[str]) -> list[ClockJob]:
+    """Return a job for each recording of the data sets `names` in `folder`, and for the emulated walks."""
+    jobs = [
+        ClockJob(name, path.stem, path)
+        for name in DATA_SETS
+        if name in names
+        for path in sorted((folder / name).glob("*.npz"))
+    ]
+    return jobs + [ClockJob(EMULATED, str(seed)) for seed in SEEDS if EMULATED in names]
 
 
 def table(folder: Path, names: Sequence[str], processes: int) -> Iterator[str]:
     """Yield the lines of the table and of the lists below it."""
-    run_all = partial(run_jobs, run_job, processes=processes)
-    jobs = find_recordings(folder, names)
-    emulated = [ClockJob(EMULATED, str(seed), None) for seed in SEEDS if EMULATED in names]
-    undamaged = [(job, one) for job, one in zip(jobs, run_all(jobs), strict=True) if isinstance(one, ClockOutcome)]
-    scored = [(job, one) for job, one in undamaged if one.walking >= MIN_WALKING and not is_known_apart(job)]
+    walks = [
+        one for one in run_jobs(read_walk, find_jobs(folder, names), processes=processes) if isinstance(one, ClockWalk)
+    ]
+    usual = {walk.job: find_outcome(walk) for walk in walks}
+    scored = [walk for walk in walks if usual[walk.job].walking >= MIN_WALKING and not walk.is_known_apart]
+    data_sets = {name: [walk for walk in scored if walk.job.data_set == name] for name in DATA_SETS + (EMULATED,)}
+    groups = {name: of_set for name, of_set in data_sets.items() if of_set} | {"all": scored}
+    long = [walk for walk in scored if usual[walk.job].walking >= MINUTE]
+    groups |= {"all of a minute": long}
     yield HEADER
-    data_sets = list(dict.fromkeys(job.data_set for job, _ in scored))
-    for name in data_sets:
-        yield Row(name, "undamaged", [one for one in scored if one[0].data_set == name], np.inf).line()
-    yield Row("all", "undamaged", scored, np.inf).line()
+    for name, of_group in groups.items():
+        yield row(name, "undamaged", [usual[walk.job] for walk in of_group], inf)
     for size in OFFSETS:
-        damaged = [evolve(job, offset=sign * size) for job, _ in scored for sign in (1.0, -1.0)]
-        runs = [(job, one) for job, one in zip(damaged, run_all(damaged), strict=True) if isinstance(one, ClockOutcome)]
-        for name in data_sets:
-            of_set = [one for one in runs if one[0].data_set == name]
-            yield Row(name, f"{1e3 * size:.0f} ms early or late", of_set, MINUTE).line()
-        yield Row("all", f"{1e3 * size:.0f} ms early or late", runs, MINUTE).line()
-    long = [evolve(job, duration=LONG) for job, one in scored if one.walking >= MINUTE] + emulated
-    for rate, damage in ((0.0, "undamaged, repeated to 10 minutes"), (RATE, "200 ppm fast or slow")):
-        stretched = [evolve(job, rate=sign * rate) for job in long for sign in ((1.0, -1.0) if rate else (1.0,))]
-        outcomes = run_all(stretched)
-        runs = [(job, one) for job, one in zip(stretched, outcomes, strict=True) if isinstance(one, ClockOutcome)]
-        yield Row("recordings and emulated walks", damage, runs, LONG if rate else np.inf).line()
-    yield "\nReported although undamaged:\n"
-    alarms = [(job, one) for job, one in scored if one.offset is not None]
-    yield from (f"- {job.data_set}/{job.name}: {1e3 * (one.offset or 0.0):+.0f} ms" for job, one in alarms)
-    yield "- none" if not alarms else ""
+        for name, of_group in groups.items():
+            outcomes = [find_outcome(walk, sign * size) for walk in of_group for sign in (1.0, -1.0)]
+            yield row(name, f"{1e3 * size:.0f} ms early or late", outcomes, MINUTE)
+    yield row("all of a minute", "undamaged, ten minutes", [find_outcome(walk, duration=LONG) for walk in long], inf)
+    outcomes = [find_outcome(walk, rate=sign * RATE, duration=LONG) for walk in long for sign in (1.0, -1.0)]
+    yield row("all of a minute", "200 ppm fast or slow, ten minutes", outcomes, LONG)
+    alarms = [walk.job for walk in scored if usual[walk.job].reported is not None]
+    yield (
+        "\nReported although undamaged: " + (", ".join(f"{job.data_set}/{job.name}" for job in alarms) or "none") + "."
+    )
     yield "\nKnown to have separate clocks, and not scored:\n"
-    for job, one in undamaged:
-        if is_known_apart(job):
-            reported = "not reported" if one.offset is None else f"{1e3 * one.offset:+.0f} ms reported"
+    for walk in walks:
+        if walk.is_known_apart:
+            job, one = walk.job, usual[walk.job]
+            result = "not reported" if one.reported is None else f"{1e3 * one.reported:+.0f} ms reported"
             reason = KNOWN_APART.get(job.data_set) or KNOWN_APART[job.name]
-            yield f"- {job.data_set}/{job.name}, {one.walking:.0f} s of walking: {reported}; {reason}"
-    few = sum(one.walking < MIN_WALKING for _, one in undamaged)
+            yield f"- {job.data_set}/{job.name}, {one.walking:.0f} s of walking: {result}; {reason}"
+    few = sum(one.walking < MIN_WALKING for one in usual.values())
     yield f"\n{few} recordings of both feet with less than {MIN_WALKING:.0f} s of walking are not scored."
 
 
