@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import Any
 
 from .body.activity.activities import Activities
+from .body.checks.clocks import FootClocks
 from .body.checks.sensors import SensorChecks
 from .body.fuse.both_feet import BothFeet, BothFeetSettings
 from .body.fuse.position import MeanOfFeet
@@ -39,8 +40,9 @@ def usual_parts(
 
     They are: SensorChecks, Wear, the position of the wearer (`track`; MeanOfFeet when it is None), the activity
     (`activity`; Activities when it is None), Turns, the height from elevators and air pressure (`altitude`; when it is
-    None, heights are those of the feet), and GaitCycles."""
-    parts = (SensorChecks(), Wear(), track or MeanOfFeet(), activity or Activities(), Turns(), altitude, GaitCycles())
+    None, heights are those of the feet), FootClocks, and GaitCycles."""
+    track, activity = track or MeanOfFeet(), activity or Activities()
+    parts = (SensorChecks(), Wear(), track, activity, Turns(), altitude, FootClocks(), GaitCycles())
     return tuple([part for part in parts if part is not None])
 
 
@@ -144,6 +146,7 @@ PARTS: dict[str, str] = {
     "Activities": _BODY + "activity.activities",
     "Turns": _BODY + "gait.turns",
     "Altitude": _BODY + "height.altitude",
+    "FootClocks": _BODY + "checks.clocks",
     "GaitCycles": _BODY + "gait.cycles",
     "Particles": _BODY + "place.particles",
     "KnownVelocity": _KUPT + "known_velocity",

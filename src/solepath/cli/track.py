@@ -14,6 +14,7 @@ from ..types import Packet, Sample
 from .common.failure import note, recipe_named
 from .common.inputs import (
     add_calibration,
+    add_clocks,
     add_floorplan,
     add_foot,
     assumed_foot,
@@ -22,6 +23,7 @@ from .common.inputs import (
     floorplan_of,
     foot_of,
     source_of,
+    undo_clocks,
 )
 from .common.view import (
     PageAddress,
@@ -57,6 +59,7 @@ def add_to(commands: Any) -> None:
     add_calibration(command)
     add_floorplan(command)
     add_foot(command)
+    add_clocks(command)
     command.add_argument(
         "--out",
         metavar="DIR",
@@ -83,6 +86,7 @@ def run(options: argparse.Namespace) -> int:
     address = page_address_of(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
     source = source_of(options.file, foot_of(options))
+    undo_clocks(source, options)
     check_pressure(recipe, source)
     plan, start = floorplan_of(options)
     session = Session(

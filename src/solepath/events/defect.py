@@ -43,8 +43,8 @@ class DefectFound(Happening):
     """The data of a sensor contradict themselves or physics, so what follows from them cannot be trusted.
 
     `t` is the time of the sample or stride that showed it, with which it is reported. Each defect of a site is reported
-    once, and again only after another device was connected there. While a defect that `spoils` lasts, the strides of
-    the foot are marked degraded."""
+    once, and again only after another device was connected there, or when the offset of a clock has changed. While a
+    defect that `spoils` lasts, the strides of the foot are marked degraded."""
 
     site: Site
     """Site whose data are wrong; for clocks, the foot whose times would have to be shifted."""

@@ -1,5 +1,6 @@
 """Recordings: packets are read and written, samples and btsnoop logs are read, MCAP files are written."""
 
+from .clock_offset import shift_clock
 from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
 from .packets import FORMAT, LONGEST_LINE, VERSION, PacketWriter, read_header, read_packets, read_start_time
 from .source import Source, open_source, read_samples
@@ -21,5 +22,6 @@ __all__ = [
     "read_packets",
     "read_samples",
     "read_start_time",
+    "shift_clock",
     "warn",
 ]

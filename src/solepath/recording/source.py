@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from attrs import define
 
 from ..types import Foot, Packet, Sample
+from .clock_offset import shift_clock
 from .errors import RecordingError, Report, open_file, printable, warn
 from .packets import read_packets
 
@@ -36,16 +37,19 @@ class Source:
     """Part of `total` that was iterated, in the same unit."""
     samples: SampleRecording | None = None
     """Samples of the recording; None for a recording of packets."""
+    clock_offset: float = 0.0
+    """Time to add to the times of the right foot, s, when the feet were recorded with separate clocks."""
 
     def __iter__(self) -> Iterator[Packet | Sample]:
-        return self._iterate_packets() if self.samples is None else self._iterate_samples(self.samples)
+        items = self._iterate_packets() if self.samples is None else self._iterate_samples(self.samples)
+        return shift_clock(items, self.clock_offset) if self.clock_offset else items
 
-    def _iterate_samples(self, samples: SampleRecording) -> Iterator[Sample]:
+    def _iterate_samples(self, samples: SampleRecording) -> Iterator[Packet | Sample]:
         for sample in samples:
             self.done += 1
             yield sample
 
-    def _iterate_packets(self) -> Iterator[Packet]:
+    def _iterate_packets(self) -> Iterator[Packet | Sample]:
         has_packets = has_used_packets = False
         for packet in read_packets(self.path, report=self.report, progress=partial(setattr, self, "done")):
             has_packets = True

@@ -20,6 +20,7 @@ from ..events import (
     ActivityChanged,
     CellsFailed,
     ClockReset,
+    Defect,
     DefectFound,
     Event,
     FeetSwapped,
@@ -245,7 +246,10 @@ class Observer:
     def _add_fault(self, event: Event) -> None:
         """Add a sentence on a fault, unless it is there already."""
         match event:
-            case DefectFound(site=site, what=what):
+            case DefectFound(site=site, what=what, defect=defect):
+                if defect is Defect.CLOCKS:
+                    self.gait.separate_feet()
+                    self.recent_gait.separate_feet()
                 _add_new_sentence(self.defects, f"{site.words}: {what}")
             case LinkTrouble(site=site, what=what):
                 _add_new_sentence(self.troubles, f"{site.words}: {what}")

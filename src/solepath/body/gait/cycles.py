@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from ...events import FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
+from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
@@ -47,6 +47,9 @@ class GaitCycles(Part):
     """Time up to which the left foot's clock cannot be compared with the right one's, s; None: it can."""
     right_unsettled: float | None = field(default=None, init=False)
     """Time up to which the right foot's clock cannot be compared with the left one's, s; None: it can."""
+
+    clocks_apart: bool = field(default=False, init=False)
+    """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
     @property
     def parameters(self) -> GaitParameters | None:
@@ -97,8 +100,11 @@ class GaitCycles(Part):
         return [*self._measure(Foot.LEFT, now, counts[0]), *self._measure(Foot.RIGHT, now, counts[1])]
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Store the time up to which a foot's clock cannot be compared with the other foot's."""
-        if isinstance(event, ClockUnsettled):
+        """Store that, or up to which time, a foot's clock cannot be compared with the other foot's."""
+        if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
+            self.clocks_apart = True
+            self.means.separate_feet()
+        elif isinstance(event, ClockUnsettled):
             if event.site.foot is Foot.LEFT:
                 self.left_unsettled = event.until
             elif event.site.foot is Foot.RIGHT:
@@ -108,6 +114,7 @@ class GaitCycles(Part):
     def reset(self, site: Site) -> None:
         """Discard the cycles and the times of a foot whose clock restarts."""
         if site.foot is not None:
+            self.clocks_apart = False
             self.means.reset(site.foot)
             if site.foot is Foot.LEFT:
                 self.left, self.left_progress.t = Footfalls(count=self.left.count), None
@@ -144,7 +151,8 @@ class GaitCycles(Part):
         outputs: list[PartOutput] = []
         for cycle in cycles:
             falls.count += 1
-            comparable = not any([until is not None and until > cycle.start for until in unsettled])
+            is_unsettled = any([until is not None and until > cycle.start for until in unsettled])
+            comparable = not (self.clocks_apart or is_unsettled)
             previous = self.means.left if is_left else self.means.right
             measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
             self.means.add(measured)

@@ -13,10 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import sqrt
+from typing import Any
 
 from ...events import GaitCycleMeasured
 from ...types import Foot, Word
-from ...types.attrs import define, field, fields, frozen
+from ...types.attrs import define, evolve, field, fields, frozen
 
 MEMORY_STRIDES = 120
 """Number of strides of a foot after which older strides fade."""
@@ -128,6 +129,14 @@ class Parameter(Word):
 
 
 MEAN_PARAMETERS = tuple([Parameter(name) for name in PARAMETER_NAMES])
+BETWEEN_FEET = (
+    Parameter.STEP_TIME,
+    Parameter.INITIAL_DOUBLE_SUPPORT,
+    Parameter.TERMINAL_DOUBLE_SUPPORT,
+    Parameter.SINGLE_SUPPORT,
+    Parameter.PHASE,
+)
+"""Parameters that compare the times of both feet."""
 
 
 @frozen
@@ -209,6 +218,12 @@ def _swing(means: dict[Parameter, RunningMean]) -> float:
     return means[Parameter.SWING_TIME].mean
 
 
+def without_other_foot(stride: GaitCycleMeasured) -> GaitCycleMeasured:
+    """Return the stride without the values that compare the times of the feet."""
+    unknown: dict[str, Any] = dict.fromkeys([parameter.value for parameter in BETWEEN_FEET])
+    return evolve(stride, **unknown)
+
+
 @define
 class GaitMeans:
     """The running means of the steady strides of both feet.
@@ -234,6 +249,19 @@ class GaitMeans:
         if previous is not None and previous.steady and previous.t == stride.t_start:
             self.running = running = previous.running
             (self.running_means if running else self.walking_means).add(previous, memory)
+
+    def separate_feet(self) -> None:
+        """Discard the means that compare the times of the feet, because the feet have separate clocks."""
+        for means in (
+            self.walking_means.left,
+            self.walking_means.right,
+            self.running_means.left,
+            self.running_means.right,
+        ):
+            for parameter in (*BETWEEN_FEET, Parameter.OFF_PHASE):
+                means.pop(parameter, None)
+        self.left = None if self.left is None else without_other_foot(self.left)
+        self.right = None if self.right is None else without_other_foot(self.right)
 
     def reset(self, foot: Foot) -> None:
         """Reset a foot, so that its next stride does not count as following the newest one."""

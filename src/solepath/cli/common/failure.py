@@ -77,6 +77,11 @@ def parse_positive(text: str) -> float:
     return _number(text, "a positive number", lambda value: value > 0.0)
 
 
+def parse_offset(text: str) -> float:
+    """Parse an option of argparse: an offset of a clock of at most an hour, s."""
+    return _number(text, "a number of seconds from -3600 to 3600", lambda value: abs(value) <= 3600.0)
+
+
 def parse_count(text: str) -> int:
     """Parse an option of argparse: a whole number above 0."""
     value = int(text) if text.isdecimal() and len(text) < 10 else 0

@@ -12,7 +12,7 @@ from ...link.decoder import Decoder
 from ...recipes import Recipe
 from ...recording import RecordingError, Source, open_source, printable
 from ...types import Foot, Packet, Sample, Site
-from .failure import Failure, note
+from .failure import Failure, note, parse_offset
 
 if TYPE_CHECKING:
     from ...floorplan.index import IndexedPlan
@@ -31,6 +31,41 @@ def add_foot(command: argparse.ArgumentParser) -> None:
 def foot_of(options: argparse.Namespace) -> Foot | None:
     """Return the foot of --foot; None without it."""
     return Foot(options.foot) if options.foot else None
+
+
+def add_clocks(command: argparse.ArgumentParser) -> None:
+    """Add --clock-offset and --shared-event to a command."""
+    one = command.add_mutually_exclusive_group()
+    one.add_argument(
+        "--clock-offset",
+        metavar="S",
+        type=parse_offset,
+        help="feet recorded with separate clocks: seconds to add to the times of the right foot",
+    )
+    one.add_argument(
+        "--shared-event",
+        metavar="START,END",
+        help="the same, with the offset from a lift ride or a jump from both feet between these times, s; the recording"
+        " must be of samples",
+    )
+
+
+def undo_clocks(source: Source, options: argparse.Namespace) -> None:
+    """Correct the times of the right foot by --clock-offset or --shared-event.
+
+    The offset of a shared event is printed. Failure and RecordingError are raised when it cannot be found."""
+    source.clock_offset = options.clock_offset or 0.0
+    if options.shared_event is None:
+        return
+    bounds = [_finite(text) for text in options.shared_event.split(",")]
+    if len(bounds) != 2 or bounds[0] is None or bounds[1] is None or not bounds[0] < bounds[1]:
+        raise Failure(f"--shared-event {printable(options.shared_event, 80)} is not START,END, as in 12.5,20")
+    if source.samples is None:
+        raise Failure(f"--shared-event: {printable(str(source.path))} holds packets, not samples")
+    from ...recording.samples.shared_event import shared_offset
+
+    source.clock_offset, sigma = shared_offset(source.samples, bounds[0], bounds[1])
+    note(f"{1000.0 * source.clock_offset:+.0f} ms (+-{1000.0 * sigma:.0f}) are added to the times of the right foot")
 
 
 def source_of(path: Path, foot: Foot | None = None) -> Source:

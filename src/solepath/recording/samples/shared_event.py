@@ -1,0 +1,110 @@
+"""Estimation of the offset between the clocks of the feet from an event that both feet feel at the same time.
+
+Such an event is a ride in a lift, during which the wearer stands, or a jump from both feet and back onto both. The
+magnitude of the specific force of both feet is then the same, whatever the mounting. On 50 rides in lifts of 4 people
+the offset scatters by 3 ms (median absolute deviation), and by 10 ms (95th percentile)."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Any
+
+import numpy as np
+
+from ...types import Foot
+from ..errors import RecordingError
+from .reader import SampleRecording
+from .table import Floats, FootTable
+
+MAX_OFFSET = 2.0
+"""Largest offset that is looked for, s."""
+INTERVAL = 0.005
+"""Interval of the common times to which both feet are interpolated, s."""
+WIDTH = 0.2
+"""Width of the smoothing window, s: the scatter of the offset on lift rides is 3.0 ms with 0.2 s, 2.4 with 0.1 and 3.2
+with 0.3, and fewest rides are wrong by more than 10 ms with 0.2."""
+MIN_SHARED = 0.9
+"""Least share of the variance of one foot that the other foot explains; lift rides have 0.93 to 0.99."""
+OTHER_OFFSET = 0.25
+"""Least distance of another offset that might explain the data too, s; half of a fast walker's cycle."""
+MIN_CONTRAST = 2.0
+"""Least ratio of the difference of the feet at any other offset to that at the best one.
+
+Lift rides have 1.7 to 6, and walking, in which half a cycle makes the feet alike, has 1.0 to 1.8."""
+OUTLIER = 2.0
+"""Residual, in standard deviations, at which the weight of a sample is one half."""
+ITERATIONS = 30
+MAX_STEP = 0.05
+"""Largest change of the offset in one iteration, s."""
+TOLERANCE = 1e-5
+"""Change of the offset at which the iterations end, s."""
+SIGMA_FACTOR = 2.0
+"""Ratio of the scatter over the rides to the formal standard deviation, because feet never stand quite still."""
+LEAST_SIGMA = 0.003
+"""Least standard deviation of an offset, s: the scatter over the rides."""
+
+
+def shared_offset(recording: SampleRecording, start: float, end: float) -> tuple[float, float]:
+    """Return the time to add to the times of the right foot, and its standard deviation, s.
+
+    `start` and `end`, s, on the clock of the left foot, are the span of the shared event. RecordingError is raised when
+    the feet do not move alike there."""
+    tables = {table.foot: table for table in recording.tables}
+    if set(tables) != set(Foot) or not all("acc" in table.columns for table in tables.values()):
+        raise RecordingError(recording.path, "has no accelerations of both feet")
+    times = np.arange(start, end, INTERVAL)
+    left, right = _smoothed(tables[Foot.LEFT]), _smoothed(tables[Foot.RIGHT])
+    if len(times) * INTERVAL < 2.0 * WIDTH or start < left[0][0] or end > left[0][-1]:
+        raise RecordingError(recording.path, f"has no samples of the left foot from {start:g} to {end:g} s")
+    own = np.interp(times, *left)
+    lags = np.arange(-MAX_OFFSET, MAX_OFFSET, INTERVAL)
+    costs = np.array([_difference(own, np.interp(times + lag, *right)) for lag in lags])
+    lag = float(lags[np.argmin(costs)])
+    contrast = costs[np.abs(lags - lag) > OTHER_OFFSET].min() / max(float(costs.min()), 1e-9)
+    lag, sigma, shared = _fit(times, own, right, lag)
+    if shared < MIN_SHARED or contrast < MIN_CONTRAST:
+        raise RecordingError(
+            recording.path, f"the feet do not feel the same from {start:g} to {end:g} s: is it a lift ride or a jump?"
+        )
+    return -lag, hypot(SIGMA_FACTOR * sigma, LEAST_SIGMA)
+
+
+def _smoothed(table: FootTable) -> tuple[Floats, Floats]:
+    """Return regular times and the smoothed magnitude of the specific force at them."""
+    times = np.arange(table.t[0], table.t[-1], INTERVAL)
+    magnitude = np.interp(times, table.t, np.linalg.norm(table.columns["acc"], axis=1))
+    window = np.hanning(round(WIDTH / INTERVAL) + 1)
+    return times, np.convolve(magnitude, window / window.sum(), "same")
+
+
+def _difference(first: Floats, second: Floats) -> float:
+    difference = first - second
+    return float(np.abs(difference - np.median(difference)).mean())
+
+
+def _fit(times: Floats, own: Floats, right: tuple[Floats, Floats], lag: float) -> tuple[float, float, float]:
+    """Return lag, its formal standard deviation and the explained share of variance of a robust fit.
+
+    The lateness `lag` of the right foot, s, a scale and a constant are fitted by least squares with Cauchy weights,
+    because a foot that is moved within the span is no shared motion."""
+    weights = np.ones(len(times))
+    columns: Any = None
+    for _ in range(ITERATIONS):
+        across = np.interp(times + lag, *right)
+        columns = np.stack([across - across.mean(), np.ones(len(times)), np.gradient(across, INTERVAL)], axis=1)
+        root = np.sqrt(weights)
+        (scale, constant, slope), *_ = np.linalg.lstsq(columns * root[:, None], own * root, rcond=None)
+        residuals = own - columns @ np.array([scale, constant, slope])
+        deviation = 1.4826 * float(np.median(np.abs(residuals))) + 1e-9
+        weights = 1.0 / (1.0 + (residuals / (OUTLIER * deviation)) ** 2)
+        step = float(np.clip(slope / scale, -MAX_STEP, MAX_STEP)) if scale > 0.0 else 0.0
+        lag += step
+        if abs(step) < TOLERANCE:
+            break
+    total = weights.sum()
+    variance = float((weights * residuals**2).sum() / total)
+    spread = float((weights * (own - (weights * own).sum() / total) ** 2).sum() / total)
+    inverse = np.linalg.pinv((columns * weights[:, None]).T @ columns)
+    independent = 0.5 * WIDTH / INTERVAL  # samples within half a window repeat each other
+    formal = float(np.sqrt(independent * variance * inverse[2, 2])) / max(abs(float(scale)), 1e-9)
+    return lag, formal, 1.0 - variance / max(spread, 1e-12)

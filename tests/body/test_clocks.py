@@ -1,0 +1,238 @@
+"""Feet whose sensors have separate clocks: an event, nothing that compares the feet, and a correction on request."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from statistics import fmean, median
+
+import numpy as np
+import pytest
+from attrs import evolve
+from walks import LEFT, RIGHT, ROUGH, insoles, of, samples
+
+from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, Site, ToeOff
+from solepath.body.checks.clocks import MEMORY, FootClocks
+from solepath.body.part import ClockUnsettled
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import Defect, DefectFound, Event, SampleGap
+from solepath.recording import open_source, shift_clock
+from solepath.show.observer import Observer
+
+LEVEL = Route().stand(1.5).walk(40.0, 1.3).stop(1.0)
+BETWEEN = ("step_time", "initial_double_support", "terminal_double_support", "single_support", "phase")
+
+
+@cache
+def level() -> tuple[Sample, ...]:
+    return samples(LEVEL, cells=0)
+
+
+def with_late_right_foot(walk: tuple[Sample, ...], delay: float, rate: float = 0.0) -> list[Sample]:
+    """Return the walk with a right foot whose clock is late by `delay`, s, and fast by `rate`."""
+    shifted = [evolve(s, t=(t := (1.0 + rate) * s.t + delay), known_at=t) if s.site is RIGHT else s for s in walk]
+    return sorted(shifted, key=lambda sample: sample.t)
+
+
+def found(events: list[Event]) -> list[DefectFound]:
+    return [event for event in of(DefectFound, events) if event.defect is Defect.CLOCKS]
+
+
+def steps(
+    count: int,
+    delay: float = 0.0,
+    rate: float = 0.0,
+    swings: tuple[float, float] = (0.42, 0.42),
+    supports: tuple[float, float] = (0.13, 0.13),
+    scatter: float = 0.013,
+) -> Iterator[Event]:
+    """Yield the contacts and toe-offs of a walker in the order of the right and left foot's own clocks.
+
+    `swings` are the swing times of the left and the right foot, `supports` the double supports after the left and after
+    the right foot's contact, s. Hand labels scatter by 5 to 13 ms."""
+    random, t, events = np.random.default_rng(3), 1.0, list[Event]()
+
+    def add(kind: type[HeelStrike] | type[ToeOff], foot: Foot, at: float) -> None:
+        at += float(random.normal(0.0, scatter))
+        if foot is Foot.RIGHT:
+            at = (1.0 + rate) * at + delay
+        events.append(kind(t=at, known_at=at, foot=foot))
+
+    for _ in range(count):
+        add(HeelStrike, Foot.LEFT, t)
+        add(ToeOff, Foot.RIGHT, t := t + supports[0])
+        add(HeelStrike, Foot.RIGHT, t := t + swings[1])
+        add(ToeOff, Foot.LEFT, t := t + supports[1])
+        t += swings[0]
+    return iter(sorted(events, key=lambda event: event.t))
+
+
+def of_steps(events: Iterator[Event], part: FootClocks | None = None) -> list[DefectFound]:
+    part = FootClocks() if part is None else part
+    return [output for event in events for output in part.receive(event) if isinstance(output, DefectFound)]
+
+
+@pytest.mark.parametrize("delay", [0.05, -0.1, 0.3, -0.4])
+def test_feet_with_separate_clocks_are_reported_once_with_the_time_to_add_to_the_right_foot(delay: float) -> None:
+    (defect,) = found(Session().feed(with_late_right_foot(level(), delay)))
+    assert (defect.site, defect.spoils) == (RIGHT, False)
+    assert defect.offset == pytest.approx(-delay, abs=0.02)
+    assert defect.sigma is not None and 0.005 < defect.sigma < 0.02
+    assert f"{abs(1000.0 * defect.offset):.0f} ms {'late' if delay > 0.0 else 'early'}" in defect.what
+
+
+def test_clocks_half_a_second_apart_are_found_although_the_steps_look_nearly_simultaneous() -> None:
+    (defect,) = found(Session().feed(with_late_right_foot(level(), 0.5)))
+    cycle = fmean(one.stride_time for one in of(GaitCycleMeasured, Session().feed(level())))
+    assert defect.offset is not None
+    assert (defect.offset + 0.5) / cycle == pytest.approx(round((defect.offset + 0.5) / cycle), abs=0.02)
+    assert f"or {1000.0 * (cycle - abs(defect.offset)):.0f} ms"[:-5] in defect.what, "the other possibility is named"
+
+
+@pytest.mark.parametrize(
+    "route",
+    [
+        LEVEL,
+        Route().stand(30.0),
+        Route().stand(1.5).jog(60.0, 2.8).stop(1.0),
+        Route().stand(1.5).walk(4.0).stairs(24, True, 0.16, 0.30).walk(4.0).stairs(24, False, 0.16, 0.30).stop(1.0),
+        Route().stand(1.5).walk(60.0, 1.2, ).turn(12.0, radius=1.0).walk(10.0).stop(1.0),
+    ],
+    ids=["level", "standing", "running", "stairs", "a tight circle"],
+)  # fmt: skip
+def test_feet_on_one_clock_are_not_reported(route: Route) -> None:
+    assert not found(Session().feed(samples(route, cells=0)))
+
+
+@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+def test_one_foot_alone_has_nothing_to_be_compared_with(foot: Site) -> None:
+    assert not found(Session().feed([sample for sample in level() if sample.site is foot]))
+
+
+@pytest.mark.parametrize("foot", Foot)
+def test_contacts_from_cells_in_one_shoe_only_are_no_separate_clock(foot: Foot) -> None:
+    walker = Walker(LEVEL, seed=4)
+    walk = [
+        s for one in Foot for s in walker.samples(one, 100.0, LSM6DSOX, layout=layout(96, one) if one is foot else None)
+    ]
+    assert not found(Session().feed(sorted(walk, key=lambda sample: sample.t)))
+
+
+def test_a_poor_radio_connection_is_no_separate_clock() -> None:
+    assert not found(Session().feed(insoles(LEVEL, ROUGH).packets))
+
+
+def test_a_limp_shows_in_the_swings_and_is_no_separate_clock() -> None:
+    limp = (0.48, 0.38)
+    assert not of_steps(steps(60, swings=limp))
+    assert not of_steps(steps(60, swings=limp, supports=(0.17, 0.11)), None), "the double supports of a limp differ too"
+    (defect,) = of_steps(steps(60, delay=0.15, swings=limp))
+    assert defect.offset == pytest.approx(-0.15, abs=0.01)
+    assert defect.sigma is not None and defect.sigma > 0.015, "less certain than of an even walker"
+
+
+def test_labels_that_scatter_as_those_of_a_hand_do_not_hide_an_offset_of_50_ms() -> None:
+    assert not of_steps(steps(200))
+    (defect,) = of_steps(steps(50, delay=-0.05))
+    assert defect.t < 20.0
+
+
+def test_a_clock_that_runs_200_ppm_fast_is_found_within_ten_minutes_and_again_as_its_offset_grows() -> None:
+    defects = of_steps(steps(1600, rate=200e-6))
+    assert 60.0 < defects[0].t < 300.0
+    assert 3 <= len(defects) <= 6, "each report is half as much again as the one before"
+    for defect in defects:
+        assert defect.offset == pytest.approx(-200e-6 * defect.t, abs=0.01)
+
+
+def test_feet_that_move_independently_show_nothing_of_their_clocks() -> None:
+    left = [event for event in steps(200, scatter=0.03) if event.foot is Foot.LEFT]  # type: ignore[union-attr]
+    right = [event for event in steps(200, rate=0.08, scatter=0.03) if event.foot is Foot.RIGHT]  # type: ignore[union-attr]
+    assert not of_steps(iter(sorted([*left, *right], key=lambda event: event.t)))
+
+
+def test_times_of_a_clock_that_is_not_settled_are_not_compared() -> None:
+    part = FootClocks()
+    part.receive(ClockUnsettled(RIGHT, 100.0))
+    assert not of_steps((event for event in steps(80, delay=0.1)), part)
+    part.receive(ClockUnsettled(RIGHT, None))
+    assert of_steps(steps(80, delay=0.1), part)
+
+
+def test_a_cycle_with_missing_samples_is_not_compared() -> None:
+    def with_gaps() -> Iterator[Event]:
+        for event in steps(200, delay=0.1):
+            yield event
+            if isinstance(event, ToeOff):
+                site = LEFT if event.foot is Foot.LEFT else RIGHT
+                yield SampleGap(t=event.t, known_at=event.t, site=site, duration=0.1)
+
+    assert not of_steps(with_gaps())
+
+
+def test_the_memory_does_not_grow_with_the_walk() -> None:
+    part = FootClocks()
+    of_steps(steps(500), part)
+    assert len(part.comparisons) == MEMORY and len(part.left.swings) <= 3
+
+
+def test_nothing_compares_the_feet_after_their_clocks_were_found_apart() -> None:
+    session, observer = Session(), Observer()
+    events: list[Event] = []
+    for sample in with_late_right_foot(level(), 0.1):
+        new = session.feed(sample)
+        observer.take(sample, new)
+        events += new
+    (defect,) = found(events)
+    later = [event for event in of(GaitCycleMeasured, events) if event.known_at > defect.known_at]
+    assert len(later) > 10
+    assert {getattr(cycle, name) for cycle in later for name in BETWEEN} == {None}
+    assert all(cycle.stance_time > 0.5 for cycle in later), "a foot alone is measured as before"
+    for gait in (session.gait, observer.gait.parameters, observer.recent_gait.parameters):
+        assert gait is not None and gait.both.stance_time is not None and gait.asymmetry("stance_time") is not None
+        assert {getattr(gait.both, name) for name in BETWEEN} == {None}, "not in the means either"
+        assert (gait.asymmetry("step_time"), gait.coordination) == (None, None)
+    assert observer.defects == [f"right foot: {defect.what}"]
+
+
+def test_another_device_on_a_foot_starts_again_with_its_own_clock() -> None:
+    part = FootClocks()
+    assert len(of_steps(steps(60, delay=0.1), part)) == 1
+    part.reset(LEFT)
+    assert not of_steps(steps(60), part)
+    part.reset(RIGHT)
+    assert len(of_steps(steps(60, delay=0.1), part)) == 1
+
+
+def test_a_session_saved_before_the_clocks_are_found_apart_finds_them_at_the_same_moment() -> None:
+    walk = with_late_right_foot(level(), 0.07)
+    whole = Session().feed(walk)
+    session = Session()
+    first = session.feed(walk[:2200])
+    assert not found(first) and len(found(whole)) == 1
+    assert first + Session.restore(session.snapshot()).feed(walk[2200:]) == whole
+    assert first + Session.unpack(session.pack()).feed(walk[2200:]) == whole
+
+
+def test_a_treadmill_whose_light_barrier_shows_clocks_75_ms_apart_has_even_steps_once_that_is_undone(
+    data_dir: Path,
+) -> None:
+    path = data_dir / "tripod_treadmill" / "PWS.npz"
+    (defect,) = found(Session().feed(open_source(path)))
+    assert defect.offset == pytest.approx(0.075, abs=0.02)
+    truth = np.load(path)
+    contacts = {foot: truth["gt_hs_t"][truth["gt_foot"] == number] for number, foot in enumerate(Foot)}
+    cycles = of(GaitCycleMeasured, Session().feed(shift_clock(open_source(path), defect.offset)))
+    for foot, other in ((Foot.LEFT, Foot.RIGHT), (Foot.RIGHT, Foot.LEFT)):
+        true = median([t - contacts[other][contacts[other] < t].max() for t in contacts[foot][1:]])
+        measured = median([one.step_time for one in cycles if one.foot is foot and one.step_time is not None])
+        assert measured == pytest.approx(true, abs=0.02)
+
+
+def test_ten_recorded_walkers_on_one_clock_are_not_reported(data_dir: Path) -> None:
+    for path in sorted((data_dir / "ipol_10m_uturn").glob("*-4.npz")):
+        assert not found(Session().feed(open_source(path))), path.stem
