@@ -1,0 +1,191 @@
+"""Defects of a foot's samples: found in emulated and in recorded walks, silent on what is whole at any mounting."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import degrees, isclose
+from pathlib import Path
+
+import pytest
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import of
+
+from solepath import Defect, DefectFound, Foot, HeelStrike, Sample, Session, Site, StrideTaken
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
+from solepath.recording import read_samples
+from solepath.types import Vec3
+from solepath.types.vector import GRAVITY, normalise, rotate
+
+WALK = Walker(Route().stand(1.5).walk(30.0, 1.3).stop(1.0), seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
+"""A walk of 30 m with an inertial sensor that has no defect."""
+
+Change = Callable[[Sample], Sample]
+
+
+def vectors(acc: Callable[[Vec3], Vec3] = lambda v: v, gyro: Callable[[Vec3], Vec3] = lambda v: v) -> Change:
+    def change(sample: Sample) -> Sample:
+        assert sample.acc is not None and sample.gyro is not None
+        return evolve(sample, acc=acc(sample.acc), gyro=gyro(sample.gyro))
+
+    return change
+
+
+def scaled(k: float) -> Callable[[Vec3], Vec3]:
+    return lambda v: (k * v[0], k * v[1], k * v[2])
+
+
+def clipped(limit: float) -> Callable[[Vec3], Vec3]:
+    def clip(v: Vec3) -> Vec3:
+        x, y, z = [max(-limit, min(limit, value)) for value in v]
+        return x, y, z
+
+    return clip
+
+
+def signed(x: float, y: float, z: float) -> Callable[[Vec3], Vec3]:
+    return lambda v: (x * v[0], y * v[1], z * v[2])
+
+
+def run(samples: list[Sample]) -> tuple[list[DefectFound], list[StrideTaken]]:
+    session = Session()
+    events = session.feed(samples) + session.finish()
+    return of(DefectFound, events), of(StrideTaken, events)
+
+
+def repeated(samples: list[Sample]) -> list[Sample]:
+    """Return the samples with each specific force twice, as of an accelerometer at half the rate."""
+    return [evolve(sample, acc=samples[i - i % 2].acc) for i, sample in enumerate(samples)]
+
+
+DAMAGES: dict[str, tuple[Defect, Change]] = {
+    "in g": (Defect.ACC_UNIT, vectors(acc=scaled(1.0 / GRAVITY))),
+    "a quarter of the range": (Defect.WRONG_SCALE, vectors(acc=scaled(0.25))),
+    "deg/s": (Defect.GYRO_UNIT, vectors(gyro=scaled(degrees(1.0)))),
+    "a gyroscope that is off": (Defect.GYRO_UNIT, vectors(gyro=scaled(0.0))),
+    "ms": (Defect.TIME_UNIT, lambda sample: evolve(sample, t=1e3 * sample.t, known_at=None)),
+    "clipped": (Defect.CLIPPED, vectors(clipped(2.0 * GRAVITY), clipped(4.36))),
+    "gyroscope x mirrored": (Defect.AXES, vectors(gyro=signed(-1.0, 1.0, 1.0))),
+    "gyroscope y mirrored": (Defect.AXES, vectors(gyro=signed(1.0, -1.0, 1.0))),
+    "gyroscope z mirrored": (Defect.AXES, vectors(gyro=signed(1.0, 1.0, -1.0))),
+    "accelerometer x mirrored": (Defect.AXES, vectors(acc=signed(-1.0, 1.0, 1.0))),
+    "axes exchanged": (Defect.AXES, vectors(gyro=lambda v: (v[1], v[0], v[2]))),
+}
+
+
+@pytest.mark.parametrize("name", DAMAGES)
+def test_a_damaged_sensor_is_named_and_the_strides_after_that_are_degraded(name: str) -> None:
+    defect, change = DAMAGES[name]
+    found, strides = run([change(sample) for sample in WALK])
+    (event,) = [event for event in found if event.defect is defect]
+    assert event.site is Site.LEFT_FOOT and event.spoils and event.what
+    assert all(stride.degraded for stride in strides if stride.t_start > event.t)
+
+
+def test_gravity_that_a_device_removed_is_named() -> None:
+    ups = Walker(Route().stand(1.5).walk(30.0, 1.3).stop(1.0), seed=1)
+    samples = ups.samples(Foot.LEFT, 100.0, LSM6DSOX)
+    session, removed = Session(poses=True), []
+    for sample in samples:
+        session.feed(sample)
+        tracker = session._state.wearer.feet[Foot.LEFT]
+        w, x, y, z = tracker.corrector.attitude  # its own attitude, as a device has it
+        ax, ay, az = sample.acc or (0.0, 0.0, 0.0)
+        ux, uy, uz = rotate((w, -x, -y, -z), (0.0, 0.0, GRAVITY))
+        removed.append(evolve(sample, acc=(ax - ux, ay - uy, az - uz)))
+    assert Defect.NO_GRAVITY in {event.defect for event in run(removed)[0]}
+
+
+def test_repeated_values_are_named_and_spoil_nothing() -> None:
+    (event,), strides = run(repeated(WALK))
+    assert event.defect is Defect.REPEATED and "accelerometer" in event.what and not event.spoils
+    assert not any(stride.degraded for stride in strides)
+
+
+def test_a_rate_at_which_no_walk_can_be_followed_is_named() -> None:
+    found, _ = run(WALK[::8])
+    assert Defect.LOW_RATE in {event.defect for event in found}
+
+
+def test_the_axes_that_are_offered_mend_the_data() -> None:
+    _, change = DAMAGES["axes exchanged"]
+    damaged = [change(sample) for sample in WALK]
+    (event,) = [event for event in run(damaged)[0] if event.defect is Defect.AXES]
+    assert event.axes is not None
+
+    def mended(sample: Sample) -> Sample:
+        assert sample.gyro is not None and event.axes is not None
+        x, y, z = [(1.0 if axis > 0 else -1.0) * sample.gyro[abs(axis) - 1] for axis in event.axes]
+        return evolve(sample, gyro=(x, y, z))
+
+    assert run([mended(sample) for sample in damaged])[0] == []
+
+
+quaternions = st.tuples(*[st.floats(-1.0, 1.0)] * 4).filter(lambda q: sum(v * v for v in q) > 0.1).map(normalise)
+
+
+@settings(max_examples=8)
+@given(quaternions)
+def test_a_whole_sensor_is_silent_at_any_mounting(mounting: tuple[float, float, float, float]) -> None:
+    def turn(v: Vec3) -> Vec3:
+        return rotate(mounting, v)
+
+    found, strides = run([vectors(turn, turn)(sample) for sample in WALK])
+    assert found == [] and len(strides) > 15
+
+
+def test_a_defect_is_reported_again_only_for_another_device() -> None:
+    _, change = DAMAGES["deg/s"]
+    session = Session()
+    damaged = [change(sample) for sample in WALK]
+    first = session.feed(damaged)
+    later = session.feed([evolve(sample, t=sample.t + 100.0) for sample in damaged])
+    assert len(of(DefectFound, first)) == 1 and of(DefectFound, later) == []
+    session._state.wearer.reset(Site.LEFT_FOOT)
+    again = session.feed([evolve(sample, t=sample.t + 200.0) for sample in damaged])
+    assert [event.defect for event in of(DefectFound, again)] == [Defect.GYRO_UNIT]
+
+
+def test_an_insole_of_noise_or_of_coarse_values_is_named() -> None:
+    walk = Walker(Route().stand(2.0).walk(20.0, 1.3).stop(2.0), seed=1)
+    samples = walk.samples(Foot.LEFT, 100.0, LSM6DSOX, layout=layout(96, Foot.LEFT))
+    assert run(samples)[0] == []
+    coarse = [evolve(s, pressure=tuple([float(round(0.02 * cell)) for cell in s.pressure or ()])) for s in samples]
+    session = Session()
+    events = session.feed(coarse)
+    assert Defect.PRESSURE_UNIT in {event.defect for event in of(DefectFound, events)}
+    assert len(of(HeelStrike, events)) > 1.5 * len(of(StrideTaken, events))
+
+
+def test_a_session_that_is_saved_in_the_middle_of_a_check_goes_on_with_it() -> None:
+    _, change = DAMAGES["gyroscope y mirrored"]
+    damaged = [change(sample) for sample in WALK]
+    whole = run(damaged)[0]
+    for cut in (517, 900):
+        session = Session()
+        events = session.feed(damaged[:cut])
+        restored = Session.restore(session.snapshot())
+        events += restored.feed(damaged[cut:]) + restored.finish()
+        assert of(DefectFound, events) == whole != []
+
+
+RECORDED = ("openshoe_loops/m02", "xio_closed_walks/straightLine", "tripod_treadmill/PWS", "ipol_10m_uturn/1-1")
+
+
+@pytest.mark.parametrize("name", RECORDED)
+def test_a_recording_is_silent_and_with_a_mirrored_axis_it_is_not(name: str, data_dir: Path) -> None:
+    samples = [sample for sample in read_samples(data_dir / f"{name}.npz") if sample.t < 60.0]
+    assert [event for event in run(samples)[0] if event.defect is not Defect.CLOCKS] == []
+    for change in (vectors(gyro=signed(1.0, 1.0, -1.0)), vectors(acc=signed(1.0, -1.0, 1.0))):
+        found, _ = run([change(sample) for sample in samples])
+        assert {event.site for event in found if event.defect is Defect.AXES} == {sample.site for sample in samples}
+
+
+def test_a_recording_without_gravity_at_rest_waits_for_motion() -> None:
+    still = [evolve(WALK[0], t=0.01 * i, acc=(0.0, 0.0, 1.5), gyro=(0.0, 0.0, 0.0)) for i in range(300)]
+    assert run(still)[0] == []
+    assert isclose(GRAVITY, 9.80665)
