@@ -39,6 +39,7 @@ IN_SHORT = {
     "gumushane_surveyed": ("position error at the footprints", "strides", "stride length error"),
     "gumushane_counted": ("from end to start, horizontal", "strides", "length of a leg, by each foot's track"),
     "xio_closed_walks": ("from end to start, in space",),
+    "openshoe_loops": ("from end to start, in space", "strides", "longest stride"),
     "smart_insole_35": ("position error RMS, horizontal", "strides", "stride length error"),
     "ipol_10m_uturn": ("length of a leg, by each foot's track", "heel-strikes", "toe-offs"),
     "tripod_treadmill": ("stride length error", "heel-strikes", "toe-offs"),

@@ -18,7 +18,15 @@ from ..measures.score import Scored
 from .activity import STAIR_SPANS, score_labelled, score_stairs
 from .run import Meta, RunSettings
 from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
-from .tracking import score_counted, score_loop, score_optitrack, score_surveyed, score_vicon
+from .tracking import (
+    EIGHT_STRIDES,
+    score_counted,
+    score_eight,
+    score_loop,
+    score_optitrack,
+    score_surveyed,
+    score_vicon,
+)
 
 
 @frozen
@@ -52,6 +60,7 @@ def _is_surveyed(name: str, meta: Meta) -> bool:
 
 TRACK_FIGURES = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
 STRIDE_FIGURES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
+LOOP_FIGURES = ("end_error", "end_error_2d", "end_height", "path", "relative")
 HEEL_STRIKE_FIGURES = (
     "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad", "heel_strike_off",
 )  # fmt: skip
@@ -72,14 +81,17 @@ DATASETS = (
     ),
     DataSet(
         "gumushane_counted", "strides counted, some corners surveyed, one shoe", score_counted,
-        (*STRIDE_FIGURES[:3], *LEG_FIGURES, "end_error_2d", "end_height"),
+        (*STRIDE_FIGURES[:3], "stride_longest", *LEG_FIGURES, "end_error_2d", "end_height"),
         folders=("gumushane_gcp",),
         has_truth=lambda name, meta: "n_true_strides" in meta and not _is_surveyed(name, meta),
     ),
     DataSet(
-        "xio_closed_walks", "a closed loop, one shoe", score_loop,
-        ("end_error", "end_error_2d", "end_height", "path", "relative"),
+        "xio_closed_walks", "a closed loop, one shoe", score_loop, LOOP_FIGURES,
         has_truth=lambda name, meta: bool(meta.get("closed_loop")),
+    ),
+    DataSet(
+        "openshoe_loops", "closed figures of eight at a brisk pace, one sole", score_eight,
+        (*LOOP_FIGURES, *STRIDE_FIGURES[:3], "stride_longest"), has_truth=lambda name, meta: name in EIGHT_STRIDES,
     ),
     DataSet(
         "smart_insole_35", "OptiTrack tracks, one insole", score_optitrack, TRACK_FIGURES + STRIDE_FIGURES,
