@@ -19,8 +19,9 @@ PAGE = "tests/bench/page.py"
 PACKED = "tests/bench/packed.py"
 FLEET = ["tests/bench/fleet.py", "--sizes", "100", "1000", "5000", "20000"]
 COMPARED = ("default", "kupt-dfpc", "zupt", "pressure-contour", "gyroscope")
+PRESSED = ("smart_insole_35", "marpino_pressed", "moticon_pressed", "gaitpdb_vgrf")
 INSOLES = [
-    *(word for data in ("smart_insole_35", "marpino_pressed", "gaitpdb_vgrf") for word in ("--only", data)),
+    *(word for data in PRESSED for word in ("--only", data)),
     *(word for name in COMPARED for word in ("--recipe", name)),
     "--markdown",
 ]
@@ -46,6 +47,7 @@ IN_SHORT = {
     "gaitmap_examples": ("length of a leg, by each foot's track", "heel-strikes"),
     "marpino_heel_toe": ("heel-strikes", "toe-offs"),
     "marpino_pressed": ("heel-strikes", "toe-offs"),
+    "moticon_pressed": ("stride length error", "heel-strikes", "toe-offs"),
     "gaitpdb_vgrf": ("heel-strikes", "toe-offs"),
     "hugadb": ("labelled time classified correctly", "lift rides, with their direction"),
     "stairs": ("time on stairs that was called stairs", "time on the level that was called stairs"),

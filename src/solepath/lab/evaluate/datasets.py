@@ -17,7 +17,16 @@ from ..measures.confusion import CLASSES
 from ..measures.score import Scored
 from .activity import STAIR_SPANS, score_labelled, score_stairs
 from .run import Meta, RunSettings
-from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
+from .timing import (
+    score_borders,
+    score_force,
+    score_insoles,
+    score_pressed,
+    score_pressed_insoles,
+    score_swings,
+    score_switches,
+    score_treadmill,
+)
 from .tracking import (
     EIGHT_STRIDES,
     score_counted,
@@ -70,6 +79,7 @@ TOE_OFF_FIGURES = ("toe_off_true", "toe_off_found", "toe_off_f1", "toe_off_bias"
 LEG_FIGURES = ("leg_error_median", "leg_error", "leg_bias")
 BODY_LEG_FIGURES = ("body_leg_error_median", "body_leg_error", "body_leg_bias")
 STRIDE_TIME_FIGURES = ("stride_time_error_median", "stride_time_error", "stride_time_bias")
+CONTACT_FIGURES = HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + STRIDE_TIME_FIGURES + STRIDE_FIGURES
 
 DATASETS = (
     DataSet("pyshoe_vicon", "VICON tracks, one shoe", score_vicon, TRACK_FIGURES + STRIDE_FIGURES[:4]),
@@ -103,10 +113,7 @@ DATASETS = (
          "end_error_2d", "end_height", "uturn_found", "uturn_angle", "uturn_invented"),
         lists_recordings=False,
     ),
-    DataSet(
-        "tripod_treadmill", "a treadmill, both feet", score_treadmill,
-        HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + STRIDE_TIME_FIGURES + STRIDE_FIGURES,
-    ),
+    DataSet("tripod_treadmill", "a treadmill, both feet", score_treadmill, CONTACT_FIGURES),
     DataSet(
         "gaitmap_examples", "4 x 10 m, both feet", score_borders,
         (*HEEL_STRIKE_FIGURES, *STRIDE_TIME_FIGURES, *LEG_FIGURES, *BODY_LEG_FIGURES, "leg_spread",
@@ -120,6 +127,15 @@ DATASETS = (
     DataSet(
         "marpino_pressed", "heel and toe switches as an insole of two cells, both feet", score_pressed,
         HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + LEG_FIGURES, folders=("marpino_heel_toe",), has_pressure=True,
+    ),
+    DataSet(
+        "moticon_opengo", "the vendor's contacts and strides, both insoles, inertial only", score_insoles,
+        CONTACT_FIGURES, has_truth=lambda name, meta: "gt_ic_left" in meta["keys"],
+    ),
+    DataSet(
+        "moticon_pressed", "the vendor's contacts and strides, both insoles with their 16 cells", score_pressed_insoles,
+        CONTACT_FIGURES,
+        folders=("moticon_opengo",), has_truth=lambda name, meta: "gt_ic_left" in meta["keys"], has_pressure=True,
     ),
     DataSet(
         "gaitpdb_vgrf", "eight force sensors below each foot and nothing else", score_force,
