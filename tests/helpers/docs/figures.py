@@ -47,7 +47,6 @@ IN_SHORT = {
     "gaitmap_examples": ("length of a leg, by each foot's track", "heel-strikes"),
     "marpino_heel_toe": ("heel-strikes", "toe-offs"),
     "marpino_pressed": ("heel-strikes", "toe-offs"),
-    "moticon_pressed": ("stride length error", "heel-strikes", "toe-offs"),
     "gaitpdb_vgrf": ("heel-strikes", "toe-offs"),
     "hugadb": ("labelled time classified correctly", "lift rides, with their direction"),
     "stairs": ("time on stairs that was called stairs", "time on the level that was called stairs"),
