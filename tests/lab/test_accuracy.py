@@ -65,6 +65,28 @@ def test_a_closed_loop_of_60_m_ends_near_its_start(evaluated: Evaluated) -> None
     assert walks["long_walk"].figures["end_error"] <= 0.42
 
 
+def test_no_stance_of_a_brisk_figure_of_eight_is_lost(evaluated: Evaluated) -> None:
+    """The strides were counted by eye. Two that are merged would be longer than any step of these wearers."""
+    walks, summary = scores(evaluated, "openshoe_loops")
+    assert len(walks) == 7
+    for name, walk in walks.items():
+        assert walk.strides is not None and walk.strides.longest is not None
+        assert (walk.strides.n_found, walk.strides.n_invented) == (walk.strides.n_true, 0), name
+        assert walk.strides.longest <= 2.2, name
+    assert summary.mean["end_error"] <= 0.6
+
+
+@pytest.mark.parametrize("data_set", ["moticon_opengo", "moticon_pressed"])
+def test_contacts_and_strides_are_those_of_the_vendor_of_the_insoles(evaluated: Evaluated, data_set: str) -> None:
+    _, summary = scores(evaluated, data_set)
+    found = summary.together
+    assert min(found["heel_strike_f1"], found["toe_off_f1"]) >= 0.97
+    assert max(found["heel_strike_mad"], found["toe_off_mad"]) <= 0.015
+    assert found["strides_found"] == found["strides_true"] and found["strides_invented"] == 0
+    assert found["stride_error"] <= 0.04
+    assert found["stride_time_error_median"] <= 0.02
+
+
 def test_contacts_of_both_feet_are_found_in_spite_of_radio_losses(evaluated: Evaluated) -> None:
     _, summary = scores(evaluated, "ipol_10m_uturn")
     for kind in ("heel_strike", "toe_off"):

@@ -15,7 +15,14 @@ from solepath.lab.measures.contacts import merged, switch_contacts
 from solepath.lab.measures.legs import leg_errors, leg_lengths, turn_times
 from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
 from solepath.lab.measures.score import Scored, summarise
-from solepath.lab.measures.strides import StrideScore, marker_stances, position_errors, stride_score, surveyed_score
+from solepath.lab.measures.strides import (
+    StrideScore,
+    counted_score,
+    marker_stances,
+    position_errors,
+    stride_score,
+    surveyed_score,
+)
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
 
@@ -136,6 +143,21 @@ def test_each_found_stride_belongs_to_the_true_one_in_which_it_ends():
 def test_a_stride_of_unknown_length_is_found_without_an_error():
     score = stride_score(TIMES, np.array([1.0, np.nan, 2.0]), [(1.5, 1.0), (2.5, 1.0), (3.5, 2.0)])
     assert score.n_found == 3 and score.errors.values == (0.0, 0.0)
+
+
+def test_counted_strides_are_compared_in_number_and_the_longest_shows_two_that_were_merged():
+    merged_and_invented = counted_score(4, [1.0, 2.5, 1.0, 0.25])
+    assert merged_and_invented == StrideScore(4, 4, 0, longest=2.5)
+    assert counted_score(4, [1.0, 1.25]) == StrideScore(4, 2, 0, longest=1.25)
+    assert counted_score(2, [1.0, 1.5, 1.0]) == StrideScore(2, 2, 1, longest=1.5)
+    assert counted_score(2, []) == StrideScore(2, 0, 0)
+
+
+def test_the_longest_stride_of_several_recordings_is_the_longest_of_all():
+    scores = [Scored(name, strides=counted_score(2, lengths)) for name, lengths in (("a", [1.0, 1.5]), ("b", [1.25]))]
+    together = summarise([*scores, Scored("c", strides=counted_score(2, []))], "all").together
+    assert (together["strides_found"], together["strides_true"], together["stride_longest"]) == (3, 6, 1.5)
+    assert summarise([Scored("d", strides=StrideScore(2, 2))], "all").together["stride_longest"] is None
 
 
 def test_the_live_track_is_measured_between_the_surveys_instants():

@@ -14,7 +14,7 @@ from solepath.recording import RecordingError
 
 NEITHER = {
     "path", "authors", "most_frequent", "strides_true", "rides_true", "heel_strike_true", "heel_strike_found",
-    "toe_off_true", "toe_off_found",
+    "toe_off_true", "toe_off_found", "stride_longest",
 }  # fmt: skip
 
 OLD = {

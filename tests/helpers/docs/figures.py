@@ -19,8 +19,9 @@ PAGE = "tests/bench/page.py"
 PACKED = "tests/bench/packed.py"
 FLEET = ["tests/bench/fleet.py", "--sizes", "100", "1000", "5000", "20000"]
 COMPARED = ("default", "kupt-dfpc", "zupt", "pressure-contour", "gyroscope")
+PRESSED = ("smart_insole_35", "marpino_pressed", "moticon_pressed", "gaitpdb_vgrf")
 INSOLES = [
-    *(word for data in ("smart_insole_35", "marpino_pressed", "gaitpdb_vgrf") for word in ("--only", data)),
+    *(word for data in PRESSED for word in ("--only", data)),
     *(word for name in COMPARED for word in ("--recipe", name)),
     "--markdown",
 ]
@@ -39,6 +40,7 @@ IN_SHORT = {
     "gumushane_surveyed": ("position error at the footprints", "strides", "stride length error"),
     "gumushane_counted": ("from end to start, horizontal", "strides", "length of a leg, by each foot's track"),
     "xio_closed_walks": ("from end to start, in space",),
+    "openshoe_loops": ("from end to start, in space", "strides", "longest stride"),
     "smart_insole_35": ("position error RMS, horizontal", "strides", "stride length error"),
     "ipol_10m_uturn": ("length of a leg, by each foot's track", "heel-strikes", "toe-offs"),
     "tripod_treadmill": ("stride length error", "heel-strikes", "toe-offs"),

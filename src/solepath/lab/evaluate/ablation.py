@@ -94,6 +94,7 @@ COLUMNS = (
     Column("corner legs", "gumushane_counted", "leg_error_median", "%", pooled=True),
     Column("height at end", "gumushane_counted", "end_height"),
     Column("xio end", "xio_closed_walks", "end_error"),
+    Column("openshoe end", "openshoe_loops", "end_error"),
     Column("insole strides", "smart_insole_35", "stride_error", "%", pooled=True),
     Column("ipol legs", "ipol_10m_uturn", "leg_error_median", "%", pooled=True),
     Column("HS F1", "ipol_10m_uturn", "heel_strike_f1", "", pooled=True),

@@ -17,8 +17,25 @@ from ..measures.confusion import CLASSES
 from ..measures.score import Scored
 from .activity import STAIR_SPANS, score_labelled, score_stairs
 from .run import Meta, RunSettings
-from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
-from .tracking import score_counted, score_loop, score_optitrack, score_surveyed, score_vicon
+from .timing import (
+    score_borders,
+    score_force,
+    score_insoles,
+    score_pressed,
+    score_pressed_insoles,
+    score_swings,
+    score_switches,
+    score_treadmill,
+)
+from .tracking import (
+    EIGHT_STRIDES,
+    score_counted,
+    score_eight,
+    score_loop,
+    score_optitrack,
+    score_surveyed,
+    score_vicon,
+)
 
 
 @frozen
@@ -52,6 +69,7 @@ def _is_surveyed(name: str, meta: Meta) -> bool:
 
 TRACK_FIGURES = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
 STRIDE_FIGURES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
+LOOP_FIGURES = ("end_error", "end_error_2d", "end_height", "path", "relative")
 HEEL_STRIKE_FIGURES = (
     "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad",
     "heel_strike_scatter", "heel_strike_off",
@@ -64,6 +82,7 @@ TOE_OFF_FIGURES = (
 LEG_FIGURES = ("leg_error_median", "leg_error", "leg_bias")
 BODY_LEG_FIGURES = ("body_leg_error_median", "body_leg_error", "body_leg_bias")
 STRIDE_TIME_FIGURES = ("stride_time_error_median", "stride_time_error", "stride_time_bias")
+CONTACT_FIGURES = HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + STRIDE_TIME_FIGURES + STRIDE_FIGURES
 
 DATASETS = (
     DataSet("pyshoe_vicon", "VICON tracks, one shoe", score_vicon, TRACK_FIGURES + STRIDE_FIGURES[:4]),
@@ -75,14 +94,17 @@ DATASETS = (
     ),
     DataSet(
         "gumushane_counted", "strides counted, some corners surveyed, one shoe", score_counted,
-        (*STRIDE_FIGURES[:3], *LEG_FIGURES, "end_error_2d", "end_height"),
+        (*STRIDE_FIGURES[:3], "stride_longest", *LEG_FIGURES, "end_error_2d", "end_height"),
         folders=("gumushane_gcp",),
         has_truth=lambda name, meta: "n_true_strides" in meta and not _is_surveyed(name, meta),
     ),
     DataSet(
-        "xio_closed_walks", "a closed loop, one shoe", score_loop,
-        ("end_error", "end_error_2d", "end_height", "path", "relative"),
+        "xio_closed_walks", "a closed loop, one shoe", score_loop, LOOP_FIGURES,
         has_truth=lambda name, meta: bool(meta.get("closed_loop")),
+    ),
+    DataSet(
+        "openshoe_loops", "closed figures of eight at a brisk pace, one sole", score_eight,
+        (*LOOP_FIGURES, *STRIDE_FIGURES[:3], "stride_longest"), has_truth=lambda name, meta: name in EIGHT_STRIDES,
     ),
     DataSet(
         "smart_insole_35", "OptiTrack tracks, one insole", score_optitrack, TRACK_FIGURES + STRIDE_FIGURES,
@@ -94,10 +116,7 @@ DATASETS = (
          "end_error_2d", "end_height", "uturn_found", "uturn_angle", "uturn_invented"),
         lists_recordings=False,
     ),
-    DataSet(
-        "tripod_treadmill", "a treadmill, both feet", score_treadmill,
-        HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + STRIDE_TIME_FIGURES + STRIDE_FIGURES,
-    ),
+    DataSet("tripod_treadmill", "a treadmill, both feet", score_treadmill, CONTACT_FIGURES),
     DataSet(
         "gaitmap_examples", "4 x 10 m, both feet", score_borders,
         (*HEEL_STRIKE_FIGURES, *STRIDE_TIME_FIGURES, *LEG_FIGURES, *BODY_LEG_FIGURES, "leg_spread",
@@ -111,6 +130,15 @@ DATASETS = (
     DataSet(
         "marpino_pressed", "heel and toe switches as an insole of two cells, both feet", score_pressed,
         HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + LEG_FIGURES, folders=("marpino_heel_toe",), has_pressure=True,
+    ),
+    DataSet(
+        "moticon_opengo", "the vendor's contacts and strides, both insoles, inertial only", score_insoles,
+        CONTACT_FIGURES, has_truth=lambda name, meta: "gt_ic_left" in meta["keys"],
+    ),
+    DataSet(
+        "moticon_pressed", "the vendor's contacts and strides, both insoles with their 16 cells", score_pressed_insoles,
+        CONTACT_FIGURES,
+        folders=("moticon_opengo",), has_truth=lambda name, meta: "gt_ic_left" in meta["keys"], has_pressure=True,
     ),
     DataSet(
         "gaitpdb_vgrf", "eight force sensors below each foot and nothing else", score_force,

@@ -43,6 +43,7 @@ ABLATION_TITLES = (
     "gumushane position",
     "strides",
     "xio end",
+    "openshoe end",
     "ipol legs",
     "HS F1",
     "TO F1",

@@ -184,3 +184,27 @@ def score_force(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     heel_strikes = {foot: [start for start, _ in contacts] for foot, contacts in spans.items()}
     toe_offs = {foot: [end for _, end in contacts] for foot, contacts in spans.items()}
     return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs))
+
+
+def score_insoles(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score a session that receives only inertial samples, against the contacts and strides of the vendor."""
+    return _against_vendor(path, run(path, settings, without_pressure=True))
+
+
+def score_pressed_insoles(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score a session that receives the pressure too. It has to learn the layout of the cells, which is not known."""
+    return _against_vendor(path, run(path, settings))
+
+
+def _against_vendor(path: Path, result: RecordingRun) -> Scored:
+    truth, strides = truth_of(path), StrideScore()
+    heel_strikes = {foot: truth[f"gt_ic_{foot.value}"].tolist() for foot in result.feet}
+    toe_offs = {foot: truth[f"gt_to_{foot.value}"].tolist() for foot in result.feet}
+    for foot, foot_run in result.feet.items():
+        # gt_stride_length_*[k] is of the stride that starts with contact k; the found one ends after contact k + 1
+        lengths = np.roll(truth[f"gt_stride_length_{foot.value}"], 1)[:-1]
+        strides += stride_score(
+            np.array(heel_strikes[foot]), lengths, foot_run.stride_lengths, end_tolerance=-TOLERANCE
+        )
+    times = {"stride_time": _stride_time_errors(result, heel_strikes)}
+    return scored(path, result, events=_contact_matches(result, heel_strikes, toe_offs), strides=strides, errors=times)

@@ -57,6 +57,7 @@ class Scored:
                 "stride_error": self.strides.errors.mean,
                 "stride_error_median": self.strides.errors.median,
                 "stride_error_track": self.strides.track_errors.mean,
+                "stride_longest": self.strides.longest,
             }
         if self.activity is not None:
             flat |= self.activity.figures

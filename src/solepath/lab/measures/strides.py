@@ -47,6 +47,8 @@ class StrideScore:
     """Relative error of the length of each stride found."""
     track_errors: Errors = Errors()
     """Relative error of the distance between the live positions at the survey's times, for every surveyed stride."""
+    longest: float | None = None
+    """Length of the longest found stride, m; None where each stride has a true one of its own."""
 
     def __add__(self, other: StrideScore) -> StrideScore:
         return StrideScore(
@@ -55,6 +57,7 @@ class StrideScore:
             self.n_invented + other.n_invented,
             self.errors + other.errors,
             self.track_errors + other.track_errors,
+            max((one.longest for one in (self, other) if one.longest is not None), default=None),
         )
 
 
@@ -79,6 +82,14 @@ def stride_score(
     errors = [max(ours) / true - 1.0 for ours, true in zip(assigned, true_lengths, strict=True) if ours and true > 0]
     found = [ours for ours in assigned if ours]
     return StrideScore(len(assigned), len(found), sum(map(len, found)) - len(found), Errors(tuple(errors)))
+
+
+def counted_score(n_true: int, lengths: Sequence[float]) -> StrideScore:
+    """Score found strides of these `lengths`, m, where only the number of true ones is known.
+
+    A merged pair of strides and an invented one cancel out in the numbers; the longest stride shows the pair."""
+    found = len(lengths)
+    return StrideScore(n_true, min(n_true, found), max(0, found - n_true), longest=max(lengths, default=None))
 
 
 def surveyed_score(

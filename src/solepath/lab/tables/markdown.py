@@ -93,6 +93,8 @@ def _stride_lines(pooled: Figures) -> list[tuple[str, str]]:
     if (error := pooled.get("stride_error")) is not None:
         median = percent(pooled["stride_error_median"])
         entries.append(("stride length error", f"mean {percent(error)} %, median {median} %"))
+    if (longest := pooled.get("stride_longest")) is not None:
+        entries.append(("longest stride", f"{number(longest)} m"))
     return entries
 
 

@@ -55,6 +55,7 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "stride_error": ("length MAE %", percent),
     "stride_error_median": ("median %", percent),
     "stride_error_track": ("live track %", percent),
+    "stride_longest": ("longest m", _metres),
     "heel_strike_true": ("HS true", _count),
     "heel_strike_found": ("found", _count),
     "heel_strike_f1": ("F1", _three_digits),
