@@ -47,6 +47,11 @@ class Gait:
         self.stride.mark_degraded(None)
         self.template.reset()
 
+    def start_walking(self, on_ground: bool) -> None:
+        """Start with a foot that walks already; its first stride starts at the next foot-flat."""
+        self.phase = Phase.LOADING if on_ground else Phase.SWING
+        self.stride.t_start = None
+
     def shift(self, yaw: float, by: Vec3) -> Vec3:
         """Turn a flat foot by `yaw` rad and move it by `by` m, world frame; return `by` in the navigation frame."""
         x, y, z = by

@@ -26,6 +26,7 @@ from .rejection import ABSURD_TIME, rejected, rejection_reason
 from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
+from .walk_scale import WalkScale
 from .view import NOTHING_HAPPENED, AfterEvents, FootPose, FootView, PressedCells
 from .world import Covariance3
 
@@ -62,6 +63,7 @@ class FootTracker:
     levelled: bool = field(default=False, init=False)
     """The first attitude is known."""
     rest: Rest = field(factory=Rest, init=False)
+    walk_scale: WalkScale = field(factory=WalkScale, init=False)
     gait: Gait = field(init=False)
     limitations: Limitations = field(init=False)
     scale_reported: bool = field(default=False, init=False)
@@ -169,6 +171,7 @@ class FootTracker:
         self.levelling = Levelling()
         self.sole.reset()
         self.rest.reset()
+        self.walk_scale.reset()
 
     def feed(self, sample: Sample) -> list[Event]:
         """Return the events of one sample of this foot; one that cannot be used is reported and changes no state."""
@@ -231,6 +234,8 @@ class FootTracker:
         events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - t_last))
         self.gait.stride.mark_degraded(t)
         if not self.levelled:
+            if t - t_last > LONGEST_BRIDGE:
+                self.levelling = Levelling()
             return t - t_last
         if t - t_last <= SHORTEST_FILLED_GAP or sample.acc is None or sample.gyro is None:
             return self.corrector.bridge(t - t_last)
@@ -259,24 +264,33 @@ class FootTracker:
                 events.append(warning)
             self.detector.scaled(rest.scale)
         k, (bx, by, bz) = rest.scale, rest.bias
+        raw_acc, raw_gyro = acc, gyro
         x, y, z = acc
         acc = (x * k, y * k, z * k)
         x, y, z = gyro
         gyro = (x - bx, y - by, z - bz)
-        if self.levelled:
+        if self.levelled or self.levelling.started_at is not None:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
         if not self.levelled:
             first_attitude = self.levelling.update(t, acc, gyro)
             if first_attitude is not None:
                 corrector.start(*first_attitude)
-                self.levelled = True
                 gait.stride.start_stride(t, ZERO, corrector.attitude)
+            if self.levelling.final:
+                self.levelled = True
+                if self.levelling.walks:
+                    gait.start_walking(corrector.correct(t, stance))
             if self.settings.poses:
                 self._report_motion(t, known_at, events)
             return
+        drift = corrector.velocity[2]
         accepted = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
+        if not rest.count:
+            self.walk_scale.add_sample(t, raw_acc, raw_gyro)
+            if accepted:
+                rest.scale = self.walk_scale.add_evidence(t, drift - vz, k)
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         cues = self.cues
         timed_cues = cues.update(t, dt, acc, gyro, accepted and speed < FLAT_SPEED, speed, gait.phase, load, stance)
