@@ -88,6 +88,7 @@ class Gait:
             self.stride.add_heel_strike(t, interval)
         elif phase is Phase.PUSH_OFF and corrector is not None:
             self.template.start_stride(t)
+            self.stride.t_heel_off = t
             self._anchor(corrector)
         elif phase is Phase.STATIONARY and corrector is not None:
             events += self._end_stride(t, known_at, corrector, interval)

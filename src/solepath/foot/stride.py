@@ -59,6 +59,12 @@ class PathCovariance:
         )
 
 
+FIRST_MOTION = 0.8
+"""Time from heel-off to the next foot-flat, s, that counts as usual before the first stride."""
+MERGED_RATIO = 1.8
+"""Ratio of that time to the wearer's usual one from which on two strides have merged because a stance was missed."""
+MOTION_GAIN, LEAST_MOTION_RATIO, LARGEST_MOTION_RATIO = 0.2, 0.5, 1.3
+"""Weight of the newest time in the usual one, and the limits of its ratio to the usual one in the average."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
@@ -88,6 +94,10 @@ class StrideBuilder:
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = field(default=0.0, init=False)
     """Largest speed of the sensor in the stride, m/s."""
+    t_heel_off: float | None = field(default=None, init=False)
+    """Time of heel-off, s; None before it."""
+    usual_motion: float = field(default=FIRST_MOTION, init=False)
+    """Usual time from heel-off to the next foot-flat of this wearer, s."""
     pitch: float = field(default=0.0, init=False)
     """Integral of the sagittal rate since the start, toe down positive, rad."""
     pitch_low: float = field(default=0.0, init=False)
@@ -120,7 +130,7 @@ class StrideBuilder:
         self.t_start = t
         self.start = position
         self.attitude = attitude
-        self.t_toe_off = self.t_heel_strike = None
+        self.t_heel_off = self.t_toe_off = self.t_heel_strike = None
         self.toe_off_pitch = self.heel_strike_pitch = None
         # the foot-flat may be dated back into a gap; the rest of the gap then degrades the new stride
         self.degraded = self.degraded_until is not None and t < self.degraded_until
@@ -218,6 +228,7 @@ class StrideBuilder:
         if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_STRIDE_TURN:
             return None
         self.number += 1
+        merged = self._has_merged(t)
         return StrideTaken(
             t=t,
             known_at=known_at,
@@ -234,6 +245,7 @@ class StrideBuilder:
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
             degraded=self.degraded
+            or merged
             or t - self.t_toe_off > LONGEST_SWING
             or length > FASTEST_STRIDE * (t - self.t_start),
             features=StrideFeatures(
@@ -249,3 +261,14 @@ class StrideBuilder:
                 rise=rise,
             ),
         )
+
+    def _has_merged(self, t: float) -> bool:
+        """Return whether the stride that ends at `t`, s, covers two strides, and learn the usual time of one."""
+        usual = self.usual_motion
+        motion = usual if self.t_heel_off is None else t - self.t_heel_off
+        if motion > MERGED_RATIO * usual:
+            return True
+        if not self.degraded:
+            limited = min(max(motion, LEAST_MOTION_RATIO * usual), LARGEST_MOTION_RATIO * usual)
+            self.usual_motion += MOTION_GAIN * (limited - usual)
+        return False
