@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import Any
 
 from .body.activity.activities import Activities
+from .body.checks.motion import PossibleMotion
 from .body.fuse.both_feet import BothFeet, BothFeetSettings
 from .body.fuse.position import MeanOfFeet
 from .body.gait.cycles import GaitCycles
@@ -36,10 +37,11 @@ def usual_parts(
 ) -> tuple[Part, ...]:
     """Return the parts of the body in the order that most recipes use.
 
-    They are: Wear, the position of the wearer (`track`; MeanOfFeet when it is None), the activity (`activity`;
+    They are: PossibleMotion, Wear, the position of the wearer (`track`; MeanOfFeet when it is None), the activity (`activity`;
     Activities when it is None), Turns, the height from elevators and air pressure (`altitude`; when it is None, heights
     are those of the feet), and GaitCycles."""
-    parts = (Wear(), track or MeanOfFeet(), activity or Activities(), Turns(), altitude, GaitCycles())
+    track, activity = track or MeanOfFeet(), activity or Activities()
+    parts = (PossibleMotion(), Wear(), track, activity, Turns(), altitude, GaitCycles())
     return tuple([part for part in parts if part is not None])
 
 
@@ -136,6 +138,7 @@ PARTS: dict[str, str] = {
     "ErrorStateFilter": _FOOT + "navigate.error_state",
     "LinearDedrift": _FOOT + "navigate.dedrift",
     "GaitCues": _FOOT + "cues.gait_cues",
+    "PossibleMotion": _BODY + "checks.motion",
     "Wear": _BODY + "worn.wear",
     "MeanOfFeet": _BODY + "fuse.position",
     "BothFeet": _BODY + "fuse.both_feet",
