@@ -37,9 +37,9 @@ def usual_parts(
 ) -> tuple[Part, ...]:
     """Return the parts of the body in the order that most recipes use.
 
-    They are: PossibleMotion, Wear, the position of the wearer (`track`; MeanOfFeet when it is None), the activity (`activity`;
-    Activities when it is None), Turns, the height from elevators and air pressure (`altitude`; when it is None, heights
-    are those of the feet), and GaitCycles."""
+    They are: PossibleMotion, Wear, the position of the wearer (`track`; MeanOfFeet when it is None), the activity
+    (`activity`; Activities when it is None), Turns, the height from elevators and air pressure (`altitude`; when it is
+    None, heights are those of the feet), and GaitCycles."""
     track, activity = track or MeanOfFeet(), activity or Activities()
     parts = (PossibleMotion(), Wear(), track, activity, Turns(), altitude, GaitCycles())
     return tuple([part for part in parts if part is not None])

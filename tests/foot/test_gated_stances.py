@@ -89,16 +89,18 @@ def test_a_recording_that_starts_in_mid_walk_has_each_stride_after_its_first_sta
 
 def test_two_strides_between_which_the_foot_never_seems_to_stand_are_one_that_is_degraded() -> None:
     walker = Walker(Route().stand(2.0).walk(30.0, 1.3).stop(2.0), seed=3)
-    missed = walker.truth().strides(Foot.LEFT)[6]
+    shaken_one = walker.truth().strides(Foot.LEFT)[6]
     samples = []
     for sample in walker.samples(Foot.LEFT, 100.0, LSM6DSOX):
-        assert sample.gyro is not None and missed.t_heel_strike is not None
-        shaken = missed.t_heel_strike - 0.05 < sample.t < missed.t_heel_strike + 0.75
+        assert sample.gyro is not None and shaken_one.t_heel_strike is not None
+        shaken = shaken_one.t_heel_strike - 0.05 < sample.t < shaken_one.t_heel_strike + 0.75
         x, y, z = sample.gyro
         samples.append(evolve(sample, gyro=(x, y, z + 3.0 * sin(40.0 * pi * sample.t))) if shaken else sample)
     session = Session()
     found = [event for event in session.feed(samples) + session.finish() if isinstance(event, StrideTaken)]
-    covering = [stride for stride in found if stride.t_start < missed.t_end - 0.3 and stride.t_end > missed.t_end + 0.3]
+    covering = [
+        stride for stride in found if stride.t_start < shaken_one.t_end - 0.3 and stride.t_end > shaken_one.t_end + 0.3
+    ]
     assert len(covering) == 1 and [stride for stride in found if stride.degraded] == covering
 
 

@@ -62,7 +62,10 @@ class PathCovariance:
 FIRST_MOTION = 0.8
 """Time from heel-off to the next foot-flat, s, that counts as usual before the first stride."""
 MERGED_RATIO = 1.8
-"""Ratio of that time to the wearer's usual one from which on two strides have merged because a stance was missed."""
+"""Ratio of that time to the wearer's usual one from which on two strides have merged because a stance was missed.
+
+Two swings and a stance take more than twice that time. On recordings without damage 99 % of the ratios are below 1.6.
+"""
 MOTION_GAIN, LEAST_MOTION_RATIO, LARGEST_MOTION_RATIO = 0.2, 0.5, 1.3
 """Weight of the newest time in the usual one, and the limits of its ratio to the usual one in the average."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35

@@ -26,8 +26,8 @@ from .rejection import ABSURD_TIME, rejected, rejection_reason
 from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
-from .walk_scale import WalkScale
 from .view import NOTHING_HAPPENED, AfterEvents, FootPose, FootView, PressedCells
+from .walk_scale import WalkScale
 from .world import Covariance3
 
 SWING: Final = Phase.SWING
@@ -263,8 +263,9 @@ class FootTracker:
                 self.scale_reported = True
                 events.append(warning)
             self.detector.scaled(rest.scale)
+        if not rest.count:
+            self.walk_scale.add_sample(t, acc, gyro)
         k, (bx, by, bz) = rest.scale, rest.bias
-        raw_acc, raw_gyro = acc, gyro
         x, y, z = acc
         acc = (x * k, y * k, z * k)
         x, y, z = gyro
@@ -287,10 +288,8 @@ class FootTracker:
         drift = corrector.velocity[2]
         accepted = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
-        if not rest.count:
-            self.walk_scale.add_sample(t, raw_acc, raw_gyro)
-            if accepted:
-                rest.scale = self.walk_scale.add_evidence(t, drift - vz, k)
+        if accepted and not rest.count:
+            rest.scale = self.walk_scale.add_evidence(t, drift - vz, k)
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         cues = self.cues
         timed_cues = cues.update(t, dt, acc, gyro, accepted and speed < FLAT_SPEED, speed, gait.phase, load, stance)

@@ -1,9 +1,9 @@
 """Accelerometer scale of a foot that has not stood still yet, from its strides.
 
-A scale error shows in two ways. In the stillest part of a stance the specific force is not 1 g; but a runner's foot
-never is still. Over a stride the vertical velocity drifts, from one stance to the next, by the error times the duration;
-but an impact that was sampled too slowly or clipped makes it drift too. Nothing but the scale does both, so the
-smaller of the two is used if both have the same sign."""
+A scale error shows in two ways. In the stillest part of a stance the specific force is not 1 g; but a runner's foot is
+never still. From one stance to the next the vertical velocity drifts by the error times the duration; but an impact
+that was sampled too slowly or clipped makes it drift too. Nothing but the scale does both, so the smaller of the two is
+used if both have the same sign."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ LARGEST_DEVIATION = 0.25 * GRAVITY
 
 @define
 class WalkScale:
-    """Learns the accelerometer scale from strides. Deviations are those of a standing foot's reading from 1 g, m/s^2."""
+    """Learns the accelerometer scale from strides.
+
+    A deviation is the difference between the reading of a standing foot and 1 g, m/s^2. The numbers were chosen by hand
+    and not swept."""
 
     span: SampleSpan = field(factory=SampleSpan, init=False)
     """Sums over the current short span."""

@@ -55,7 +55,7 @@ class FootRecord:
     """The recent strides of one foot."""
 
     recent: tuple[bool, ...] = ()
-    """Whether each of the recent strides was impossible, the oldest first."""
+    """Flag of each of the recent strides, the oldest first: the stride was impossible."""
     one_reported: bool = False
     """Flag: a single impossible stride was reported."""
     all_reported: bool = False
