@@ -14,8 +14,8 @@ COARSEST_COUNT = 0.7
 """Upper limit for the value of one accelerometer count, m/s^2; 8 bits for +-8 g give 0.61."""
 LARGEST_SAME_COUNT = 1e-6
 """Largest difference between two readings of the same count, m/s^2."""
-REST_TILT_SIGMA, STANCE_TILT_SIGMA, ANY_TILT_SIGMA = 0.02, 0.06, 0.2
-"""Standard deviation of the first tilt, rad: found at rest, in stance, or at any other time."""
+REST_TILT_SIGMA, STANCE_TILT_SIGMA, MOVING_TILT_SIGMA = 0.02, 0.06, 0.5
+"""Standard deviation of the first tilt, rad: found at rest, the least in stance, and the largest of a moving foot."""
 LARGEST_MOTION = 1e12
 """Upper bound for the amount of motion in any span, (m/s^2)^2."""
 MOST_REST_SPANS = 20
@@ -36,12 +36,8 @@ LEVEL_GYRO_SIGMA = 0.1
 """Largest standard deviation of the angular rate for the first attitude, rad/s.
 
 The mean rate is not used, because cheap gyroscopes are off by 0.3 at rest."""
-SHORT_SPAN, LONGEST_STRIDE, LONGEST_LEVEL_WAIT = 0.06, 1.3, 3.0
-"""Durations for a foot that already walks, s: a short span, the longest stride, and the longest wait for stillness.
-
-After the longest wait any span gives the attitude."""
-MOTION_RATIO = 4.0
-"""Largest ratio of the squared motion of a short span in stance to that of the stillest short span."""
+SHORT_SPAN, LONGEST_STRIDE = 0.06, 1.3
+"""Durations for a foot that already walks, s: a short span, and a stride with its stance."""
 RATE_PER_ACC = 0.3
 """Angular rate that counts as much motion as 1 m/s^2, rad/s."""
 REST_ACC_SIGMA = 0.35
@@ -93,14 +89,21 @@ class SampleSpan:
         )
 
 
+def amount_of_motion(span: SampleSpan) -> float:
+    """Return how much the foot moves in a span, apart from a steady specific force, (m/s^2)^2."""
+    acc_variance, gyro_variance = span.variances()
+    _, (x, y, z) = span.means()
+    return acc_variance + (x * x + y * y + z * z + gyro_variance) / (RATE_PER_ACC * RATE_PER_ACC)
+
+
 @define
 class Levelling:
     """Finds the first attitude from the direction of gravity.
 
-    It averages over the first quarter of a second in which the foot is still. If the foot walks already, it uses the
-    middle of a stance: once LONGEST_STRIDE has passed, a span of SHORT_SPAN that is about as still as the stillest one
-    so far. After LONGEST_LEVEL_WAIT it uses any span. The heading stays that of the sensor: the attitude is the
-    smallest turn that takes the measured up to up."""
+    It averages over the first quarter of a second in which the foot is still. If the foot walks already, the stillest
+    short span of the first stride is the middle of a stance: navigation starts after the first short span, and again
+    after each stiller one, so that it has started in that stance when LONGEST_STRIDE has passed. The heading stays that
+    of the sensor: the attitude is the smallest turn that takes the measured up to up."""
 
     span: SampleSpan = field(factory=SampleSpan, init=False)
     short_span: SampleSpan = field(factory=SampleSpan, init=False)
@@ -113,44 +116,43 @@ class Levelling:
     """Start of the current span, s."""
     started_at: float | None = field(default=None, init=False)
     """Time of the first sample, s; None before it."""
+    final: bool = field(default=False, init=False)
+    """Flag: the newest attitude is the first one; no other follows."""
+    walks: bool = field(default=True, init=False)
+    """Flag: the foot was not still."""
 
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[Quat, float] | None:
-        """Return the attitude and the standard deviation of its tilt, rad, once they are known."""
+        """Return the attitude and the standard deviation of its tilt, rad, with which navigation starts, or None."""
         if self.started_at is None:
             self.started_at = self.span_start = self.short_span_start = t
         self.span.add(acc, gyro)
-        stance_attitude = self._level_in_stance(t, acc, gyro, self.started_at)
-        if stance_attitude is not None:
-            return stance_attitude
-        if t - self.span_start < LEVEL_SPAN - TIE or self.span.count < 3:
-            return None
-        mean_acc, _ = self.span.means()
-        acc_variance, gyro_variance = self.span.variances()
-        still = acc_variance < LEVEL_ACC_SIGMA**2 and gyro_variance < LEVEL_GYRO_SIGMA**2
-        self.span = SampleSpan()
-        self.span_start = t
-        if still:
-            return levelling(mean_acc), REST_TILT_SIGMA
-        if t - self.started_at >= LONGEST_LEVEL_WAIT - TIE:
-            return levelling(mean_acc), ANY_TILT_SIGMA
-        return None
+        if t - self.span_start >= LEVEL_SPAN - TIE and self.span.count >= 3:
+            mean_acc, _ = self.span.means()
+            acc_variance, gyro_variance = self.span.variances()
+            self.span = SampleSpan()
+            self.span_start = t
+            if acc_variance < LEVEL_ACC_SIGMA**2 and gyro_variance < LEVEL_GYRO_SIGMA**2:
+                self.final, self.walks = True, False
+                return levelling(mean_acc), REST_TILT_SIGMA
+        attitude = self._level_in_stance(t, acc, gyro)
+        self.final = t - self.started_at >= LONGEST_STRIDE - TIE and self.least_motion < LARGEST_MOTION
+        return attitude
 
-    def _level_in_stance(self, t: float, acc: Vec3, gyro: Vec3, started_at: float) -> tuple[Quat, float] | None:
-        """Return the same as `update`, from a short span in a stance of a foot that walks already."""
+    def _level_in_stance(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[Quat, float] | None:
+        """Return the same as `update`, from a short span that is stiller than any before."""
         short_span = self.short_span
         short_span.add(acc, gyro)
         if t - self.short_span_start < SHORT_SPAN - TIE or short_span.count < 2:
             return None
-        (ax, ay, az), (gx, gy, gz) = short_span.means()
-        acc_variance, gyro_variance = short_span.variances()
+        (ax, ay, az), _ = short_span.means()
         gravity_difference = (ax * ax + ay * ay + az * az) ** 0.5 - GRAVITY
-        rate = gx * gx + gy * gy + gz * gz + gyro_variance
-        motion = acc_variance + gravity_difference * gravity_difference + rate / (RATE_PER_ACC * RATE_PER_ACC)
+        motion = amount_of_motion(short_span) + gravity_difference * gravity_difference
         self.short_span = SampleSpan()
         self.short_span_start = t
-        in_stance = t - started_at >= LONGEST_STRIDE - TIE and motion <= MOTION_RATIO * self.least_motion
-        self.least_motion = min(self.least_motion, motion)
-        return (levelling((ax, ay, az)), STANCE_TILT_SIGMA) if in_stance else None
+        if motion >= self.least_motion:
+            return None
+        self.least_motion = motion
+        return levelling((ax, ay, az)), min(max(STANCE_TILT_SIGMA, motion**0.5 / GRAVITY), MOVING_TILT_SIGMA)
 
 
 @define

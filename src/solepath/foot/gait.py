@@ -10,9 +10,13 @@ from .cues.cues import Cues, TimedCue
 from .gaps.gap import Infill
 from .gaps.template import StrideTemplate
 from .navigate.corrector import Corrector
+from .path import PathCovariance
 from .phase import EVENT_OF_PHASE, PHASES, Cue
-from .stride import SHORTEST_STRIDE, PathCovariance, StrideBuilder
+from .stride import SHORTEST_STRIDE, StrideBuilder
 from .world import Covariance3, World
+
+FLAT_SPEED = 0.35
+"""Speed after a correction above which a foot is not flat, even if the evidence was accepted, m/s; chosen by hand."""
 
 
 @define
@@ -46,6 +50,11 @@ class Gait:
         self.phase_start = None
         self.stride.mark_degraded(None)
         self.template.reset()
+
+    def start_walking(self, on_ground: bool) -> None:
+        """Start with a foot that walks already; its first stride starts at the next foot-flat."""
+        self.phase = Phase.LOADING if on_ground else Phase.SWING
+        self.stride.t_start = None
 
     def shift(self, yaw: float, by: Vec3) -> Vec3:
         """Turn a flat foot by `yaw` rad and move it by `by` m, world frame; return `by` in the navigation frame."""
@@ -83,6 +92,7 @@ class Gait:
             self.stride.add_heel_strike(t, interval)
         elif phase is Phase.PUSH_OFF and corrector is not None:
             self.template.start_stride(t)
+            self.stride.t_heel_off = t
             self._anchor(corrector)
         elif phase is Phase.STATIONARY and corrector is not None:
             events += self._end_stride(t, known_at, corrector, interval)

@@ -1,4 +1,4 @@
-"""Record of one stride from foot-flat to foot-flat, and uncertainty of the path so far."""
+"""Record of one stride from foot-flat to foot-flat."""
 
 from __future__ import annotations
 
@@ -14,8 +14,6 @@ MOST_COP_POINTS = 32
 """Largest number of centre-of-pressure points that are stored of a stride."""
 MOST_PITCHES = 32
 """Number of samples whose pitch is stored; a toe-off or heel-strike is dated back by fewer samples."""
-
-
 LONGEST_SWING = 3.0
 """Longest swing of a single stride, s."""
 FASTEST_STRIDE = 10.0
@@ -26,45 +24,15 @@ LONGEST_CONTACT = 3.0
 """Longest time on the ground of a foot that walks, s; a foot that stays longer stands. Chosen by hand."""
 FLAT_PITCH_GAIN = 0.25
 """Weight of the newest stance in `StrideBuilder.usual_flat_pitch`, 0 to 1; a mean over about four stances."""
+FIRST_MOTION = 0.8
+"""Time from heel-off to the next foot-flat, s, that counts as usual before the first stride."""
+MERGED_RATIO = 1.8
+"""Ratio of that time to the wearer's usual one from which on two strides have merged because a stance was missed.
 
-
-@define
-class PathCovariance:
-    """The covariance of position and heading at the end of a chain of stretches, by the rule of dead reckoning.
-
-    Let a stretch have the displacement d (m) and the covariance C, and let its heading at the start have the standard
-    deviation s (rad). Its end then has the error of C, and that of s times d turned by 90 degrees. Memory is O(1)
-    however long the path is."""
-
-    position: tuple[float, float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    """Covariance of the position: xx, xy, xz, yy, yz, zz, m^2."""
-    yaw: float = 0.0
-    """Variance of the heading, rad^2."""
-    position_yaw: tuple[float, float] = (0.0, 0.0)
-    """Covariance of position x and y with yaw, m rad."""
-
-    def extend(self, displacement: Vec3, stretch: tuple[float, ...]) -> PathCovariance:
-        """Return the path with one more stretch, given by displacement (m) and covariance (`Corrector.anchor`)."""
-        dx, dy, _ = displacement
-        px, py = -dy, dx
-        sxx, sxy, sxz, syy, syz, szz, yaw = stretch
-        xx, xy, xz, y2, yz, zz = self.position
-        mx, my = self.position_yaw
-        v = self.yaw
-        return PathCovariance(
-            (
-                xx + sxx + 2.0 * mx * px + v * px * px,
-                xy + sxy + mx * py + my * px + v * px * py,
-                xz + sxz,
-                y2 + syy + 2.0 * my * py + v * py * py,
-                yz + syz,
-                zz + szz,
-            ),
-            v + yaw,
-            (mx + v * px, my + v * py),
-        )
-
-
+Two swings and a stance take more than twice that time. On recordings without damage 99 % of the ratios are below 1.6.
+"""
+MOTION_GAIN, LEAST_MOTION_RATIO, LARGEST_MOTION_RATIO = 0.2, 0.5, 1.3
+"""Weight of the newest time in the usual one, and the limits of its ratio to the usual one in the average."""
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
@@ -94,6 +62,10 @@ class StrideBuilder:
     """Largest height of the sensor in the stride, navigation frame, m."""
     peak_speed: float = field(default=0.0, init=False)
     """Largest speed of the sensor in the stride, m/s."""
+    t_heel_off: float | None = field(default=None, init=False)
+    """Time of heel-off, s; None before it."""
+    usual_motion: float = field(default=FIRST_MOTION, init=False)
+    """Usual time from heel-off to the next foot-flat of this wearer, s."""
     pitch: float = field(default=0.0, init=False)
     """Integral of the sagittal rate since the start, toe down positive, rad."""
     pitch_low: float = field(default=0.0, init=False)
@@ -146,7 +118,7 @@ class StrideBuilder:
         else:  # another foot-flat of the same contact
             self.first_pitch -= self.pitch
             self.flat_pitch -= self.pitch
-        self.t_toe_off = self.t_heel_strike = None
+        self.t_heel_off = self.t_toe_off = self.t_heel_strike = None
         self.toe_off_pitch = self.heel_strike_pitch = None
         # the foot-flat may be dated back into a gap; the rest of the gap then degrades the new stride
         self.degraded = self.degraded_until is not None and t < self.degraded_until
@@ -265,6 +237,7 @@ class StrideBuilder:
         if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_STRIDE_TURN:
             return None
         self.number += 1
+        merged = self._has_merged(t)
         return StrideTaken(
             t=t,
             known_at=known_at,
@@ -281,6 +254,7 @@ class StrideBuilder:
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
             degraded=self.degraded
+            or merged
             or t - self.t_toe_off > LONGEST_SWING
             or length > FASTEST_STRIDE * (t - self.t_start),
             features=StrideFeatures(
@@ -295,3 +269,14 @@ class StrideBuilder:
                 rise=rise,
             ),
         )
+
+    def _has_merged(self, t: float) -> bool:
+        """Return whether the stride that ends at `t`, s, covers two strides, and learn the usual time of one."""
+        usual = self.usual_motion
+        motion = usual if self.t_heel_off is None else t - self.t_heel_off
+        if motion > MERGED_RATIO * usual:
+            return True
+        if not self.degraded:
+            limited = min(max(motion, LEAST_MOTION_RATIO * usual), LARGEST_MOTION_RATIO * usual)
+            self.usual_motion += MOTION_GAIN * (limited - usual)
+        return False

@@ -15,7 +15,7 @@ from ..types.vector import ZERO
 from .attitude import Levelling, Rest
 from .cues.cues import Cues, TimedCue
 from .cues.gait_cues import GaitCues
-from .gait import Gait
+from .gait import FLAT_SPEED, Gait
 from .gaps.crossing import cross_gap
 from .gaps.gap import SHORTEST_FILLED_GAP
 from .limitations import LACKING_TIME, Limitations
@@ -27,13 +27,11 @@ from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
 from .view import NOTHING_HAPPENED, AfterEvents, FootPose, FootView, PressedCells
+from .walk_scale import WalkScale
 from .world import Covariance3
 
 SWING: Final = Phase.SWING
 """Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
-
-FLAT_SPEED = 0.35
-"""Speed after a correction above which a foot is not flat, even if the evidence was accepted, m/s; chosen by hand."""
 
 
 @define
@@ -62,6 +60,7 @@ class FootTracker:
     levelled: bool = field(default=False, init=False)
     """The first attitude is known."""
     rest: Rest = field(factory=Rest, init=False)
+    walk_scale: WalkScale = field(factory=WalkScale, init=False)
     gait: Gait = field(init=False)
     limitations: Limitations = field(init=False)
 
@@ -167,6 +166,7 @@ class FootTracker:
         self.levelling = Levelling()
         self.sole.reset()
         self.rest.reset()
+        self.walk_scale.reset()
 
     def feed(self, sample: Sample) -> list[Event]:
         """Return the events of one sample of this foot; one that cannot be used is reported and changes no state."""
@@ -229,21 +229,15 @@ class FootTracker:
         events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - t_last))
         self.gait.stride.mark_degraded(t)
         if not self.levelled:
+            if t - t_last > LONGEST_BRIDGE:
+                self.levelling = Levelling()
             return t - t_last
         if t - t_last <= SHORTEST_FILLED_GAP or sample.acc is None or sample.gyro is None:
             return self.corrector.bridge(t - t_last)
-        acc_and_gyro = self.rest.calibrate(sample.acc, sample.gyro)
         return cross_gap(
-            self.gait,
-            self.corrector,
-            self.cues,
-            t_last,
-            t,
-            known_at,
-            acc_and_gyro,
-            self.rhythm.usual_interval or 0.0,
-            events,
-        )
+            self.gait, self.corrector, self.cues, t_last, t, known_at, self.rest.calibrate(sample.acc, sample.gyro),
+            self.rhythm.usual_interval or 0.0, events,
+        )  # fmt: skip
 
     def _add_inertial(
         self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, saturated: bool,
@@ -252,25 +246,33 @@ class FootTracker:
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
             self.detector.scaled(rest.scale)
+        if not rest.count:
+            self.walk_scale.add_sample(t, acc, gyro)
         k, (bx, by, bz) = rest.scale, rest.bias
         x, y, z = acc
         acc = (x * k, y * k, z * k)
         x, y, z = gyro
         gyro = (x - bx, y - by, z - bz)
-        if self.levelled:
+        if self.levelled or self.levelling.started_at is not None:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
         if not self.levelled:
             first_attitude = self.levelling.update(t, acc, gyro)
             if first_attitude is not None:
                 corrector.start(*first_attitude)
-                self.levelled = True
                 gait.stride.start_stride(t, ZERO, corrector.attitude)
+            if self.levelling.final:
+                self.levelled = True
+                if self.levelling.walks:
+                    gait.start_walking(corrector.correct(t, stance))
             if self.settings.poses:
                 self._report_motion(t, known_at, events)
             return
+        drift = corrector.velocity[2]
         accepted = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
+        if accepted and not rest.count:
+            rest.scale = self.walk_scale.add_evidence(t, drift - vz, k)
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         cues, still = self.cues, accepted and speed < FLAT_SPEED
         timed_cues = cues.update(t, dt, acc, gyro, still, speed, gait.phase, load, stance)

@@ -48,8 +48,6 @@ NO_STATISTIC = 1e12
 """Upper bound of any statistic, which stands for the least rejected one while none was rejected."""
 LOST_STATISTIC_RATIO = 3.0
 """Largest ratio of a statistic that a lost filter accepts to the least statistic that its gate has rejected."""
-LOST_SPEED, LOST_TILT = 0.3, 0.03
-"""Standard deviations that inflate the covariance of a lost filter: velocity, m/s, and tilt, rad."""
 EXPECTED_SQUARED_INNOVATION = 3.0
 """Mean of the squared innovation, weighted by its covariance, of a filter that is right: its degrees of freedom."""
 
@@ -213,13 +211,12 @@ class ErrorStateFilter(PropagatedCovariance):
             self.accepted_at = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
-        if (
+        is_lost = (
             not stands
             and t - self.accepted_at > settings.time_until_lost - TIE
             and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated_statistic
-        ):
-            self._inflate(velocity=LOST_SPEED, tilt=LOST_TILT)
-        elif self._stands_after_all(t, self.evidence_since, self.accepted_at):
+        )
+        if is_lost or self._stands_after_all(t, self.evidence_since, self.accepted_at):
             # The foot stands, so the motion since the last stance was less certain than its covariance says. The whole
             # covariance is scaled, so that the position is corrected too: its error has the same cause.
             squared = squared_innovation(self.uncertainty, rx - vx, ry - vy, rz - vz, r)

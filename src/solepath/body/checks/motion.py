@@ -1,0 +1,138 @@
+"""Strides that no person can take: too fast, too high, or with a foot at an angle that no ankle allows.
+
+It is the last line of defence: the parts and links before it find faults by their causes, and this part finds what
+follows from any other. The limits are those of people, not of what recordings show, and each has a source."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees, radians, sqrt
+from typing import assert_never
+
+from ...events import Defect, DefectFound, StrideTaken
+from ...types import SITE_OF_FOOT, Foot, Site
+from ...types.attrs import define, evolve, field
+from ...types.vector import GRAVITY
+from ..activity.steepness import HIGHEST_RISE
+from ..part import Part, PartInput, PartOutput, Replacement
+
+LONGEST_LEG = 1.15
+"""Length of the longest legs, from hip to ground, m: 0.53 of a height of 2.1 m."""
+FASTEST_WALK = sqrt(GRAVITY * LONGEST_LEG)
+"""Largest speed with a foot on the ground all the time, m/s: that of the Froude number 1.
+
+The body moves over the foot in an arc of the leg's length; at a higher speed gravity cannot keep it on that arc
+(Alexander, "The gait of bipedal and quadrupedal animals", Int. J. Robotics Research 3, 1984)."""
+LEAST_WALKING_STANCE = 0.55
+"""Share of a stride with the foot on the ground from which on one foot always is, however even the feet are.
+
+It is one half; the rest is the error of heel-strike and toe-off, 50 ms of a stride of one second."""
+FASTEST_RUN = 12.5
+"""Largest speed of a person, m/s: that of the fastest 20 m of the world record of 100 m."""
+LARGEST_TOE_OFF_ANGLE, LEAST_TOE_OFF_ANGLE = radians(120.0), radians(-45.0)
+"""Limits of the angle of the foot at toe-off, heel up positive, rad.
+
+The shank leans forward by less than 70 degrees, and the ankle extends by 50 (American Academy of Orthopaedic Surgeons,
+"Joint motion", 1965). A foot that is lifted flat may have its toes up by the 20 degrees to which the ankle bends."""
+LARGEST_HEEL_STRIKE_ANGLE = radians(75.0)
+"""Limit of the size of the angle of the foot at heel-strike, rad.
+
+The shank leans by less than 50 degrees; the ankle bends by 20 and extends by 50, but extends only on steep ground."""
+MOST_RECENT = 8
+"""Number of recent strides of a foot that are counted."""
+LEAST_RECENT = 4
+"""Number of recent strides from which on their majority counts."""
+
+ADVICE = (
+    "Check the units (m/s^2 with gravity, rad/s, s), that both sensors of the device use the same axes, and that it is"
+    " fixed to the shoe."
+)
+"""Advice for a person whose strides cannot be right."""
+
+
+@define
+class FootRecord:
+    """The recent strides of one foot."""
+
+    recent: tuple[bool, ...] = ()
+    """Flag of each of the recent strides, the oldest first: the stride was impossible."""
+    one_reported: bool = False
+    """Flag: a single impossible stride was reported."""
+    all_reported: bool = False
+    """Flag: it was reported that most strides are impossible."""
+
+
+@define
+class PossibleMotion(Part):
+    """Marks impossible strides as degraded, and reports them once, and once more when most strides are impossible.
+
+    Latency: none; a stride is replaced before another part receives it."""
+
+    left: FootRecord = field(factory=FootRecord, init=False)
+    right: FootRecord = field(factory=FootRecord, init=False)
+
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+        if not isinstance(event, StrideTaken):
+            return ()
+        record = self._record(event.foot)
+        reason = impossibility(event)
+        record.recent = (*record.recent[1 - MOST_RECENT :], reason is not None)
+        if reason is None:
+            return ()
+        output: list[PartOutput] = []
+        if not event.degraded:
+            output.append(Replacement(event, evolve(event, degraded=True)))
+        if len(record.recent) >= LEAST_RECENT and 2 * record.recent.count(True) > len(record.recent):
+            if not record.all_reported:
+                record.one_reported = record.all_reported = True
+                text = f"most strides of the {event.foot.value} foot cannot be right: the last one has {reason}. "
+                output.append(self._found(event, text + ADVICE, spoils=True))
+        elif not event.degraded and not record.one_reported:
+            record.one_reported = True
+            text = f"a stride of the {event.foot.value} foot cannot be right, because it has {reason}; it is not used. "
+            output.append(self._found(event, text + "If it happens again: " + ADVICE, spoils=False))
+        return output
+
+    def reset(self, site: Site) -> None:
+        if site.foot is Foot.LEFT:
+            self.left = FootRecord()
+        elif site.foot is Foot.RIGHT:
+            self.right = FootRecord()
+
+    def _record(self, foot: Foot) -> FootRecord:
+        match foot:
+            case Foot.LEFT:
+                return self.left
+            case Foot.RIGHT:
+                return self.right
+        assert_never(foot)
+
+    @staticmethod
+    def _found(event: StrideTaken, what: str, spoils: bool) -> DefectFound:
+        site = SITE_OF_FOOT[event.foot]
+        return DefectFound(
+            t=event.t, known_at=event.known_at, site=site, defect=Defect.IMPOSSIBLE_MOTION, what=what, spoils=spoils
+        )
+
+
+def impossibility(stride: StrideTaken) -> str | None:
+    """Return a phrase with what no person can do in this stride, or None if a person can take it."""
+    duration = stride.t_end - stride.t_start
+    speed = stride.length / duration if duration > 0.0 else 0.0
+    if speed > FASTEST_RUN:
+        return f"a speed of {speed:.0f} m/s"
+    t_toe_off, t_heel_strike = stride.t_toe_off, stride.t_heel_strike
+    if speed > FASTEST_WALK and t_toe_off is not None and t_heel_strike is not None:
+        stance = 1.0 - (t_heel_strike - t_toe_off) / duration
+        if stance > LEAST_WALKING_STANCE:
+            return f"a speed of {speed:.1f} m/s at a walk"
+    features = stride.features
+    rise = stride.height_change if features.rise is None else features.rise
+    if abs(rise) > HIGHEST_RISE:
+        return f"a height of {rise:.1f} m"
+    toe_off, heel_strike = features.toe_off_angle, features.heel_strike_angle
+    if toe_off is not None and not LEAST_TOE_OFF_ANGLE < toe_off < LARGEST_TOE_OFF_ANGLE:
+        return f"an angle of {degrees(toe_off):.0f} degrees at toe-off"
+    if heel_strike is not None and abs(heel_strike) > LARGEST_HEEL_STRIKE_ANGLE:
+        return f"an angle of {degrees(heel_strike):.0f} degrees at heel-strike"
+    return None
