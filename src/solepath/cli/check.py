@@ -54,8 +54,8 @@ def run(options: argparse.Namespace) -> int:
         observer.take(item, events)
         for event in events:
             if isinstance(event, DefectFound):
-                must_mend = event.spoils or event.defect is Defect.CLOCKS
-                (must if must_mend else may).append(f"{event.site.words}: {event.what}")
+                wrong = event.spoils or event.defect is Defect.CLOCKS
+                (must if wrong else may).append(f"{event.site.words}: {event.what}")
 
     try:
         source = source_of(options.file, foot_of(options))

@@ -111,21 +111,21 @@ def test_a_rate_at_which_no_walk_can_be_followed_is_named() -> None:
     assert Defect.LOW_RATE in {event.defect for event in found}
 
 
-def test_the_axes_that_are_offered_mend_the_data(data_dir: Path) -> None:
+def test_the_axes_that_are_offered_close_the_strides(data_dir: Path) -> None:
     _, change = DAMAGES["axes exchanged"]
     damaged = [change(sample) for sample in read_samples(data_dir / "openshoe_loops" / "m30.npz")]
     (event,) = run(damaged)[0]
     assert event.axes == (2, 1, 3)
 
-    def mended(sample: Sample) -> Sample:
+    def corrected(sample: Sample) -> Sample:
         assert sample.gyro is not None and event.axes is not None
         x, y, z = [(1.0 if axis > 0 else -1.0) * sample.gyro[abs(axis) - 1] for axis in event.axes]
         return evolve(sample, gyro=(x, y, z))
 
-    assert run([mended(sample) for sample in damaged])[0] == []
+    assert run([corrected(sample) for sample in damaged])[0] == []
 
 
-def test_axes_that_a_plane_motion_cannot_tell_apart_are_wrong_but_none_is_offered() -> None:
+def test_no_axes_are_offered_when_the_motion_stays_in_one_plane() -> None:
     _, change = DAMAGES["axes exchanged"]
     (event,) = run([change(sample) for sample in WALK])[0]
     assert event.defect is Defect.AXES and event.axes is None

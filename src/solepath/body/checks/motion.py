@@ -75,19 +75,20 @@ class PossibleMotion(Part):
         if not isinstance(event, StrideTaken):
             return ()
         record = self._record(event.foot)
-        reason = impossibility(event)
+        motion = impossible_motion(event)
+        reason = motion or impossible_angle(event)
         record.recent = (*record.recent[1 - MOST_RECENT :], reason is not None)
         if reason is None:
             return ()
         output: list[PartOutput] = []
-        if not event.degraded:
+        if motion is not None and not event.degraded:
             output.append(Replacement(event, evolve(event, degraded=True)))
         if len(record.recent) >= LEAST_RECENT and 2 * record.recent.count(True) > len(record.recent):
             if not record.all_reported:
                 record.one_reported = record.all_reported = True
                 text = f"most strides of the {event.foot.value} foot cannot be right: the last one has {reason}. "
                 output.append(self._found(event, text + ADVICE, spoils=True))
-        elif not event.degraded and not record.one_reported:
+        elif motion is not None and not event.degraded and not record.one_reported:
             record.one_reported = True
             text = f"a stride of the {event.foot.value} foot cannot be right, because it has {reason}; it is not used. "
             output.append(self._found(event, text + "If it happens again: " + ADVICE, spoils=False))
@@ -115,8 +116,8 @@ class PossibleMotion(Part):
         )
 
 
-def impossibility(stride: StrideTaken) -> str | None:
-    """Return a phrase with what no person can do in this stride, or None if a person can take it."""
+def impossible_motion(stride: StrideTaken) -> str | None:
+    """Return a phrase with a speed or height of this stride that no person has; None without one."""
     duration = stride.t_end - stride.t_start
     speed = stride.length / duration if duration > 0.0 else 0.0
     if speed > FASTEST_RUN:
@@ -130,6 +131,14 @@ def impossibility(stride: StrideTaken) -> str | None:
     rise = stride.height_change if features.rise is None else features.rise
     if abs(rise) > HIGHEST_RISE:
         return f"a height of {rise:.1f} m"
+    return None
+
+
+def impossible_angle(stride: StrideTaken) -> str | None:
+    """Return a phrase with an angle of the foot that no person has; None without one.
+
+    Alone it leaves the path of the stride as it is: after a gap, the axis of the angles may be wrong for a stride."""
+    features = stride.features
     toe_off, heel_strike = features.toe_off_angle, features.heel_strike_angle
     if toe_off is not None and not LEAST_TOE_OFF_ANGLE < toe_off < LARGEST_TOE_OFF_ANGLE:
         return f"an angle of {degrees(toe_off):.0f} degrees at toe-off"

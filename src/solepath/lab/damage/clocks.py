@@ -1,6 +1,6 @@
 """The share of recordings with separate clocks of the feet that a session reports, and of the others that it reports.
 
-    python -m solepath.lab.evaluate.clocks DIR [--only NAME] [--processes N]
+    python -m solepath.lab.damage.clocks DIR [--only NAME] [--processes N]
 
 prints a table as Markdown. DIR holds recorded data. The times of the right foot's events are shifted by an offset, or
 stretched as by a clock that runs at another rate. A foot's events do not depend on the other foot's clock, so the
@@ -29,8 +29,8 @@ from ...recording.samples import load_samples
 from ...session import Session
 from ...types import Foot, Sample
 from ..emulated.walks import insoles_of, long_walk
+from ..evaluate.insoles import force_sensors, switches
 from ..processes import run_jobs
-from .insoles import force_sensors, switches
 
 OFFSETS = (0.05, 0.1, 0.2, 0.3, 0.5)
 """Sizes of the offsets, s; each is added and subtracted."""

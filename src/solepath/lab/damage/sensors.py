@@ -1,6 +1,6 @@
 """Recordings damaged on purpose: how many of the damages the default recipe reports, and its alarms on what is whole.
 
-    python -m solepath.lab.evaluate.defects DIR [--processes N] [--only NAME]
+    python -m solepath.lab.damage.sensors DIR [--processes N] [--only NAME]
 
 prints the table of docs/checks.md as Markdown. DIR holds recorded data. Of every foot with at least 15 s of walking,
 the first 20 s of walking are damaged, with up to 3 s before them. Whole recordings are searched for alarms. A sensor
@@ -72,7 +72,7 @@ class Damage:
 
 
 @frozen
-class Piece:
+class WalkingFoot:
     """The walking of one foot in a recording."""
 
     path: Path
@@ -80,10 +80,10 @@ class Piece:
 
 
 @frozen
-class Outcome:
+class DefectOutcome:
     """The defects that were reported for one foot of a recording."""
 
-    piece: Piece
+    piece: WalkingFoot
     whole: tuple[DefectFound, ...] = ()
     """Those of the whole recording."""
     damaged: tuple[tuple[str, bool, float | None, tuple[str, ...]], ...] = ()
@@ -181,7 +181,7 @@ def _damages() -> Iterator[Damage]:
         yield Damage(f"whole sensor turned, {number}", None, _with(turn, turn))
 
 
-def _columns(piece: Piece) -> Damaged:
+def _columns(piece: WalkingFoot) -> Damaged:
     """Return the finite samples of the foot."""
     (table,) = [table for table in load_samples(piece.path).tables if table.foot is piece.foot]
     t, acc, gyro = table.t, table.columns["acc"], table.columns["gyro"]
@@ -204,7 +204,7 @@ def _reported(values: Damaged, foot: Foot) -> list[DefectFound]:
     return [event for event in events if isinstance(event, DefectFound)]
 
 
-def examine(piece: Piece) -> Outcome | None:
+def examine(piece: WalkingFoot) -> DefectOutcome | None:
     """Return what is reported for one foot, whole and with each damage; None when it walks for less than 4 strides."""
     t, acc, gyro = _columns(piece)
     finder = StanceFinder()
@@ -219,7 +219,7 @@ def examine(piece: Piece) -> Outcome | None:
     start = strides[0].intervals[0].t
     kept = (t >= start - BEFORE) & (t <= start + WALKING)
     if t[kept][-1] - start < LEAST_WALKING:
-        return Outcome(piece, whole)
+        return DefectOutcome(piece, whole)
     t, acc, gyro = t[kept], acc[kept], gyro[kept]
     known = KNOWN.get(piece.path.parent.name, set())
     outcomes = []
@@ -232,10 +232,10 @@ def examine(piece: Piece) -> Outcome | None:
         first = next((event.t / unit for event in found if event.defect is damage.defect), None)
         hit = not names if damage.defect is None else first is not None
         outcomes.append((damage.name, hit, None if first is None else first - start, names))
-    return Outcome(piece, whole, tuple(outcomes))
+    return DefectOutcome(piece, whole, tuple(outcomes))
 
 
-def pieces(folder: Path, only: Sequence[str] = ()) -> list[Piece]:
+def pieces(folder: Path, only: Sequence[str] = ()) -> list[WalkingFoot]:
     """Return the feet with accelerometer and gyroscope in the recordings of a folder of data sets."""
     found = []
     for path in sorted(folder.glob("*/*.npz")):
@@ -245,11 +245,11 @@ def pieces(folder: Path, only: Sequence[str] = ()) -> list[Piece]:
             tables = load_samples(path, report=lambda sentence: None).tables
         except RecordingError:
             continue
-        found += [Piece(path, table.foot) for table in tables if {"acc", "gyro"} <= set(table.columns)]
+        found += [WalkingFoot(path, table.foot) for table in tables if {"acc", "gyro"} <= set(table.columns)]
     return found
 
 
-def table(outcomes: Sequence[Outcome]) -> list[str]:
+def table(outcomes: Sequence[DefectOutcome]) -> list[str]:
     """Return the lines of the page: alarms on what is whole, and the table of damages."""
     alarms = [
         (outcome, event)
@@ -281,7 +281,7 @@ def table(outcomes: Sequence[Outcome]) -> list[str]:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser(prog="python -m solepath.lab.evaluate.defects", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m solepath.lab.damage.sensors", description=__doc__)
     parser.add_argument("folder", metavar="DIR", type=Path)
     parser.add_argument("--processes", metavar="N", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--only", metavar="NAME", action="append", default=[], help="a data set; may be repeated")

@@ -11,7 +11,7 @@ from walks import columns_of
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import DefectFound
-from solepath.lab.evaluate.clocks import ClockJob, ClockOutcome, ClockWalk, find_outcome, read_walk, row, table
+from solepath.lab.damage.clocks import ClockJob, ClockOutcome, ClockWalk, find_outcome, read_walk, row, table
 from solepath.recording import open_source, shift_clock
 from solepath.session import Session
 from solepath.types import Foot
