@@ -32,6 +32,8 @@ class Defect(Enum):
     """One sensor repeats its values while the other one measures."""
     AXES = "axes"
     """The axes of the gyroscope are mirrored or exchanged against those of the accelerometer."""
+    CONTRADICTION = "motion of the two sensors"
+    """The gyroscope and the accelerometer describe different motions, which no exchange of axes explains."""
     CLOCKS = "clocks of the feet"
     """The times of the two feet are not on one clock."""
     IMPOSSIBLE_MOTION = "motion"

@@ -114,7 +114,7 @@ def test_a_rate_at_which_no_walk_can_be_followed_is_named() -> None:
 def test_the_axes_that_are_offered_close_the_strides(data_dir: Path) -> None:
     _, change = DAMAGES["axes exchanged"]
     damaged = [change(sample) for sample in read_samples(data_dir / "openshoe_loops" / "m30.npz")]
-    (event,) = run(damaged)[0]
+    *_, event = [event for event in run(damaged)[0] if event.defect is Defect.AXES]
     assert event.axes == (2, 1, 3)
 
     def corrected(sample: Sample) -> Sample:

@@ -26,16 +26,18 @@ AXES: Final[tuple[Axes, ...]] = tuple(
     (a * i, b * j, c * k) for i, j, k in permutations((1, 2, 3)) for a, b, c in product((1, -1), repeat=3)
 )
 """The signed permutations; the first one leaves the axes as they are."""
+ARE_PROPER: Final[tuple[bool, ...]] = tuple(
+    (a * b * c > 0) == ((abs(a), abs(b), abs(c)) in ((1, 2, 3), (2, 3, 1), (3, 1, 2))) for a, b, c in AXES
+)
+"""For each of AXES, whether it is a rotation; the others are rotations with a mirror."""
 LEAST_RESIDUAL = 0.05
 """Residual, m/s^2, that is added to each one, so that a nearly perfect closure does not count without limit."""
-LARGEST_LOG = 1.0
-"""Limit of what one stride says for or against axes, in the logarithm of a ratio; it makes the sum robust."""
 
 
-def closure_ratios(stride: ClosedStride) -> list[float] | None:
-    """Return the logarithm of each residual in AXES over that of the axes as they are; None without any gravity.
+def closure_residuals(stride: ClosedStride) -> list[float] | None:
+    """Return the natural logarithm of the residual for each of AXES; None without any gravity.
 
-    Negative values support other axes. The residual is the worse one of the two ends of the stride, m/s^2."""
+    The residual is the worse one of the two ends of the stride, m/s^2."""
     g = 0.5 * (_norm(stride.first) + _norm(stride.last))
     if g <= 0.0:
         return None
@@ -44,17 +46,10 @@ def closure_ratios(stride: ClosedStride) -> list[float] | None:
     for interval in stride.intervals:
         total += interval.duration
     proper, improper = _integrals(stride.intervals, 1.0), _integrals(stride.intervals, -1.0)
-    residuals = [
-        _residual(axes, improper if _is_improper(axes) else proper, 1.0 / total, first, last, g) for axes in AXES
+    return [
+        log(_residual(axes, proper if is_proper else improper, 1.0 / total, first, last, g) + LEAST_RESIDUAL)
+        for axes, is_proper in zip(AXES, ARE_PROPER, strict=True)
     ]
-    reference = log(residuals[0] + LEAST_RESIDUAL)
-    return [max(-LARGEST_LOG, min(LARGEST_LOG, log(r + LEAST_RESIDUAL) - reference)) for r in residuals]
-
-
-def _is_improper(axes: Axes) -> bool:
-    a, b, c = axes
-    odd = (abs(a), abs(b), abs(c)) in ((1, 3, 2), (2, 1, 3), (3, 2, 1))
-    return (a * b * c < 0) != odd
 
 
 def _integrals(intervals: tuple[Interval, ...], sign: float) -> tuple[list[Vec3], Matrix]:

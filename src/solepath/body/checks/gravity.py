@@ -29,8 +29,8 @@ STILL_TIME = 0.6
 """Least duration of a rest that is judged, s."""
 IN_G = 1.0
 """Specific force of a foot at rest in units of g."""
-WALKING_RANGE = 5.0
-"""Mean range of an axis in a block of motion, m/s^2, of a foot that walks; in units of g it is 1 to 3."""
+WALKING_RANGE = 9.0
+"""Mean range of an axis in a block of motion above which a foot walks in m/s^2; in units of g it is 1 to 3."""
 FASTEST_RATE = 45.0
 """Angular rate of an axis, rad/s, that no foot reaches; the fastest kicks have about 35."""
 FAST_BLOCKS = 2
@@ -39,7 +39,7 @@ SHAKEN_ACC, IDLE_GYRO = 10.0, 0.25
 """Range of an axis in a block, m/s^2, of a foot that walks, and angular rate, rad/s, that it always exceeds.
 
 A foot at rest stays below the latter."""
-IDLE_BLOCKS = 15
+IDLE_BLOCKS = 6
 """Number of blocks of a foot that walks without any angular rate before it is reported."""
 
 

@@ -72,6 +72,9 @@ class PossibleMotion(Part):
     right: FootRecord = field(factory=FootRecord, init=False)
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
+        if isinstance(event, DefectFound) and event.spoils and event.site.foot is not None:
+            record = self._record(event.site.foot)
+            record.one_reported = record.all_reported = True  # the cause is known
         if not isinstance(event, StrideTaken):
             return ()
         record = self._record(event.foot)

@@ -10,7 +10,8 @@ from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..part import Part, PartInput, PartOutput
-from .axes import AxesCheck, wrong_axes
+from .axes import AxesCheck
+from .closure import Axes
 from .finding import Finding
 from .gravity import MOVING_GYRO, GravityCheck
 from .loads import LoadCheck
@@ -20,6 +21,8 @@ from .stances import StanceFinder
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
+BLINDING: Final = frozenset((Defect.TIME_UNIT, Defect.GYRO_UNIT))
+"""Defects with which no stance can be found, so that gravity and axes cannot be judged."""
 BLOCK = 32
 """Number of samples that are examined together, because this costs less than one by one."""
 EXAMINED_AGAIN = 300.0
@@ -56,11 +59,15 @@ class SensorCheck:
     """Time at which the axes were settled, s."""
     reported: list[Defect] = field(factory=list)
     """Defects that were reported."""
+    corrected: Axes | None = None
+    """Correction of the axes that was reported."""
 
 
 @define
 class SensorChecks(Part):
     """Reports what cannot be right in the samples of a foot, as DefectFound; a defect is reported once for a device.
+
+    Wrong axes are reported again when the correction is known.
 
     It looks for another unit of time, specific force, angular rate or pressure; for gravity that is missing or has a
     wrong size; for peaks cut off at the end of a range; for samples that are too rare or repeated; and for a gyroscope
@@ -118,7 +125,7 @@ class SensorChecks(Part):
         for foot in Foot:
             axes = self._check(foot).axes
             if axes.wrong:
-                found += self._report(foot, now, now, [wrong_axes(axes.correction)])
+                found += self._report(foot, now, now, [axes.finding])
         return found
 
     def _check(self, foot: Foot) -> SensorCheck:
@@ -126,11 +133,14 @@ class SensorChecks(Part):
 
     def _report(self, foot: Foot, t: float, known_at: float, findings: Iterable[Finding | None]) -> list[DefectFound]:
         """Return the events for the findings that were not reported before."""
-        reported, events, site = self._check(foot).reported, [], SITE_OF_FOOT[foot]
+        check, events, site = self._check(foot), [], SITE_OF_FOOT[foot]
         for finding in findings:
-            if finding is not None and finding.defect not in reported:
-                defect, what, spoils, axes = finding
-                reported.append(defect)
+            if finding is None:
+                continue
+            defect, what, spoils, axes = finding
+            if defect not in check.reported or (axes is not None and check.corrected is None):
+                check.reported.append(defect)
+                check.corrected = axes or check.corrected
                 event = DefectFound(
                     t=t, known_at=known_at, site=site, defect=defect, what=what, spoils=spoils, axes=axes
                 )
@@ -153,6 +163,8 @@ class SensorChecks(Part):
             check.gyro_range.add(GYROSCOPE, gyros, gyro_ends),
             check.gravity.add_block(times[0], times[-1], accs, acc_range, gyro_peak),
         ]
+        if not BLINDING.isdisjoint(check.reported):
+            return findings
         if check.axes.settled:
             if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
                 check.axes, check.stances = AxesCheck(), StanceFinder()
