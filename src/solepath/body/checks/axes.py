@@ -10,8 +10,8 @@ from .closure import AXES, Axes, closure_residuals
 from .finding import Finding
 from .stances import ClosedStride
 
-SHORTEST_STRIDE, LONGEST_STRIDE = 0.5, 2.5
-"""Duration of strides that count, s."""
+SHORTEST_STRIDE, LONGEST_STRIDE = 0.8, 2.5
+"""Duration of strides that count, s: those of a walk. A runner's foot is never still, so its strides do not close."""
 LEAST_STRIDES, SETTLED_STRIDES, MOST_STRIDES = 4, 8, 40
 """Number of strides before axes can be wrong, before they can be right, and after which they are no longer examined."""
 LEAST_EVIDENCE, EVIDENCE_PER_STRIDE = 1.5, 0.05
@@ -50,13 +50,14 @@ class AxesCheck:
     settled: bool = False
     """Flag: no more strides are needed."""
 
-    def add(self, stride: ClosedStride) -> Finding | None:
-        """Add a stride; return that the axes are wrong, once it is time to report this, and again with a correction."""
-        t, start = stride.intervals[-1].t, stride.intervals[0].t
-        if not SHORTEST_STRIDE < t - start < LONGEST_STRIDE or (logs := closure_residuals(stride)) is None:
+    def add(self, t: float, stride: ClosedStride) -> Finding | None:
+        """Add a stride that is known at `t`, s; return that the axes are wrong, once it is time to report this.
+
+        It is returned again when a correction is known."""
+        if not SHORTEST_STRIDE < stride.duration < LONGEST_STRIDE or (logs := closure_residuals(stride)) is None:
             return None
         if not self.strides:
-            self.started_at = start
+            self.started_at = t - stride.duration
             self.residuals, self.evidence = [0.0] * len(AXES), [0.0] * len(AXES)
         self.strides += 1
         self.residuals = [a + b for a, b in zip(self.residuals, logs, strict=True)]

@@ -15,7 +15,7 @@ from math import log, sqrt
 from typing import Final
 
 from ...types import Vec3
-from .stances import ClosedStride, Interval
+from .stances import FORCE, TICK, TURN, ClosedStride, Interval
 
 Axes = tuple[int, int, int]
 """Gyroscope axis, 1 to 3, for each accelerometer axis; negative for the opposite direction."""
@@ -42,12 +42,9 @@ def closure_residuals(stride: ClosedStride) -> list[float] | None:
     if g <= 0.0:
         return None
     first, last = _unit(stride.first), _unit(stride.last)
-    total = 0.0
-    for interval in stride.intervals:
-        total += interval.duration
     proper, improper = _integrals(stride.intervals, 1.0), _integrals(stride.intervals, -1.0)
     return [
-        log(_residual(axes, proper if is_proper else improper, 1.0 / total, first, last, g) + LEAST_RESIDUAL)
+        log(_residual(axes, proper if is_proper else improper, 1.0 / stride.duration, first, last, g) + LEAST_RESIDUAL)
         for axes, is_proper in zip(AXES, ARE_PROPER, strict=True)
     ]
 
@@ -57,15 +54,14 @@ def _integrals(intervals: tuple[Interval, ...], sign: float) -> tuple[list[Vec3]
     w, x, y, z = 1.0, 0.0, 0.0, 0.0
     before: Vec3 = (0.0, 0.0, 0.0)
     sums: list[Vec3] = [(0.0, 0.0, 0.0)] * 9
-    for interval in intervals:
-        tx, ty, tz = interval.turn
-        half: Vec3 = (0.5 * sign * tx, 0.5 * sign * ty, 0.5 * sign * tz)
+    unit = 0.5 * sign * TURN
+    for duration, tx, ty, tz, ax, ay, az in intervals:
+        half: Vec3 = (unit * tx, unit * ty, unit * tz)
         # from the middle of the interval before to the middle of this one
         w, x, y, z = _turned(w, x, y, z, before[0] + half[0], before[1] + half[1], before[2] + half[2])
         before = half
-        a, b, c = interval.acc
-        dt = interval.duration
-        a, b, c = a * dt, b * dt, c * dt
+        k = FORCE * TICK * duration
+        a, b, c = k * ax, k * ay, k * az
         rotation = _matrix(w, x, y, z)
         rows = (*rotation[0], *rotation[1], *rotation[2])
         sums = [(p + r * a, q + r * b, s + r * c) for (p, q, s), r in zip(sums, rows, strict=True)]

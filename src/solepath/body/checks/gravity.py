@@ -23,6 +23,8 @@ STANCES = 6
 """Number of stances whose median is judged."""
 MOST_STANCES = 11
 """Largest number of stances that are kept."""
+STILL_MOTION = 0.3
+"""Motion in stance (stances.py) up to which a specific force of more than 1 g is no motion, rad/s."""
 STILL_ACC = 0.6
 """Largest range of an axis of a foot at rest, m/s^2; chosen by hand."""
 STILL_TIME = 0.6
@@ -60,10 +62,15 @@ class GravityCheck:
     idle_blocks: int = 0
     """Number of blocks of a shaken foot without any angular rate."""
 
-    def add_stance(self, acc: Vec3) -> Finding | None:
-        """Add the mean specific force of a stance, m/s^2; return the defect that the stances show now, if any."""
+    def add_stance(self, acc: Vec3, motion: float) -> Finding | None:
+        """Add the mean specific force of a stance, m/s^2, and its motion, rad/s; return the defect that stances show.
+
+        A foot that turns in stance, as a runner's, has more than 1 g, never much less."""
         x, y, z = acc
-        self.stances = [*self.stances[1 - MOST_STANCES :], (x * x + y * y + z * z) ** 0.5]
+        norm = (x * x + y * y + z * z) ** 0.5
+        if norm > (1.0 + TOLERANCE) * GRAVITY and motion > STILL_MOTION:
+            return None
+        self.stances = [*self.stances[1 - MOST_STANCES :], norm]
         if len(self.stances) < STANCES:
             return None
         return self._judge(sorted(self.stances)[len(self.stances) // 2], "in stance")

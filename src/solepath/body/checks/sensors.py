@@ -172,7 +172,7 @@ class SensorChecks(Part):
         for t, acc, gyro in rows:
             stride = check.stances.add(t, acc, gyro)
             if stride is not None:
-                findings += [check.gravity.add_stance(stride.last), check.axes.add(stride)]
+                findings += [check.gravity.add_stance(stride.last, stride.motion), check.axes.add(t, stride)]
         if check.axes.settled:
             check.settled_at = times[-1]
         return findings

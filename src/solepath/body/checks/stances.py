@@ -9,7 +9,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from ...types import Vec3
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, field
 
 INTERVAL = 0.0185
 """Shortest duration of an interval, s: two samples at 100 Hz, four at 200 Hz."""
@@ -27,20 +27,11 @@ MOST_INTERVALS = 140
 """Largest number of intervals of a stride, 2.6 s; the start of a longer one is forgotten."""
 
 
-@frozen
-class Interval:
-    """The sums of some samples."""
-
-    t: float
-    """Time of the last sample, s."""
-    duration: float
-    """Duration of the samples, s."""
-    turn: Vec3
-    """Integral of the angular rate, sensor frame, rad."""
-    acc: Vec3
-    """Mean specific force, sensor frame, m/s^2."""
-    rate: float
-    """Norm of the mean angular rate, rad/s."""
+Interval = tuple[int, int, int, int, int, int, int]
+"""Duration, integral of the angular rate and mean specific force, sensor frame, as whole numbers: they are short in a
+saved state. The units are `TICK`, `TURN` and `FORCE`."""
+TICK, TURN, FORCE = 2.0**-20, 2.0**-16, 2.0**-10
+"""Units of an interval's duration, s, its turn, rad, and its specific force, m/s^2."""
 
 
 class ClosedStride(NamedTuple):
@@ -52,6 +43,10 @@ class ClosedStride(NamedTuple):
     """Mean specific force around the first instant, sensor frame, m/s^2."""
     last: Vec3
     """Mean specific force around the second instant, sensor frame, m/s^2."""
+    motion: float
+    """Motion around the second instant, rad/s."""
+    duration: float
+    """Duration of the intervals, s."""
 
 
 @define
@@ -98,9 +93,13 @@ class StanceFinder:
         if duration < INTERVAL:
             return None
         x, y, z = turn
-        k = 1.0 / duration
+        k = 1.0 / (duration * FORCE)
         a, b, c = force
-        self.intervals.append(Interval(t, duration, turn, (k * a, k * b, k * c), k * sqrt(x * x + y * y + z * z)))
+        self.intervals.append(
+            (
+                int(duration / TICK), int(x / TURN), int(y / TURN), int(z / TURN), int(k * a), int(k * b), int(k * c)
+            )
+        )  # fmt: skip
         self.duration, self.turn, self.force = 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
         return self._add_instant(len(self.intervals) - 1 - HALF_WINDOW)
 
@@ -128,17 +127,16 @@ class StanceFinder:
 
     def _add_still(self, i: int, motion: float) -> ClosedStride | None:
         """Use an instant of a stance; the stride before it is finished once a stiller instant is not expected."""
-        intervals, stride = self.intervals, None
+        stride = None
         if self.best is None or self.latest is None:
             self.best = self.latest = i
             self.best_motion = self.latest_motion = motion
             return None
-        t = intervals[i].t
-        if t - intervals[self.best].t >= BEST_WITHIN and self.start is not None:
+        if self._time_between(self.best, i) >= BEST_WITHIN and self.start is not None:
             stride = self._close(self.best)
         elif motion < self.best_motion:
             self.best, self.best_motion = i, motion
-        if motion < self.latest_motion or t - intervals[self.latest].t >= BEST_WITHIN:
+        if motion < self.latest_motion or self._time_between(self.latest, i) >= BEST_WITHIN:
             self.latest, self.latest_motion = i, motion
             if self.start is None:
                 self.best = self.latest
@@ -148,16 +146,25 @@ class StanceFinder:
     def _motion(self, i: int) -> float:
         """Return the mean rate around interval `i`, plus the weighted standard deviation of the specific force."""
         around = self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1]
-        rate = around[0].rate + around[1].rate + around[2].rate + around[3].rate + around[4].rate
-        k = 1.0 / len(around)
-        if rate * k > SWING_MOTION:
-            return rate * k
+        rate = 0.0
+        for duration, tx, ty, tz, *_ in around:
+            rate += sqrt(tx * tx + ty * ty + tz * tz) / duration
+        rate *= TURN / (TICK * len(around))
+        if rate > SWING_MOTION:
+            return rate
         x, y, z = _mean_acc(around)
         variance = 0.0
-        for interval in around:
-            a, b, c = interval.acc
-            variance += (a - x) * (a - x) + (b - y) * (b - y) + (c - z) * (c - z)
-        return rate * k + STEADINESS_WEIGHT * sqrt(k * variance)
+        for *_, ax, ay, az in around:
+            dx, dy, dz = FORCE * ax - x, FORCE * ay - y, FORCE * az - z
+            variance += dx * dx + dy * dy + dz * dz
+        return rate + STEADINESS_WEIGHT * sqrt(variance / len(around))
+
+    def _time_between(self, first: int, last: int) -> float:
+        """Return the time between two instants, s."""
+        ticks = 0
+        for interval in self.intervals[first + 1 : last + 1]:
+            ticks += interval[0]
+        return TICK * ticks
 
     def _close(self, end: int) -> ClosedStride | None:
         """Return the stride that ends at interval `end`; after it, none is under way."""
@@ -166,7 +173,13 @@ class StanceFinder:
             return None
         around_start = self.intervals[start - HALF_WINDOW : start + HALF_WINDOW + 1]
         around_end = self.intervals[end - HALF_WINDOW : end + HALF_WINDOW + 1]
-        return ClosedStride(tuple(self.intervals[start + 1 : end + 1]), _mean_acc(around_start), _mean_acc(around_end))
+        return ClosedStride(
+            tuple(self.intervals[start + 1 : end + 1]),
+            _mean_acc(around_start),
+            _mean_acc(around_end),
+            self.best_motion,
+            self._time_between(start, end),
+        )
 
     def _forget_before(self, i: int, *, opens_stride: bool = True) -> None:
         """Discard what comes before the instant `i`, where a stride begins if `opens_stride`."""
@@ -182,9 +195,8 @@ class StanceFinder:
 
 def _mean_acc(intervals: list[Interval]) -> Vec3:
     """Return the mean specific force of some intervals, m/s^2."""
-    x = y = z = 0.0
-    for interval in intervals:
-        a, b, c = interval.acc
-        x, y, z = x + a, y + b, z + c
-    k = 1.0 / len(intervals)
+    x = y = z = 0
+    for *_, ax, ay, az in intervals:
+        x, y, z = x + ax, y + ay, z + az
+    k = FORCE / len(intervals)
     return k * x, k * y, k * z

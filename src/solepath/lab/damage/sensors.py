@@ -209,14 +209,14 @@ def examine(piece: WalkingFoot) -> DefectOutcome | None:
     t, acc, gyro = _columns(piece)
     finder = StanceFinder()
     strides = [
-        stride
+        (time, stride)
         for time, force, rate in zip(t.tolist(), _vectors(acc), _vectors(gyro), strict=True)
         if (stride := finder.add(time, force, rate)) is not None and len(stride.intervals) > 1
     ]
     if len(strides) < 4:
         return None
     whole = tuple(_reported((t, acc, gyro), piece.foot))
-    start = strides[0].intervals[0].t
+    start = strides[0][0] - strides[0][1].duration
     kept = (t >= start - BEFORE) & (t <= start + WALKING)
     if t[kept][-1] - start < LEAST_WALKING:
         return DefectOutcome(piece, whole)
