@@ -15,6 +15,8 @@ from solepath import (
     Activity,
     ActivityChanged,
     Connected,
+    Defect,
+    DefectFound,
     Disconnected,
     Foot,
     FootPressed,
@@ -256,3 +258,10 @@ def test_a_frame_holds_the_state_of_playback() -> None:
         "t": 0.0,
         "playback": {"begin": 0.0, "end": 9.0, "t": 1.0, "state": "playing", "speed": 1.0, "seeking": None},
     }
+
+
+def test_what_a_person_must_mend_stands_with_the_sensor_at_the_top_of_the_page() -> None:
+    found = DefectFound(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, defect=Defect.AXES, what="an axis is mirrored")
+    scene = shown([found])
+    assert frame(scene)["links"]["left foot"]["trouble"] == "an axis is mirrored"
+    assert any("an axis is mirrored" in words for _, _, words in scene.log.lines.items)

@@ -15,6 +15,7 @@ from ..events import (
     BatteryLevel,
     ClockReset,
     Connected,
+    DefectFound,
     Disconnected,
     Event,
     LinkTrouble,
@@ -156,7 +157,7 @@ class LinkLedger:
     signal: int | None = None
     """Signal strength of the last advertisement before the connection, dBm."""
     trouble: str = ""
-    """The last LinkTrouble; empty again when the device is connected."""
+    """The last LinkTrouble, or defect that spoils; empty again when the device is connected."""
     last_sample_at: float | None = None
     """Arrival of the newest sample, s."""
     broken_at: float | None = None
@@ -237,7 +238,7 @@ class LinkLedger:
                 self._covered.close()
             case BatteryLevel(level=level):
                 self.battery = level
-            case LinkTrouble(what=what):
+            case LinkTrouble(what=what) | DefectFound(what=what, spoils=True):
                 self.trouble = what
             case _:
                 pass

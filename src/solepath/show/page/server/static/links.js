@@ -1,4 +1,4 @@
-// State of each sensor's link. A lost link is also shown at the top of the page.
+// State of each sensor's link. A lost link, and what a person must mend, are also shown at the top of the page.
 
 import { LINKS, capital, child, fixed, percent, wordOf, show, span, setData, write } from "./words.js";
 
@@ -21,17 +21,15 @@ export class Links {
     }
     for (const [name, link] of this.sites) link.show(links[name]);
     const broken = names.filter((name) => ["lost", "silent"].includes(links[name].state));
-    show(this.banner, broken.length > 0);
-    write(
-      this.banner,
-      broken
-        .map((name) => {
-          const { state, silent_for } = links[name];
-          const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
-          return `${capital(name)} ${wordOf(LINKS, state)}: no data${since}.`;
-        })
-        .join(" "),
-    );
+    const lost = broken.map((name) => {
+      const { state, silent_for } = links[name];
+      const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
+      return `${capital(name)} ${wordOf(LINKS, state)}: no data${since}.`;
+    });
+    const faulty = names.filter((name) => typeof links[name].trouble === "string" && links[name].trouble);
+    const words = [...lost, ...faulty.map((name) => `${capital(name)}: ${links[name].trouble}.`)];
+    show(this.banner, words.length > 0);
+    write(this.banner, words.join(" "));
     return "done";
   }
 }
