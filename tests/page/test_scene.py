@@ -260,7 +260,7 @@ def test_a_frame_holds_the_state_of_playback() -> None:
     }
 
 
-def test_what_a_person_must_mend_stands_with_the_sensor_at_the_top_of_the_page() -> None:
+def test_a_defect_stands_with_its_sensor_at_the_top_of_the_page() -> None:
     found = DefectFound(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, defect=Defect.AXES, what="an axis is mirrored")
     scene = shown([found])
     assert frame(scene)["links"]["left foot"]["trouble"] == "an axis is mirrored"

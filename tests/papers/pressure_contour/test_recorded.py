@@ -31,5 +31,6 @@ def test_hardly_a_stride_is_lost_in_feet_that_never_quite_rest(
     file = data_dir / "smart_insole_35" / f"{name}.npz"
     known = smart_insole(file) if with_layout else Calibration()
     usual, found = strides_of(DEFAULT, file, known), strides_of(recipe, file, known)
-    assert abs(len(found) - len(usual)) <= len(usual) // 10
+    # the default also finds the stride with which a recording starts, before contours are learnt
+    assert abs(len(found) - len(usual)) <= max(1, len(usual) // 10)
     assert max(one.length for one in found) < LONGEST_STRIDE
