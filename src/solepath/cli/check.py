@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..body.checks.axes import SETTLED_STRIDES
-from ..events import Defect, DefectFound, Event
+from ..events import DefectFound, Event
 from ..recording import RecordingError, open_file, printable
 from ..session import Session
 from ..types import Packet, Sample
@@ -16,7 +16,7 @@ from .common.failure import recipe_named
 from .common.inputs import add_calibration, add_foot, assumed_foot, calibration_of, foot_of, source_of
 
 UNSEEN = (
-    "a mirror of both sensors of a foot together, which turns left into right",
+    "an accelerometer with all three axes reversed, which turns left into right",
     "an accelerometer turned by a few degrees against the gyroscope",
     "a gyroscope whose scale is wrong by a few percent",
     "clocks of the feet that are apart, of a wearer who limps",
@@ -54,8 +54,7 @@ def run(options: argparse.Namespace) -> int:
         observer.take(item, events)
         for event in events:
             if isinstance(event, DefectFound):
-                wrong = event.spoils or event.defect is Defect.CLOCKS
-                (must if wrong else may).append(f"{event.site.words}: {event.what}")
+                (must if event.needs_action else may).append(f"{event.site.words}: {event.what}")
 
     try:
         source = source_of(options.file, foot_of(options))

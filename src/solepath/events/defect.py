@@ -63,3 +63,8 @@ class DefectFound(Happening):
     """Correction of CLOCKS: time to add to the times of this foot, s. None for other defects."""
     sigma: float | None = None
     """Standard deviation of `offset`, s; None without an offset."""
+
+    @property
+    def needs_action(self) -> bool:
+        """True when results are wrong until somebody acts on `what`; False for a mere loss of accuracy."""
+        return self.spoils or self.defect is Defect.CLOCKS

@@ -106,6 +106,6 @@ class StrideTaken(Happening):
     t_heel_strike: float | None = None
     """Time of this foot's heel-strike within the stride, s; None when none was detected."""
     degraded: bool = False
-    """True when samples were missing or saturated within the stride."""
+    """True when samples of the stride are missing or saturated, a stance was missed, or a defect spoils the data."""
     features: StrideFeatures
     """Further measurements of the stride."""

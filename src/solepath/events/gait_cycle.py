@@ -78,7 +78,7 @@ class GaitCycleMeasured(Happening):
     rise: float | None
     """Height of the foot after the stride above its height before, m."""
     degraded: bool
-    """True when samples were missing or saturated within the cycle, or one of its gait events is inferred."""
+    """True when its stride is degraded, or one of its gait events is inferred."""
     steady: bool
     """True when the cycle counts in the running means, provided that another stride follows."""
 

@@ -274,9 +274,7 @@ class StrideBuilder:
         """Return whether the stride that ends at `t`, s, covers two strides, and learn the usual time of one."""
         usual = self.usual_motion
         motion = usual if self.t_heel_off is None else t - self.t_heel_off
-        if motion > MERGED_RATIO * usual:
-            return True
-        if not self.degraded:
+        if not self.degraded:  # also of a merged one, so that a wearer who walks ever slower is learnt
             limited = min(max(motion, LEAST_MOTION_RATIO * usual), LARGEST_MOTION_RATIO * usual)
             self.usual_motion += MOTION_GAIN * (limited - usual)
-        return False
+        return motion > MERGED_RATIO * usual

@@ -56,7 +56,6 @@ class StreamLink(DeviceLink):
     """Numbers of the driver that the link was made with."""
     rate: float
     """Nominal rate, samples a second."""
-    """Check of the accelerometer's scale."""
     known: dict[str, float] = field(factory=dict)
     """Numbers from earlier values that are passed to the readers of later values."""
     may_be_silent: bool = False

@@ -238,7 +238,7 @@ class LinkLedger:
                 self._covered.close()
             case BatteryLevel(level=level):
                 self.battery = level
-            case LinkTrouble(what=what) | DefectFound(what=what, spoils=True):
+            case LinkTrouble(what=what) | DefectFound(what=what, needs_action=True):
                 self.trouble = what
             case _:
                 pass

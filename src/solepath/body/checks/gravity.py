@@ -27,6 +27,8 @@ STILL_MOTION = 0.3
 """Motion in stance (stances.py) up to which a specific force of more than 1 g is no motion, rad/s."""
 STILL_ACC = 0.6
 """Largest range of an axis of a foot at rest, m/s^2; chosen by hand."""
+LONGEST_LIFT_START = 3.0
+"""Time for which a foot at rest must have another specific force than 1 g, s: lifts start and stop within less."""
 STILL_TIME = 0.6
 """Least duration of a rest that is judged, s."""
 IN_G = 1.0
@@ -53,6 +55,8 @@ class GravityCheck:
     """Norm of the specific force in each of the newest stances, m/s^2."""
     still_since: float | None = None
     """Start of the rest that lasts, s; None in motion."""
+    wrong_since: float | None = None
+    """Time since which a foot at rest has another specific force than 1 g, s; None while it has 1 g."""
     moving_blocks: int = 0
     """Number of blocks of motion."""
     range_sum: float = 0.0
@@ -91,7 +95,7 @@ class GravityCheck:
                 )
             return None
         if gyro_peak > IDLE_GYRO:
-            self.still_since = None
+            self.still_since = self.wrong_since = None
             self.idle_blocks = 0
             if gyro_peak > MOVING_GYRO:
                 self.moving_blocks += 1
@@ -105,14 +109,20 @@ class GravityCheck:
                     "the gyroscope reads almost nothing while the foot moves: switch it on, and give it in rad/s",
                 )
         if acc_range > STILL_ACC:
-            self.still_since = None
+            self.still_since = self.wrong_since = None
             return None
         if self.still_since is None:
             self.still_since = t
         if t_end - self.still_since < STILL_TIME:
             return None
         x, y, z = [sorted(axis)[len(axis) // 2] for axis in zip(*accs, strict=True)]
-        return self._judge((x * x + y * y + z * z) ** 0.5, "at rest")
+        finding = self._judge((x * x + y * y + z * z) ** 0.5, "at rest")
+        if finding is None:
+            self.wrong_since = None
+            return None
+        if self.wrong_since is None:
+            self.wrong_since = t
+        return finding if t_end - self.wrong_since >= LONGEST_LIFT_START else None
 
     def _judge(self, norm: float, when: str) -> Finding | None:
         """Return the defect of an accelerometer that reads `norm` `when` the foot stands; None if it reads 1 g."""

@@ -45,7 +45,7 @@ LEAST_RECENT = 4
 
 ADVICE = (
     "Check the units (m/s^2 with gravity, rad/s, s), that both sensors of the device use the same axes, and that it is"
-    " fixed to the shoe."
+    " fixed to the shoe"
 )
 """Advice for a person whose strides cannot be right."""
 
@@ -89,11 +89,11 @@ class PossibleMotion(Part):
         if len(record.recent) >= LEAST_RECENT and 2 * record.recent.count(True) > len(record.recent):
             if not record.all_reported:
                 record.one_reported = record.all_reported = True
-                text = f"most strides of the {event.foot.value} foot cannot be right: the last one has {reason}. "
+                text = f"most strides cannot be right: the last one has {reason}. "
                 output.append(self._found(event, text + ADVICE, spoils=True))
         elif motion is not None and not event.degraded and not record.one_reported:
             record.one_reported = True
-            text = f"a stride of the {event.foot.value} foot cannot be right, because it has {reason}; it is not used. "
+            text = f"a stride cannot be right, because it has {reason}; it is marked as degraded. "
             output.append(self._found(event, text + "If it happens again: " + ADVICE, spoils=False))
         return output
 

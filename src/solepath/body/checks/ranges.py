@@ -70,6 +70,8 @@ class RangeCheck:
     """Ends of the ranges: upper and lower end of x, then of y, then of z."""
     samples: int = 0
     """Number of samples so far."""
+    cuts_off: bool = False
+    """Flag: peaks are cut off."""
 
     def add(self, kind: RangeKind, values: Sequence[Vec3], extremes: Extremes) -> Finding | None:
         """Add a block of samples with its extremes; return an end of the range that cuts off peaks, if any does."""
@@ -83,6 +85,7 @@ class RangeCheck:
         self.samples += len(values)
         if found is None:
             return None
+        self.cuts_off = True
         share = found.samples / (self.samples - found.first)
         text = f"the {kind.name} cuts off peaks at {found.largest:.3g} {kind.unit}, in {100.0 * share:.2g} % of samples"
         return Finding(Defect.CLIPPED, f"{text}: choose a larger range", spoils=share > SPOILING_SHARE)

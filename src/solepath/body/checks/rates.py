@@ -52,6 +52,8 @@ class RateCheck:
             return None
         steps = sorted([b - a for a, b in zip(times, times[1:], strict=False)])
         interval = steps[len(steps) // 2]
+        if interval > LONGEST_INTERVAL and not moves:
+            return None  # some devices send less while they lie still
         if not SHORTEST_INTERVAL <= interval <= LONGEST_INTERVAL:
             self.strange_blocks += 1
             self.slow_blocks = 0

@@ -23,6 +23,8 @@ LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
 BLINDING: Final = frozenset((Defect.TIME_UNIT, Defect.GYRO_UNIT))
 """Defects with which no stance can be found, so that gravity and axes cannot be judged."""
+LONGEST_INTERVAL = 1.0 / 40.0
+"""Longest mean interval between samples with which the velocity of a stride closes, s."""
 BLOCK = 32
 """Number of samples that are examined together, because this costs less than one by one."""
 EXAMINED_AGAIN = 300.0
@@ -37,7 +39,7 @@ class SensorChecksSettings:
     """The settings of `SensorChecks`."""
 
     least_rate: float = LEAST_RATE
-    """Rate, samples a second, below which a foot's samples are too few; recipes for slower sensors have a lower one."""
+    """Rate, samples a second, below which a foot's samples are too few."""
 
 
 @define
@@ -73,8 +75,8 @@ class SensorChecks(Part):
     wrong size; for peaks cut off at the end of a range; for samples that are too rare or repeated; and for a gyroscope
     whose axes do not fit those of the accelerometer. Nothing depends on the mounting, because stances are found by the
     sizes of the two vectors. Latency: times in another unit after 64 samples; units, gravity and ranges after some
-    stances or a second of rest; axes after 8 strides, and at most 16 s after the first of them. A mirror of both
-    sensors together cannot be seen.
+    stances or some seconds of rest; axes after 8 strides, and at most 16 s after the first of them. An accelerometer
+    with all its axes reversed cannot be seen.
 
     Cost: sums over blocks of 32 samples; strides are examined until the axes are settled, and again after 300 s."""
 
@@ -98,7 +100,7 @@ class SensorChecks(Part):
         check.rows = []
         pressed = view.pressed
         check.in_newtons = pressed is not None and pressed.in_newtons
-        return self._report(view.foot, view.t, view.known_at, self._examine(check, rows))
+        return self._report(view.foot, view.t, view.known_at, self._examine(check, rows, view.gyro_bias))
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive contacts and strides, which an insole may contradict, and defects that others have reported."""
@@ -147,11 +149,11 @@ class SensorChecks(Part):
                 events.append(event)
         return events
 
-    def _examine(self, check: SensorCheck, rows: list[Row]) -> list[Finding | None]:
-        """Examine a block of samples and return what it shows."""
+    def _examine(self, check: SensorCheck, rows: list[Row], gyro_bias: Vec3) -> list[Finding | None]:
+        """Examine a block of samples and return what it shows; the gyroscope has the bias `gyro_bias`, rad/s."""
         times = [row[0] for row in rows]
-        accs = [row[1] for row in rows]
-        gyros = [row[2] for row in rows]
+        accs = [(x, y, z) for _, (x, y, z), _ in rows]
+        gyros = [(x, y, z) for _, _, (x, y, z) in rows]
         acc_ends, gyro_ends = find_extremes(accs), find_extremes(gyros)
         acc_range = max(acc_ends[0] + acc_ends[1], acc_ends[2] + acc_ends[3], acc_ends[4] + acc_ends[5])
         gyro_peak = max(gyro_ends)
@@ -163,14 +165,16 @@ class SensorChecks(Part):
             check.gyro_range.add(GYROSCOPE, gyros, gyro_ends),
             check.gravity.add_block(times[0], times[-1], accs, acc_range, gyro_peak),
         ]
-        if not BLINDING.isdisjoint(check.reported):
+        interval = (times[-1] - times[0]) / (len(times) - 1)
+        if interval > LONGEST_INTERVAL or check.gyro_range.cuts_off or not BLINDING.isdisjoint(check.reported):
             return findings
         if check.axes.settled:
             if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
                 check.axes, check.stances = AxesCheck(), StanceFinder()
             return findings
-        for t, acc, gyro in rows:
-            stride = check.stances.add(t, acc, gyro)
+        bx, by, bz = gyro_bias
+        for t, acc, (x, y, z) in rows:
+            stride = check.stances.add(t, acc, (x - bx, y - by, z - bz))
             if stride is not None:
                 findings += [check.gravity.add_stance(stride.last, stride.motion), check.axes.add(t, stride)]
         if check.axes.settled:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+import re
 from collections.abc import Iterator
 from operator import attrgetter, itemgetter
 from pathlib import Path
@@ -15,6 +16,8 @@ from .npz import read_npz
 from .sheet import read_csv
 from .table import FootTable, check_table
 
+NAMED_LEFT = re.compile(r"^left(?![a-z])|(?<![a-z])left$", re.IGNORECASE)
+"""Pattern of the name of a file of the left foot alone, as left.csv and walk-left.csv."""
 SAMPLE_SUFFIXES = (".npz", ".csv")
 """Suffixes of files that hold samples."""
 
@@ -54,13 +57,13 @@ def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
     """Return the samples in an .npz or .csv file, all read into memory.
 
     `foot`: for samples that name no foot, the foot that wore the sensor (None: the left foot if the name of the file
-    has "left" in it, else the right one); else the only foot to read (None: both). `report` receives one sentence about
-    an incomplete last line. RecordingError when nothing can be used."""
+    starts or ends with the word "left", else the right one); else the only foot to read (None: both). `report` receives
+    one sentence about an incomplete last line. RecordingError when nothing can be used."""
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in SAMPLE_SUFFIXES:
         raise RecordingError(path, f"is neither {' nor '.join(SAMPLE_SUFFIXES)}, so it holds no samples")
-    one_foot = foot or (Foot.LEFT if "left" in path.stem.lower() else Foot.RIGHT)
+    one_foot = foot or (Foot.LEFT if NAMED_LEFT.search(path.stem) else Foot.RIGHT)
     if suffix == ".npz":
         tables, flaw = read_npz(path, one_foot), None
     else:

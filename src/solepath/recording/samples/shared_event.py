@@ -52,10 +52,11 @@ def shared_offset(recording: SampleRecording, start: float, end: float) -> tuple
     tables = {table.foot: table for table in recording.tables}
     if set(tables) != set(Foot) or not all("acc" in table.columns for table in tables.values()):
         raise RecordingError(recording.path, "has no accelerations of both feet")
+    for foot, table in tables.items():
+        if end - start < 2.0 * WIDTH or start < table.t[0] or end > table.t[-1]:
+            raise RecordingError(recording.path, f"has no samples of the {foot} foot from {start:g} to {end:g} s")
     times = np.arange(start, end, INTERVAL)
     left, right = _smoothed(tables[Foot.LEFT]), _smoothed(tables[Foot.RIGHT])
-    if len(times) * INTERVAL < 2.0 * WIDTH or start < left[0][0] or end > left[0][-1]:
-        raise RecordingError(recording.path, f"has no samples of the left foot from {start:g} to {end:g} s")
     own = np.interp(times, *left)
     lags = np.arange(-MAX_OFFSET, MAX_OFFSET, INTERVAL)
     costs = np.array([_difference(own, np.interp(times + lag, *right)) for lag in lags])

@@ -62,7 +62,7 @@ def problems(observer: Observer) -> list[str]:
     """Return sentences on the faults of sensors, their wearing and their links; none without faults."""
     faults = [*observer.defects, *wear_lines(observer), *link_health(observer)]
     faults += [
-        f"{foot} foot: in {counts.degraded} of {counts.strides} strides samples are missing or saturated"
+        f"{foot} foot: {counts.degraded} of {counts.strides} strides are degraded: samples are missing or wrong"
         for foot in Foot
         if (counts := observer.feet.get(foot)) is not None and counts.degraded
     ]

@@ -50,9 +50,7 @@ def _foot_table(observer: Observer) -> list[str]:
         if link.gaps:
             missing.append(f"{foot}: {link.gaps} gaps in the samples, {link.gap_time:.2f} s in all")
         if counts.degraded:
-            missing.append(
-                f"{foot}: {counts.degraded} of {counts.strides} strides degraded by missing or saturated samples"
-            )
+            missing.append(f"{foot}: {counts.degraded} of {counts.strides} strides degraded")
     return ["", table(header, rows), "", *missing]
 
 

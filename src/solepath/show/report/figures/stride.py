@@ -39,7 +39,7 @@ def stride_figures(parent: Element, strides: dict[Foot, list[GaitCycleMeasured]]
     all_strides = [stride for foot_strides in strides.values() for stride in foot_strides]
     notes = ["faint, strides that do not count in the table"] if any(not one.steady for one in all_strides) else []
     notes += ["ticks at the bottom, strides in a turn"] if any(map(is_in_turn, all_strides)) else []
-    notes += ["ticks at the top, samples missing or saturated"] if any(one.degraded for one in all_strides) else []
+    notes += ["ticks at the top, degraded strides"] if any(one.degraded for one in all_strides) else []
     notes += ["lines, means"] if any(map(is_dense, strides.values())) else []
     if notes:
         add(parent, "p", f"In the figures of strides: {'; '.join(notes)}.", class_="note")
