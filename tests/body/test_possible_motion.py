@@ -14,8 +14,10 @@ from solepath import Session
 from solepath.body.checks.motion import PossibleMotion, impossible_angle, impossible_motion
 from solepath.body.part import Replacement
 from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect, DefectFound, StrideTaken
-from solepath.types import Sample
+from solepath.types import Foot, Sample
 
 WALK = Route().stand(2.0).walk(25.0, 1.3).stop(1.0)
 
@@ -105,3 +107,10 @@ def test_a_gyroscope_that_reads_twice_the_rate_ends_in_degraded_strides_of_that_
     strides, spoilt_at = of(StrideTaken, events), min(event.t for event in of(DefectFound, events) if event.spoils)
     assert all(stride.degraded for stride in strides if stride.foot is RIGHT.foot and stride.t > spoilt_at)
     assert not any(stride.degraded for stride in strides if stride.foot is LEFT.foot)
+
+
+def test_a_wearer_who_walks_far_slower_is_learnt_within_some_strides() -> None:
+    route = Route().stand(2.0).walk(40.0, 2.0).stop(2.0).walk(15.0, 0.5).stop(1.0)
+    walk = Walker(route, seed=5).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    strides = of(StrideTaken, Session().feed(walk))
+    assert sum(stride.degraded for stride in strides) <= 5 and not any(stride.degraded for stride in strides[-8:])

@@ -194,3 +194,29 @@ def test_a_recording_is_silent_and_with_a_mirrored_axis_it_is_not(name: str, dat
 def test_a_sensor_at_rest_that_lacks_gravity_waits_for_motion() -> None:
     still = [evolve(WALK[0], t=0.01 * i, acc=(0.0, 0.0, 1.5), gyro=(0.0, 0.0, 0.0)) for i in range(300)]
     assert run(still)[0] == []
+
+
+def test_a_gyroscope_with_a_large_bias_has_the_axes_that_it_has() -> None:
+    def biased(v: Vec3) -> Vec3:
+        return v[0] + 0.2, v[1] - 0.25, v[2] + 0.15  # 20 degrees/s in all, more than any sheet allows
+
+    assert run([vectors(gyro=biased)(sample) for sample in WALK])[0] == []
+
+
+def test_a_lift_is_no_wrong_scale() -> None:
+    def pushed(sample: Sample) -> Sample:
+        assert sample.acc is not None
+        x, y, z = sample.acc
+        factor = 1.2 if 5.0 <= sample.t < 7.0 else 0.8 if 15.0 <= sample.t < 17.0 else 1.0
+        return evolve(sample, acc=(factor * x, factor * y, factor * z))
+
+    rest = Walker(Route().stand(25.0), seed=2).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    assert run([pushed(sample) for sample in rest])[0] == []
+    (event,) = run([vectors(acc=scaled(1.2))(sample) for sample in rest])[0]
+    assert event.defect is Defect.WRONG_SCALE
+
+
+def test_a_runner_has_no_wrong_scale_and_no_wrong_axes() -> None:
+    for speed in (2.2, 2.8, 3.5):
+        jog = Walker(Route().stand(1.5).jog(60.0, speed).stop(1.0), seed=102)
+        assert run(jog.samples(Foot.LEFT, 100.0, LSM6DSOX))[0] == []
