@@ -12,7 +12,7 @@ from .stances import ClosedStride
 
 SHORTEST_STRIDE, LONGEST_STRIDE = 0.8, 2.5
 """Duration of strides that count, s: those of a walk. A runner's foot is never still, so its strides do not close."""
-LEAST_STRIDES, SETTLED_STRIDES, MOST_STRIDES = 4, 8, 40
+LEAST_STRIDES, SETTLED_STRIDES, MOST_STRIDES = 3, 8, 40
 """Number of strides before axes can be wrong, before they can be right, and after which they are no longer examined."""
 LEAST_EVIDENCE, EVIDENCE_PER_STRIDE = 1.5, 0.05
 """Evidence, the sum over strides of the logarithm of a ratio of residuals, that decides between two kinds of axes.
