@@ -201,7 +201,7 @@ def test_an_accelerometer_of_the_wrong_range_is_named_and_one_a_little_off_is_pu
     def scaled(k: float) -> list[Sample]:
         return [evolve(s, acc=(k * s.acc[0], k * s.acc[1], k * s.acc[2])) for s in samples_of_walk()]
 
-    (reported,) = of(DefectFound, run_session(scaled(0.5)))
+    reported, *_ = of(DefectFound, run_session(scaled(0.5)))
     assert reported.defect is Defect.WRONG_SCALE and "2 times the range" in reported.what
     off = run_session(scaled(1.03))
     assert of(DefectFound, off) == []

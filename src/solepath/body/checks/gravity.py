@@ -27,8 +27,8 @@ STILL_MOTION = 0.3
 """Motion in stance (stances.py) up to which a specific force of more than 1 g is no motion, rad/s."""
 STILL_ACC = 0.6
 """Largest range of an axis of a foot at rest, m/s^2; chosen by hand."""
-LONGEST_LIFT_START = 3.0
-"""Time for which a foot at rest must have another specific force than 1 g, s: lifts start and stop within less."""
+LARGEST_LIFT, LONGEST_LIFT_START = 0.3, 3.0
+"""Change of the specific force in a lift, as a part of 1 g, and time that a lift takes to start or stop, s, at most."""
 STILL_TIME = 0.6
 """Least duration of a rest that is judged, s."""
 IN_G = 1.0
@@ -116,13 +116,15 @@ class GravityCheck:
         if t_end - self.still_since < STILL_TIME:
             return None
         x, y, z = [sorted(axis)[len(axis) // 2] for axis in zip(*accs, strict=True)]
-        finding = self._judge((x * x + y * y + z * z) ** 0.5, "at rest")
+        norm = (x * x + y * y + z * z) ** 0.5
+        finding = self._judge(norm, "at rest")
         if finding is None:
             self.wrong_since = None
             return None
         if self.wrong_since is None:
             self.wrong_since = t
-        return finding if t_end - self.wrong_since >= LONGEST_LIFT_START else None
+        may_be_lift = abs(norm / GRAVITY - 1.0) < LARGEST_LIFT and t_end - self.wrong_since < LONGEST_LIFT_START
+        return None if may_be_lift else finding
 
     def _judge(self, norm: float, when: str) -> Finding | None:
         """Return the defect of an accelerometer that reads `norm` `when` the foot stands; None if it reads 1 g."""
