@@ -57,7 +57,7 @@ def motion(frame, settings):
     return Reading((sample,), sequence=frame.number, battery=frame.battery / 1000 if with_battery else None)
 
 
-DRIVER = Driver(PROFILE, FORMATS, readers={"shoe/motion": motion}, sequence=1 << 15, acc_range=8.0)
+DRIVER = Driver(PROFILE, FORMATS, readers={"shoe/motion": motion}, sequence=1 << 15)
 
 print(disagreements(DRIVER, json.loads(Path(__file__).with_suffix(".json").read_text())) or "the vectors agree")
 

@@ -38,8 +38,6 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
         {"tick_rate": 100.0, "tick_modulus": 1 << 65},
         {"sequence": -1},
         {"sequence": 1},
-        {"acc_range": 0.0},
-        {"acc_range": inf},
     ):
         with pytest.raises(ValueError, match="toy: "):
             evolve(BASE, **changes)
@@ -138,10 +136,9 @@ def test_a_session_with_a_device_of_its_own_is_restored_with_it_and_not_without(
         evolve(NUMBERED, sequence=1 << 15),
         BOTH,
         COARSE,
-        evolve(NUMBERED, acc_range=8.0),
         evolve(NUMBERED, profile=evolve(PROFILE, nominal_rate=50.0)),
     ],
-    ids=["no numbers", "other numbers", "ticks", "coarse ticks", "another range", "another rate"],
+    ids=["no numbers", "other numbers", "ticks", "coarse ticks", "another rate"],
 )
 def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_otherwise(other_driver: Driver) -> None:
     session = Session(profiles=[NUMBERED])

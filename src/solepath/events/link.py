@@ -6,6 +6,7 @@ from enum import Enum
 
 from ..types import Layout, Site
 from ..types.attrs import frozen
+from .defect import Defect
 from .happening import Happening
 
 
@@ -42,13 +43,16 @@ class PacketRejected(Happening):
 
 @frozen(kw_only=True)
 class SampleRejected(Happening):
-    """A sample could not be used, and changed nothing.
+    """A sample could not be used, and changed no estimate.
 
     It is reported at once. `t` is the sample's time, or the previous sample's if the sample's time cannot be used."""
 
     site: Site
     reason: Rejection
     detail: str = ""
+    """Reason in words."""
+    defect: Defect | None = None
+    """Wrong unit that the size of the value suggests; DefectFound reports it if the foot has no usable samples."""
 
 
 @frozen(kw_only=True)

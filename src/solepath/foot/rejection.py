@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from math import inf, isfinite
+from typing import NamedTuple
 
-from ..events import Rejection, SampleRejected
+from ..events import Defect, Rejection, SampleRejected
 from ..types import Sample, Vec3
 from ..types.attrs import evolve
 from ..types.vector import normalise
@@ -26,8 +27,20 @@ VALID_ACC_SQUARE, VALID_GYRO_SQUARE = ABSURD_ACC**2, ABSURD_GYRO**2
 SHORTEST_QUAT = 1e-12
 """Square of the smallest norm of an attitude quaternion that can be normalised."""
 
-RejectionReason = tuple[Rejection, str]
-"""Kind of the rejection, and a text for people."""
+LARGEST_COUNT = 32768.0
+"""Largest value of a sensor with 16 bits; 16 g are 16,000 milli-g."""
+LARGEST_MDPS = 4e6
+"""Largest range of a gyroscope on a foot, thousandths of a degree a second."""
+LARGEST_EPOCH = 1e19
+"""Times up to this, in ms, us or ns since 1970, are those of clocks of computers."""
+
+
+class RejectionReason(NamedTuple):
+    """Reason why a sample cannot be used; the fields are those of `SampleRejected`."""
+
+    reason: Rejection
+    detail: str
+    defect: Defect | None = None
 
 
 def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | None:
@@ -63,14 +76,14 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
             total = _total_of_numbers(sample.pressure)
             if not LEAST_TOTAL < total < ABSURD_TOTAL:
                 amount = "hundreds of digits" if abs(total) == inf else f"{_format_number(total)} in all"
-                return Rejection.ABSURD, f"pressure of {amount}"
+                return RejectionReason(Rejection.ABSURD, f"pressure of {amount}")
     return None
 
 
 def _wrong_order(t: float, newest: float) -> RejectionReason:
     if t == newest:
-        return Rejection.DUPLICATE, f"a second sample for {t:.6g} s"
-    return Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before"
+        return RejectionReason(Rejection.DUPLICATE, f"a second sample for {t:.6g} s")
+    return RejectionReason(Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before")
 
 
 def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReason | None:
@@ -78,8 +91,21 @@ def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReas
     if invalid is None:
         return None
     if invalid != invalid or abs(invalid) == inf:
-        return Rejection.NOT_FINITE, f"{name} is not a number"
-    return Rejection.ABSURD, f"{name} of {_format_number(invalid)}"
+        return RejectionReason(Rejection.NOT_FINITE, f"{name} is not a number")
+    return _absurd_value(name, invalid)
+
+
+def _absurd_value(name: str, value: float) -> RejectionReason:
+    """Return the reason for a value of `acc` or `gyro` that no foot sensor measures, with the unit that it may have."""
+    size, detail = abs(value), f"{name} of {_format_number(value)}"
+    if name == "acc" and size <= LARGEST_COUNT:
+        text = f"{detail} m/s^2 cannot be: it looks like milli-g or raw counts; give it in m/s^2"
+        return RejectionReason(Rejection.ABSURD, text, Defect.ACC_UNIT)
+    if name == "gyro" and size <= LARGEST_MDPS:
+        text = f"{detail} rad/s cannot be: it looks like degrees or thousandths of a degree a second, or raw counts"
+        text = f"{text}; give it in rad/s"
+        return RejectionReason(Rejection.ABSURD, text, Defect.GYRO_UNIT)
+    return RejectionReason(Rejection.ABSURD, detail)
 
 
 def _total_of_numbers(cells: tuple[float, ...]) -> float:
@@ -108,20 +134,24 @@ def wrong_time(sample: Sample) -> RejectionReason | None:
     for t in (sample.t, sample.known_at):
         if t is not None and not -ABSURD_TIME <= t <= ABSURD_TIME:
             if t != t or abs(t) == inf:
-                return Rejection.NOT_FINITE, "time is not a number"
-            return Rejection.ABSURD, f"time of {_format_number(t)} s"
+                return RejectionReason(Rejection.NOT_FINITE, "time is not a number")
+            detail = f"time of {_format_number(t)} s"
+            if abs(t) > LARGEST_EPOCH:
+                return RejectionReason(Rejection.ABSURD, detail)
+            text = f"{detail} cannot be: it looks like milliseconds or nanoseconds; give times in seconds"
+            return RejectionReason(Rejection.ABSURD, text, Defect.TIME_UNIT)
     return None
 
 
 def rejected(sample: Sample, rejection: RejectionReason, newest: float | None) -> SampleRejected:
     """Return the event for a rejected sample; `newest`, s, replaces an invalid time."""
-    reason, detail = rejection
+    reason, detail, defect = rejection
     t, known_at = sample.t, sample.known_at
     if not -ABSURD_TIME <= t <= ABSURD_TIME:
         t = 0.0 if newest is None else newest
     if known_at is None or not t <= known_at <= ABSURD_TIME:
         known_at = t
-    return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail)
+    return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail, defect=defect)
 
 
 def _format_number(value: float) -> str:

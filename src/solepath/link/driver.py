@@ -130,8 +130,6 @@ class DriverSignature:
     """Ticks a second of the device's time, Hz; 0 without one."""
     tick_modulus: int
     """Number of values of the device's time; 0 without one."""
-    acc_range: float
-    """Full scale of the accelerometer, g, until a value reports another."""
 
 
 @frozen
@@ -155,8 +153,6 @@ class Driver:
     """Ticks a second of the device's time, Hz; 0 without one."""
     tick_modulus: int = 0
     """Number of values of the device's time; 0 without one."""
-    acc_range: float = 16.0
-    """Full scale of the accelerometer, g, until a value reports another."""
     limitation: str = ""
     """Sentence on what the device cannot do, which is reported once; "" for none."""
 
@@ -174,8 +170,6 @@ class Driver:
             raise ValueError(f"{self.name}: ticks have a rate and a modulus, both above 0")
         if self.sequence == 1 or not (0 <= self.sequence <= MAX_COUNTER and 0 <= self.tick_modulus <= MAX_COUNTER):
             raise ValueError(f"{self.name}: counters wrap at 2 to 2**64")
-        if not 0.0 < self.acc_range < inf:
-            raise ValueError(f"{self.name}: the range of the accelerometer is above 0")
         for write in self.profile.setup:
             if write.channel in self.formats:
                 self._check_setup(write)
@@ -201,8 +195,8 @@ class Driver:
     def signature(self, built_in: bool) -> DriverSignature:
         """Return the numbers on which a saved link depends; `built_in` is True for a device of devices/."""
         (stream,) = self.profile.streams
-        rate, ticks = self.profile.nominal_rate, (self.tick_rate, self.tick_modulus)
-        return DriverSignature(built_in, stream, rate, self.axis, self.sequence, *ticks, self.acc_range)
+        rate = self.profile.nominal_rate
+        return DriverSignature(built_in, stream, rate, self.axis, self.sequence, self.tick_rate, self.tick_modulus)
 
     def parse(self, channel: str, data: bytes) -> Any:
         """Return the value that the channel's construct reads from `data`; WireError when `data` does not fit it."""

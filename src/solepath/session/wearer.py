@@ -97,12 +97,14 @@ class WearerParts:
         known_tracker = self.feet.get(foot)
         tracker = self._tracker(foot) if known_tracker is None else known_tracker
         events = tracker.feed(sample)
-        if tracker.t is None:  # the sample could not be used, and the foot has no earlier sample
+        if events and isinstance(events[0], SampleRejected):
+            if events[0].defect is not None:
+                self._run_parts(events, None, events[0].known_at)
+            return events
+        if tracker.t is None:  # the foot does not use such a sample, and has no other yet
             return events
         if known_tracker is None:
             self._add_tracker(tracker)
-        if events and isinstance(events[0], SampleRejected):
-            return events
         t, known_at = sample.t, sample.known_at
         known_at = t if known_at is None or known_at < t else known_at
         if tracker.viewed_at is None or t > tracker.viewed_at:

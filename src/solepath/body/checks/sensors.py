@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import ClassVar, Final
 
-from ...events import Defect, DefectFound, HeelStrike, StrideTaken
+from ...events import Defect, DefectFound, HeelStrike, SampleRejected, StrideTaken
 from ...foot.view import FootView
-from ...types import SITE_OF_FOOT, Foot, Site, Vec3
+from ...types import OTHER, SITE_OF_FOOT, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..part import Part, PartInput, PartOutput
 from .axes import AxesCheck
@@ -29,6 +29,10 @@ BLOCK = 32
 """Number of samples that are examined together, because this costs less than one by one."""
 EXAMINED_AGAIN = 300.0
 """Time after which axes and gravity are examined once more, s."""
+UNUSABLE_TIME = 0.5
+"""Time without a usable sample after which a rejected one shows the unit of all of them, s."""
+STUCK_STRIDES = 3
+"""Number of strides of the other foot during which a sensor that does not change is stuck; a foot may stand for one."""
 
 Row = tuple[float, Vec3, Vec3]
 """Time, s, specific force, m/s^2, and angular rate, rad/s, of a sample."""
@@ -55,6 +59,12 @@ class SensorCheck:
     stances: StanceFinder = field(factory=StanceFinder)
     axes: AxesCheck = field(factory=AxesCheck)
     loads: LoadCheck = field(factory=LoadCheck)
+    unusable_since: float | None = None
+    """Time of the first rejected sample of a foot that has no usable one yet, s; None before any."""
+    same_since: float | None = None
+    """Time since which every sample is the same, s; None while they change."""
+    same_strides: int = 0
+    """Number of strides of the other foot that began after `same_since`."""
     in_newtons: bool = False
     """Flag: the cells of the insole are in N."""
     settled_at: float = 0.0
@@ -103,13 +113,16 @@ class SensorChecks(Part):
         return self._report(view.foot, view.t, view.known_at, self._examine(check, rows, view.gyro_bias))
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive contacts and strides, which an insole may contradict, and defects that others have reported."""
+        """Receive contacts and strides, which an insole or a stuck sensor may contradict, and rejected samples."""
         if isinstance(event, HeelStrike):
             self._check(event.foot).loads.new_contacts += 1
         elif isinstance(event, StrideTaken):
-            check = self._check(event.foot)
-            finding = check.loads.add_stride(event, check.in_newtons)
-            return self._report(event.foot, event.t, event.known_at, [finding])
+            check, other = self._check(event.foot), OTHER[event.foot]
+            found = self._report(event.foot, event.t, event.known_at, [check.loads.add_stride(event, check.in_newtons)])
+            return found + self._report(other, event.t, event.known_at, [_stuck(self._check(other), event)])
+        elif isinstance(event, SampleRejected) and event.defect is not None and event.site.foot is not None:
+            finding = _wrong_unit(self._check(event.site.foot), event)
+            return self._report(event.site.foot, event.t, event.known_at, [finding])
         elif isinstance(event, DefectFound) and event.site.foot is not None:
             self._check(event.site.foot).reported.append(event.defect)
         return ()
@@ -165,6 +178,10 @@ class SensorChecks(Part):
             check.gyro_range.add(GYROSCOPE, gyros, gyro_ends),
             check.gravity.add_block(times[0], times[-1], accs, acc_range, gyro_peak),
         ]
+        if acc_range > 0.0 or gyros.count(gyros[0]) < len(gyros):
+            check.same_since, check.same_strides = None, 0
+        elif check.same_since is None:
+            check.same_since = times[0]
         interval = (times[-1] - times[0]) / (len(times) - 1)
         if interval > LONGEST_INTERVAL or check.gyro_range.cuts_off or not BLINDING.isdisjoint(check.reported):
             return findings
@@ -180,3 +197,29 @@ class SensorChecks(Part):
         if check.axes.settled:
             check.settled_at = times[-1]
         return findings
+
+
+def _stuck(check: SensorCheck, stride: StrideTaken) -> Finding | None:
+    """Return that a sensor is stuck, if its values have not changed for some strides of the other foot."""
+    if check.same_since is None or stride.t_start < check.same_since:
+        return None
+    check.same_strides += 1
+    if check.same_strides < STUCK_STRIDES:
+        return None
+    text = f"every sample has been the same for {stride.t - check.same_since:.0f} s, while the other foot walks"
+    return Finding(Defect.REPEATED, f"{text}: the sensor is stuck; restart it")
+
+
+def _wrong_unit(check: SensorCheck, event: SampleRejected) -> Finding | None:
+    """Return the wrong unit of a rejected sample, if it is that of all samples and not one disturbed value.
+
+    A foot that has usable samples keeps no count, because a rejected sample changes no state of it."""
+    if event.defect is None:
+        return None
+    used_at = check.rows[-1][0] if check.rows else check.rates.t
+    since = check.unusable_since if used_at is None else used_at
+    if since is None:
+        check.unusable_since = event.t
+        return None
+    has_no_time = event.defect is Defect.TIME_UNIT and used_at is None
+    return Finding(event.defect, event.detail) if has_no_time or event.t - since > UNUSABLE_TIME else None

@@ -147,5 +147,4 @@ DRIVER = Driver(
         "cc2650/barometer": _barometer,
         "cc2650/keys": _keys,
     },
-    acc_range=ACC_RANGE,
 )

@@ -101,5 +101,4 @@ DRIVER = Driver(
     PROFILE,
     FORMATS,
     readers={"thingy/motion": _motion, "thingy/motion-config": _motion_config, "thingy/pressure": _pressure},
-    acc_range=32.0,
 )

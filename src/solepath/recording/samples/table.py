@@ -142,7 +142,7 @@ def _find_wrong_units(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tupl
     if "gyro" in columns:
         high = float(np.percentile(_vector_lengths(columns["gyro"]), 99.0))
         if high > MAX_GYRO:
-            unit = "deg/s" if high < 4000.0 else "raw counts"
+            unit = "deg/s" if high < 4000.0 else "thousandths of a degree a second, or raw counts"
             yield "gyro", f"|gyro| reaches {high:.3g} rad/s, faster than a foot turns: this looks like {unit}"
 
 

@@ -39,7 +39,7 @@ class LimbSensors:
             last_ahead_t = self.ahead_t.get(site)
             self.ahead_t[site] = t
             if last_ahead_t is None or not last_ahead_t < t <= last_ahead_t + FARTHEST_AHEAD:
-                reason = Rejection.ABSURD, f"{t - self.newest:.4g} s ahead of everything before"
+                reason = RejectionReason(Rejection.ABSURD, f"{t - self.newest:.4g} s ahead of everything before")
         if reason is not None:
             return reason
         self.ahead_t.pop(site, None)
