@@ -17,7 +17,7 @@ from .gravity import MOVING_GYRO, GravityCheck
 from .loads import LoadCheck
 from .ranges import ACCELEROMETER, GYROSCOPE, RangeCheck, find_extremes
 from .rates import LEAST_RATE, RateCheck
-from .stances import StanceFinder
+from .stances import Row, StanceFinder
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
@@ -33,9 +33,6 @@ UNUSABLE_TIME = 0.5
 """Time without a usable sample after which a rejected one shows the unit of all of them, s."""
 STUCK_STRIDES = 3
 """Number of strides of the other foot during which a sensor that does not change is stuck; a foot may stand for one."""
-
-Row = tuple[float, Vec3, Vec3]
-"""Time, s, specific force, m/s^2, and angular rate, rad/s, of a sample."""
 
 
 @frozen
@@ -164,9 +161,7 @@ class SensorChecks(Part):
 
     def _examine(self, check: SensorCheck, rows: list[Row], gyro_bias: Vec3) -> list[Finding | None]:
         """Examine a block of samples and return what it shows; the gyroscope has the bias `gyro_bias`, rad/s."""
-        times = [row[0] for row in rows]
-        accs = [(x, y, z) for _, (x, y, z), _ in rows]
-        gyros = [(x, y, z) for _, _, (x, y, z) in rows]
+        times, accs, gyros = zip(*rows, strict=True)
         acc_ends, gyro_ends = find_extremes(accs), find_extremes(gyros)
         acc_range = max(acc_ends[0] + acc_ends[1], acc_ends[2] + acc_ends[3], acc_ends[4] + acc_ends[5])
         gyro_peak = max(gyro_ends)
@@ -189,11 +184,8 @@ class SensorChecks(Part):
             if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
                 check.axes, check.stances = AxesCheck(), StanceFinder()
             return findings
-        bx, by, bz = gyro_bias
-        for t, acc, (x, y, z) in rows:
-            stride = check.stances.add(t, acc, (x - bx, y - by, z - bz))
-            if stride is not None:
-                findings += [check.gravity.add_stance(stride.last, stride.motion), check.axes.add(t, stride)]
+        for t, stride in check.stances.add(rows, gyro_bias):
+            findings += [check.gravity.add_stance(stride.last, stride.motion), check.axes.add(t, stride)]
         if check.axes.settled:
             check.settled_at = times[-1]
         return findings

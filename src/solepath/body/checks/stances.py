@@ -5,6 +5,7 @@ steadiness of the specific force, which do not depend on the mounting, on mirror
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import sqrt
 from typing import NamedTuple
 
@@ -26,12 +27,15 @@ BEST_WITHIN = 0.4
 MOST_INTERVALS = 140
 """Largest number of intervals of a stride, 2.6 s; the start of a longer one is forgotten."""
 
-
 Interval = tuple[int, int, int, int, int, int, int]
 """Duration, integral of the angular rate and mean specific force, sensor frame, as whole numbers: they are short in a
 saved state. The units are `TICK`, `TURN` and `FORCE`."""
 TICK, TURN, FORCE = 2.0**-20, 2.0**-16, 2.0**-10
 """Units of an interval's duration, s, its turn, rad, and its specific force, m/s^2."""
+
+
+Row = tuple[float, Vec3, Vec3]
+"""Time, s, specific force, m/s^2, and angular rate, rad/s, of a sample."""
 
 
 class ClosedStride(NamedTuple):
@@ -63,6 +67,8 @@ class StanceFinder:
     """Integral of the specific force over the interval under way, m/s."""
     intervals: list[Interval] = field(factory=list)
     """Newest intervals: those of the stride under way and `HALF_WINDOW` before it."""
+    rates: tuple[float, ...] = ()
+    """Mean angular rates of the newest intervals, rad/s: at most 2 HALF_WINDOW + 1 of them."""
     start: int | None = None
     """Index of the instant at which the stride under way began; None when it is unknown."""
     best: int | None = None
@@ -74,38 +80,36 @@ class StanceFinder:
     latest_motion: float = 0.0
     """Motion at `latest`, rad/s."""
 
-    def add(self, t: float, acc: Vec3, gyro: Vec3) -> ClosedStride | None:
-        """Add a sample; return the stride that it shows to be finished, if any."""
-        t_last, self.t = self.t, t
-        if t_last is None:
-            return None
-        dt = t - t_last
-        if not 0.0 < dt < LONGEST_SAMPLE:
-            self._restart()
-            return None
-        duration = self.duration = self.duration + dt
-        x, y, z = gyro
-        a, b, c = self.turn
-        turn = self.turn = (a + x * dt, b + y * dt, c + z * dt)
-        x, y, z = acc
-        a, b, c = self.force
-        force = self.force = (a + x * dt, b + y * dt, c + z * dt)
-        if duration < INTERVAL:
-            return None
-        x, y, z = turn
-        k = 1.0 / (duration * FORCE)
-        a, b, c = force
-        self.intervals.append(
-            (
-                int(duration / TICK), int(x / TURN), int(y / TURN), int(z / TURN), int(k * a), int(k * b), int(k * c)
-            )
-        )  # fmt: skip
-        self.duration, self.turn, self.force = 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-        return self._add_instant(len(self.intervals) - 1 - HALF_WINDOW)
+    def add(self, rows: Iterable[Row], bias: Vec3 = (0.0, 0.0, 0.0)) -> list[tuple[float, ClosedStride]]:
+        """Add samples of a gyroscope with a `bias`, rad/s; return the strides that end, and when each is known, s."""
+        bx, by, bz = bias
+        t_last, duration, (a, b, c), (p, q, r) = self.t, self.duration, self.turn, self.force
+        found: list[tuple[float, ClosedStride]] = []
+        for t, (ax, ay, az), (x, y, z) in rows:
+            dt = 0.0 if t_last is None else t - t_last
+            t_last = t
+            if not 0.0 < dt < LONGEST_SAMPLE:
+                duration = a = b = c = p = q = r = 0.0
+                self._restart()
+                continue
+            duration += dt
+            a, b, c = a + (x - bx) * dt, b + (y - by) * dt, c + (z - bz) * dt
+            p, q, r = p + ax * dt, q + ay * dt, r + az * dt
+            if duration < INTERVAL:
+                continue
+            k = 1.0 / (duration * FORCE)
+            turn, force = (int(a / TURN), int(b / TURN), int(c / TURN)), (int(k * p), int(k * q), int(k * r))
+            self.intervals.append((int(duration / TICK), *turn, *force))
+            self.rates = (*self.rates[-2 * HALF_WINDOW :], sqrt(a * a + b * b + c * c) / duration)
+            duration = a = b = c = p = q = r = 0.0
+            stride = self._add_instant(len(self.intervals) - 1 - HALF_WINDOW)
+            if stride is not None:
+                found.append((t, stride))
+        self.t, self.duration, self.turn, self.force = t_last, duration, (a, b, c), (p, q, r)
+        return found
 
     def _restart(self) -> None:
-        self.duration, self.turn, self.force = 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-        self.intervals = []
+        self.intervals, self.rates = [], ()
         self.start = self.best = self.latest = None
 
     def _add_instant(self, i: int) -> ClosedStride | None:
@@ -145,16 +149,14 @@ class StanceFinder:
 
     def _motion(self, i: int) -> float:
         """Return the mean rate around interval `i`, plus the weighted standard deviation of the specific force."""
-        around = self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1]
-        rate = 0.0
-        for duration, tx, ty, tz, *_ in around:
-            rate += sqrt(tx * tx + ty * ty + tz * tz) / duration
-        rate *= TURN / (TICK * len(around))
+        a, b, c, d, e = self.rates  # 2 HALF_WINDOW + 1 of them
+        rate = 0.2 * (a + b + c + d + e)
         if rate > SWING_MOTION:
             return rate
+        around = self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1]
         x, y, z = _mean_acc(around)
         variance = 0.0
-        for *_, ax, ay, az in around:
+        for _, _, _, _, ax, ay, az in around:
             dx, dy, dz = FORCE * ax - x, FORCE * ay - y, FORCE * az - z
             variance += dx * dx + dy * dy + dz * dz
         return rate + STEADINESS_WEIGHT * sqrt(variance / len(around))
@@ -196,7 +198,7 @@ class StanceFinder:
 def _mean_acc(intervals: list[Interval]) -> Vec3:
     """Return the mean specific force of some intervals, m/s^2."""
     x = y = z = 0
-    for *_, ax, ay, az in intervals:
+    for _, _, _, _, ax, ay, az in intervals:
         x, y, z = x + ax, y + ay, z + az
     k = FORCE / len(intervals)
     return k * x, k * y, k * z

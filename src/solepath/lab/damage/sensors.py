@@ -207,12 +207,8 @@ def _reported(values: Damaged, foot: Foot) -> list[DefectFound]:
 def examine(piece: WalkingFoot) -> DefectOutcome | None:
     """Return what is reported for one foot, whole and with each damage; None when it walks for less than 4 strides."""
     t, acc, gyro = _columns(piece)
-    finder = StanceFinder()
-    strides = [
-        (time, stride)
-        for time, force, rate in zip(t.tolist(), _vectors(acc), _vectors(gyro), strict=True)
-        if (stride := finder.add(time, force, rate)) is not None and len(stride.intervals) > 1
-    ]
+    rows = zip(t.tolist(), _vectors(acc), _vectors(gyro), strict=True)
+    strides = [(time, stride) for time, stride in StanceFinder().add(rows) if len(stride.intervals) > 1]
     if len(strides) < 4:
         return None
     whole = tuple(_reported((t, acc, gyro), piece.foot))
