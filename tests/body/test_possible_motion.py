@@ -16,7 +16,7 @@ from solepath.body.part import Replacement
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import Defect, DefectFound, StrideTaken
+from solepath.events import Defect, DefectFound, SampleGap, StrideTaken
 from solepath.types import Foot, Sample
 
 WALK = Route().stand(2.0).walk(25.0, 1.3).stop(1.0)
@@ -47,8 +47,25 @@ def test_a_stride_of_four_metres_a_second_is_a_run_with_flight_but_no_walk(
     speed: float, in_air: tuple[float, float], possible: bool
 ) -> None:
     toe_off, heel_strike = in_air
-    event = evolve(changed(speed), t_toe_off=toe_off, t_heel_strike=heel_strike)
+    event = evolve(
+        changed(0.4 * speed), t_end=0.4, t=0.4, t_toe_off=0.4 * toe_off, t_heel_strike=0.4 * heel_strike
+    )  # a sprinter's stride lasts 0.4 s
     assert (impossible_motion(event) is None) is possible
+
+
+def test_a_stride_of_six_metres_is_impossible_and_reported_even_if_it_is_degraded() -> None:
+    part, merged = PossibleMotion(), evolve(changed(6.0), t_end=4.0, t=4.0, known_at=4.0, degraded=True)
+    (found,) = part.receive(merged)
+    assert isinstance(found, DefectFound) and "a length of 6 m" in found.what and not found.spoils
+    (found,) = part.receive(merged)
+    assert isinstance(found, DefectFound) and "several strides" in found.what and found.spoils
+    assert not part.receive(merged)
+
+
+def test_what_a_stride_does_in_a_gap_is_not_reported() -> None:
+    part, merged = PossibleMotion(), evolve(changed(6.0), t_end=4.0, t=4.0, known_at=4.0, degraded=True)
+    part.receive(SampleGap(t=2.0, known_at=3.0, site=LEFT, duration=1.0))
+    assert not part.receive(merged) and not part.receive(merged)
 
 
 @pytest.mark.parametrize(
