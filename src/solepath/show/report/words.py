@@ -7,7 +7,7 @@ from ...types import SITE_OF_FOOT, Foot, Site, Turn
 from ..links import LinkLedger
 from ..observer import Observer
 from ..tables.summary import link_health, wear_lines
-from ..tables.table import number
+from ..tables.table import counted, number
 from .clock import ReportClock, duration_text
 from .figures.activity import activity_words
 
@@ -67,7 +67,7 @@ def problems(observer: Observer) -> list[str]:
         if (counts := observer.feet.get(foot)) is not None and counts.degraded
     ]
     faults += [
-        f"{foot} foot: {link.gaps} gaps in the samples, {number(link.gap_time)} s in all"
+        f"{foot} foot: {counted(link.gaps, 'gap')} in the samples, {number(link.gap_time)} s in all"
         for foot in Foot
         if (link := observer.links.get(SITE_OF_FOOT[foot])) is not None and link.gaps
     ]
