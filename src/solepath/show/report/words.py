@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn
 from ..links import LinkLedger
@@ -58,6 +60,11 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_count
     return lines
 
 
+def defects(observer: Observer) -> list[str]:
+    """Return sentences on data that contradict themselves or physics; none without defects."""
+    return _whole_sentences(observer.defects)
+
+
 def problems(observer: Observer) -> list[str]:
     """Return sentences on the faults of sensors, their wearing and their links; none without faults."""
     faults = [*observer.defects, *wear_lines(observer), *link_health(observer)]
@@ -71,12 +78,16 @@ def problems(observer: Observer) -> list[str]:
         for foot in Foot
         if (link := observer.links.get(SITE_OF_FOOT[foot])) is not None and link.gaps
     ]
-    return [f"{text[0].upper()}{text[1:]}." for text in faults if text]
+    return _whole_sentences(faults)
 
 
 def limitations(observer: Observer) -> list[str]:
     """Return sentences on what the recipe had to do without."""
-    return [f"{text[0].upper()}{text[1:]}." for text in observer.limitations if text]
+    return _whole_sentences(observer.limitations)
+
+
+def _whole_sentences(texts: Sequence[str]) -> list[str]:
+    return [f"{text[0].upper()}{text[1:].removesuffix('.')}." for text in texts if text]
 
 
 def sensors(observer: Observer) -> str:
