@@ -44,9 +44,7 @@ def test_a_mirrored_axis_is_named_and_the_status_is_1(columns: dict[str, np.ndar
     assert done.stdout.splitlines()[1] == "must be mended:" and "the axes of the gyroscope" in done.stdout
 
 
-def test_the_verdict_says_what_may_be_wrong_although_nothing_is_reported(
-    columns: dict[str, np.ndarray], tmp_path: Path
-) -> None:
+def test_the_verdict_lists_what_the_checks_may_miss(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
     done = run("check", saved(tmp_path, columns, acc=-columns["acc"], gyro=1.2 * columns["gyro"]))
     assert done.returncode == 0 and "nothing must be mended" in done.stdout
     lines = done.stdout.splitlines()
