@@ -234,5 +234,7 @@ def test_a_treadmill_whose_light_barrier_shows_clocks_75_ms_apart_has_even_steps
 
 
 def test_ten_recorded_walkers_on_one_clock_are_not_reported(data_dir: Path) -> None:
-    for path in sorted((data_dir / "ipol_10m_uturn").glob("*-4.npz")):
+    paths = sorted((data_dir / "ipol_10m_uturn").glob("*-4.npz"))
+    assert len(paths) == 10
+    for path in paths:
         assert not found(Session().feed(open_source(path))), path.stem
