@@ -17,7 +17,6 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect, DefectFound, SampleGap, StrideTaken
-from solepath.events import Defect, DefectFound, StrideTaken
 from solepath.foot.stride import StrideBuilder
 from solepath.foot.world import World
 from solepath.types import Foot, Sample

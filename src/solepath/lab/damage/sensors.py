@@ -31,7 +31,7 @@ from ..measures.alignment import Floats
 from ..processes import run_jobs
 
 KNOWN: dict[str, set[Defect]] = {
-    "felius_2min_walk": {Defect.AXES, Defect.IMPOSSIBLE_MOTION, Defect.CONTRADICTION},
+    "felius_2min_walk": {Defect.AXES},
     "hugadb": {Defect.CLIPPED},
     "smart_insole_35": {Defect.REPEATED},
     "xio_closed_walks": {Defect.CLIPPED},
