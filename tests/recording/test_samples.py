@@ -123,9 +123,8 @@ def without(columns: dict[str, np.ndarray], *keys: str) -> dict[str, np.ndarray]
 
 def burst_times(size: int, within: float) -> dict[str, np.ndarray]:
     """Return 400 samples at 100 Hz, with times of their packets of `size` samples; those are `within` s apart."""
-    columns = idle(400)
     number = np.arange(400)
-    return columns | {"t": columns["t"][number // size * size] + within * (number % size)}
+    return idle(400) | {"t": idle(400)["t"][number // size * size] + within * (number % size)}
 
 
 FAULTY = {

@@ -36,7 +36,7 @@ def reported_with(factor: float) -> tuple[list[DefectFound], list[StrideTaken]]:
     return of(DefectFound, events), of(StrideTaken, events)
 
 
-def test_an_insole_that_carries_the_wearer_is_silent() -> None:
+def test_an_insole_with_the_weight_of_the_wearer_is_silent() -> None:
     found, strides = reported_with(1.0)
     assert found == [] and len(strides) > 10
     loads = [load for stride in strides if (load := stride.features.contact_load) is not None]
@@ -44,7 +44,7 @@ def test_an_insole_that_carries_the_wearer_is_silent() -> None:
 
 
 @pytest.mark.parametrize("factor", [0.02, 50.0])
-def test_an_insole_in_newtons_that_carries_a_bird_or_an_elephant_is_named(factor: float) -> None:
+def test_an_insole_in_newtons_with_the_weight_of_a_bird_or_an_elephant_is_named(factor: float) -> None:
     (event,), strides = reported_with(factor)
     assert event.defect is Defect.PRESSURE_UNIT and event.site is Site.LEFT_FOOT and event.spoils
     shown = float(event.what.split()[3])
