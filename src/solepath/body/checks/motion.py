@@ -10,6 +10,7 @@ from math import degrees, radians, sqrt
 from typing import assert_never
 
 from ...events import Defect, DefectFound, SampleGap, StrideTaken
+from ...foot.stride import FASTEST_RUN
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY
@@ -27,8 +28,6 @@ LEAST_WALKING_STANCE = 0.55
 """Share of a stride with the foot on the ground from which on one foot always is, however even the feet are.
 
 It is one half; the rest is the error of heel-strike and toe-off, 50 ms of a stride of one second."""
-FASTEST_RUN = 12.5
-"""Largest speed of a person, m/s: that of the fastest 20 m of the world record of 100 m."""
 LONGEST_STRIDE = 5.6
 """Length of the longest strides, m: two steps of the fastest sprinter, who takes 41 of them on 100 m and none of 2.8 m.
 
