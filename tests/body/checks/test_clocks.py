@@ -14,6 +14,7 @@ from walks import LEFT, RIGHT, ROUGH, insoles, of, samples
 
 from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, Site, ToeOff
 from solepath.body.checks.clocks import MEMORY, FootClocks
+from solepath.body.checks.offset import MIN_COMPARISONS
 from solepath.body.part import ClockUnsettled
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
@@ -90,22 +91,23 @@ def test_clocks_half_a_second_apart_are_found_although_the_steps_look_nearly_sim
     cycle = fmean(one.stride_time for one in of(GaitCycleMeasured, Session().feed(level())))
     assert defect.offset is not None
     assert (defect.offset + 0.5) / cycle == pytest.approx(round((defect.offset + 0.5) / cycle), abs=0.02)
-    assert f"or {1000.0 * (cycle - abs(defect.offset)):.0f} ms"[:-5] in defect.what, "the other possibility is named"
+    assert f"give or take whole gait cycles of {1000.0 * cycle:.0f}"[:-1] in defect.what, "the walk does not tell"
 
 
 @pytest.mark.parametrize(
     "route",
     [
         LEVEL,
-        Route().stand(30.0),
         Route().stand(1.5).jog(60.0, 2.8).stop(1.0),
         Route().stand(1.5).walk(4.0).stairs(24, True, 0.16, 0.30).walk(4.0).stairs(24, False, 0.16, 0.30).stop(1.0),
         Route().stand(1.5).walk(60.0, 1.2, ).turn(12.0, radius=1.0).walk(10.0).stop(1.0),
     ],
-    ids=["level", "standing", "running", "stairs", "a tight circle"],
+    ids=["level", "running", "stairs", "a tight circle"],
 )  # fmt: skip
 def test_feet_on_one_clock_are_not_reported(route: Route) -> None:
-    assert not found(Session().feed(samples(route, cells=0)))
+    session = Session()
+    assert not found(session.feed(samples(route, cells=0)))
+    assert len(session._state.wearer.find_attribute("comparisons")) >= MIN_COMPARISONS, "enough for a report"
 
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
