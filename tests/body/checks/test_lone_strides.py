@@ -85,7 +85,7 @@ def standing() -> FootClocks:
 
 
 def reports(part: FootClocks, *events: Event) -> int:
-    return sum(len(part.receive(event)) for event in events)
+    return sum(len([*part.receive(event), *part.finish(event.known_at)]) for event in events)
 
 
 def test_two_strides_past_a_standing_foot_are_one_too_many() -> None:

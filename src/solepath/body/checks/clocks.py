@@ -103,22 +103,26 @@ class FootClocks(Part):
     lone: LoneStrides = field(factory=LoneStrides, init=False)
     lone_reported: bool = field(default=False, init=False)
     """Flag: it was reported that one foot walked while the other one stood."""
+    lone_sentences: str | None = field(default=None, init=False)
+    """Sentences on this for the next sample, because a defect of the same sample may be the reason; None mostly."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Take the state of the foot; return nothing."""
+        """Take the state of the foot; return DefectFound if a foot has walked while the other one stood."""
         self.lone.see(view)
         self.idle = self.lone.requested is None
-        return ()
+        return self._report_lone(view.t, view.known_at)
+
+    def finish(self, now: float) -> Sequence[PartOutput]:
+        """Return DefectFound if the newest stride was the last sample."""
+        return self._report_lone(now, now)
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive an event or a notice; return DefectFound with the event that shows that the clocks are apart."""
         if isinstance(event, GaitEvent):
             if self.left.spoiled or self.right.spoiled or self.lone_reported:
                 return ()
-            sentences = self.lone.add(event)
-            if sentences is not None:
-                self.lone_reported = True
-                return self._report(event, sentences)
+            self.lone_sentences = self.lone.add(event) or self.lone_sentences
+            self.idle = self.idle and self.lone_sentences is None
             foot = self._foot(event.foot)
             if isinstance(event, FootFlat):
                 if foot.toe_off is not None:  # the heel-strike was not detected
@@ -155,7 +159,7 @@ class FootClocks(Part):
         for foot in (self.left, self.right):
             foot.discard()
             foot.swings = []
-        self.comparisons, self.lone = [], LoneStrides()
+        self.comparisons, self.lone, self.lone_sentences = [], LoneStrides(), None
 
     def _foot(self, foot: Foot) -> FootClock:
         return self.left if foot is Foot.LEFT else self.right
@@ -186,15 +190,22 @@ class FootClocks(Part):
         if self.reported is not None and not offset.differs_from(self.reported):
             return ()
         self.reported = offset.value
-        return self._report(event, offset.sentences, offset)
+        return self._report(event.t, event.known_at, offset.sentences, offset)
+
+    def _report_lone(self, t: float, known_at: float) -> Sequence[PartOutput]:
+        """Return DefectFound at `t`, s, if one foot has walked while the other one stood."""
+        if self.lone_sentences is None:
+            return ()
+        what, self.lone_sentences, self.lone_reported = self.lone_sentences, None, True
+        return self._report(t, max(t, known_at), what)
 
     @staticmethod
-    def _report(event: GaitEvent, what: str, offset: Offset | None = None) -> Sequence[PartOutput]:
+    def _report(t: float, known_at: float, what: str, offset: Offset | None = None) -> Sequence[PartOutput]:
         """Return DefectFound with these sentences."""
         return (
             DefectFound(
-                t=event.t,
-                known_at=event.known_at,
+                t=t,
+                known_at=known_at,
                 site=Site.RIGHT_FOOT,
                 defect=Defect.CLOCKS,
                 what=what,
