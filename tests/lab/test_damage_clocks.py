@@ -10,7 +10,7 @@ from walks import columns_of
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import DefectFound, HeelStrike
+from solepath.events import Defect, DefectFound, HeelStrike
 from solepath.lab.damage.clock_walks import ClockJob, ClockWalk, error_between, read_walk
 from solepath.lab.damage.clocks import ClockOutcome, find_outcome, row, table
 from solepath.recording import open_source, shift_clock
@@ -29,15 +29,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return top
 
 
+def reports(job: ClockJob, offset: float) -> list[DefectFound]:
+    """Return what a session reports of the clocks of a recording whose right foot is shifted by `offset`, s."""
+    events = Session().feed(shift_clock(open_source(job.path), offset))
+    return [event for event in events if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS]
+
+
 def test_shifted_events_show_what_shifted_samples_show(folder: Path) -> None:
     job = ClockJob("hugadb", "walk", folder / "hugadb" / "walk.npz")
     walk = read_walk(job)
     assert isinstance(walk, ClockWalk)
     outcome = find_outcome(walk, 0.2)
-    session = Session()
-    (defect,) = [
-        event for event in session.feed(shift_clock(open_source(job.path), 0.2)) if isinstance(event, DefectFound)
-    ]  # fmt: skip
+    (defect,) = reports(job, 0.2)
     assert outcome.reported == defect.offset == pytest.approx(-0.2, abs=0.02)
     assert outcome.walked is not None and 6.0 < outcome.walked < outcome.walking < 22.0
 
@@ -48,11 +51,9 @@ def test_shifted_events_show_a_foot_that_walks_alone_as_shifted_samples_do(folde
     walk = read_walk(job)
     assert isinstance(walk, ClockWalk)
     outcome = find_outcome(walk, offset)
-    reports = [
-        event for event in Session().feed(shift_clock(open_source(job.path), offset)) if isinstance(event, DefectFound)
-    ]  # fmt: skip
+    defect = reports(job, offset)[0]
     assert outcome.walked is not None and outcome.reported is None
-    assert reports[0].offset is None and "while the left foot" in reports[0].what
+    assert defect.offset is None and "while the left foot" in defect.what
 
 
 def test_times_between_the_feet_err_by_what_remains_of_an_offset_except_for_whole_cycles(folder: Path) -> None:
