@@ -220,6 +220,28 @@ def test_a_session_saved_before_the_clocks_are_found_apart_finds_them_at_the_sam
     assert first + Session.unpack(session.pack()).feed(walk[2200:]) == whole
 
 
+def means(events: list[Event]) -> dict[tuple[Foot, str], float]:
+    """Return the median of step time and double support of each foot, s."""
+    cycles = of(GaitCycleMeasured, events)
+    return {
+        (foot, name): median(value for one in cycles if one.foot is foot and (value := getattr(one, name)) is not None)
+        for foot in Foot
+        for name in ("step_time", "initial_double_support", "terminal_double_support")
+    }
+
+
+@pytest.mark.parametrize("name", ["1-1", "5-4", "11-4", "19-4"])
+def test_step_time_and_double_support_of_an_even_walker_are_right_to_20_ms_once_the_offset_is_undone(
+    data_dir: Path, name: str
+) -> None:
+    path = data_dir / "ipol_10m_uturn" / f"{name}.npz"
+    true = means(Session().feed(open_source(path)))
+    damaged = list(shift_clock(open_source(path), 0.2))
+    (defect,) = found(Session().feed(damaged))
+    assert defect.offset is not None
+    assert means(Session().feed(shift_clock(damaged, defect.offset))) == pytest.approx(true, abs=0.02)
+
+
 def test_a_treadmill_whose_light_barrier_shows_clocks_75_ms_apart_has_even_steps_once_that_is_undone(
     data_dir: Path,
 ) -> None:
