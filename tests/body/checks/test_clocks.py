@@ -22,6 +22,7 @@ from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect, DefectFound, Event, SampleGap
 from solepath.recording import open_source, shift_clock
+from solepath.recording.errors import printable
 from solepath.show.observer import Observer
 
 LEVEL = Route().stand(1.5).walk(40.0, 1.3).stop(1.0)
@@ -91,7 +92,9 @@ def test_clocks_half_a_second_apart_are_found_although_the_steps_look_nearly_sim
     cycle = fmean(one.stride_time for one in of(GaitCycleMeasured, Session().feed(level())))
     assert defect.offset is not None
     assert (defect.offset + 0.5) / cycle == pytest.approx(round((defect.offset + 0.5) / cycle), abs=0.02)
-    assert f"give or take whole gait cycles of {1000.0 * cycle:.0f}"[:-1] in defect.what, "the walk does not tell"
+    assert f"give or take whole cycles of {1000.0 * cycle:.0f}"[:-1] in defect.what, "the walk does not tell"
+    sentence = f"{defect.site.words}: {defect.what}"
+    assert printable(sentence) == sentence, "short enough for a person, and to be printed whole"
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from solepath.body.checks.clocks import FootClocks
 from solepath.emulate.routes.route import Route
 from solepath.events import Defect, DefectFound, Event, SampleGap
 from solepath.recording import open_source, shift_clock
+from solepath.recording.errors import printable
 from solepath.types import Foot
 
 THERE = Route().stand(6.0).walk(12.0, 1.3).stop(6.0)
@@ -37,7 +38,7 @@ def found(events: list[Event]) -> list[DefectFound]:
 def test_clocks_that_are_seconds_apart_are_reported_without_an_offset(delay: float) -> None:
     defect = found(Session().feed(shifted(delay)))[-1]
     assert (defect.site, defect.offset, defect.sigma, defect.spoils) == (RIGHT, None, None, False)
-    assert defect.needs_action
+    assert defect.needs_action and printable(f"right foot: {defect.what}").endswith(defect.what), "printed whole"
     assert "walked while the left foot stood" in defect.what or "stood while the left foot walked" in defect.what
 
 

@@ -99,8 +99,8 @@ class LoneStrides:
             return None
         contradiction = "stood while the left foot walked" if this is self.left else "walked while the left foot stood"
         return (
-            f"it {contradiction}, which nobody can: the clocks of the feet may be seconds apart, or one sensor is not "
-            "worn or does not measure. Step time and double support are left out. Record both feet with one clock"
+            f"it {contradiction}: the clocks are seconds apart, or one sensor is not worn or does not measure. Step "
+            "time and double support are left out. Record both feet with one clock"
         )
 
     def add_gap(self, gap: SampleGap) -> None:

@@ -68,10 +68,9 @@ class Offset:
         """Sentences for the person who records, on the right foot."""
         late, size = "late" if self.value < 0.0 else "early", 1000.0 * abs(self.value)
         return (
-            f"its times are about {size:.0f} ms {late} against the left foot's, give or take whole gait cycles of "
-            f"{1000.0 * self.cycle:.0f} ms, which a walk cannot tell. Step time and double support are left out. "
-            "Record both feet with one clock, or undo the offset that a lift ride or a jump shows; one that is wrong "
-            "by a cycle gives numbers that only look right"
+            f"its times are about {size:.0f} ms {late}, give or take whole cycles of {1000.0 * self.cycle:.0f} ms; step "
+            "time and double support are left out. Use one clock: an offset wrong by a cycle gives numbers that only "
+            "look right"
         )
 
     def differs_from(self, other: float) -> bool:
