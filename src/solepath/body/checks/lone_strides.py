@@ -17,8 +17,9 @@ from ...types.attrs import define, field
 LONGEST_STEP = 1.0
 """Longest step of a walk, m: of legs of 1.15 m that are 52 degrees apart.
 
-In 206 recordings of feet on one clock, no foot gets further than 1.7 m past the other. Of clocks that are 5 or 10 s
-apart, 2 m finds 46 % of the walks of ipol_10m_uturn and marpino_heel_toe, 2.8 m 35 %."""
+In 204 recordings of feet on one clock, no foot gets further than 1.7 m while the other one stands. With steps of 0.8,
+1.0, 1.2 and 1.4 m, clocks that are 5 or 10 s apart are found in 93, 92, 86 and 78 % of the walks of ipol_10m_uturn and
+marpino_heel_toe, and one recording of feet on one clock is reported with 0.8 m, none with more."""
 MIN_STRIDES = 2
 """Least number of strides; a single one that is too long is of a runner, or two that were taken for one."""
 MAX_GAP = 0.3

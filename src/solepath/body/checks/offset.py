@@ -67,10 +67,10 @@ class Offset:
     def sentences(self) -> str:
         """Sentences for the person who records, on the right foot."""
         late, size = "late" if self.value < 0.0 else "early", 1000.0 * abs(self.value)
+        cycle = 1000.0 * self.cycle
         return (
-            f"its times are about {size:.0f} ms {late}, give or take whole cycles of {1000.0 * self.cycle:.0f} ms; step "
-            "time and double support are left out. Use one clock: an offset wrong by a cycle gives numbers that only "
-            "look right"
+            f"its times are about {size:.0f} ms {late}, give or take whole cycles of {cycle:.0f} ms; step time and "
+            "double support are left out. Use one clock: an offset wrong by a cycle gives numbers that look right"
         )
 
     def differs_from(self, other: float) -> bool:
