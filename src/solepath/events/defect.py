@@ -55,7 +55,7 @@ class DefectFound(Happening):
     has changed."""
 
     site: Site
-    """Site whose data are wrong; for clocks, the foot whose times would have to be shifted."""
+    """Site whose data are wrong; for clocks, the right foot, whose times would have to be shifted."""
     defect: Defect
     what: str
     """Sentences for the person who wears or mounts the sensor: the fault, and what to do about it."""
@@ -66,7 +66,9 @@ class DefectFound(Happening):
 
     A negative number means that this axis has the wrong sign. None for other defects."""
     offset: float | None = None
-    """Correction of CLOCKS: time to add to the times of this foot, s. None for other defects."""
+    """Correction of CLOCKS: time to add to the times of this foot, s, except for whole gait cycles.
+
+    None for other defects, and for clocks that may be seconds apart."""
     sigma: float | None = None
     """Standard deviation of `offset`, s; None without an offset."""
 
