@@ -101,8 +101,9 @@ class ErrorStateSettings:
     noise_per_difference: float = 0.25
     """Noise of each axis as a share of the difference between two neighbouring samples, 0 to 1.
 
-    It stands for the motion between them, which is taken as a straight line. It is small at 400 Hz. At 20 Hz, where a
-    heel-strike falls between two samples, it is the largest term."""
+    It stands for the motion between them, which is taken as a straight line. It is small at 400 Hz, unless the readings
+    show that the band of the sensor is narrow (IndependentInterval). At 20 Hz, where a heel-strike falls between two
+    samples, it is the largest term."""
     recover: bool = True
     """Add the turn that a clipped gyroscope did not show (clipping.py, reintegration.py)."""
     clipping_rate: float = 8.5

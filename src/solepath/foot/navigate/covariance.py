@@ -199,52 +199,13 @@ def update(
     ttzz -= ktzx * vtxz + ktzy * vtyz + ktzz * vtzz
     return (
         (
-            ppxx,
-            ppxy,
-            ppxz,
-            ppyy,
-            ppyz,
-            ppzz,
+            ppxx, ppxy, ppxz, ppyy, ppyz, ppzz,
             # P H' - K H P H' = K (S - H P H') = K r: the columns of the velocity become r K
-            r * kpxx,
-            r * kpxy,
-            r * kpxz,
-            r * kpyx,
-            r * kpyy,
-            r * kpyz,
-            r * kpzx,
-            r * kpzy,
-            r * kpzz,
-            ptxx,
-            ptxy,
-            ptxz,
-            ptyx,
-            ptyy,
-            ptyz,
-            ptzx,
-            ptzy,
-            ptzz,
-            r * kvxx,
-            r * kvxy,
-            r * kvxz,
-            r * kvyy,
-            r * kvyz,
-            r * kvzz,
-            r * ktxx,
-            r * ktyx,
-            r * ktzx,
-            r * ktxy,
-            r * ktyy,
-            r * ktzy,
-            r * ktxz,
-            r * ktyz,
-            r * ktzz,
-            ttxx,
-            ttxy,
-            ttxz,
-            ttyy,
-            ttyz,
-            ttzz,
+            r * kpxx, r * kpxy, r * kpxz, r * kpyx, r * kpyy, r * kpyz, r * kpzx, r * kpzy, r * kpzz,
+            ptxx, ptxy, ptxz, ptyx, ptyy, ptyz, ptzx, ptzy, ptzz,
+            r * kvxx, r * kvxy, r * kvxz, r * kvyy, r * kvyz, r * kvzz,
+            r * ktxx, r * ktyx, r * ktzx, r * ktxy, r * ktyy, r * ktzy, r * ktxz, r * ktyz, r * ktzz,
+            ttxx, ttxy, ttxz, ttyy, ttyz, ttzz,
         ),
         # P H' w
         (
@@ -258,7 +219,7 @@ def update(
             vtxy * wx + vtyy * wy + vtzy * wz,
             vtxz * wx + vtyz * wy + vtzz * wz,
         ),
-    )
+    )  # fmt: skip
 
 
 def squared_innovation(covariance: Covariance, ix: float, iy: float, iz: float, r: float) -> float:

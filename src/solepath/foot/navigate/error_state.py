@@ -23,7 +23,7 @@ from .clipping import ClippedPeak
 from .corrector import LONGEST_BRIDGE
 from .covariance import HEIGHT, constrain_height, scale, squared_innovation, update
 from .level import FLOOR_SIGMA, LevelGround
-from .propagated import PropagatedCovariance
+from .propagated import IndependentInterval, PropagatedCovariance
 from .recovery import Recovery
 from .stance_rhythm import StanceRhythm
 from .strapdown import WIDEST_SERIES
@@ -75,6 +75,8 @@ class ErrorStateFilter(PropagatedCovariance):
     """Usual durations of stance and swing, for evidence that the gate rejects."""
     recovery: Recovery = field(factory=Recovery, init=False)
     """Recovery of the clipped peaks of both sensors."""
+    interval: IndependentInterval = field(factory=IndependentInterval, init=False)
+    """Interval between independent readings, for the noise of what lies between two samples."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         PropagatedCovariance.start(self, attitude, tilt_sigma)
@@ -141,22 +143,26 @@ class ErrorStateFilter(PropagatedCovariance):
         # trapezoidal rule: a = (f + f_previous) / 2 - g, v <- v + a dt, p <- p + (v + v_previous) dt / 2
         if previous_force is None:
             ax, ay, az, x, y, z = fx, fy, fz - GRAVITY, fx, fy, fz
+            ratio = 1.0
+            self.interval.jerk = None
         else:
             px, py, pz = previous_force
             ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
             x, y, z = fx - px, fy - py, fz - pz
+            ratio = self.interval.update(dt, x, y, z)
         vx, vy, vz = self.velocity
         ux, uy, uz = vx + ax * dt, vy + ay * dt, vz + az * dt
         px, py, pz = self.position
         k = 0.5 * dt
         self.position = (px + (vx + ux) * k, py + (vy + uy) * k, pz + (vz + uz) * k)
         self.velocity = (ux, uy, uz)
-        # noise of the sensor, noise that grows with the motion, and noise from the motion between two samples
+        # noise of the sensor, noise that grows with the motion, and noise from the motion between independent readings:
+        # T / dt times the difference and the duration of a sample, in dt / T times as many (IndependentInterval)
         rx, ry, rz = gx - rx, gy - ry, gz - rz
         settings = self.settings
         motion_factor, difference_factor = (
             settings.noise_per_motion * settings.noise_per_motion,
-            settings.noise_per_difference * settings.noise_per_difference * dt,
+            settings.noise_per_difference * settings.noise_per_difference * dt * ratio * ratio * ratio,
         )
         self.acc_variance += (
             settings.acc_noise * settings.acc_noise

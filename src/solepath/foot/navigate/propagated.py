@@ -1,9 +1,11 @@
 """Strapdown navigation with a covariance, which is propagated over any interval in one step.
 
 Between two uses of the covariance only the noise is summed, so a sample costs no more than its integration
-(covariance.py). All numbers were chosen by hand and not swept."""
+(covariance.py). Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
+
+from math import sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
@@ -63,6 +65,63 @@ INFILL_TILT_SIGMA = 0.1
 """Standard deviation of the tilt after infill, rad."""
 INFILL_YAW_SIGMA = 0.06
 """Standard deviation of the heading after infill, rad."""
+INTERVAL_RATIO = 1.3
+"""Factor k of the interval between independent readings (IndependentInterval), below sqrt(2); no unit.
+
+From 1.2 to 1.4 `ms_patient` has the same strides at 2, 3 and 4 times its rate. Up to 1.3 the ARMSE2d of `pyshoe_vicon`
+is 0.0529 m as without this interval, at sqrt(2) it is 0.0540 m."""
+LONGEST_INTERVAL = 0.05
+"""Longest interval between independent readings, s: that of 20 Hz, the lowest rate for which the noise was chosen."""
+MEMORY_TIME = 2.0
+"""Time constant of the sums of an IndependentInterval, s: about two strides, so that each sum has some impacts."""
+
+
+@define
+class IndependentInterval:
+    """Learns the interval between independent readings, which is longer than dt for a sensor read beyond its bandwidth.
+
+    The filter knows what lies between two samples only by their difference: the larger it is, the larger may be the
+    error of a straight line between them. Readings that are interpolated, or faster than the bandwidth of the sensor,
+    show small differences although they tell no more of an impact than at a lower rate. The noise would vanish with the
+    third power of dt, and a landing that was measured badly would look like a swing (`ms_patient` at 102 Hz,
+    interpolated to 410 Hz: the standard deviation of the vertical velocity at a landing fell from 0.37 to 0.06 m/s, its
+    error stayed 0.9 m/s, and the gate rejected every sixth stance).
+
+    The spectrum shows the interval. Let j be the jerk, the difference of two readings of the specific force divided by
+    dt, and s the difference of two values of j divided by dt. Over some strides the interval is
+
+        T = k sqrt(sum |j|^2 dt / sum |s|^2 dt),  not less than dt.
+
+    The root is dt / sqrt(2) for readings that change at random. It does not depend on dt where the band is narrow
+    against the rate, because the sums are integrals there. The frame may be any that turns slowly."""
+
+    jerk: Vec3 | None = field(default=None, init=False)
+    """Jerk between the last two samples, m/s^3; None after a gap."""
+    jerk_square: float = field(default=0.0, init=False)
+    """Fading sum of |j|^2 dt, m^2/s^5."""
+    snap_square: float = field(default=0.0, init=False)
+    """Fading sum of |s|^2 dt, m^2/s^7."""
+
+    def update(self, dt: float, x: float, y: float, z: float) -> float:
+        """Add the difference x, y, z of the specific force after `dt` s, m/s^2; return T / dt."""
+        if dt <= 0.0:
+            return 1.0
+        k = 1.0 / dt
+        x, y, z = k * x, k * y, k * z
+        previous, self.jerk = self.jerk, (x, y, z)
+        if previous is not None:
+            remaining = 1.0 - dt / MEMORY_TIME if dt < MEMORY_TIME else 0.0
+            self.jerk_square = remaining * self.jerk_square + (x * x + y * y + z * z) * dt
+            px, py, pz = previous
+            x, y, z = x - px, y - py, z - pz
+            self.snap_square = remaining * self.snap_square + (x * x + y * y + z * z) * k
+        ratio_square = INTERVAL_RATIO * INTERVAL_RATIO * k * k * self.jerk_square
+        if ratio_square <= self.snap_square:
+            return 1.0
+        longest = max(LONGEST_INTERVAL * k, 1.0)
+        return (
+            longest if ratio_square >= longest * longest * self.snap_square else sqrt(ratio_square / self.snap_square)
+        )
 
 
 @define
