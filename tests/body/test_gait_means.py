@@ -98,6 +98,20 @@ def test_a_cycle_goes_from_contact_to_contact_and_the_other_foot_divides_it() ->
         assert stride.single_support == pytest.approx(0.4)
 
 
+@pytest.mark.parametrize("late", [-0.3, -0.2, 0.2, 0.3, 0.45])
+def test_a_cycle_with_a_flight_and_a_double_support_is_no_walk_and_no_run_and_compares_nothing(late: float) -> None:
+    cycles = walk_on(walked(L, R), 16, late=late, start=1.0)
+    assert len(cycles) > 8 and all(cycle.stance_time == pytest.approx(0.6) for cycle in cycles)
+    between = {(c.step_time, c.phase, c.initial_double_support, c.terminal_double_support) for c in cycles[1:]}
+    assert between == {(None, None, None, None)} and {cycle.single_support for cycle in cycles[1:]} == {None}
+
+
+@pytest.mark.parametrize("late", [-0.14, -0.06, 0.06, 0.14])
+def test_uneven_steps_of_a_walker_are_no_contradiction(late: float) -> None:
+    cycles = walk_on(walked(L, R), 16, late=late, start=1.0)
+    assert {cycle.initial_double_support is None for cycle in cycles[1:]} == {False}
+
+
 def test_no_foot_is_cleared_by_less_than_nothing() -> None:
     """Correct the foot's height at the foot-flat to above the highest point of the swing."""
     on, step = walked(L), taken(L, 0.6, 1.0, (0.0, 0.0, 0.0), (1.4, 0.0, 0.27))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +32,7 @@ def saved(folder: Path, columns: dict[str, np.ndarray], **changed: np.ndarray) -
 def test_a_whole_recording_has_no_fault(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
     done = run("check", saved(tmp_path, columns))
     assert done.returncode == 0 and "nothing must be mended" in done.stdout
-    assert "does not say of which foot it is" in done.stdout and "no check sees:" in done.stdout
+    assert "does not say of which foot it is" in done.stdout and "degraded" not in done.stdout
     named = run("check", saved(tmp_path, columns), "--foot", "left")
     assert "left foot 2" in named.stdout and "of which foot" not in named.stdout
 
@@ -43,15 +44,93 @@ def test_a_mirrored_axis_is_named_and_the_status_is_1(columns: dict[str, np.ndar
     assert done.stdout.splitlines()[1] == "must be mended:" and "the axes of the gyroscope" in done.stdout
 
 
-def test_a_file_in_other_units_is_named(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+def test_the_verdict_lists_what_the_checks_may_miss(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+    done = run("check", saved(tmp_path, columns, acc=-columns["acc"], gyro=1.2 * columns["gyro"]))
+    assert done.returncode == 0 and "nothing must be mended" in done.stdout
+    lines = done.stdout.splitlines()
+    start = lines.index("not everything can be seen in the data; a check may miss, for example:")
+    unseen = "\n".join(lines[start + 1 :])
+    for words in (
+        "axes of an accelerometer reversed",
+        "scale is wrong",
+        "wrong but constant speed",
+        "exchanged",
+        "limps",
+    ):
+        assert words in unseen
+
+
+def test_values_in_other_units_get_the_readers_sentence_and_no_summary_of_a_walk(
+    columns: dict[str, np.ndarray], tmp_path: Path
+) -> None:
     done = run("check", saved(tmp_path, columns, gyro=np.degrees(columns["gyro"])))
-    assert done.returncode == 1 and "deg/s" in done.stdout
+    assert done.returncode == 1 and done.stderr == ""
+    title, heading, sentence, end = done.stdout.splitlines()
+    assert (title, heading) == ("walk.npz: its values cannot be used", "must be mended:")
+    assert sentence.startswith("  gyro: ") and "deg/s" in sentence and "stride" not in done.stdout
+    assert end == "nothing else was checked: mend this first"
+
+
+def test_values_that_can_be_read_but_not_be_right_are_named_too(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+    done = run("check", saved(tmp_path, columns, acc=0.5 * columns["acc"]), "--foot", "left")
+    assert done.returncode == 1
+    assert "\n  left foot: the accelerometer reads 4.9" in done.stdout
+    assert "the sensor's range is 2 times the range that is assumed" in done.stdout
+
+
+def test_axes_that_fit_are_offered(data_dir: Path, tmp_path: Path) -> None:
+    with np.load(data_dir / "openshoe_loops" / "m30.npz") as file:
+        walk = {key: file[key] for key in ("t", "acc", "gyro")}
+    done = run("check", saved(tmp_path, walk, gyro=walk["gyro"][:, [1, 0, 2]]), "--foot", "right")
+    assert done.returncode == 1
+    assert "the gyroscope's axes +y +x +z fit the accelerometer's +x +y +z" in done.stdout
+
+
+def test_degraded_strides_are_counted_and_explained_by_the_gaps_in_them(
+    columns: dict[str, np.ndarray], tmp_path: Path
+) -> None:
+    kept = np.arange(len(columns["t"])) % 60 != 30
+    done = run("check", saved(tmp_path, {key: column[kept] for key, column in columns.items()}), "--foot", "left")
+    found = re.search(r"left foot: (\d+) of (\d+) strides degraded: samples are missing in (.*)", done.stdout)
+    assert done.returncode == 0 and found is not None
+    degraded, strides, reason = found.groups()
+    assert int(degraded) == int(strides) > 15
+    assert re.fullmatch(rf"{degraded} \(\d\d gaps of 20 ms\)", reason)
+
+
+def test_a_gap_in_one_stride_of_many_is_no_news(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+    kept = np.arange(len(columns["t"])) != 1000
+    done = run("check", saved(tmp_path, {key: column[kept] for key, column in columns.items()}))
+    assert done.returncode == 0 and "degraded" not in done.stdout
 
 
 def test_a_recording_of_packets_is_checked_too(tmp_path: Path) -> None:
     walk = emulate(Route().stand(2.0).walk(4.0).stop(1.0), seed=3)
     done = run("check", recorded(tmp_path / "walk.jsonl", walk.packets))
-    assert done.returncode == 0 and "too little walking" in done.stdout
+    assert done.returncode == 0 and "too few strides to check everything" in done.stdout
+
+
+BROKEN = {
+    "walk.csv": b"this is no table\n",
+    "walk.npz": b"PK\x03\x04 and no more",
+    "walk.jsonl": b"this is no packet\n",
+    "empty.csv": b"",
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_a_file_that_is_no_recording_is_an_error_and_gets_no_verdict(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_bytes(BROKEN[name])
+    assert name in run_failing("check", tmp_path / name)
+
+
+def test_rows_before_one_that_cannot_be_read_are_checked(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+    acc = columns["acc"].copy()
+    acc[2000] = np.nan
+    done = run("check", saved(tmp_path, columns, acc=acc), "--foot", "left")
+    assert done.returncode == 1 and done.stderr == ""
+    assert re.search(r"^walk.npz: 20.0 s, left foot 1\d strides$", done.stdout, re.MULTILINE)
+    assert "acc, row 2000: is nan" in done.stdout and "what comes after it was not checked" in done.stdout
 
 
 def test_a_file_that_is_not_there_is_an_error_and_no_verdict(tmp_path: Path) -> None:

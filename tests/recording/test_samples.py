@@ -121,6 +121,12 @@ def without(columns: dict[str, np.ndarray], *keys: str) -> dict[str, np.ndarray]
     return {k: v for k, v in columns.items() if k not in keys}
 
 
+def burst_times(size: int, within: float) -> dict[str, np.ndarray]:
+    """Return 400 samples at 100 Hz, with times of their packets of `size` samples; those are `within` s apart."""
+    number = np.arange(400)
+    return idle(400) | {"t": idle(400)["t"][number // size * size] + within * (number % size)}
+
+
 FAULTY = {
     "no t": (without(idle(), "t"), 'has no key "t"'),
     "no t of a foot": (without(name_foot(idle(), "left"), "t_left"), 'has no key "t" and no key t_left'),
@@ -140,6 +146,9 @@ FAULTY = {
     "first row not finite": (idle() | {"acc": np.full((20, 3), np.nan)}, "acc, row 0: is nan, not a finite number"),
     "g": (idle() | {"acc": idle()["acc"] / 9.81}, "|acc| is 0.996 m/s^2, not 9.8: this looks like g"),
     "repeated": (idle() | {"t": np.repeat(idle()["t"][::2], 2)[: len(idle()["t"])]}, "is 0 s: times repeat"),
+    "one time for a packet": (burst_times(10, 0.0), "bursts of about 10, one burst each 0.1 s, as with the time"),
+    "packets by BLE": (burst_times(10, 1e-5), "give each sample its own time, about 0.01 s after the one before"),
+    "microseconds as seconds": (idle() | {"t": idle()["t"] * 1e-3}, "is 1e-05 s: these are not seconds"),
     "milli-g": (idle() | {"acc": idle()["acc"] * 102.0}, "this looks like milli-g"),
     "counts": (idle() | {"acc": idle()["acc"] * 1670.0}, "this looks like raw counts"),
     "huge": (idle() | {"acc": idle()["acc"] * 1e300}, "this looks like raw counts"),

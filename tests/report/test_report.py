@@ -18,7 +18,7 @@ from pages import Node, parse_page, read_page
 from shown import later
 from walks import insoles, of, run_session
 
-from solepath import Connected, LinkTrouble, PacketsLost, PlaceLost, Session, Site
+from solepath import Connected, Defect, DefectFound, LinkTrouble, PacketsLost, PlaceLost, Session, Site
 from solepath.body.gait.means import GaitMeans
 from solepath.body.place.particles import Particles
 from solepath.emulate.routes.building import BUILDING
@@ -124,6 +124,18 @@ def test_faults_are_shown_in_words_and_in_the_table_of_links() -> None:
     assert "left foot (sole 7)" in page.named("facts").text
     assert "Nothing was wrong" not in health.text
     assert "Nothing was wrong" in shown(Report("quiet")).text
+
+
+def test_data_that_cannot_be_right_come_first_in_the_report() -> None:
+    what = "the axes of the gyroscope do not fit those of the accelerometer"
+    defect = DefectFound(t=3.0, known_at=3.0, site=Site.RIGHT_FOOT, defect=Defect.AXES, what=what)
+    page = shown(report_of(*walk_events(), defect))
+    assert "What cannot be right" in [one.text for one in page.all("h3")]
+    (first, *_) = [one.text for one in page.first("ul").all("li")]
+    assert first == f"Right foot: {what}."
+    whole = page.text
+    assert whole.index(what) < whole.index("The recording lasts") < whole.index("Gait")
+    assert "What cannot be right" not in shown(report_of(*walk_events())).text
 
 
 def report_after_silence(silence: float, back: float) -> Report:

@@ -8,6 +8,7 @@ from strides import stride
 from solepath.events import (
     CellFault,
     CellsFailed,
+    ClockReset,
     Defect,
     DefectFound,
     FeetSwapped,
@@ -20,6 +21,7 @@ from solepath.events import (
     PacketsLost,
     Rejection,
     SampleGap,
+    StreamStale,
     StrideFused,
     TouchedDown,
 )
@@ -97,6 +99,27 @@ def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
     assert link_health(observer) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
 
 
+def test_what_happened_once_has_the_singular():
+    observer = Observer()
+    observer.add(FootSilent(t=1.0, known_at=2.0, foot=Foot.LEFT, silent_for=1.0))
+    for t in (1.0, 5.0):
+        observer.add(FootSilent(t=t, known_at=t + 1.0, foot=Foot.RIGHT, silent_for=1.0))
+    assert wear_lines(observer) == [
+        "left: silent once while the other walked on",
+        "right: silent twice while the other walked on",
+    ]
+    frame = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"")
+    late = PacketRejected(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, channel="insole/frame", reason=Rejection.LATE)
+    observer.take(frame, [late])
+    for n in range(3):
+        observer.add(ClockReset(t=float(n), known_at=float(n), site=Site.LEFT_FOOT, restarted=True))
+    observer.add(StreamStale(t=2.0, known_at=3.0, site=Site.LEFT_FOOT, silent_for=1.0))
+    observer.add(SampleGap(t=4.0, known_at=4.5, site=Site.LEFT_FOOT, duration=0.5))
+    observer.take(Sample(4.5, Site.LEFT_FOOT), [])
+    assert link_health(observer) == ["1 packet rejected (late 1)", "3 clock resets", "a stream fell silent once"]
+    assert "left: 1 gap in the samples, 0.50 s in all" in summary(observer, title="walk", seconds=0.0)
+
+
 def test_defects_are_the_first_lines_of_a_summary_and_limitations_are_reported():
     observer = Observer()
     observer.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
@@ -141,7 +164,7 @@ def test_a_fault_in_wearing_is_reported_once():
         "left foot: 40 cells dead, left out",
         "right foot: the insole never unloads; phases come from the inertial sensor",
         "the feet look swapped: what comes as the left one is like a right one",
-        "right: silent 1 times while the other walked on",
+        "right: silent once while the other walked on",
     ]
 
 

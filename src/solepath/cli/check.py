@@ -4,24 +4,87 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from math import inf
 from pathlib import Path
 from typing import Any
 
 from ..body.checks.axes import SETTLED_STRIDES
-from ..events import DefectFound, Event
-from ..recording import RecordingError, open_file, printable
+from ..events import DefectFound, Event, SampleGap, StrideTaken
+from ..recording import RecordingError, printable
+from ..recording.errors import UnusableValues
 from ..session import Session
-from ..types import Packet, Sample
+from ..show.tables.table import counted
+from ..types import Foot, Packet, Sample
+from ..types.attrs import define, field
 from .common.failure import recipe_named
 from .common.inputs import add_calibration, add_foot, assumed_foot, calibration_of, foot_of, source_of
 
 UNSEEN = (
-    "an accelerometer with all three axes reversed, which turns left into right",
-    "an accelerometer turned by a few degrees against the gyroscope",
-    "a gyroscope whose scale is wrong by a few percent",
+    "all three axes of an accelerometer reversed, which turns left into right",
+    "one sensor of a device turned against the other by up to about 10 degrees",
+    "a gyroscope whose scale is wrong by less than about a half",
+    "one axis of a sensor that is dead, in about half of the cases",
+    "a gyroscope that is late against the accelerometer, or early, by less than 0.1 s",
+    "a clock that runs at a wrong but constant speed",
+    "sensors of the feet that are exchanged, in about half of the walks",
     "clocks of the feet that are apart, of a wearer who limps",
 )
-"""Defects that no check can see."""
+"""Some defects that may be in data of which the checks report nothing; there are others."""
+LARGE_SHARE = 0.1
+"""Share of degraded strides of a foot from which on they are mentioned; chosen by hand."""
+MOST_GAPS = 1000
+"""Largest number of gaps of a foot that are remembered until its next stride."""
+
+
+@define
+class DegradedStrides:
+    """The strides of one foot that are degraded although no defect spoils them, and what they lack."""
+
+    strides: int = 0
+    """Number of strides before a defect."""
+    degraded: int = 0
+    """Number of them that are degraded."""
+    with_gap: int = 0
+    """Number of these in which samples are missing."""
+    gap_count: int = 0
+    """Number of gaps in them."""
+    shortest: float = inf
+    """Shortest gap, s."""
+    longest: float = 0.0
+    """Longest gap, s."""
+    is_spoilt: bool = False
+    """Flag: a defect spoils the data from now on."""
+    gaps: list[SampleGap] = field(factory=list)
+    """Gaps since the last stride ended."""
+
+    def add(self, event: Event) -> None:
+        """Add an event of this foot."""
+        if isinstance(event, DefectFound):
+            self.is_spoilt = self.is_spoilt or event.spoils
+        elif isinstance(event, SampleGap):
+            self.gaps = [*self.gaps[1 - MOST_GAPS :], event]
+        elif isinstance(event, StrideTaken) and event.final and not self.is_spoilt:
+            self.strides += 1
+            self.degraded += event.degraded
+            gaps = [gap.duration for gap in self.gaps if gap.t + gap.duration > event.t_start]
+            if event.degraded and gaps:
+                self.with_gap += 1
+                self.gap_count += len(gaps)
+                self.shortest, self.longest = min(self.shortest, *gaps), max(self.longest, *gaps)
+            self.gaps = [gap for gap in self.gaps if gap.t + gap.duration > event.t_end]
+
+    def sentence(self) -> str | None:
+        """Return how many strides are degraded and why; None if they are few."""
+        if self.degraded < max(1.0, LARGE_SHARE * self.strides):
+            return None
+        text = f"{self.degraded} of {counted(self.strides, 'stride')} degraded"
+        if self.with_gap:
+            longest, shortest = f"{1e3 * self.longest:.3g}", f"{1e3 * self.shortest:.3g}"
+            size = longest if longest == shortest else f"{shortest} to {longest}"
+            text += f": samples are missing in {self.with_gap} ({counted(self.gap_count, 'gap')} of {size} ms)"
+        if other := self.degraded - self.with_gap:
+            text += f"; {other} with values at the end of a range, or that look like two strides in one or are too fast"
+        return text
 
 
 def add_to(commands: Any) -> None:
@@ -30,7 +93,8 @@ def add_to(commands: Any) -> None:
         "check",
         help="say what is wrong with a recording",
         description="Say what is wrong with a recording of packets (JSON Lines) or of samples (.npz, .csv), in"
-        " sentences. The exit status is 1 if something must be mended. Axes need about 20 s of walking, clocks 60 s.",
+        " sentences. The exit status is 1 if something must be mended, also if the values are in another unit, and 2 if"
+        " the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
     )
     command.add_argument("file", metavar="FILE", type=Path, help="the recording")
     command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
@@ -40,43 +104,63 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Check the recording and print the verdict; return 1 if something must be mended, else 0."""
+    """Check the recording and print the verdict; return 1 if something must be mended, else 0.
+
+    RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
+    read, and gets a verdict. Rows or packets before one that cannot be read are checked."""
     from ..show.observer import Observer
     from ..show.tables.summary import link_health, wear_lines
 
     recipe, calibration = recipe_named(options.recipe), calibration_of(options)
-    open_file(options.file).close()
+    name = printable(options.file.name)
+    try:
+        source = source_of(options.file, foot_of(options))
+    except UnusableValues as error:
+        print(f"{name}: its values cannot be used")
+        _print_list("must be mended", [_without_path(error)])
+        print("nothing else was checked: mend this first")
+        return 1
     session, observer = Session(recipe, calibration=calibration, poses=True), Observer()
     must: list[str] = []
-    may: list[str] = []
+    may = [*filter(None, [assumed_foot(source)])]
+    degraded = {foot: DegradedStrides() for foot in Foot}
 
     def take(item: Packet | Sample | None, events: list[Event]) -> None:
         observer.take(item, events)
         for event in events:
             if isinstance(event, DefectFound):
                 (must if event.needs_action else may).append(f"{event.site.words}: {event.what}")
+            foot = event.site.foot if isinstance(event, DefectFound | SampleGap) else getattr(event, "foot", None)
+            if foot is not None:
+                degraded[foot].add(event)
 
     try:
-        source = source_of(options.file, foot_of(options))
-        may += filter(None, [assumed_foot(source)])
         for item in source:
             take(item, session.feed(item))
     except RecordingError as error:
-        must.append(str(error))
+        if not observer.item_count:
+            raise
+        must.append(f"{_without_path(error)}; what comes after it was not checked")
     take(None, session.finish())
     must += [*wear_lines(observer), *observer.troubles]
+    may += [f"{foot} foot: {text}" for foot in Foot if (text := degraded[foot].sentence()) is not None]
     may += [*observer.limitations, *link_health(observer)]
     strides = {foot: counts.strides for foot, counts in observer.feet.items() if counts.strides}
-    walked = ", ".join(f"{foot} foot {count} strides" for foot, count in strides.items()) or "no stride"
-    print(f"{printable(options.file.name)}: {observer.covered_time.total:.1f} s, {walked}")
+    walked = ", ".join(f"{foot} foot {counted(count, 'stride')}" for foot, count in strides.items()) or "no stride"
+    print(f"{name}: {observer.covered_time.total:.1f} s, {walked}")
     _print_list("must be mended", must)
     _print_list("worth knowing", may)
     if not must:
         print("nothing must be mended")
     if min(strides.values(), default=0) < SETTLED_STRIDES:
-        print(f"too little walking: axes need {SETTLED_STRIDES} strides of a foot, and clocks of the feet a minute")
-    _print_list("no check sees", UNSEEN)
+        needed = f"axes need {SETTLED_STRIDES} strides of a foot, and clocks of the feet a minute of walking"
+        print(f"too few strides to check everything: {needed}")
+    _print_list("not everything can be seen in the data; a check may miss, for example", UNSEEN)
     return 1 if must else 0
+
+
+def _without_path(error: RecordingError) -> str:
+    return ": ".join([part for part in (error.where, error.what) if part])
 
 
 def _print_list(title: str, sentences: Sequence[str]) -> None:

@@ -158,12 +158,13 @@ def _print_progress(demo: Demo) -> None:
     """Compute the demo as fast as possible and print lines of plain text instead of a picture."""
     from ..show.tables.plot import plot
     from ..show.tables.summary import link_health
+    from ..show.tables.table import counted
 
     due = REPORT_INTERVAL
     for packet in demo.play():
         if packet.t >= due:
             due += REPORT_INTERVAL
-            feet = (f"{foot} {demo.observer.foot(foot).strides} strides" for foot in Foot)
+            feet = (f"{foot} {counted(demo.observer.foot(foot).strides, 'stride')}" for foot in Foot)
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
     print(
         "\n".join(

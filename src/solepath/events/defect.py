@@ -28,8 +28,12 @@ class Defect(Enum):
     """The motion is larger than the range of the sensor, so its peaks are cut off."""
     LOW_RATE = "rate"
     """Too few samples a second for steps to be found or for an impact to be followed."""
+    BANDWIDTH = "bandwidth"
+    """A sensor is filtered or averaged so much that it does not follow a step."""
+    BURSTS = "times in bursts"
+    """Several samples carry nearly the same time, that of the packet which brought them."""
     REPEATED = "repeated samples"
-    """One sensor repeats its values while the other one measures."""
+    """One sensor or both repeat values more often than they measure, or none of the values changes at all."""
     AXES = "axes"
     """The axes of the gyroscope are mirrored or exchanged against those of the accelerometer."""
     CONTRADICTION = "motion of the two sensors"
@@ -44,12 +48,14 @@ class Defect(Enum):
 class DefectFound(Happening):
     """The data of a sensor contradict themselves or physics, so what follows from them cannot be trusted.
 
-    `t` is the time of the sample or stride that showed it, with which it is reported. Each defect of a site is reported
-    once, and again only after another device was connected there, or when the offset of a clock has changed. While a
-    defect that `spoils` lasts, the strides of the foot are marked degraded."""
+    `t` is the time of the sample or stride that showed it, with which it is reported. While a defect that `spoils`
+    lasts, the strides of the foot are marked degraded: until another device is connected there, or the clock of the
+    device restarts. Until then each defect of a site is reported once, but AXES once more when the correction is known,
+    IMPOSSIBLE_MOTION when most strides are impossible, CLIPPED when it becomes frequent, and CLOCKS whenever the offset
+    has changed."""
 
     site: Site
-    """Site whose data are wrong; for clocks, the foot whose times would have to be shifted."""
+    """Site whose data are wrong; for clocks, the right foot, whose times would have to be shifted."""
     defect: Defect
     what: str
     """Sentences for the person who wears or mounts the sensor: the fault, and what to do about it."""
@@ -60,7 +66,9 @@ class DefectFound(Happening):
 
     A negative number means that this axis has the wrong sign. None for other defects."""
     offset: float | None = None
-    """Correction of CLOCKS: time to add to the times of this foot, s. None for other defects."""
+    """Correction of CLOCKS: time to add to the times of this foot, s, except for whole gait cycles.
+
+    None for other defects, and for clocks that may be seconds apart."""
     sigma: float | None = None
     """Standard deviation of `offset`, s; None without an offset."""
 

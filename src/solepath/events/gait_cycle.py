@@ -24,7 +24,8 @@ class GaitCycleMeasured(Happening):
     device or clock restarted; after a late start it takes longer, because a delay is corrected by 5 ms a second
     (link/clock.py). Between settled clocks the error of these times is up to 5 ms, with radios that hold packets back
     by up to 50 ms, plus the constant part of the radios' delay, which cannot be measured. They are also None if the
-    other foot's contact or toe-off lies in a gap in its samples, and after a DefectFound of the clocks of the feet.
+    other foot's contact or toe-off lies in a gap in its samples, after a DefectFound of the clocks of the feet, and if
+    the cycle would have both a double support and a flight of more than 50 ms, which neither a walk nor a run has.
 
     The conditions for a `steady` cycle, which counts in the running means, are in body/gait/measuring.py."""
 

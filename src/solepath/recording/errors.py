@@ -16,6 +16,12 @@ class RecordingError(Exception):
         super().__init__(": ".join([printable(str(path))] + [part for part in (where, what) if part]))
 
 
+class UnusableValues(RecordingError):
+    """Error for a recording whose numbers can be read but are not what they should be.
+
+    They are in another unit, or the times are not those of the samples."""
+
+
 class RecordingWarning(UserWarning):
     """Warning about a flaw that only makes data missing, such as an incomplete last line."""
 

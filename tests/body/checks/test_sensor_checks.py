@@ -209,6 +209,67 @@ def test_a_sensor_at_rest_that_lacks_gravity_waits_for_motion() -> None:
     assert Defect.NO_GRAVITY in {event.defect for event in run(still + without_gravity(WALK))[0]}
 
 
+def test_a_sensor_that_is_stuck_in_mid_walk_spoils_what_follows() -> None:
+    frozen = [evolve(sample, acc=WALK[1000].acc) if i > 1000 else sample for i, sample in enumerate(WALK)]
+    found, strides = run(frozen)
+    *_, event = [event for event in found if event.defect is Defect.REPEATED]
+    assert event.spoils and "the accelerometer repeats the same values while the foot moves" in event.what
+    later = [stride for stride in strides if stride.t_start > event.t]
+    assert len(later) >= 3 and all(stride.degraded for stride in later)
+
+
+def averaged(samples: list[Sample], count: int) -> list[Sample]:
+    """Return the samples of a sensor that averages `count` samples and sends as often as before."""
+
+    def mean(values: list[Vec3]) -> Vec3:
+        x, y, z = [sum(axis) / len(values) for axis in zip(*values, strict=True)]
+        return x, y, z
+
+    recent = [samples[max(0, i - count + 1) : i + 1] for i in range(len(samples))]
+    return [
+        evolve(last[-1], acc=mean([s.acc or (0.0,) * 3 for s in last]), gyro=mean([s.gyro or (0.0,) * 3 for s in last]))
+        for last in recent
+    ]
+
+
+def test_a_sensor_that_smooths_a_step_away_is_named(data_dir: Path) -> None:
+    walk = [sample for sample in read_samples(data_dir / "openshoe_loops" / "m30.npz") if sample.t < 30.0]
+    assert run(averaged(walk, 5))[0] == [], "20 ms smooth nothing away"
+    assert Defect.BANDWIDTH in {event.defect for event in run(averaged(walk, 50))[0]}
+
+
+@pytest.mark.parametrize("count", [3, 4])
+def test_a_sensor_of_25_to_33_samples_a_second_has_axes_and_gravity_too(count: int, data_dir: Path) -> None:
+    walk = [s for s in read_samples(data_dir / "gaitmap_examples" / "walk_4x10m_ic.npz") if s.site is Site.LEFT_FOOT]
+    slow = averaged(walk, count)[::count]
+    assert run(slow)[0] == []
+    mirrored = [vectors(gyro=signed(1.0, -1.0, 1.0))(sample) for sample in slow]
+    assert Defect.AXES in {event.defect for event in run(mirrored)[0]}
+    assert Defect.ACC_UNIT in {event.defect for event in run([DAMAGES["in g"][1](sample) for sample in slow])[0]}
+
+
+def test_samples_with_the_time_of_their_packet_are_bursts() -> None:
+    bursts = [evolve(s, t=WALK[i - i % 10].t + 1e-5 * (i % 10), known_at=None) for i, s in enumerate(WALK)]
+    assert [event.defect for event in run(bursts)[0]] == [Defect.BURSTS]
+
+
+def test_a_range_that_a_slow_walk_hardly_reaches_spoils_a_fast_one() -> None:
+    route = Route().stand(1.5).walk(15.0, 0.8).walk(40.0, 1.9).stop(1.0)
+    walk = Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    found, strides = run([vectors(gyro=clipped(5.8))(sample) for sample in walk])
+    spoiling = [event for event in found if event.defect is Defect.CLIPPED and event.spoils]
+    assert len(spoiling) == 1
+    later = [stride for stride in strides if stride.t_start > spoiling[0].t]
+    assert len(later) >= 3 and all(stride.degraded for stride in later)
+
+
+def test_a_runner_in_g_is_in_g_and_not_in_another_range() -> None:
+    jog = Walker(Route().jog(60.0, 2.8).stop(2.0), seed=102).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    found, _ = run([DAMAGES["in g"][1](sample) for sample in jog])
+    assert Defect.ACC_UNIT in {event.defect for event in found}
+    assert Defect.WRONG_SCALE not in {event.defect for event in found}
+
+
 def test_a_few_values_beyond_any_sensor_are_no_wrong_unit() -> None:
     spike = vectors(acc=lambda v: (1000.0, v[1], v[2]))
     found, strides = run([spike(sample) if i % 3 == 0 else sample for i, sample in enumerate(WALK)])

@@ -31,8 +31,8 @@ LARGEST_LIFT, LONGEST_LIFT_START = 0.3, 3.0
 """Change of the specific force in a lift, as a part of 1 g, and time that a lift takes to start or stop, s, at most."""
 STILL_TIME = 0.6
 """Least duration of a rest that is judged, s."""
-IN_G = 1.0
-"""Specific force of a foot at rest in units of g."""
+IN_G, LARGEST_IN_RUN = 1.0, 2.0
+"""Specific force of a foot at rest, and the largest in a stance of a runner, in units of g."""
 WALKING_RANGE = 9.0
 """Mean range of an axis in a block of motion above which a foot walks in m/s^2; in units of g it is 1 to 3."""
 FASTEST_RATE = 45.0
@@ -72,12 +72,19 @@ class GravityCheck:
         A foot that turns in stance, as a runner's, has more than 1 g, never much less."""
         x, y, z = acc
         norm = (x * x + y * y + z * z) ** 0.5
-        if norm > (1.0 + TOLERANCE) * GRAVITY and motion > STILL_MOTION:
+        if motion > STILL_MOTION and (
+            norm > (1.0 + TOLERANCE) * GRAVITY or 1.0 + TOLERANCE < norm / IN_G < LARGEST_IN_RUN
+        ):
             return None
         self.stances = [*self.stances[1 - MOST_STANCES :], norm]
         if len(self.stances) < STANCES:
             return None
         return self._judge(sorted(self.stances)[len(self.stances) // 2], "in stance")
+
+    @property
+    def knows_stances(self) -> bool:
+        """Return whether as many stances as are kept were seen."""
+        return len(self.stances) >= MOST_STANCES
 
     def add_block(
         self, t: float, t_end: float, accs: Sequence[Vec3], acc_range: float, gyro_peak: float

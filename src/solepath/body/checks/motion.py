@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from math import degrees, radians, sqrt
 from typing import assert_never
 
-from ...events import Defect, DefectFound, StrideTaken
+from ...events import Defect, DefectFound, SampleGap, StrideTaken
+from ...foot.stride import FASTEST_RUN
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, evolve, field
 from ...types.vector import GRAVITY
@@ -27,8 +28,10 @@ LEAST_WALKING_STANCE = 0.55
 """Share of a stride with the foot on the ground from which on one foot always is, however even the feet are.
 
 It is one half; the rest is the error of heel-strike and toe-off, 50 ms of a stride of one second."""
-FASTEST_RUN = 12.5
-"""Largest speed of a person, m/s: that of the fastest 20 m of the world record of 100 m."""
+LONGEST_STRIDE = 5.6
+"""Length of the longest strides, m: two steps of the fastest sprinter, who takes 41 of them on 100 m and none of 2.8 m.
+
+(Krzysztof and Mero, "A kinematics analysis of three best 100 m performances ever", J. Human Kinetics 36, 2013)"""
 LARGEST_TOE_OFF_ANGLE, LEAST_TOE_OFF_ANGLE = radians(120.0), radians(-45.0)
 """Limits of the angle of the foot at toe-off, heel up positive, rad.
 
@@ -42,6 +45,8 @@ MOST_RECENT = 8
 """Number of recent strides of a foot that are counted."""
 LEAST_RECENT = 4
 """Number of recent strides from which on their majority counts."""
+LONG_STRIDES = 2
+"""Number of strides of an impossible length that show that more than one stance is at fault."""
 
 ADVICE = (
     "Check the units (m/s^2 with gravity, rad/s, s), that both sensors of the device use the same axes, and that it is"
@@ -56,6 +61,10 @@ class FootRecord:
 
     recent: tuple[bool, ...] = ()
     """Flag of each of the recent strides, the oldest first: the stride was impossible."""
+    gap_at: float | None = None
+    """Time of the last gap between samples, s: what a stride does in a gap is not known. None before any."""
+    too_long: int = 0
+    """Number of strides of an impossible length, without those in gaps."""
     one_reported: bool = False
     """Flag: a single impossible stride was reported."""
     all_reported: bool = False
@@ -75,6 +84,8 @@ class PossibleMotion(Part):
         if isinstance(event, DefectFound) and event.spoils and event.site.foot is not None:
             record = self._record(event.site.foot)
             record.one_reported = record.all_reported = True  # the cause is known
+        if isinstance(event, SampleGap) and event.site.foot is not None:
+            self._record(event.site.foot).gap_at = event.t
         if not isinstance(event, StrideTaken):
             return ()
         record = self._record(event.foot)
@@ -86,12 +97,16 @@ class PossibleMotion(Part):
         output: list[PartOutput] = []
         if motion is not None and not event.degraded:
             output.append(Replacement(event, evolve(event, degraded=True)))
-        if len(record.recent) >= LEAST_RECENT and 2 * record.recent.count(True) > len(record.recent):
+        has_gap = record.gap_at is not None and event.t_start <= record.gap_at <= event.t_end
+        is_too_long = event.length > LONGEST_STRIDE and not has_gap
+        record.too_long += is_too_long
+        most = len(record.recent) >= LEAST_RECENT and 2 * record.recent.count(True) > len(record.recent)
+        if most or record.too_long >= LONG_STRIDES:
             if not record.all_reported:
                 record.one_reported = record.all_reported = True
-                text = f"most strides cannot be right: the last one has {reason}. "
+                text = f"{'most' if most else 'several'} strides cannot be right: the last one has {reason}. "
                 output.append(self._found(event, text + ADVICE, spoils=True))
-        elif motion is not None and not event.degraded and not record.one_reported:
+        elif motion is not None and not record.one_reported and (is_too_long or not event.degraded):
             record.one_reported = True
             text = f"a stride cannot be right, because it has {reason}; it is marked as degraded. "
             output.append(self._found(event, text + "If it happens again: " + ADVICE, spoils=False))
@@ -125,6 +140,8 @@ def impossible_motion(stride: StrideTaken) -> str | None:
     speed = stride.length / duration if duration > 0.0 else 0.0
     if speed > FASTEST_RUN:
         return f"a speed of {speed:.0f} m/s"
+    if stride.length > LONGEST_STRIDE:
+        return f"a length of {stride.length:.0f} m"
     t_toe_off, t_heel_strike = stride.t_toe_off, stride.t_heel_strike
     if speed > FASTEST_WALK and t_toe_off is not None and t_heel_strike is not None:
         stance = 1.0 - (t_heel_strike - t_toe_off) / duration

@@ -17,7 +17,9 @@ LEAST_BLOCKS, LEAST_PAIRS = 3, 5
 
 Of 378 recordings of a foot, none of a sensor that does not clip has more than one pair in 20 s of walking."""
 SPOILING_SHARE = 0.01
-"""Share of samples at the end of a range, since it was reached first, above which a track cannot be trusted."""
+"""Share of the recent samples at the end of a range above which a track cannot be trusted."""
+RECENT_SAMPLES = 2000
+"""Number of samples after which the share is computed from the later half alone: a wearer may walk slowly first."""
 
 Extremes = tuple[float, float, float, float, float, float]
 """Largest value of x, of -x, of y, of -y, of z and of -z in a block, m/s^2 or rad/s."""
@@ -59,7 +61,7 @@ class ChannelEnd:
     blocks: int = 0
     """Number of blocks with samples at `largest`."""
     first: int = 0
-    """Number of samples before the block in which `largest` was reached for the first time."""
+    """Number of samples before those of which `samples` are counted."""
 
 
 @define
@@ -87,6 +89,8 @@ class RangeCheck:
             return None
         self.cuts_off = True
         share = found.samples / (self.samples - found.first)
+        if self.samples - found.first > RECENT_SAMPLES:
+            found.samples, found.first = found.samples // 2, (found.first + self.samples) // 2
         text = f"the {kind.name} cuts off peaks at {found.largest:.3g} {kind.unit}, in {100.0 * share:.2g} % of samples"
         return Finding(Defect.CLIPPED, f"{text}: choose a larger range", spoils=share > SPOILING_SHARE)
 

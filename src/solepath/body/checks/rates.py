@@ -22,8 +22,14 @@ LEAST_RATE = 18.0
 """Rate, samples a second, below which a walk is not followed; the slowest of the five published systems has 20."""
 UNITS_OF_TIME = ((1e3, "milliseconds"), (1e6, "microseconds"), (1e9, "nanoseconds"))
 """Usual units of time, with their number in a second."""
+BURST_STEP = 0.25
+"""Part of the mean interval below which the usual interval is one within a burst of samples."""
+BURST_BLOCKS, EXAMINED_BLOCKS = 3, 8
+"""Number of blocks with bursts before they are reported, and number of first blocks in which they are searched."""
 REPEAT_SAMPLES, REPEAT_SHARE = 160, 0.1
 """Number of samples in motion after which repeats are judged, and share of them above which they are reported."""
+STUCK_SHARE = 0.9
+"""Share of repeats in motion above which a sensor does not measure at all."""
 
 
 @define
@@ -36,6 +42,10 @@ class RateCheck:
     """Number of successive blocks whose times cannot be in s."""
     slow_blocks: int = 0
     """Number of successive blocks of motion with too low a rate."""
+    blocks: int = 0
+    """Number of blocks in which bursts were searched."""
+    burst_blocks: int = 0
+    """Number of them with bursts."""
     moving: int = 0
     """Number of samples in motion since repeats were judged last."""
     acc_repeats: int = 0
@@ -49,7 +59,7 @@ class RateCheck:
         interval = (times[-1] - times[0]) / (len(times) - 1) if t is None else (times[-1] - t) / len(times)
         if interval >= SHORTEST_INTERVAL and interval * least_rate < 1.0:
             self.strange_blocks = self.slow_blocks = 0
-            return None
+            return self._find_bursts(times, interval) if self.blocks < EXAMINED_BLOCKS else None
         steps = sorted([b - a for a, b in zip(times, times[1:], strict=False)])
         interval = steps[len(steps) // 2]
         if interval > LONGEST_INTERVAL and not moves:
@@ -67,6 +77,16 @@ class RateCheck:
                 return Finding(Defect.LOW_RATE, text, spoils=False)
         return None
 
+    def _find_bursts(self, times: Sequence[float], interval: float) -> Finding | None:
+        """Return that the samples of a block come in bursts, once some blocks show it; `interval`, s, is the mean."""
+        self.blocks += 1
+        steps = sorted([b - a for a, b in zip(times, times[1:], strict=False)])
+        self.burst_blocks += steps[len(steps) // 2] < BURST_STEP * interval
+        if self.burst_blocks < BURST_BLOCKS:
+            return None
+        text = "the samples come in bursts, with the time of the packet that brought them: give each sample the time at"
+        return Finding(Defect.BURSTS, f"{text} which it was measured")
+
     def add_values(self, accs: Sequence[Vec3], gyros: Sequence[Vec3]) -> Finding | None:
         """Add a block of motion; return which sensor repeats its values, if one does."""
         self.acc_repeats += [*map(eq, accs, accs[1:])].count(True)
@@ -76,10 +96,15 @@ class RateCheck:
             return None
         limit = REPEAT_SHARE * self.moving
         acc_repeats, gyro_repeats = self.acc_repeats > limit, self.gyro_repeats > limit
+        is_stuck = max(self.acc_repeats, self.gyro_repeats) > STUCK_SHARE * self.moving
         self.moving = self.acc_repeats = self.gyro_repeats = 0
         if not (acc_repeats or gyro_repeats):
             return None
         name = "the accelerometer repeats" if acc_repeats else "the gyroscope repeats"
+        if is_stuck:
+            return Finding(
+                Defect.REPEATED, f"{name} the same values while the foot moves: it is stuck; restart the sensor"
+            )
         text = f"{'both sensors repeat' if acc_repeats and gyro_repeats else name} values: samples come more often than"
         return Finding(Defect.REPEATED, f"{text} it measures; choose the rate at which it measures", spoils=False)
 

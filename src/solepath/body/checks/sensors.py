@@ -11,6 +11,7 @@ from ...types import OTHER, SITE_OF_FOOT, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ..part import Part, PartInput, PartOutput
 from .axes import AxesCheck
+from .bandwidth import BandwidthCheck
 from .closure import Axes
 from .finding import Finding
 from .gravity import MOVING_GYRO, GravityCheck
@@ -21,10 +22,10 @@ from .stances import Row, StanceFinder
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
-BLINDING: Final = frozenset((Defect.TIME_UNIT, Defect.GYRO_UNIT))
+BLINDING: Final = frozenset((Defect.TIME_UNIT, Defect.BURSTS, Defect.GYRO_UNIT))
 """Defects with which no stance can be found, so that gravity and axes cannot be judged."""
 LONGEST_INTERVAL = 1.0 / 40.0
-"""Longest mean interval between samples with which the velocity of a stride closes, s."""
+"""Longest mean interval between samples with which the velocity of a stride certainly closes, s."""
 BLOCK = 32
 """Number of samples that are examined together, because this costs less than one by one."""
 EXAMINED_AGAIN = 300.0
@@ -55,6 +56,7 @@ class SensorCheck:
     gravity: GravityCheck = field(factory=GravityCheck)
     stances: StanceFinder = field(factory=StanceFinder)
     axes: AxesCheck = field(factory=AxesCheck)
+    bandwidth: BandwidthCheck = field(factory=BandwidthCheck)
     loads: LoadCheck = field(factory=LoadCheck)
     unusable_since: float | None = None
     """Time of the first rejected sample of a foot that has no usable one yet, s; None before any."""
@@ -68,6 +70,8 @@ class SensorCheck:
     """Time at which the axes were settled, s."""
     reported: list[Defect] = field(factory=list)
     """Defects that were reported."""
+    mild: list[Defect] = field(factory=list)
+    """Those of them that did not spoil strides; each is reported again when it does."""
     corrected: Axes | None = None
     """Correction of the axes that was reported."""
 
@@ -76,16 +80,17 @@ class SensorCheck:
 class SensorChecks(Part):
     """Reports what cannot be right in the samples of a foot, as DefectFound; a defect is reported once for a device.
 
-    Wrong axes are reported again when the correction is known.
+    Wrong axes are reported again when the correction is known, and a mild defect when it has become one that spoils.
 
     It looks for another unit of time, specific force, angular rate or pressure; for gravity that is missing or has a
-    wrong size; for peaks cut off at the end of a range; for samples that are too rare or repeated; and for a gyroscope
-    whose axes do not fit those of the accelerometer. Nothing depends on the mounting, because stances are found by the
-    sizes of the two vectors. Latency: times in another unit after 64 samples; units, gravity and ranges after some
-    stances or some seconds of rest; axes after 8 strides, and at most 16 s after the first of them. An accelerometer
-    with all its axes reversed cannot be seen.
+    wrong size; for peaks cut off at the end of a range; for samples that are too rare, filtered, repeated or in bursts;
+    and for a gyroscope whose axes do not fit those of the accelerometer. Nothing depends on the mounting, because
+    stances are found by the sizes of the two vectors. Latency: times in another unit after 64 samples; units, gravity
+    and ranges after some stances or some seconds of rest; axes after 6 strides, or after 3 when 8 s have passed since
+    the first one. An accelerometer with all its axes reversed cannot be seen.
 
-    Cost: sums over blocks of 32 samples; strides are examined until the axes are settled, and again after 300 s."""
+    Cost: sums over blocks of 32 samples. Strides, with gravity in stance, are examined until the axes are settled, and
+    again after 300 s."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -150,8 +155,14 @@ class SensorChecks(Part):
             if finding is None:
                 continue
             defect, what, spoils, axes = finding
-            if defect not in check.reported or (axes is not None and check.corrected is None):
-                check.reported.append(defect)
+            is_worse = spoils and defect in check.mild
+            if defect not in check.reported or is_worse or (axes is not None and check.corrected is None):
+                if is_worse:
+                    check.mild.remove(defect)
+                else:
+                    check.reported.append(defect)
+                if not spoils:
+                    check.mild.append(defect)
                 check.corrected = axes or check.corrected
                 event = DefectFound(
                     t=t, known_at=known_at, site=site, defect=defect, what=what, spoils=spoils, axes=axes
@@ -178,15 +189,22 @@ class SensorChecks(Part):
         elif check.same_since is None:
             check.same_since = times[0]
         interval = (times[-1] - times[0]) / (len(times) - 1)
-        if interval > LONGEST_INTERVAL or check.gyro_range.cuts_off or not BLINDING.isdisjoint(check.reported):
+        if interval * self.settings.least_rate > 1.0 or not BLINDING.isdisjoint(check.reported):
             return findings
-        if check.axes.settled:
+        axes, is_slow = check.axes, interval > LONGEST_INTERVAL
+        if axes.settled:
             if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
                 check.axes, check.stances = AxesCheck(), StanceFinder()
             return findings
+        axes.doubtful = is_slow or check.acc_range.cuts_off
         for t, stride in check.stances.add(rows, gyro_bias):
-            findings += [check.gravity.add_stance(stride.last, stride.motion), check.axes.add(t, stride)]
-        if check.axes.settled:
+            findings += [
+                check.gravity.add_stance(stride.last, stride.motion),
+                None if is_slow else check.bandwidth.add(stride),
+                None if check.gyro_range.cuts_off else axes.add(t, stride),
+            ]
+        axes.settled = axes.settled or (check.gyro_range.cuts_off and check.gravity.knows_stances)
+        if axes.settled:
             check.settled_at = times[-1]
         return findings
 

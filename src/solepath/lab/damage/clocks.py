@@ -4,14 +4,16 @@
 
 prints a table as Markdown. DIR holds recorded data. The times of the right foot's events are shifted by an offset, or
 stretched as by a clock that runs at another rate. A foot's events do not depend on the other foot's clock, so the
-samples are processed once. Walks of at least a minute are repeated to ten minutes for clocks of different rates. The
-recordings in `KNOWN_APART` have separate clocks already; they are listed below the table with what is reported. The run
-takes two minutes on one processor."""
+samples are processed once. The last column is of even walkers: the reported offset is undone, and the medians of step
+time and double support of each foot are compared with those of the undamaged walk; the worst of the four counts.
+Walks of at least a minute are repeated to ten minutes for clocks of different rates. The recordings in `KNOWN_APART`
+have separate clocks already; they are listed below the table with what is reported. The run takes some minutes on one
+processor."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from math import ceil, inf, isfinite
 from pathlib import Path
 from statistics import median
@@ -20,20 +22,15 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...body.checks.clocks import FootClocks
-from ...calibration import Calibration
-from ...emulate.walk import sampled
-from ...emulate.wearers.gait import Wearer
-from ...events import DefectFound, Event, FootFlat, HeelStrike, SampleGap, ToeOff
-from ...recording import RecordingError
-from ...recording.samples import load_samples
-from ...session import Session
-from ...types import Foot, Sample
-from ..emulated.walks import insoles_of, long_walk
-from ..evaluate.insoles import force_sensors, switches
+from ...events import DefectFound, GaitEvent, HeelStrike, StrideTaken
+from ...types import OTHER, Foot
 from ..processes import run_jobs
+from .clock_walks import KNOWN_APART, PAUSE, ClockJob, ClockWalk, FootEvent, error_between, foot_of, read_walk
 
 OFFSETS = (0.05, 0.1, 0.2, 0.3, 0.5)
 """Sizes of the offsets, s; each is added and subtracted."""
+SECONDS_APART = (5.0, 10.0)
+"""Sizes of offsets that leave one foot walking while the other one stands, s."""
 RATE = 200e-6
 """Relative difference of the rates of two clocks, of which each may be wrong by 100 ppm."""
 LONG = 600.0
@@ -42,8 +39,6 @@ MIN_WALKING = 12.0
 """Least time of walking of a recording that is scored, s; an offset needs ten steps of each foot without a fault."""
 MINUTE = 60.0
 """Time of walking within which an offset has to be reported, s."""
-PAUSE = 2.5
-"""Time between two contacts of a foot above which the wearer did not walk, s."""
 SEEDS = (201, 202)
 """Seeds of the emulated walks."""
 DATA_SETS = (
@@ -52,67 +47,6 @@ DATA_SETS = (
 )  # fmt: skip
 """Folders of the data sets with recordings of both feet."""
 EMULATED = "emulated"
-KNOWN_APART = {
-    "tripod_treadmill": "the light barrier of the treadmill shows 75 ms in PWS and 19 ms in PWS_minus20",
-    "felius_2min_walk": "the sensors have no common clock",
-    "smart_insole_35": "each stream is stamped from its own start, and they start 60 to 290 ms apart",
-    "ms_patient": "the feet are not synchronised, says the source",
-}
-"""Data sets and recordings whose feet have separate clocks, and the reason."""
-CALIBRATIONS = {"marpino_heel_toe": switches, "gaitpdb_vgrf": force_sensors}
-"""Functions that return the calibration of a data set's insoles."""
-
-
-FootEvent = HeelStrike | ToeOff | FootFlat | SampleGap
-
-
-@frozen
-class ClockJob:
-    """A recording of both feet, or an emulated walk."""
-
-    data_set: str
-    name: str
-    path: Path | None = None
-    """The recording; None for an emulated walk, whose seed is its name."""
-
-
-@frozen
-class ClockWalk:
-    """The events of both feet in a walk."""
-
-    job: ClockJob
-    events: tuple[FootEvent, ...]
-    end: float
-    """Time of the last sample, s."""
-
-    @property
-    def is_known_apart(self) -> bool:
-        """True if the feet have separate clocks already."""
-        return self.job.data_set in KNOWN_APART or self.job.name in KNOWN_APART
-
-
-def read_walk(job: ClockJob) -> ClockWalk | str:
-    """Return the events of a walk, or the reason why the recording cannot be used."""
-    calibration = CALIBRATIONS.get(job.data_set, Calibration)()
-    session, events = Session(calibration=calibration), list[Event]()
-    samples: Iterable[Sample]
-    if job.path is None:
-        seed = int(job.name)
-        samples = sampled(long_walk(seed).walk(300.0), wearer=Wearer(), insoles=insoles_of(seed), seed=seed).samples
-    else:
-        try:
-            recording = load_samples(job.path)
-        except RecordingError as error:
-            return str(error)
-        if len(recording.tables) < 2:
-            return "one foot"
-        samples = recording
-    try:
-        for sample in samples:
-            events += session.feed(sample)
-    except RecordingError:
-        pass  # the samples before the fault count
-    return ClockWalk(job, tuple([event for event in events if isinstance(event, FootEvent)]), session.now or 0.0)
 
 
 @frozen
@@ -124,9 +58,13 @@ class ClockOutcome:
     walked: float | None
     """Time that they had walked when the clocks were reported, s; None when they were not."""
     reported: float | None
-    """Offset that was reported first, s; None when none was."""
+    """Offset that was reported first, s; None when none was, or one foot walked while the other one stood."""
     offset: float
     """Offset that was added to the times of the right foot, s."""
+    undone: float | None
+    """Largest error of the median step times and double supports once the reported offset is undone, s.
+
+    None for a walker whose swings are uneven, and without an offset."""
 
 
 def find_outcome(walk: ClockWalk, offset: float = 0.0, rate: float = 0.0, duration: float = 0.0) -> ClockOutcome:
@@ -134,14 +72,18 @@ def find_outcome(walk: ClockWalk, offset: float = 0.0, rate: float = 0.0, durati
 
     The times of the right foot are shifted by `offset`, s, and stretched by 1 + `rate`."""
     damaged: list[FootEvent] = []
+    spans = {foot: list[tuple[float, float]]() for foot in Foot}
     for number in range(max(1, ceil(duration / (walk.end + PAUSE)))):
         start = number * (walk.end + PAUSE)
+        scales = {foot: (1.0 + rate, offset) if foot is Foot.RIGHT else (1.0, 0.0) for foot in Foot}
+        for foot, (first, last) in walk.spans.items():
+            scale, shift = scales[foot]
+            spans[foot].append((scale * (start + first) + shift, scale * (start + last) + shift))
         for event in walk.events:
-            foot = event.site.foot if isinstance(event, SampleGap) else event.foot
-            scale, shift = (1.0 + rate, offset) if foot is Foot.RIGHT else (1.0, 0.0)
-            t, known_at = scale * (start + event.t) + shift, scale * (start + event.known_at) + shift
-            damaged.append(evolve(event, t=t, known_at=known_at))
-    part, reported, walked = FootClocks(), None, None
+            scale, shift = scales[foot_of(event) or Foot.LEFT]
+            names = ("t", "known_at", "t_start", "t_end") if isinstance(event, StrideTaken) else ("t", "known_at")
+            damaged.append(evolve(event, **{name: scale * (start + getattr(event, name)) + shift for name in names}))
+    part, reports, walked = FootClocks(), list[DefectFound](), None
     walking, contacts = dict.fromkeys(Foot, 0.0), dict[Foot, float]()
     for event in sorted(damaged, key=lambda event: event.known_at):
         if isinstance(event, HeelStrike):
@@ -149,31 +91,57 @@ def find_outcome(walk: ClockWalk, offset: float = 0.0, rate: float = 0.0, durati
             if time < PAUSE:
                 walking[event.foot] += time
             contacts[event.foot] = event.t
-        for output in part.receive(event):
-            if isinstance(output, DefectFound) and reported is None:
-                reported, walked = output.offset, min(walking.values())
-    return ClockOutcome(min(walking.values()), walked, reported, offset)
+        if isinstance(event, GaitEvent):
+            set_newest(part, event, spans)
+        outputs = [*part.receive(event), *part.finish(event.known_at)]
+        if not reports and outputs:
+            walked = min(walking.values())
+        reports += [output for output in outputs if isinstance(output, DefectFound)]
+    reported = reports[0].offset if reports else None
+    undone = None if reported is None else error_between(walk, offset + reported)
+    return ClockOutcome(min(walking.values()), walked, reported, offset, undone)
+
+
+def set_newest(part: FootClocks, event: GaitEvent, spans: dict[Foot, list[tuple[float, float]]]) -> None:
+    """Set the newest samples of the feet at an event, as the views of the feet do in a session."""
+    foot, other = event.foot, OTHER[event.foot]
+    times = [min(event.known_at, last) for first, last in spans[other] if first <= event.known_at]
+    newest = times[-1] if times else None
+    part.lone.set_newest(foot, event.t, newest)
+    if newest is not None and not (part.lone.left if other is Foot.LEFT else part.lone.right).is_known:
+        part.lone.set_standing(other, newest)
 
 
 def row(data: str, damage: str, outcomes: Sequence[ClockOutcome], limit: float) -> str:
     """Return a row of the table as Markdown; the clocks have to be reported within `limit` s of walking."""
     found = [(one.walked, one) for one in outcomes if one.walked is not None and one.walked <= limit]
     short = sum(one.walking < limit for one in outcomes)
-    errors = [abs(one.reported + one.offset) for _, one in found if one.reported is not None and one.offset]
+    is_mirrored = bool(outcomes) and abs(outcomes[0].offset) in OFFSETS
+    errors = [abs(one.reported + one.offset) for _, one in found if one.reported is not None and is_mirrored]
+    undone = [one.undone for _, one in found if one.undone is not None and is_mirrored]
     cells = [
         data,
         damage,
         f"{len(found)} of {len(outcomes)}",
         str(short) if isfinite(limit) else "-",
         f"{median([walked for walked, _ in found]):.0f} s" if found else "-",
-        f"{1e3 * median(errors):.0f} / {1e3 * float(np.percentile(errors, 95)):.0f} ms" if errors else "-",
+        _errors(errors),
+        _errors(undone),
     ]
     return f"| {' | '.join(cells)} |"
 
 
+def _errors(values: Sequence[float]) -> str:
+    """Return median and 95th percentile of errors in s as text in ms."""
+    if not values:
+        return "-"
+    return f"{1e3 * median(values):.0f} / {1e3 * float(np.percentile(values, 95)):.0f} ms"
+
+
 HEADER = """\
-| data | right foot's clock | reported | shorter than limit | walked before, median | offset wrong, median / 95 % |
-|---|---|---|---|---|---|"""
+| walks | right foot's clock | reported | shorter than limit | walked before, median | offset wrong, median / 95 % \
+| step time, double support wrong once undone |
+|---|---|---|---|---|---|---|"""
 
 
 def find_jobs(folder: Path, names: Sequence[str]) -> list[ClockJob]:
@@ -194,21 +162,20 @@ def table(folder: Path, names: Sequence[str], processes: int) -> Iterator[str]:
     ]
     usual = {walk.job: find_outcome(walk) for walk in walks}
     scored = [walk for walk in walks if usual[walk.job].walking >= MIN_WALKING and not walk.is_known_apart]
-    data_sets = {name: [walk for walk in scored if walk.job.data_set == name] for name in DATA_SETS + (EMULATED,)}
-    groups = {name: of_set for name, of_set in data_sets.items() if of_set} | {"all": scored}
     long = [walk for walk in scored if usual[walk.job].walking >= MINUTE]
-    groups |= {"all of a minute": long}
+    groups = {"all": scored, "of a minute": long}
     yield HEADER
     for name, of_group in groups.items():
         yield row(name, "undamaged", [usual[walk.job] for walk in of_group], inf)
-    for size in OFFSETS:
+    for size in OFFSETS + SECONDS_APART:
+        text = f"{1e3 * size:.0f} ms" if size < 1.0 else f"{size:.0f} s"
         for name, of_group in groups.items():
             outcomes = [find_outcome(walk, sign * size) for walk in of_group for sign in (1.0, -1.0)]
-            yield row(name, f"{1e3 * size:.0f} ms early or late", outcomes, MINUTE)
-    yield row("all of a minute", "undamaged, ten minutes", [find_outcome(walk, duration=LONG) for walk in long], inf)
+            yield row(name, f"{text} early or late", outcomes, MINUTE)
+    yield row("of a minute", "undamaged, ten minutes", [find_outcome(walk, duration=LONG) for walk in long], inf)
     outcomes = [find_outcome(walk, rate=sign * RATE, duration=LONG) for walk in long for sign in (1.0, -1.0)]
-    yield row("all of a minute", "200 ppm fast or slow, ten minutes", outcomes, LONG)
-    alarms = [walk.job for walk in scored if usual[walk.job].reported is not None]
+    yield row("of a minute", "200 ppm fast or slow, ten minutes", outcomes, LONG)
+    alarms = [walk.job for walk in walks if usual[walk.job].walked is not None and not walk.is_known_apart]
     yield (
         "\nReported although undamaged: " + (", ".join(f"{job.data_set}/{job.name}" for job in alarms) or "none") + "."
     )
@@ -216,11 +183,15 @@ def table(folder: Path, names: Sequence[str], processes: int) -> Iterator[str]:
     for walk in walks:
         if walk.is_known_apart:
             job, one = walk.job, usual[walk.job]
-            result = "not reported" if one.reported is None else f"{1e3 * one.reported:+.0f} ms reported"
+            lone = "not reported" if one.walked is None else "one foot walked while the other one stood"
+            result = lone if one.reported is None else f"{1e3 * one.reported:+.0f} ms reported"
             reason = KNOWN_APART.get(job.data_set) or KNOWN_APART[job.name]
             yield f"- {job.data_set}/{job.name}, {one.walking:.0f} s of walking: {result}; {reason}"
     few = sum(one.walking < MIN_WALKING for one in usual.values())
-    yield f"\n{few} recordings of both feet with less than {MIN_WALKING:.0f} s of walking are not scored."
+    yield (
+        f"\n{few} recordings of both feet with less than {MIN_WALKING:.0f} s of walking are not scored, but searched "
+        "for reports."
+    )
 
 
 def main() -> None:

@@ -39,7 +39,7 @@ KNOWN: dict[str, set[Defect]] = {
 """Defects that recordings of these data sets have.
 
 They are an accelerometer that clips at 2 g (hugadb) or 8 g (xio), values that are repeated (smart_insole_35), and a
-left foot whose strides close with no axes (felius)."""
+left foot whose strides close best with all axes of one sensor reversed, and then badly (felius)."""
 MS = 1e3
 """Number of ms in a second."""
 BEFORE, WALKING, LEAST_WALKING = 3.0, 20.0, 15.0
@@ -67,7 +67,7 @@ class Damage:
     defect: Defect | None
     """None when nothing has to be reported."""
     make: Make
-    tell: Callable[[Floats, Floats], bool] = lambda acc, gyro: True
+    changes: Callable[[Floats, Floats], bool] = lambda acc, gyro: True
     """Function of the undamaged values that returns whether the damage changes them."""
 
 
@@ -194,13 +194,12 @@ def _vectors(values: Floats) -> list[Vec3]:
 
 
 def _reported(values: Damaged, foot: Foot) -> list[DefectFound]:
-    """Return the defects that a session of the default recipe reports."""
+    """Return the defects that a session of the default recipe reports while the samples come, not at their end."""
     t, acc, gyro = values
     session, events = Session(), list[Event]()
     site = SITE_OF_FOOT[foot]
     for time, force, rate in zip(t.tolist(), _vectors(acc), _vectors(gyro), strict=True):
         events += session.feed(Sample(time, site, force, rate))
-    events += session.finish()
     return [event for event in events if isinstance(event, DefectFound)]
 
 
@@ -220,8 +219,10 @@ def examine(piece: WalkingFoot) -> DefectOutcome | None:
     known = KNOWN.get(piece.path.parent.name, set())
     outcomes = []
     for damage in _damages():
-        if damage.defect in known or not damage.tell(acc, gyro):
+        if damage.defect in known or not damage.changes(acc, gyro):
             continue
+        if damage.defect is None and Defect.CLIPPED in known:
+            continue  # once turned, cut peaks no longer end at the range of an axis, which no sensor does
         found = _reported(damage.make(t, acc, gyro), piece.foot)
         names = tuple([event.defect.name for event in found if event.defect not in known])
         unit = MS if damage.defect is Defect.TIME_UNIT else 1.0

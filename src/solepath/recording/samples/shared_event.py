@@ -71,11 +71,15 @@ def shared_offset(recording: SampleRecording, start: float, end: float) -> tuple
 
 
 def _smoothed(table: FootTable) -> tuple[Floats, Floats]:
-    """Return regular times and the smoothed magnitude of the specific force at them."""
+    """Return regular times and the smoothed magnitude of the specific force at them.
+
+    Before the first sample and after the last one it is taken to be that of these samples: with zeros there, both feet
+    would share a jump at the ends of the recording, whatever their clocks."""
     times = np.arange(table.t[0], table.t[-1], INTERVAL)
     magnitude = np.interp(times, table.t, np.linalg.norm(table.columns["acc"], axis=1))
     window = np.hanning(round(WIDTH / INTERVAL) + 1)
-    return times, np.convolve(magnitude, window / window.sum(), "same")
+    padded = np.pad(magnitude, len(window) // 2, mode="edge")
+    return times, np.convolve(padded, window / window.sum(), "valid")
 
 
 def _difference(first: Floats, second: Floats) -> float:

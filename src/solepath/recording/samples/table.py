@@ -16,7 +16,7 @@ from attrs import define
 from numpy.typing import NDArray
 
 from ...types import SITE_OF_FOOT, Foot, Sample
-from ..errors import RecordingError, printable
+from ..errors import RecordingError, UnusableValues, printable
 
 Floats = NDArray[np.float64]
 
@@ -86,7 +86,9 @@ def to_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> 
 
 
 def check_table(table: FootTable) -> FootTable:
-    """Return the table, cut before its first row that cannot be used; RecordingError when no row can be used."""
+    """Return the table, cut before its first row that cannot be used; RecordingError when no row can be used.
+
+    It is UnusableValues when the numbers are in another unit, or the times are not those of the samples."""
     if not len(table):
         raise RecordingError(table.path, "holds no samples", table.names["t"])
     end, fault, quantity = _first_bad_row(table)
@@ -97,7 +99,7 @@ def check_table(table: FootTable) -> FootTable:
         table.t = table.t[:end]
         table.columns = {q: column[:end] for q, column in table.columns.items()}
     for quantity, complaint in _find_wrong_units(table.t, table.columns):
-        raise RecordingError(table.path, complaint, table.names[quantity])
+        raise UnusableValues(table.path, complaint, table.names[quantity])
     return table
 
 
@@ -125,12 +127,7 @@ def _find_wrong_units(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tupl
     if len(t) > 2:
         interval = float(np.median(np.diff(t)))
         if not MIN_INTERVAL <= interval <= MAX_INTERVAL:
-            explanation = (
-                "this looks like milliseconds or sample numbers" if interval > MAX_INTERVAL else "these are not seconds"
-            )
-            if interval == 0.0:
-                explanation = "times repeat"
-            yield "t", f"the median time between samples is {interval:.3g} s: {explanation}"
+            yield "t", f"the median time between samples is {interval:.3g} s: {_explain_times(t, interval)}"
     if "acc" in columns:
         median = float(np.median(_vector_lengths(columns["acc"])))
         low, high = MEDIAN_ACC_RANGE
@@ -144,6 +141,22 @@ def _find_wrong_units(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tupl
         if high > MAX_GYRO:
             unit = "deg/s" if high < 4000.0 else "thousandths of a degree a second, or raw counts"
             yield "gyro", f"|gyro| reaches {high:.3g} rad/s, faster than a foot turns: this looks like {unit}"
+
+
+def _explain_times(t: Floats, median: float) -> str:
+    """Return what times, s, look like whose intervals have a median that cannot be right, s."""
+    if median > MAX_INTERVAL:
+        return "this looks like milliseconds or sample numbers"
+    starts = np.flatnonzero(np.diff(t) >= MIN_INTERVAL) + 1
+    if len(starts):
+        count, span = int(starts[-1]), float(t[starts[-1]] - t[0])
+        if MIN_INTERVAL <= span / count <= MAX_INTERVAL:
+            return (
+                f"{'times repeat: ' if median == 0.0 else ''}samples come in bursts of about {count / len(starts):.0f},"
+                f" one burst each {span / len(starts):.3g} s, as with the time at which their packet came; give each"
+                f" sample its own time, about {span / count:.3g} s after the one before"
+            )
+    return "times repeat" if median == 0.0 else "these are not seconds"
 
 
 def _guess_acc_unit(median: float) -> str:

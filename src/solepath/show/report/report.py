@@ -36,7 +36,7 @@ from .figures.track import TimedPosition, height_figure, plan_figure, track_figu
 from .gait_table import gait_tables
 from .markup import add, section, sentences, skeleton, table, terms
 from .soles import ReportSole
-from .words import CAUTION, limitations, link_rows, overview, problems, sensors
+from .words import CAUTION, defects, limitations, link_rows, overview, problems, sensors
 
 MAX_STRIDES, MAX_PLACES, MAX_POINTS = 1200, 1000, 1500
 """Largest number of strides of a foot, of places on the plan, and of points of a track; more are thinned evenly."""
@@ -148,6 +148,9 @@ class Report:
         add(main, "h1", self.title)
         self._facts(main, clock)
         parent = section(main, "summary", "Summary")
+        if self.observer.defects:
+            add(parent, "h3", "What cannot be right")
+            sentences(parent, defects(self.observer))
         stride_counts = {foot: strides.count for foot, strides in self.strides.items()}
         sentences(parent, overview(self.observer, clock, self.event_span is not None, stride_counts))
         parent = section(main, "gait", "Gait")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn
 from ..links import LinkLedger
 from ..observer import Observer
 from ..tables.summary import link_health, wear_lines
-from ..tables.table import number
+from ..tables.table import counted, number
 from .clock import ReportClock, duration_text
 from .figures.activity import activity_words
 
@@ -58,6 +60,11 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_count
     return lines
 
 
+def defects(observer: Observer) -> list[str]:
+    """Return sentences on data that contradict themselves or physics; none without defects."""
+    return _whole_sentences(observer.defects)
+
+
 def problems(observer: Observer) -> list[str]:
     """Return sentences on the faults of sensors, their wearing and their links; none without faults."""
     faults = [*observer.defects, *wear_lines(observer), *link_health(observer)]
@@ -67,16 +74,20 @@ def problems(observer: Observer) -> list[str]:
         if (counts := observer.feet.get(foot)) is not None and counts.degraded
     ]
     faults += [
-        f"{foot} foot: {link.gaps} gaps in the samples, {number(link.gap_time)} s in all"
+        f"{foot} foot: {counted(link.gaps, 'gap')} in the samples, {number(link.gap_time)} s in all"
         for foot in Foot
         if (link := observer.links.get(SITE_OF_FOOT[foot])) is not None and link.gaps
     ]
-    return [f"{text[0].upper()}{text[1:]}." for text in faults if text]
+    return _whole_sentences(faults)
 
 
 def limitations(observer: Observer) -> list[str]:
     """Return sentences on what the recipe had to do without."""
-    return [f"{text[0].upper()}{text[1:]}." for text in observer.limitations if text]
+    return _whole_sentences(observer.limitations)
+
+
+def _whole_sentences(texts: Sequence[str]) -> list[str]:
+    return [f"{text[0].upper()}{text[1:].removesuffix('.')}." for text in texts if text]
 
 
 def sensors(observer: Observer) -> str:

@@ -12,7 +12,7 @@ from ..links import LinkLedger
 from ..observer import GAIT_EVENTS, FootCounts, Observer
 from ..places import MAX_LISTED, PlaceCounts
 from .gait import gait_lines
-from .table import milliseconds, number, table
+from .table import counted, milliseconds, number, table, times
 
 
 def summary(observer: Observer, *, title: str, seconds: float) -> str:
@@ -48,7 +48,7 @@ def _foot_table(observer: Observer) -> list[str]:
         row = [f"{foot}", str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
         rows.append([*row, *[str(counts.events[kind]) for kind in GAIT_EVENTS]])
         if link.gaps:
-            missing.append(f"{foot}: {link.gaps} gaps in the samples, {link.gap_time:.2f} s in all")
+            missing.append(f"{foot}: {counted(link.gaps, 'gap')} in the samples, {link.gap_time:.2f} s in all")
         if counts.degraded:
             missing.append(f"{foot}: {counts.degraded} of {counts.strides} strides degraded")
     return ["", table(header, rows), "", *missing]
@@ -61,7 +61,7 @@ def _fused_feet(observer: Observer) -> list[str]:
         lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
     if observer.modes:
         modes = ", ".join(f"{mode} {observer.modes[mode]}" for mode in WalkingMode if observer.modes[mode])
-        lines.append(f"{observer.modes.total()} touchdowns: {modes}")
+        lines.append(f"{counted(observer.modes.total(), 'touchdown')}: {modes}")
     return lines
 
 
@@ -85,7 +85,7 @@ def wear_lines(observer: Observer) -> list[str]:
     silent = {foot: observer.silences[foot] for foot in Foot if observer.silences[foot]}
     return [
         *observer.wear_problems,
-        *(f"{foot}: silent {n} times while the other walked on" for foot, n in silent.items()),
+        *(f"{foot}: silent {times(n)} while the other walked on" for foot, n in silent.items()),
     ]
 
 
@@ -94,24 +94,24 @@ def link_health(observer: Observer) -> list[str]:
     lines, links = [], list(observer.links.values())
     if lost := sum([link.lost for link in links]):
         received = sum([link.received for link in links])
-        lines.append(f"{lost}{f' of {lost + received}' if received else ''} packets lost")
+        lines.append(f"{f'{lost} of ' if received else ''}{counted(lost + received, 'packet')} lost")
     rejected = sum([link.rejected for link in links], Counter[tuple[str, str]]())
-    for kind in ("packets", "samples"):
-        reasons = {reason: count for (what, reason), count in rejected.items() if what == kind}
+    for kind in ("packet", "sample"):
+        reasons = {reason: count for (what, reason), count in rejected.items() if what == f"{kind}s"}
         if reasons:
             detail = ", ".join(f"{reason} {count}" for reason, count in sorted(reasons.items()))
-            lines.append(f"{sum(reasons.values())} {kind} rejected ({detail})")
+            lines.append(f"{counted(sum(reasons.values()), kind)} rejected ({detail})")
     if resets := sum([link.clock_resets for link in links]):
-        lines.append(f"{resets} clock resets")
+        lines.append(counted(resets, "clock reset"))
     if silences := sum([link.silences for link in links]):
-        lines.append(f"{silences} times a stream fell silent")
+        lines.append(f"a stream fell silent {times(silences)}")
     if restarts := sum([link.restarts for link in links]):
-        lines.append(f"{restarts} times a stream froze and was set up again")
+        lines.append(f"a stream froze and was set up again {times(restarts)}")
     if dropped := sum([link.dropped for link in links]):
-        lines.append(f"{dropped} packets dropped: they came faster than they could be used")
+        lines.append(f"{counted(dropped, 'packet')} dropped: too many came to be used in time")
     for site in Site:
         if site in observer.links and observer.links[site].connections > 1:
-            lines.append(f"{site.words}: connected {observer.links[site].connections} times")
+            lines.append(f"{site.words}: connected {times(observer.links[site].connections)}")
     lines += [f"trouble, {printable(what)}" for what in observer.troubles]
     return lines
 
@@ -151,9 +151,9 @@ def place_lines(counts: PlaceCounts) -> list[str]:
     if counts.first_decided is not None:
         strides, t = counts.first_decided
         share = f"; one place for {counts.decided_count} of {counts.places} strides"
-        lines.append(f"place: found after {strides} stride{'s' * (strides != 1)}, at {number(t, 1)} s{share}")
+        lines.append(f"place: found after {counted(strides, 'stride')}, at {number(t, 1)} s{share}")
     else:
-        lines.append(f"place: not found; {counts.places} strides with several candidates")
+        lines.append(f"place: not found; {counted(counts.places, 'stride')} with several candidates")
     if counts.last is not None:
         x, y, _ = counts.last.position
         position = f"({number(x, 1)}, {number(y, 1)}) m"
@@ -166,7 +166,7 @@ def place_lines(counts: PlaceCounts) -> list[str]:
         lines.append(f"levels: {levels}{f' and {unlisted} more' if unlisted > 0 else ''}")
     lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.first_losses]
     if counts.loss_count > MAX_LISTED:
-        lines.append(f"and {counts.loss_count - MAX_LISTED} times more")
+        lines.append(f"and {times(counts.loss_count - MAX_LISTED)} more")
     return lines
 
 

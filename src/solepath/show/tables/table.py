@@ -31,3 +31,13 @@ def percent(share: float | None, digits: int = 1) -> str:
 def milliseconds(seconds: float | None) -> str:
     """Return a time in s as a whole number of ms; a dash for None."""
     return "-" if seconds is None else f"{1000.0 * seconds:.0f}"
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a number with its noun, which has the plural -s: "1 gap", "2 gaps"."""
+    return f"{count} {noun}{'s' * (count != 1)}"
+
+
+def times(count: int) -> str:
+    """Return how often something happened: "once", "twice", "3 times"."""
+    return {1: "once", 2: "twice"}.get(count, f"{count} times")

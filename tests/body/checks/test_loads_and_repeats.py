@@ -1,0 +1,85 @@
+"""Insoles in newtons that carry nobody, and sensors that repeat their values alone or together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from statistics import median
+
+import pytest
+from attrs import evolve
+from walks import of
+
+from solepath import Defect, DefectFound, Foot, Sample, Session, Site, StrideTaken
+from solepath.calibration import Calibration, InsoleCalibration, Newtons
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
+
+WALKER = Walker(Route().stand(2.0).walk(20.0, 1.3).stop(2.0), seed=1)
+MOST_PER_CELL = 1e5
+"""Largest force of a cell, N, so that no value is cut."""
+
+
+@cache
+def walk() -> tuple[Sample, ...]:
+    """Return a walk with an insole of 96 cells, whose values are forces in N."""
+    return tuple(WALKER.samples(Foot.LEFT, 100.0, LSM6DSOX, layout=layout(96, Foot.LEFT)))
+
+
+def reported_with(factor: float) -> tuple[list[DefectFound], list[StrideTaken]]:
+    """Return the defects and strides of a wearer whose calibration multiplies all forces by `factor`."""
+    newtons = Newtons((0.0, factor, 0.0, 0.0), 0.0, MOST_PER_CELL)
+    session = Session(calibration=Calibration(insoles={Foot.LEFT: InsoleCalibration(newtons=newtons)}))
+    events = session.feed(walk()) + session.finish()
+    return of(DefectFound, events), of(StrideTaken, events)
+
+
+def test_an_insole_with_the_weight_of_the_wearer_is_silent() -> None:
+    found, strides = reported_with(1.0)
+    assert found == [] and len(strides) > 10
+    loads = [load for stride in strides if (load := stride.features.contact_load) is not None]
+    assert 200.0 < median(loads) < 1200.0
+
+
+@pytest.mark.parametrize("factor", [0.02, 50.0])
+def test_an_insole_in_newtons_with_the_weight_of_a_bird_or_an_elephant_is_named(factor: float) -> None:
+    (event,), strides = reported_with(factor)
+    assert event.defect is Defect.PRESSURE_UNIT and event.site is Site.LEFT_FOOT and event.spoils
+    shown = float(event.what.split()[3])
+    assert event.what == f"the insole shows {shown:.3g} N on the foot that carries the wearer: " + (
+        "check the unit of its values and its calibration"
+    )
+    assert shown < 40.0 if factor < 1.0 else shown > 4000.0
+    later = [stride.degraded for stride in strides if stride.t_start > event.t]
+    assert len(later) >= 3 and all(later)
+
+
+def held(acc: bool, gyro: bool) -> Callable[[int, Sample], Sample]:
+    """Return a change of a walk that holds every second value of the accelerometer, of the gyroscope or of both."""
+
+    def change(number: int, sample: Sample) -> Sample:
+        before = walk()[number - number % 2]
+        return evolve(sample, acc=before.acc if acc else sample.acc, gyro=before.gyro if gyro else sample.gyro)
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("acc", "gyro", "words"),
+    [
+        (True, False, "the accelerometer repeats values"),
+        (False, True, "the gyroscope repeats values"),
+        (True, True, "both sensors repeat values"),
+    ],
+)
+def test_it_is_named_which_sensor_repeats_its_values(acc: bool, gyro: bool, words: str) -> None:
+    change = held(acc, gyro)
+    session = Session()
+    events = session.feed([change(number, sample) for number, sample in enumerate(walk())]) + session.finish()
+    (event,) = of(DefectFound, events)
+    assert event.defect is Defect.REPEATED and not event.spoils
+    assert event.what.startswith(f"{words}: samples come more often than")
+    strides = of(StrideTaken, events)
+    assert len(strides) > 10 and not any(stride.degraded for stride in strides)
