@@ -86,7 +86,7 @@ def test_readings_that_never_change_have_the_interval_of_the_samples() -> None:
     assert ratio(0.01, [1.0] * 50) == 1.0
 
 
-def test_what_lies_in_a_gap_tells_nothing_of_the_interval() -> None:
+def test_a_gap_does_not_change_the_interval() -> None:
     filtered = ErrorStateFilter()
     filtered.start(IDENTITY, 0.02)
     for k in range(400):

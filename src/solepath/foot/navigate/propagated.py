@@ -82,7 +82,7 @@ class IndependentInterval:
 
     The filter knows what lies between two samples only by their difference: the larger it is, the larger may be the
     error of a straight line between them. Readings that are interpolated, or faster than the bandwidth of the sensor,
-    show small differences although they tell no more of an impact than at a lower rate. The noise would vanish with the
+    show small differences although they show no more of an impact than at a lower rate. The noise would vanish with the
     third power of dt, and a landing that was measured badly would look like a swing (`ms_patient` at 102 Hz,
     interpolated to 410 Hz: the standard deviation of the vertical velocity at a landing fell from 0.37 to 0.06 m/s, its
     error stayed 0.9 m/s, and the gate rejected every sixth stance).
