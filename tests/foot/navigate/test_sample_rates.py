@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from math import pi, sin
 from pathlib import Path
 
@@ -57,7 +56,9 @@ def test_half_the_rate_has_the_same_strides(data_dir: Path) -> None:
 def ratio(dt: float, readings: list[float]) -> float:
     """Return the estimated interval as a multiple of `dt`, s, after these readings."""
     interval = IndependentInterval()
-    return [interval.update(dt, after - before, 0.0, 0.0) for before, after in pairwise(readings)][-1]
+    forces = [(reading, 0.0, 0.0) for reading in readings]
+    triples = zip(forces, forces[1:], forces[2:], strict=False)
+    return [interval.update(dt, acc, dt, last, earlier) for earlier, last, acc in triples][-1]
 
 
 def test_readings_that_change_at_random_are_independent() -> None:
@@ -92,8 +93,7 @@ def test_a_gap_does_not_change_the_interval() -> None:
     for k in range(400):
         filtered.predict(0.0025, (sin(0.05 * k), 0.0, GRAVITY), ZERO)
     before = filtered.interval.jerk_square, filtered.interval.snap_square
-    filtered.bridge(1.0)
-    filtered.predict(0.0025, (50.0, 0.0, GRAVITY), ZERO)
+    filtered.predict(filtered.bridge(1.0), (50.0, 0.0, GRAVITY), ZERO)
     filtered.predict(0.0025, (51.0, 0.0, GRAVITY), ZERO)
     assert (filtered.interval.jerk_square, filtered.interval.snap_square) == before
     filtered.predict(0.0025, (53.0, 0.0, GRAVITY), ZERO)

@@ -95,6 +95,7 @@ class ErrorStateFilter(PropagatedCovariance):
         # clipped peaks of the sensors
         recovery = self.recovery
         gyro_clipping, acc_clipping = recovery.gyro_clipping, recovery.acc_clipping
+        dt_before, last_acc, earlier_acc = recovery.earlier_dt, recovery.last_acc, recovery.earlier_acc
         gyro_peaks = acc_peaks = None
         if (
             rate_square > gyro_clipping.near_end_square
@@ -144,12 +145,11 @@ class ErrorStateFilter(PropagatedCovariance):
         if previous_force is None:
             ax, ay, az, x, y, z = fx, fy, fz - GRAVITY, fx, fy, fz
             ratio = 1.0
-            self.interval.jerk = None
         else:
             px, py, pz = previous_force
             ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
             x, y, z = fx - px, fy - py, fz - pz
-            ratio = self.interval.update(dt, x, y, z)
+            ratio = self.interval.update(dt, acc, dt_before, last_acc, earlier_acc)
         vx, vy, vz = self.velocity
         ux, uy, uz = vx + ax * dt, vy + ay * dt, vz + az * dt
         px, py, pz = self.position

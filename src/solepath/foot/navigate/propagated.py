@@ -93,28 +93,28 @@ class IndependentInterval:
         T = k sqrt(sum |j|^2 dt / sum |s|^2 dt),  not less than dt.
 
     The root is dt / sqrt(2) for readings that change at random. It does not depend on dt where the band is narrow
-    against the rate, because the sums are integrals there. The frame may be any that turns slowly."""
+    against the rate, because the sums are integrals there."""
 
-    jerk: Vec3 | None = field(default=None, init=False)
-    """Jerk between the last two samples, m/s^3; None after a gap."""
     jerk_square: float = field(default=0.0, init=False)
     """Fading sum of |j|^2 dt, m^2/s^5."""
     snap_square: float = field(default=0.0, init=False)
     """Fading sum of |s|^2 dt, m^2/s^7."""
 
-    def update(self, dt: float, x: float, y: float, z: float) -> float:
-        """Add the difference x, y, z of the specific force after `dt` s, m/s^2; return T / dt."""
-        if dt <= 0.0:
+    def update(self, dt: float, acc: Vec3, dt_before: float, last: Vec3, earlier: Vec3) -> float:
+        """Add a sample `dt` s after the last one, which came `dt_before` s after the earlier one; return T / dt.
+
+        `acc`, `last` and `earlier` are the specific forces of the three samples, sensor frame, m/s^2."""
+        if dt <= 0.0 or dt_before <= 0.0:
             return 1.0
-        k = 1.0 / dt
-        x, y, z = k * x, k * y, k * z
-        previous, self.jerk = self.jerk, (x, y, z)
-        if previous is not None:
-            remaining = 1.0 - dt / MEMORY_TIME if dt < MEMORY_TIME else 0.0
-            self.jerk_square = remaining * self.jerk_square + (x * x + y * y + z * z) * dt
-            px, py, pz = previous
-            x, y, z = x - px, y - py, z - pz
-            self.snap_square = remaining * self.snap_square + (x * x + y * y + z * z) * k
+        k, m = 1.0 / dt, 1.0 / dt_before
+        ax, ay, az = acc
+        x, y, z = last
+        px, py, pz = earlier
+        ax, ay, az, px, py, pz = k * (ax - x), k * (ay - y), k * (az - z), m * (x - px), m * (y - py), m * (z - pz)
+        remaining = 1.0 - dt / MEMORY_TIME if dt < MEMORY_TIME else 0.0
+        self.jerk_square = remaining * self.jerk_square + (ax * ax + ay * ay + az * az) * dt
+        x, y, z = ax - px, ay - py, az - pz
+        self.snap_square = remaining * self.snap_square + (x * x + y * y + z * z) * k
         ratio_square = INTERVAL_RATIO * INTERVAL_RATIO * k * k * self.jerk_square
         if ratio_square <= self.snap_square:
             return 1.0
