@@ -1,14 +1,32 @@
-"""Samples of the left foot: in a walk, with gaps, and on a sole of four cells."""
+"""Samples of the left foot: in a walk, with gaps, on a sole of four cells, and damaged."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 
-from solepath import Cell, Event, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, ToeOff
+from attrs import evolve
+from walks import of
+
+from solepath import (
+    Cell,
+    DefectFound,
+    Event,
+    Foot,
+    FootFlat,
+    HeelOff,
+    HeelStrike,
+    Layout,
+    Sample,
+    Session,
+    StrideTaken,
+    ToeOff,
+)
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.truth import TrueStride
 from solepath.emulate.wearers.walker import Walker
+from solepath.types import Vec3
 
 PHASES = HeelStrike | FootFlat | HeelOff | ToeOff
 SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
@@ -38,3 +56,36 @@ def without(samples: tuple[Sample, ...], *gaps: tuple[float, float]) -> list[Sam
 def feed_new_session(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Session]:
     session = Session()
     return session.feed(samples), session
+
+
+Change = Callable[[Sample], Sample]
+
+
+def vectors(acc: Callable[[Vec3], Vec3] = lambda v: v, gyro: Callable[[Vec3], Vec3] = lambda v: v) -> Change:
+    def change(sample: Sample) -> Sample:
+        assert sample.acc is not None and sample.gyro is not None
+        return evolve(sample, acc=acc(sample.acc), gyro=gyro(sample.gyro))
+
+    return change
+
+
+def scaled(k: float) -> Callable[[Vec3], Vec3]:
+    return lambda v: (k * v[0], k * v[1], k * v[2])
+
+
+def clipped(limit: float) -> Callable[[Vec3], Vec3]:
+    def clip(v: Vec3) -> Vec3:
+        x, y, z = [max(-limit, min(limit, value)) for value in v]
+        return x, y, z
+
+    return clip
+
+
+def signed(x: float, y: float, z: float) -> Callable[[Vec3], Vec3]:
+    return lambda v: (x * v[0], y * v[1], z * v[2])
+
+
+def run(samples: list[Sample]) -> tuple[list[DefectFound], list[StrideTaken]]:
+    session = Session()
+    events = session.feed(samples) + session.finish()
+    return of(DefectFound, events), of(StrideTaken, events)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import degrees
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from one_foot import Change, clipped, run, scaled, signed, vectors
 from walks import of
 
 from solepath import Defect, DefectFound, Foot, HeelStrike, Sample, Session, Site, StrideTaken
@@ -23,43 +23,6 @@ from solepath.types.vector import GRAVITY, normalise, rotate
 
 WALK = Walker(Route().stand(1.5).walk(30.0, 1.3).stop(1.0), seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
 """A walk of 30 m with an inertial sensor that has no defect."""
-
-Change = Callable[[Sample], Sample]
-
-
-def vectors(acc: Callable[[Vec3], Vec3] = lambda v: v, gyro: Callable[[Vec3], Vec3] = lambda v: v) -> Change:
-    def change(sample: Sample) -> Sample:
-        assert sample.acc is not None and sample.gyro is not None
-        return evolve(sample, acc=acc(sample.acc), gyro=gyro(sample.gyro))
-
-    return change
-
-
-def scaled(k: float) -> Callable[[Vec3], Vec3]:
-    return lambda v: (k * v[0], k * v[1], k * v[2])
-
-
-def clipped(limit: float) -> Callable[[Vec3], Vec3]:
-    def clip(v: Vec3) -> Vec3:
-        x, y, z = [max(-limit, min(limit, value)) for value in v]
-        return x, y, z
-
-    return clip
-
-
-def signed(x: float, y: float, z: float) -> Callable[[Vec3], Vec3]:
-    return lambda v: (x * v[0], y * v[1], z * v[2])
-
-
-def run(samples: list[Sample]) -> tuple[list[DefectFound], list[StrideTaken]]:
-    session = Session()
-    events = session.feed(samples) + session.finish()
-    return of(DefectFound, events), of(StrideTaken, events)
-
-
-def repeated(samples: list[Sample]) -> list[Sample]:
-    """Return the samples with each specific force twice, as of an accelerometer at half the rate."""
-    return [evolve(sample, acc=samples[i - i % 2].acc) for i, sample in enumerate(samples)]
 
 
 DAMAGES: dict[str, tuple[Defect, Change]] = {
@@ -110,17 +73,6 @@ def without_gravity(samples: list[Sample]) -> list[Sample]:
 
 def test_gravity_that_a_device_removed_is_named() -> None:
     assert Defect.NO_GRAVITY in {event.defect for event in run(without_gravity(WALK))[0]}
-
-
-def test_repeated_values_are_named_and_spoil_nothing() -> None:
-    (event,), strides = run(repeated(WALK))
-    assert event.defect is Defect.REPEATED and "accelerometer" in event.what and not event.spoils
-    assert not any(stride.degraded for stride in strides)
-
-
-def test_a_rate_at_which_no_walk_can_be_followed_is_named() -> None:
-    found, _ = run(WALK[::8])
-    assert Defect.LOW_RATE in {event.defect for event in found}
 
 
 def test_the_axes_that_are_offered_close_the_strides(data_dir: Path) -> None:
@@ -216,58 +168,6 @@ def test_a_sensor_that_is_stuck_in_mid_walk_spoils_what_follows() -> None:
     assert event.spoils and "the accelerometer repeats the same values while the foot moves" in event.what
     later = [stride for stride in strides if stride.t_start > event.t]
     assert len(later) >= 3 and all(stride.degraded for stride in later)
-
-
-def averaged(samples: list[Sample], count: int) -> list[Sample]:
-    """Return the samples of a sensor that averages `count` samples and sends as often as before."""
-
-    def mean(values: list[Vec3]) -> Vec3:
-        x, y, z = [sum(axis) / len(values) for axis in zip(*values, strict=True)]
-        return x, y, z
-
-    recent = [samples[max(0, i - count + 1) : i + 1] for i in range(len(samples))]
-    return [
-        evolve(last[-1], acc=mean([s.acc or (0.0,) * 3 for s in last]), gyro=mean([s.gyro or (0.0,) * 3 for s in last]))
-        for last in recent
-    ]
-
-
-def test_a_sensor_that_smooths_a_step_away_is_named(data_dir: Path) -> None:
-    walk = [sample for sample in read_samples(data_dir / "openshoe_loops" / "m30.npz") if sample.t < 30.0]
-    assert run(averaged(walk, 5))[0] == [], "20 ms smooth nothing away"
-    assert Defect.BANDWIDTH in {event.defect for event in run(averaged(walk, 50))[0]}
-
-
-@pytest.mark.parametrize("count", [3, 4])
-def test_a_sensor_of_25_to_33_samples_a_second_has_axes_and_gravity_too(count: int, data_dir: Path) -> None:
-    walk = [s for s in read_samples(data_dir / "gaitmap_examples" / "walk_4x10m_ic.npz") if s.site is Site.LEFT_FOOT]
-    slow = averaged(walk, count)[::count]
-    assert run(slow)[0] == []
-    mirrored = [vectors(gyro=signed(1.0, -1.0, 1.0))(sample) for sample in slow]
-    assert Defect.AXES in {event.defect for event in run(mirrored)[0]}
-    assert Defect.ACC_UNIT in {event.defect for event in run([DAMAGES["in g"][1](sample) for sample in slow])[0]}
-
-
-def test_samples_with_the_time_of_their_packet_are_bursts() -> None:
-    bursts = [evolve(s, t=WALK[i - i % 10].t + 1e-5 * (i % 10), known_at=None) for i, s in enumerate(WALK)]
-    assert [event.defect for event in run(bursts)[0]] == [Defect.BURSTS]
-
-
-def test_a_range_that_a_slow_walk_hardly_reaches_spoils_a_fast_one() -> None:
-    route = Route().stand(1.5).walk(15.0, 0.8).walk(40.0, 1.9).stop(1.0)
-    walk = Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
-    found, strides = run([vectors(gyro=clipped(5.8))(sample) for sample in walk])
-    spoiling = [event for event in found if event.defect is Defect.CLIPPED and event.spoils]
-    assert len(spoiling) == 1
-    later = [stride for stride in strides if stride.t_start > spoiling[0].t]
-    assert len(later) >= 3 and all(stride.degraded for stride in later)
-
-
-def test_a_runner_in_g_is_in_g_and_not_in_another_range() -> None:
-    jog = Walker(Route().jog(60.0, 2.8).stop(2.0), seed=102).samples(Foot.LEFT, 100.0, LSM6DSOX)
-    found, _ = run([DAMAGES["in g"][1](sample) for sample in jog])
-    assert Defect.ACC_UNIT in {event.defect for event in found}
-    assert Defect.WRONG_SCALE not in {event.defect for event in found}
 
 
 def test_a_few_values_beyond_any_sensor_are_no_wrong_unit() -> None:

@@ -35,8 +35,8 @@ LATEST_REPORT = 8.0
 """Time after the start of the first stride after which wrong axes are reported, with or without the right ones, s.
 
 On 380 recordings of a foot, 8 and 16 s raise the same alarms; 6 s and 4 s raise one and three more."""
-DOUBTFUL_FACTOR = 2.0
-"""Factor of the evidence that is needed when strides close badly for another reason, such as a rate below 40 Hz.
+UNCERTAIN_FACTOR = 2.0
+"""Factor of the evidence that is needed when strides close badly for another reason, a rate below 40 Hz.
 
 With one sample in four of 191 recordings, which leaves no filter before it, 12 raise alarms with a factor of 1, and 2
 with 2; of damaged ones, 96 and 83 in 100 are found, and 96 if the four are averaged."""
@@ -56,8 +56,8 @@ class AxesCheck:
     """Time at which the first stride began, s."""
     settled: bool = False
     """Flag: no more strides are needed."""
-    doubtful: bool = False
-    """Flag: samples are few or cut off, so that also right axes close badly."""
+    uncertain: bool = False
+    """Flag: samples are few, so that also right axes close badly."""
 
     def add(self, t: float, stride: ClosedStride) -> Finding | None:
         """Add a stride that is known at `t`, s; return that the axes are wrong, once it is time to report this.
@@ -75,7 +75,7 @@ class AxesCheck:
         enough = self.strides >= SETTLED_STRIDES
         if not self.wrong:
             self.settled = (enough and min(self.evidence[1:]) > self.needed) or self.strides >= MOST_STRIDES
-            contradiction = enough and not self.doubtful and self.residuals[0] > self.strides * log(LARGEST_RESIDUAL)
+            contradiction = enough and not self.uncertain and self.residuals[0] > self.strides * log(LARGEST_RESIDUAL)
             return Finding(Defect.CONTRADICTION, CONTRADICTION) if contradiction else None
         self.settled = (enough and self.correction is not None) or self.strides >= MOST_STRIDES
         return self.finding if self.settled or t - self.started_at > LATEST_REPORT else None
@@ -89,7 +89,7 @@ class AxesCheck:
     def needed(self) -> float:
         """The evidence that decides between two kinds of axes after this number of strides."""
         evidence = LEAST_EVIDENCE + EVIDENCE_PER_STRIDE * self.strides
-        return DOUBTFUL_FACTOR * evidence if self.doubtful else evidence
+        return UNCERTAIN_FACTOR * evidence if self.uncertain else evidence
 
     @property
     def finding(self) -> Finding:

@@ -196,7 +196,7 @@ class SensorChecks(Part):
             if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
                 check.axes, check.stances = AxesCheck(), StanceFinder()
             return findings
-        axes.doubtful = is_slow or check.acc_range.cuts_off
+        axes.uncertain = is_slow
         for t, stride in check.stances.add(rows, gyro_bias):
             findings += [
                 check.gravity.add_stance(stride.last, stride.motion),
