@@ -69,7 +69,7 @@ INTERVAL_RATIO = 1.3
 """Factor k of the interval between independent readings (IndependentInterval), below sqrt(2); no unit.
 
 From 1.2 to 1.4 `ms_patient` has the same strides at 2, 3 and 4 times its rate. Up to 1.3 the ARMSE2d of `pyshoe_vicon`
-is 0.0529 m as without this interval, at sqrt(2) it is 0.0540 m."""
+is 0.0529 m as without this interval, at sqrt(2) it is 0.0539 m."""
 LONGEST_INTERVAL = 0.05
 """Longest interval between independent readings, s: that of 20 Hz, the lowest rate for which the noise was chosen."""
 MEMORY_TIME = 2.0
