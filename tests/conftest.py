@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 settings.register_profile("unhurried", deadline=None)  # the time of a case depends on the machine
 settings.load_profile("unhurried")
 
-# A shell starts what runs in its background with Ctrl-C ignored, and nohup ignores the end of the terminal; programs that
-# tests start would inherit that.
+# A shell starts what runs in its background with Ctrl-C ignored, and nohup what it runs with the end of the terminal
+# ignored. Programs that tests start would inherit that.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 if hasattr(signal, "SIGHUP"):
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
