@@ -13,6 +13,7 @@ from one_foot import Change, clipped, run, scaled, signed, vectors
 from walks import of
 
 from solepath import Defect, DefectFound, Foot, HeelStrike, Sample, Session, Site, StrideTaken
+from solepath.body.checks.rates import RateCheck
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -168,6 +169,14 @@ def test_a_sensor_that_is_stuck_in_mid_walk_spoils_what_follows() -> None:
     assert event.spoils and "the accelerometer repeats the same values while the foot moves" in event.what
     later = [stride for stride in strides if stride.t_start > event.t]
     assert len(later) >= 3 and all(stride.degraded for stride in later)
+
+
+def test_the_sensor_that_is_stuck_is_named_and_not_the_one_that_repeats_some_values() -> None:
+    check = RateCheck()
+    some = [(float(i - i % 6 // 5), 0.0, 9.8) for i in range(33)]
+    findings = [check.add_values(some, [(3.0, 0.0, 0.0)] * len(some)) for _ in range(5)]
+    (finding,) = [finding for finding in findings if finding is not None]
+    assert finding.what.startswith("the gyroscope repeats the same values") and finding.spoils
 
 
 def test_a_few_values_beyond_any_sensor_are_no_wrong_unit() -> None:

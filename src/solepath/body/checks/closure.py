@@ -35,9 +35,9 @@ ARE_PROPER: Final[tuple[bool, ...]] = tuple(
     (a * b * c > 0) == ((abs(a), abs(b), abs(c)) in ((1, 2, 3), (2, 3, 1), (3, 1, 2))) for a, b, c in AXES
 )
 """For each of AXES, whether it is a rotation; the others are rotations with a mirror."""
-Row = tuple[int, float]
+SignedAxis = tuple[int, float]
 """Axis of the gyroscope, 0 to 2, and sign, 1.0 or -1.0, that belong to an axis of the accelerometer."""
-Rows = tuple[Row, Row, Row]
+Rows = tuple[SignedAxis, SignedAxis, SignedAxis]
 """The rows of a signed permutation."""
 ROWS: Final[tuple[Rows, ...]] = tuple((_row(a), _row(b), _row(c)) for a, b, c in AXES)
 """AXES in the form in which they are computed with."""

@@ -29,9 +29,9 @@ LEAST_WALKING_STANCE = 0.55
 
 It is one half; the rest is the error of heel-strike and toe-off, 50 ms of a stride of one second."""
 LONGEST_STRIDE = 5.6
-"""Length of the longest strides, m: two steps of the fastest sprinter, who takes 41 of them on 100 m and none of 2.8 m.
+"""Length of the longest strides, m: two steps of 2.8 m.
 
-(Krzysztof and Mero, "A kinematics analysis of three best 100 m performances ever", J. Human Kinetics 36, 2013)"""
+The mean step of the world record of 100 m, 41 steps, is 2.44 m; the rest is an allowance, chosen by hand."""
 LARGEST_TOE_OFF_ANGLE, LEAST_TOE_OFF_ANGLE = radians(120.0), radians(-45.0)
 """Limits of the angle of the foot at toe-off, heel up positive, rad.
 

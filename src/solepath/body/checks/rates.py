@@ -96,15 +96,14 @@ class RateCheck:
             return None
         limit = REPEAT_SHARE * self.moving
         acc_repeats, gyro_repeats = self.acc_repeats > limit, self.gyro_repeats > limit
+        name = "the accelerometer repeats" if self.acc_repeats > self.gyro_repeats else "the gyroscope repeats"
         is_stuck = max(self.acc_repeats, self.gyro_repeats) > STUCK_SHARE * self.moving
         self.moving = self.acc_repeats = self.gyro_repeats = 0
         if not (acc_repeats or gyro_repeats):
             return None
-        name = "the accelerometer repeats" if acc_repeats else "the gyroscope repeats"
         if is_stuck:
-            return Finding(
-                Defect.REPEATED, f"{name} the same values while the foot moves: it is stuck; restart the sensor"
-            )
+            text = f"{name} the same values while the foot moves: it is stuck; restart the sensor"
+            return Finding(Defect.REPEATED, text)
         text = f"{'both sensors repeat' if acc_repeats and gyro_repeats else name} values: samples come more often than"
         return Finding(Defect.REPEATED, f"{text} it measures; choose the rate at which it measures", spoils=False)
 
