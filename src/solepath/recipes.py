@@ -14,7 +14,7 @@ from importlib import import_module
 from typing import Any
 
 from .body.activity.activities import Activities
-from .body.checks.clocks import FootClocks
+from .body.checks.clocks.foot_clocks import FootClocks
 from .body.checks.motion import PossibleMotion
 from .body.checks.sensors import SensorChecks
 from .body.fuse.both_feet import BothFeet, BothFeetSettings
@@ -149,7 +149,7 @@ PARTS: dict[str, str] = {
     "Activities": _BODY + "activity.activities",
     "Turns": _BODY + "gait.turns",
     "Altitude": _BODY + "height.altitude",
-    "FootClocks": _BODY + "checks.clocks",
+    "FootClocks": _BODY + "checks.clocks.foot_clocks",
     "GaitCycles": _BODY + "gait.cycles",
     "Particles": _BODY + "place.particles",
     "KnownVelocity": _KUPT + "known_velocity",

@@ -13,8 +13,8 @@ from attrs import evolve
 from walks import LEFT, RIGHT, ROUGH, insoles, of, samples
 
 from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, Site, ToeOff
-from solepath.body.checks.clocks import MEMORY, FootClocks
-from solepath.body.checks.offset import MIN_COMPARISONS
+from solepath.body.checks.clocks.foot_clocks import MEMORY, FootClocks
+from solepath.body.checks.clocks.offset import MIN_COMPARISONS
 from solepath.body.part import ClockUnsettled
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout

@@ -10,7 +10,7 @@ from attrs import evolve
 from walks import LEFT, RIGHT, of, samples
 
 from solepath import FootFlat, GaitCycleMeasured, Sample, Session, Site, StrideFeatures, StrideTaken, ToeOff
-from solepath.body.checks.clocks import FootClocks
+from solepath.body.checks.clocks.foot_clocks import FootClocks
 from solepath.emulate.routes.route import Route
 from solepath.events import Defect, DefectFound, Event, SampleGap
 from solepath.recording import open_source, shift_clock

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from attrs import frozen
 
-from ...body.checks.offset import EVEN_SWINGS
+from ...body.checks.clocks.offset import EVEN_SWINGS
 from ...calibration import Calibration
 from ...emulate.walk import sampled
 from ...emulate.wearers.gait import Wearer

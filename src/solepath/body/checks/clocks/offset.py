@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import atan2, cos, fsum, pi, sin, sqrt
 
-from ...types.attrs import frozen
+from ....types.attrs import frozen
 
 MIN_COMPARISONS = 16
 """Least number of comparisons for an offset, about 9 s of walking.

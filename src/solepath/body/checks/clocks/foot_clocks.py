@@ -17,11 +17,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from ...events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, ToeOff
-from ...foot.view import FootView
-from ...types import Foot, Site
-from ...types.attrs import define, field, frozen
-from ..part import ClockUnsettled, Part, PartInput, PartOutput
+from ....events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, SampleGap, ToeOff
+from ....foot.view import FootView
+from ....types import Foot, Site
+from ....types.attrs import define, field, frozen
+from ...part import ClockUnsettled, Part, PartInput, PartOutput
 from .lone_strides import LoneStrides
 from .offset import Comparison, Offset, find_offset
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from math import hypot
 
-from ...events import FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken
-from ...foot.view import FootView
-from ...types import OTHER, Foot, Phase
-from ...types.attrs import define, field
+from ....events import FootFlat, GaitEvent, HeelStrike, SampleGap, StrideTaken
+from ....foot.view import FootView
+from ....types import OTHER, Foot, Phase
+from ....types.attrs import define, field
 
 LONGEST_STEP = 1.0
 """Longest step of a walk, m: of legs of 1.15 m that are 52 degrees apart.

@@ -1,0 +1,1 @@
+"""Checks that the samples of both feet have times of one clock."""
