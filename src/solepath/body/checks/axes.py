@@ -13,7 +13,7 @@ from .stances import ClosedStride
 SHORTEST_STRIDE, LONGEST_STRIDE = 0.8, 2.5
 """Duration of strides that count, s: those of a walk. A runner's foot is never still, so its strides do not close."""
 LEAST_STRIDES, SETTLED_STRIDES, MOST_STRIDES = 3, 6, 40
-"""Number of strides before axes can be wrong, before they can be right, and after which they are no longer examined."""
+"""Number of strides before axes can be right or wrong, before a correction is known, and after which none is added."""
 LEAST_EVIDENCE, EVIDENCE_PER_STRIDE = 1.5, 0.05
 """Evidence, the sum over strides of the logarithm of a ratio of residuals, that decides between two kinds of axes.
 
@@ -74,9 +74,10 @@ class AxesCheck:
         self.evidence = [a + b for a, b in zip(self.evidence, ratios, strict=True)]
         enough = self.strides >= SETTLED_STRIDES
         if not self.wrong:
-            self.settled = (enough and min(self.evidence[1:]) > self.needed) or self.strides >= MOST_STRIDES
-            contradiction = enough and not self.uncertain and self.residuals[0] > self.strides * log(LARGEST_RESIDUAL)
-            return Finding(Defect.CONTRADICTION, CONTRADICTION) if contradiction else None
+            closes = self.uncertain or self.residuals[0] <= self.strides * log(LARGEST_RESIDUAL)
+            fits = self.strides >= LEAST_STRIDES and min(self.evidence[1:]) > self.needed
+            self.settled = (fits and (closes or enough)) or self.strides >= MOST_STRIDES
+            return Finding(Defect.CONTRADICTION, CONTRADICTION) if enough and not closes else None
         self.settled = (enough and self.correction is not None) or self.strides >= MOST_STRIDES
         return self.finding if self.settled or t - self.started_at > LATEST_REPORT else None
 

@@ -32,7 +32,7 @@ class BandwidthCheck:
 
     def add(self, stride: ClosedStride) -> Finding | None:
         """Add a stride; return which sensor is filtered, once there are enough strides; they are judged once."""
-        if len(self.acc) >= STRIDES or not SHORTEST_STRIDE < stride.duration < LONGEST_STRIDE:
+        if self.judged or not SHORTEST_STRIDE < stride.duration < LONGEST_STRIDE:
             return None
         rates, forces = [], []
         for duration, tx, ty, tz, ax, ay, az in stride.intervals:
@@ -41,7 +41,7 @@ class BandwidthCheck:
             forces.append((FORCE * ax, FORCE * ay, FORCE * az))
         self.acc.append(_cycles(forces))
         self.gyro.append(_cycles(rates))
-        if len(self.acc) < STRIDES:
+        if not self.judged:
             return None
         acc_is_filtered = sorted(self.acc)[STRIDES // 2] < LEAST_ACC
         gyro_is_filtered = sorted(self.gyro)[STRIDES // 2] < LEAST_GYRO
@@ -51,6 +51,11 @@ class BandwidthCheck:
         name = "both sensors are" if acc_is_filtered and gyro_is_filtered else name
         text = f"{name} filtered or averaged so much that a step is smoothed away: choose a bandwidth of 20 Hz or more"
         return Finding(Defect.BANDWIDTH, text)
+
+    @property
+    def judged(self) -> bool:
+        """Return whether there were enough strides."""
+        return len(self.acc) >= STRIDES
 
 
 def _cycles(values: list[Vec3]) -> float:

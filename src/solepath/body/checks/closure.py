@@ -41,6 +41,10 @@ Rows = tuple[SignedAxis, SignedAxis, SignedAxis]
 """The rows of a signed permutation."""
 ROWS: Final[tuple[Rows, ...]] = tuple((_row(a), _row(b), _row(c)) for a, b, c in AXES)
 """AXES in the form in which they are computed with."""
+Step = tuple[float, float, float, float, float, float, float]
+"""Rotation between the middles of two intervals, and the share of the latter in the mean specific force, m/s^2."""
+NO_MOTION: Final[Interval] = (0, 0, 0, 0, 0, 0, 0)
+"""An interval of no duration, which ends a stride."""
 LEAST_RESIDUAL = 0.05
 """Residual, m/s^2, that is added to each one, so that a nearly perfect closure does not count without limit."""
 
@@ -48,35 +52,54 @@ LEAST_RESIDUAL = 0.05
 def closure_residuals(stride: ClosedStride) -> list[float] | None:
     """Return the natural logarithm of the residual for each of AXES; None without any gravity.
 
-    The residual is the worse one of the two ends of the stride, m/s^2."""
+    The residual is the worse one of the two ends of the stride, |S / T - g u|, m/s^2."""
     g = 0.5 * (_norm(stride.first) + _norm(stride.last))
     if g <= 0.0:
         return None
-    first, last = _unit(stride.first), _unit(stride.last)
-    proper, improper = _integrals(stride.intervals, 1.0), _integrals(stride.intervals, -1.0)
+    steps = _steps(stride)
+    up_first, up_last = _scaled(stride.first, g), _scaled(stride.last, g)
+    proper = _ends(_integrals(steps, 1.0), up_last)
+    improper = _ends(_integrals(steps, -1.0), up_last)
     return [
-        log(_residual(rows, proper if is_proper else improper, 1.0 / stride.duration, first, last, g) + LEAST_RESIDUAL)
+        log(_residual(rows, proper if is_proper else improper, up_first) + LEAST_RESIDUAL)
         for rows, is_proper in zip(ROWS, ARE_PROPER, strict=True)
     ]
 
 
-def _integrals(intervals: tuple[Interval, ...], sign: float) -> tuple[list[Vec3], Matrix]:
-    """Return M as rows 3 i + j, each over k, m/s, and the rotation of the whole stride; `sign` is that of the rate."""
-    w, x, y, z = 1.0, 0.0, 0.0, 0.0
+def _steps(stride: ClosedStride) -> list[Step]:
+    """Return the rotation to the middle of each interval, and a last one to the end of the stride without a force."""
+    steps: list[Step] = []
     before_x = before_y = before_z = 0.0
+    unit, scale = 0.5 * TURN, FORCE * TICK / stride.duration
+    for duration, tx, ty, tz, ax, ay, az in (*stride.intervals, NO_MOTION):
+        half_x, half_y, half_z = unit * tx, unit * ty, unit * tz
+        x, y, z = before_x + half_x, before_y + half_y, before_z + half_z
+        square = 0.25 * (x * x + y * y + z * z)
+        k = 0.5 - square * (1.0 / 12.0 - square / 240.0)  # sin(h) / (2 h), h half of the angle
+        share = scale * duration
+        steps.append((1.0 - square * (0.5 - square / 24.0), k * x, k * y, k * z, share * ax, share * ay, share * az))
+        before_x, before_y, before_z = half_x, half_y, half_z
+    return steps
+
+
+def _integrals(steps: list[Step], sign: float) -> tuple[list[Vec3], Matrix]:
+    """Return M / T as rows 3 i + j, each over k, m/s^2, and the rotation of the stride; `sign` is that of the rate."""
+    w, x, y, z = 1.0, 0.0, 0.0, 0.0
     m000 = m001 = m002 = m010 = m011 = m012 = m020 = m021 = m022 = 0.0
     m100 = m101 = m102 = m110 = m111 = m112 = m120 = m121 = m122 = 0.0
     m200 = m201 = m202 = m210 = m211 = m212 = m220 = m221 = m222 = 0.0
-    unit = 0.5 * sign * TURN
-    for duration, tx, ty, tz, ax, ay, az in intervals:
-        half_x, half_y, half_z = unit * tx, unit * ty, unit * tz
-        # from the middle of the interval before to the middle of this one
-        w, x, y, z = _turned(w, x, y, z, before_x + half_x, before_y + half_y, before_z + half_z)
-        before_x, before_y, before_z = half_x, half_y, half_z
-        scale = FORCE * TICK * duration
-        a, b, c = scale * ax, scale * ay, scale * az
-        xx, yy, zz = 2.0 * x * x, 2.0 * y * y, 2.0 * z * z
-        xy, xz, yz, wx, wy, wz = 2.0 * x * y, 2.0 * x * z, 2.0 * y * z, 2.0 * w * x, 2.0 * w * y, 2.0 * w * z
+    for e, p, q, r, a, b, c in steps:
+        p, q, r = sign * p, sign * q, sign * r
+        w, x, y, z = (
+            w * e - x * p - y * q - z * r,
+            w * p + x * e + y * r - z * q,
+            w * q - x * r + y * e + z * p,
+            w * r + x * q - y * p + z * e,
+        )
+        # the quaternion stays normalised to 1e-6 over a stride: the series of cos and sin are that good
+        twice_x, twice_y, twice_z = x + x, y + y, z + z
+        xx, yy, zz, xy = twice_x * x, twice_y * y, twice_z * z, twice_x * y
+        xz, yz, wx, wy, wz = twice_x * z, twice_y * z, twice_x * w, twice_y * w, twice_z * w
         r = 1.0 - yy - zz
         m000, m001, m002 = m000 + r * a, m001 + r * b, m002 + r * c
         r = xy - wz
@@ -100,23 +123,7 @@ def _integrals(intervals: tuple[Interval, ...], sign: float) -> tuple[list[Vec3]
         (m100, m101, m102), (m110, m111, m112), (m120, m121, m122),
         (m200, m201, m202), (m210, m211, m212), (m220, m221, m222),
     ]  # fmt: skip
-    return sums, _matrix(*_turned(w, x, y, z, before_x, before_y, before_z))
-
-
-def _turned(w: float, x: float, y: float, z: float, a: float, b: float, c: float) -> tuple[float, float, float, float]:
-    """Return the quaternion (w, x, y, z) times that of the rotation vector (a, b, c), rad, normalised."""
-    square = 0.25 * (a * a + b * b + c * c)
-    k = 0.5 - square * (1.0 / 12.0 - square / 240.0)  # sin(h) / (2 h), h half of the angle
-    e = 1.0 - square * (0.5 - square / 24.0)  # cos(h)
-    a, b, c = k * a, k * b, k * c
-    w, x, y, z = (
-        w * e - x * a - y * b - z * c,
-        w * a + x * e + y * c - z * b,
-        w * b - x * c + y * e + z * a,
-        w * c + x * b - y * a + z * e,
-    )
-    n = 1.0 / sqrt(w * w + x * x + y * y + z * z)
-    return w * n, x * n, y * n, z * n
+    return sums, _matrix(w, x, y, z)
 
 
 def _matrix(w: float, x: float, y: float, z: float) -> Matrix:
@@ -127,19 +134,28 @@ def _matrix(w: float, x: float, y: float, z: float) -> Matrix:
     )
 
 
-def _residual(
-    rows: Rows, integrals: tuple[list[Vec3], Matrix], per_time: float, first: Vec3, last: Vec3, g: float
-) -> float:
-    """Return the worse of the residuals |S / T - g u| of the two ends, m/s^2, in the accelerometer's frame."""
+def _ends(integrals: tuple[list[Vec3], Matrix], up_last: Vec3) -> list[tuple[Vec3, Vec3]]:
+    """Return for each row 3 i + j of M / T the row, and what is left of it without gravity at the stride's last end."""
     sums, turn = integrals
+    return [
+        ((x, y, z), (x - r * up_last[0], y - r * up_last[1], z - r * up_last[2]))
+        for (x, y, z), r in zip(sums, (*turn[0], *turn[1], *turn[2]), strict=True)
+    ]
+
+
+def _residual(rows: Rows, ends: list[tuple[Vec3, Vec3]], up_first: Vec3) -> float:
+    """Return the worse of the residuals |S / T - g u| of the two ends, m/s^2."""
     (q0, r0), (q1, r1), (q2, r2) = rows
-    last0, last1, last2 = r0 * last[0], r1 * last[1], r2 * last[2]
     from_first = from_last = 0.0
-    for (p, s), up in zip(rows, first, strict=True):
-        i, turned = 3 * p, turn[p]
-        force = s * per_time * (r0 * sums[i + q0][0] + r1 * sums[i + q1][1] + r2 * sums[i + q2][2])
-        from_first += (force - g * up) ** 2
-        from_last += (force - g * s * (turned[q0] * last0 + turned[q1] * last1 + turned[q2] * last2)) ** 2
+    for (p, s), up in zip(rows, up_first, strict=True):
+        i = 3 * p
+        (x, _, _), (last_x, _, _) = ends[i + q0]
+        (_, y, _), (_, last_y, _) = ends[i + q1]
+        (_, _, z), (_, _, last_z) = ends[i + q2]
+        force = r0 * x + r1 * y + r2 * z - s * up  # in the gyroscope's frame; the size is the same
+        rest = r0 * last_x + r1 * last_y + r2 * last_z
+        from_first += force * force
+        from_last += rest * rest
     return sqrt(max(from_first, from_last))
 
 
@@ -148,8 +164,8 @@ def _norm(v: Vec3) -> float:
     return sqrt(x * x + y * y + z * z)
 
 
-def _unit(v: Vec3) -> Vec3:
+def _scaled(v: Vec3, size: float) -> Vec3:
     x, y, z = v
     n = _norm(v)
-    k = 1.0 / n if n > 0.0 else 0.0
+    k = size / n if n > 0.0 else 0.0
     return k * x, k * y, k * z

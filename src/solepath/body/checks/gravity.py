@@ -77,14 +77,14 @@ class GravityCheck:
         ):
             return None
         self.stances = [*self.stances[1 - MOST_STANCES :], norm]
-        if len(self.stances) < STANCES:
+        if not self.knows_stances:
             return None
         return self._judge(sorted(self.stances)[len(self.stances) // 2], "in stance")
 
     @property
     def knows_stances(self) -> bool:
-        """Return whether as many stances as are kept were seen."""
-        return len(self.stances) >= MOST_STANCES
+        """Return whether enough stances were seen to judge them."""
+        return len(self.stances) >= STANCES
 
     def add_block(
         self, t: float, t_end: float, accs: Sequence[Vec3], acc_range: float, gyro_peak: float

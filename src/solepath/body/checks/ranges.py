@@ -22,7 +22,7 @@ RECENT_SAMPLES = 2000
 """Number of samples after which the share is computed from the later half alone: a wearer may walk slowly first."""
 
 Extremes = tuple[float, float, float, float, float, float]
-"""Largest value of x, of -x, of y, of -y, of z and of -z in a block, m/s^2 or rad/s."""
+"""Largest value of x, of -x, of y, of -y, of z and of -z, m/s^2 or rad/s."""
 
 
 class RangeKind(NamedTuple):
@@ -43,8 +43,8 @@ GYROSCOPE = RangeKind("gyroscope", "rad/s", 2.0)
 
 
 def find_extremes(values: Sequence[Vec3]) -> Extremes:
-    """Return the extremes of a block."""
-    x, y, z = zip(*values, strict=True)
+    """Return the extremes of every other sample of a block: a peak that is cut off has two neighbours, one of them."""
+    x, y, z = zip(*values[::2], strict=True)
     return max(x), -min(x), max(y), -min(y), max(z), -min(z)
 
 
@@ -76,13 +76,13 @@ class RangeCheck:
     """Flag: peaks are cut off."""
 
     def add(self, kind: RangeKind, values: Sequence[Vec3], extremes: Extremes) -> Finding | None:
-        """Add a block of samples with its extremes; return an end of the range that cuts off peaks, if any does."""
+        """Add a block of samples with its `find_extremes`; return an end of the range that cuts off peaks, if any."""
         found = None
         if max(extremes) > kind.least:
             for i, (end, extreme) in enumerate(zip(self.ends, extremes, strict=True)):
                 if extreme > kind.least and extreme >= end.largest * (1.0 - SAME):
                     axis, sign = i // 2, -1.0 if i % 2 else 1.0
-                    if self._add_extreme(end, extreme, [sign * value[axis] for value in values]):
+                    if self._add_block(end, [sign * value[axis] for value in values]):
                         found = end
         self.samples += len(values)
         if found is None:
@@ -94,8 +94,9 @@ class RangeCheck:
         text = f"the {kind.name} cuts off peaks at {found.largest:.3g} {kind.unit}, in {100.0 * share:.2g} % of samples"
         return Finding(Defect.CLIPPED, f"{text}: choose a larger range", spoils=share > SPOILING_SHARE)
 
-    def _add_extreme(self, end: ChannelEnd, extreme: float, channel: list[float]) -> bool:
+    def _add_block(self, end: ChannelEnd, channel: list[float]) -> bool:
         """Add a block that reaches the end of the range; return whether it now is seen to cut off peaks."""
+        extreme = max(channel)
         if extreme > end.largest * (1.0 + SAME):
             end.largest, end.samples, end.pairs, end.blocks, end.first = extreme, 0, 0, 0, self.samples
         limit = end.largest * (1.0 - SAME)

@@ -28,6 +28,8 @@ BURST_BLOCKS, EXAMINED_BLOCKS = 3, 8
 """Number of blocks with bursts before they are reported, and number of first blocks in which they are searched."""
 REPEAT_SAMPLES, REPEAT_SHARE = 160, 0.1
 """Number of samples in motion after which repeats are judged, and share of them above which they are reported."""
+SKIPPED_BLOCKS = 3
+"""Number of blocks of motion that are not searched for repeats after each that is, in a sensor that had none so far."""
 STUCK_SHARE = 0.9
 """Share of repeats in motion above which a sensor does not measure at all."""
 
@@ -52,6 +54,10 @@ class RateCheck:
     """Number of them whose specific force is that of the sample before."""
     gyro_repeats: int = 0
     """Number of them whose angular rate is that of the sample before."""
+    had_none: bool = False
+    """Flag: repeats were judged, and there were few of them."""
+    skips: int = 0
+    """Number of blocks of motion that are not searched for repeats before the next one that is."""
 
     def add_times(self, times: Sequence[float], moves: bool, least_rate: float) -> Finding | None:
         """Add the times of a block, s; return a wrong unit, or a rate that is too low, once some blocks show it."""
@@ -89,6 +95,10 @@ class RateCheck:
 
     def add_values(self, accs: Sequence[Vec3], gyros: Sequence[Vec3]) -> Finding | None:
         """Add a block of motion; return which sensor repeats its values, if one does."""
+        if self.skips:
+            self.skips -= 1
+            return None
+        self.skips = SKIPPED_BLOCKS if self.had_none else 0
         self.acc_repeats += [*map(eq, accs, accs[1:])].count(True)
         self.gyro_repeats += [*map(eq, gyros, gyros[1:])].count(True)
         self.moving += len(accs) - 1
@@ -99,7 +109,8 @@ class RateCheck:
         name = "the accelerometer repeats" if self.acc_repeats > self.gyro_repeats else "the gyroscope repeats"
         is_stuck = max(self.acc_repeats, self.gyro_repeats) > STUCK_SHARE * self.moving
         self.moving = self.acc_repeats = self.gyro_repeats = 0
-        if not (acc_repeats or gyro_repeats):
+        self.had_none = not (acc_repeats or gyro_repeats)
+        if self.had_none:
             return None
         if is_stuck:
             text = f"{name} the same values while the foot moves: it is stuck; restart the sensor"

@@ -66,8 +66,8 @@ class SensorCheck:
     """Number of strides of the other foot that began after `same_since`."""
     in_newtons: bool = False
     """Flag: the cells of the insole are in N."""
-    settled_at: float = 0.0
-    """Time at which the axes were settled, s."""
+    settled_at: float | None = None
+    """Time at which strides had shown all that they show, s; None while they are examined."""
     reported: list[Defect] = field(factory=list)
     """Defects that were reported."""
     mild: list[Defect] = field(factory=list)
@@ -89,8 +89,8 @@ class SensorChecks(Part):
     and ranges after some stances or some seconds of rest; axes after 6 strides, or after 3 when 8 s have passed since
     the first one. An accelerometer with all its axes reversed cannot be seen.
 
-    Cost: sums over blocks of 32 samples. Strides, with gravity in stance, are examined until the axes are settled, and
-    again after 300 s."""
+    Cost: sums over blocks of 32 samples. Strides are examined until some of them have shown that the axes, gravity and
+    bandwidth are right, and again after 300 s."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -191,20 +191,19 @@ class SensorChecks(Part):
         interval = (times[-1] - times[0]) / (len(times) - 1)
         if interval * self.settings.least_rate > 1.0 or not BLINDING.isdisjoint(check.reported):
             return findings
-        axes, is_slow = check.axes, interval > LONGEST_INTERVAL
-        if axes.settled:
+        if check.settled_at is not None:
             if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
-                check.axes, check.stances = AxesCheck(), StanceFinder()
+                check.axes, check.stances, check.settled_at = AxesCheck(), StanceFinder(), None
             return findings
+        axes, is_slow, cuts_off = check.axes, interval > LONGEST_INTERVAL, check.gyro_range.cuts_off
         axes.uncertain = is_slow
         for t, stride in check.stances.add(rows, gyro_bias):
             findings += [
                 check.gravity.add_stance(stride.last, stride.motion),
                 None if is_slow else check.bandwidth.add(stride),
-                None if check.gyro_range.cuts_off else axes.add(t, stride),
+                None if axes.settled or cuts_off else axes.add(t, stride),
             ]
-        axes.settled = axes.settled or (check.gyro_range.cuts_off and check.gravity.knows_stances)
-        if axes.settled:
+        if (axes.settled or cuts_off) and check.gravity.knows_stances and (is_slow or check.bandwidth.judged):
             check.settled_at = times[-1]
         return findings
 

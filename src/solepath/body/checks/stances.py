@@ -22,17 +22,16 @@ STEADINESS_WEIGHT = 0.2
 """Motion for each unit of standard deviation of the specific force, (rad/s)/(m/s^2)."""
 SWING_MOTION, STANCE_MOTION = 2.0, 1.0
 """Motion above which a foot swings, and below which it stands, rad/s."""
-BEST_WITHIN = 0.4
-"""Time, s, after the first and before the last instant of a stance in which its stillest instant is searched."""
+TICK, TURN, FORCE = 2.0**-20, 2.0**-16, 2.0**-10
+"""Units of an interval's duration, s, its turn, rad, and its specific force, m/s^2."""
+BEST_WITHIN = int(0.4 / TICK)
+"""Time after the first and before the last instant of a stance in which its stillest one is searched, `TICK`."""
 MOST_INTERVALS = 140
 """Largest number of intervals of a stride, 2.6 s; the start of a longer one is forgotten."""
 
 Interval = tuple[int, int, int, int, int, int, int]
 """Duration, integral of the angular rate and mean specific force, sensor frame, as whole numbers: they are short in a
 saved state. The units are `TICK`, `TURN` and `FORCE`."""
-TICK, TURN, FORCE = 2.0**-20, 2.0**-16, 2.0**-10
-"""Units of an interval's duration, s, its turn, rad, and its specific force, m/s^2."""
-
 
 Row = tuple[float, Vec3, Vec3]
 """Time, s, specific force, m/s^2, and angular rate, rad/s, of a sample."""
@@ -62,7 +61,7 @@ class StanceFinder:
     duration: float = 0.0
     """Duration of the interval under way, s."""
     turn: Vec3 = (0.0, 0.0, 0.0)
-    """Integral of the angular rate over the interval under way, rad."""
+    """Integral of what the gyroscope reads, its bias included, over the interval under way, rad."""
     force: Vec3 = (0.0, 0.0, 0.0)
     """Integral of the specific force over the interval under way, m/s."""
     intervals: list[Interval] = field(factory=list)
@@ -75,6 +74,10 @@ class StanceFinder:
     """Index of the stillest instant at the beginning of the current stance; None in a swing."""
     latest: int | None = None
     """Index of the stillest recent instant of the current stance, where the next stride begins; None in a swing."""
+    since_best: int = 0
+    """Time since `best`, in units of `TICK`."""
+    since_latest: int = 0
+    """Time since `latest`, in units of `TICK`."""
     best_motion: float = 0.0
     """Motion at `best`, rad/s."""
     latest_motion: float = 0.0
@@ -93,10 +96,11 @@ class StanceFinder:
                 self._restart()
                 continue
             duration += dt
-            a, b, c = a + (x - bx) * dt, b + (y - by) * dt, c + (z - bz) * dt
+            a, b, c = a + x * dt, b + y * dt, c + z * dt
             p, q, r = p + ax * dt, q + ay * dt, r + az * dt
             if duration < INTERVAL:
                 continue
+            a, b, c = a - bx * duration, b - by * duration, c - bz * duration
             k = 1.0 / (duration * FORCE)
             turn, force = (int(a / TURN), int(b / TURN), int(c / TURN)), (int(k * p), int(k * q), int(k * r))
             self.intervals.append((int(duration / TICK), *turn, *force))
@@ -117,7 +121,9 @@ class StanceFinder:
         if i < HALF_WINDOW:
             return None
         motion = self._motion(i)
-        stride = None
+        stride, ticks = None, self.intervals[i][0]
+        self.since_best += ticks
+        self.since_latest += ticks
         if motion > SWING_MOTION:
             if self.best is not None and self.latest is not None:
                 stride = self._close(self.best)
@@ -134,16 +140,17 @@ class StanceFinder:
         stride = None
         if self.best is None or self.latest is None:
             self.best = self.latest = i
+            self.since_best = self.since_latest = 0
             self.best_motion = self.latest_motion = motion
             return None
-        if self._time_between(self.best, i) >= BEST_WITHIN and self.start is not None:
+        if self.since_best >= BEST_WITHIN and self.start is not None:
             stride = self._close(self.best)
         elif motion < self.best_motion:
-            self.best, self.best_motion = i, motion
-        if motion < self.latest_motion or self._time_between(self.latest, i) >= BEST_WITHIN:
-            self.latest, self.latest_motion = i, motion
+            self.best, self.best_motion, self.since_best = i, motion, 0
+        if motion < self.latest_motion or self.since_latest >= BEST_WITHIN:
+            self.latest, self.latest_motion, self.since_latest = i, motion, 0
             if self.start is None:
-                self.best = self.latest
+                self.best, self.since_best = i, 0
                 self._forget_before(self.latest, opens_stride=False)
         return stride
 
@@ -154,19 +161,20 @@ class StanceFinder:
         if rate > SWING_MOTION:
             return rate
         around = self.intervals[i - HALF_WINDOW : i + HALF_WINDOW + 1]
-        x, y, z = _mean_acc(around)
-        variance = 0.0
-        for _, _, _, _, ax, ay, az in around:
-            dx, dy, dz = FORCE * ax - x, FORCE * ay - y, FORCE * az - z
-            variance += dx * dx + dy * dy + dz * dz
-        return rate + STEADINESS_WEIGHT * sqrt(variance / len(around))
+        (_, _, _, _, ax, ay, az), (_, _, _, _, bx, by, bz) = around[:2]
+        (_, _, _, _, cx, cy, cz), (_, _, _, _, dx, dy, dz), (_, _, _, _, ex, ey, ez) = around[2:]
+        x, y, z = ax + bx + cx + dx + ex, ay + by + cy + dy + ey, az + bz + cz + dz + ez
+        squares = (
+            (ax * ax + bx * bx + cx * cx + dx * dx + ex * ex)
+            + (ay * ay + by * by + cy * cy + dy * dy + ey * ey)
+            + (az * az + bz * bz + cz * cz + dz * dz + ez * ez)
+        )
+        variance = 5 * squares - (x * x + y * y + z * z)  # 25 times it, exact, because these are whole numbers
+        return rate + STEADINESS_WEIGHT * FORCE * 0.2 * sqrt(variance)
 
     def _time_between(self, first: int, last: int) -> float:
         """Return the time between two instants, s."""
-        ticks = 0
-        for interval in self.intervals[first + 1 : last + 1]:
-            ticks += interval[0]
-        return TICK * ticks
+        return TICK * sum(interval[0] for interval in self.intervals[first + 1 : last + 1])  # of whole numbers: exact
 
     def _close(self, end: int) -> ClosedStride | None:
         """Return the stride that ends at interval `end`; after it, none is under way."""
