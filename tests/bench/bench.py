@@ -41,6 +41,8 @@ from solepath.types import SITE_OF_FOOT
 
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
 """A walk of about 43 s; the feet stand still for 10 % of it."""
+LONG_ROUTE = Route().stand(2.0).walk(390.0, 1.3).stop(2.0)
+"""A walk of about five minutes, as long as the time after which checks examine strides again."""
 
 
 def time_each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
@@ -253,6 +255,9 @@ def main() -> None:
 
     for name, times in part_times(inertial_samples, Session).items():
         add(f"of a foot sample, inertial: {name}", times)
+    long_samples = Walker(LONG_ROUTE, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    long_times = [_part_time(long_samples, Session(), SensorChecks) for _ in range(RUNS)]
+    add("of a foot sample, inertial, five minutes: checks", median(long_times))
     pressure_times = part_times(pressure_samples, session_with_cells)
     add("of a foot sample, 96 cells: cells", pressure_times["cells"])
 
