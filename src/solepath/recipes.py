@@ -32,6 +32,7 @@ from .foot.pressure.insole import InsoleLoads
 from .foot.stance.cycle import Cycle
 from .foot.stance.stance import Detector
 from .types.attrs import evolve, field, frozen
+from .types.plain import make_plain
 
 
 def usual_parts(
@@ -212,11 +213,11 @@ def own(recipe: Recipe) -> Recipe:
         copies = tuple([copy for copy in copies if copy.text is not None])
         text = _Copy(recipe, extra_state).text
         if text is None:
-            return deepcopy(recipe)
+            return make_plain(deepcopy(recipe))
         for copy in copies:
             if copy.text == text:
                 return copy.recipe
-    new_copy = _Copy(deepcopy(recipe), extra_state)
+    new_copy = _Copy(make_plain(deepcopy(recipe)), extra_state)
     _copies = (new_copy, *copies[: _MAX_COPIES - 1])
     return new_copy.recipe
 

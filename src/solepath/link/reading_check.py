@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from math import isfinite
 
 from ..events import Rejection
-from ..types import Foot, Layout
+from ..types import Cell, Foot, Layout
 from ..wire.error import WireError
 from ..wire.fields import LONGEST_VALUE, malformed
 from .driver import MAX_COUNTER, Measured, Reading
@@ -52,6 +52,8 @@ def check_reading(reading: object) -> Reading:
     ):
         if value is not None:
             _check_type(name, value, kind)
+    if reading.layout is not None:
+        _check_layout(reading.layout)
     _check_known(reading.known)
     return reading
 
@@ -72,6 +74,15 @@ def _check_sample(sample: object) -> None:
     if sample.air_pressure is not None:
         _check_number("air_pressure", sample.air_pressure)
     _check_type("saturated", sample.saturated, bool)
+
+
+def _check_layout(layout: Layout) -> None:
+    _check_counter("the layout's id", layout.id)
+    for cell in _check_tuple("cells", layout.cells):
+        _check_type("one of the layout's cells", cell, Cell)
+    scale = 0.0 if layout.scale is None else layout.scale
+    numbers = (layout.length, layout.full_scale, scale, *layout.xs, *layout.ys, *[cell.area for cell in layout.cells])
+    _check_numbers("the layout", numbers, None)
 
 
 def _check_known(known: object) -> None:
@@ -104,8 +115,8 @@ def _check_numbers(name: str, values: object, count: int | None) -> None:
 
 
 def _check_number(name: str, number: object) -> None:
-    if not isinstance(number, float | int):
-        raise malformed(f"{name} is a {type(number).__name__}, not a number")
+    if not isinstance(number, int) and type(number) is not float:  # numpy.float64 is a float, and spoils the state
+        raise malformed(f"{name} is a {type(number).__name__}, not a float or int of Python")
     if not -MAX_VALUE <= number <= MAX_VALUE:  # a large integer is compared, because it may be too large for a float
         if isinstance(number, float) and not isfinite(number):
             raise WireError(Rejection.NOT_FINITE, f"{name} of {number}")

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from copy import deepcopy
-from math import inf
 from typing import TYPE_CHECKING
 
 from ..calibration import Calibration, CalibrationError
+from ..types.plain import make_plain
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -21,10 +21,11 @@ def check_calibration(calibration: Calibration) -> Calibration:
 
     if not isinstance(calibration, Calibration):
         raise TypeError(f"calibration must be a Calibration, not {type(calibration).__name__}")
-    fault = find_fault(calibration)
+    own_calibration = make_plain(deepcopy(calibration))
+    fault = find_fault(own_calibration)
     if fault is not None:
         raise CalibrationError(f"calibration: {fault}")
-    return deepcopy(calibration)
+    return own_calibration
 
 
 def index_floorplan(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:
@@ -50,15 +51,8 @@ def check_start(start: Start, plan: IndexedPlan | None) -> Start:
 
     if not isinstance(start, plans.Start) or plan is None:
         raise TypeError("start must be a Start, on a floor plan")
-    fault = find_start_fault(start)
+    own_start = make_plain(deepcopy(start))
+    fault = find_start_fault(own_start)
     if fault is not None:
         raise plans.FloorPlanError(f"start: {fault}")
-    return deepcopy(start)
-
-
-def as_float(value: float) -> float:
-    """Return a float; an int that is too large for a float counts as infinite."""
-    try:
-        return float(value)
-    except OverflowError:
-        return inf
+    return own_start

@@ -21,7 +21,8 @@ from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.attrs import evolve
-from .arguments import as_float, check_calibration, check_start, index_floorplan
+from ..types.plain import as_float, has_floats, with_floats
+from .arguments import check_calibration, check_start, index_floorplan
 from .state import SessionState
 from .wearer import WearerParts, WearerSettings, sort_by_key
 
@@ -45,8 +46,9 @@ class Session:
     for impossible values of these arguments.
 
     `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
-    give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
-    that is neither packet nor sample, after using the items before it, and ValueError after `finish`.
+    give events, never an exception, unless the app's own reader or part raises one. Numbers of a sample may be those of
+    numpy or pandas. It raises TypeError for an item that is neither packet nor sample and for a sample whose values are
+    no numbers, after using the items before it and changing nothing by this one, and ValueError after `finish`.
 
     Latency: zero velocity and live position are known with the sample. Heel-strike and toe-off have a latency of one
     sample once a foot has pushed off the first time; without a push-off, swing is known after 0.15 s (0.4 s right after
@@ -102,7 +104,8 @@ class Session:
 
     def advance(self, now: float) -> list[Event]:
         """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity."""
-        if not isfinite(as_float(now)):
+        now = as_float(now)
+        if not isfinite(now):
             raise ValueError(f"now is {now}")
         state = self._state
         if state.finished:
@@ -141,7 +144,7 @@ class Session:
         has_valid_types = isinstance(packet.t, NUMBER_TYPES) and isinstance(site, Site) and isinstance(channel, str)
         if not (has_valid_types and isinstance(data, bytes | bytearray | memoryview) and isinstance(device, str)):
             raise TypeError("a packet holds a time, a Site, a channel's name, bytes and a device's address")
-        if isinstance(packet.t, int):
+        if packet.t.__class__ is not float:
             packet = evolve(packet, t=as_float(packet.t))
         decoder = state.decoders.get(site) or Decoder(site)
         items = decoder.feed(packet, self._kinds)
@@ -167,13 +170,14 @@ class Session:
         return events
 
     def _feed_sample(self, state: SessionState, sample: Sample) -> list[Event]:
-        t, site = sample.t, sample.site
-        if not isinstance(site, Site) or not isinstance(t, NUMBER_TYPES):
-            raise TypeError("a sample holds a time and a Site")
+        if not isinstance(sample.site, Site):
+            raise TypeError(f"site of a sample is a Site, not {sample.site!r:.80}")
+        if not has_floats(sample):
+            sample = with_floats(sample)
         events = state.wearer.feed(sample)
         rejected = events and any([isinstance(event, SampleRejected) for event in events])
-        if not rejected and (state.now is None or t > state.now):
-            state.now = t
+        if not rejected and (state.now is None or sample.t > state.now):
+            state.now = sample.t
         return events
 
     def _use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:

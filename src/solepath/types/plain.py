@@ -1,0 +1,135 @@
+"""Plain numbers: those of numpy, pandas and others become Python's own where they come in.
+
+State made of other numbers could not be saved: a comparison of two numpy.float64 is no bool."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable
+from math import inf
+from typing import Any, TypeVar
+
+import attrs
+
+from .attrs import evolve
+from .records import Sample
+
+_Value = TypeVar("_Value")
+
+PLAIN_NUMBERS = frozenset((float, int))
+"""Types of the numbers of pressure cells that are not converted; counts are whole numbers."""
+
+
+def as_float(value: float) -> float:
+    """Return a float; an int that is too large for a float counts as infinite."""
+    try:
+        return float(value)
+    except OverflowError:
+        return inf
+
+
+def has_floats(sample: Sample) -> bool:
+    """Return whether no number of the sample must be converted; it is called for every sample, and so is fast."""
+    acc, gyro, pressure = sample.acc, sample.gyro, sample.pressure
+    if acc is not None:
+        if acc.__class__ is not tuple or len(acc) != 3:
+            return False
+        x, y, z = acc
+        if not (x.__class__ is y.__class__ is z.__class__ is float):
+            return False
+    if gyro is not None:
+        if gyro.__class__ is not tuple or len(gyro) != 3:
+            return False
+        x, y, z = gyro
+        if not (x.__class__ is y.__class__ is z.__class__ is float):
+            return False
+    if pressure is not None and (pressure.__class__ is not tuple or not PLAIN_NUMBERS.issuperset(map(type, pressure))):
+        return False
+    if sample.quat is not None or sample.mag is not None or sample.air_pressure is not None:
+        return False
+    return sample.t.__class__ is sample.known_at.__class__ is float and sample.saturated.__class__ is bool
+
+
+def with_floats(sample: Sample) -> Sample:
+    """Return the sample with plain floats; raise TypeError, naming the field, for what is no number.
+
+    Numbers of numpy, of pandas and of any class that float() takes are converted, vectors may be lists or arrays."""
+    return evolve(
+        sample,
+        t=_float("t", sample.t),
+        known_at=_float("known_at", sample.t if sample.known_at is None else sample.known_at),
+        acc=_floats("acc", sample.acc, 3),
+        gyro=_floats("gyro", sample.gyro, 3),
+        quat=_floats("quat", sample.quat, 4),
+        mag=_floats("mag", sample.mag, 3),
+        pressure=_cells(sample.pressure),
+        air_pressure=None if sample.air_pressure is None else _float("air_pressure", sample.air_pressure),
+        saturated=_flag("saturated", sample.saturated),
+    )
+
+
+def _float(name: str, value: Any) -> float:
+    """Return a number as a float; raise TypeError for what is none, also for text that reads like one."""
+    if value.__class__ is float:
+        number: float = value
+        return number
+    try:
+        if not isinstance(value, str | bytes | bytearray):
+            return as_float(value)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"{name} of a sample is a number, not {value!r:.80}")
+
+
+def _floats(name: str, values: Any, count: int) -> Any:
+    """Return a vector of `count` floats; None stays None."""
+    if values is None:
+        return None
+    numbers = tuple(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes) else ()
+    if len(numbers) != count:
+        raise TypeError(f"{name} of a sample is {count} numbers, not {values!r:.80}")
+    return tuple([_float(name, value) for value in numbers])
+
+
+def _cells(values: Any) -> tuple[float, ...] | None:
+    """Return the loads of pressure cells as floats; a cell that was not measured stays None."""
+    if values is None:
+        return None
+    if not isinstance(values, Iterable) or isinstance(values, str | bytes):
+        raise TypeError(f"pressure of a sample is a number for each cell, not {values!r:.80}")
+    cells: Any = [None if value is None else _float("pressure", value) for value in values]
+    return tuple(cells)
+
+
+def _flag(name: str, value: Any) -> bool:
+    """Return a flag as a bool; flags of numpy are not bools themselves, but equal one."""
+    flag = next((flag for flag in (False, True) if flag is value or value == flag), None)
+    if flag is None or isinstance(value, str | bytes):
+        raise TypeError(f"{name} of a sample is True or False, not {value!r:.80}")
+    return flag
+
+
+def make_plain(value: _Value) -> _Value:
+    """Return the value with plain numbers in all its records, tuples, lists and dicts; records are changed in place."""
+    plain: _Value = _make_plain(value)
+    return plain
+
+
+def _make_plain(value: Any) -> Any:
+    if isinstance(value, float):
+        return float(value)
+    if hasattr(value, "dtype") and getattr(value, "ndim", None) == 0:  # a number of numpy
+        return value.item()
+    if isinstance(value, deque):
+        return deque(map(_make_plain, value), value.maxlen)
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
+        return type(value)(*map(_make_plain, value))
+    if type(value) in (tuple, list):
+        return type(value)(map(_make_plain, value))
+    if type(value) is dict:
+        return {_make_plain(key): _make_plain(item) for key, item in value.items()}
+    if attrs.has(type(value)):
+        for attribute in attrs.fields(type(value)):
+            if hasattr(value, attribute.name):
+                object.__setattr__(value, attribute.name, _make_plain(getattr(value, attribute.name)))
+    return value

@@ -1,0 +1,153 @@
+"""Contract 9: numbers of any kind become plain ones at the door, or are refused there before any state changes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from attrs import evolve
+from walks import LEFT, insoles, of, run_session, samples
+
+from solepath import Calibration, Cell, Foot, Layout, Sample, Session
+from solepath.body.checks.sensors import SensorChecks, SensorChecksSettings
+from solepath.calibration import ShoeGeometry
+from solepath.link.driver import Measured, Reading
+from solepath.link.reading_check import check_reading
+from solepath.recipes import DEFAULT
+from solepath.wire.error import WireError
+
+KINDS: dict[str, Callable[[float], Any]] = {
+    "float64": np.float64,
+    "float32": np.float32,
+    "0-d arrays": np.array,
+    "Fraction": Fraction,
+    "Decimal": Decimal,
+}
+
+
+def foreign(sample: Sample, number: Callable[[float], Any], sequence: Callable[[Any], Any] = tuple) -> Sample:
+    """Return the sample with all its numbers as numbers of another kind."""
+
+    def vector(values: Any) -> Any:
+        return None if values is None else sequence([number(value) for value in values])
+
+    return evolve(
+        sample,
+        t=number(sample.t),
+        known_at=number(sample.known_at),
+        acc=vector(sample.acc),
+        gyro=vector(sample.gyro),
+        pressure=vector(sample.pressure),
+        quat=vector((1.0, 0.0, 0.0, 0.0)),
+        mag=vector((1e-5, 0.0, 4e-5)),
+        air_pressure=number(101_325.0),
+        saturated=np.bool_(sample.saturated),
+    )
+
+
+def plain(sample: Sample, number: Callable[[float], Any] = float) -> Sample:
+    """Return the sample with what remains of its numbers after they were of another kind."""
+    return foreign(sample, lambda value: float(number(value)))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_walk_in_numbers_of_another_kind_gives_the_same_events_and_can_be_saved(kind: str) -> None:
+    walk = samples()
+    session = Session(poses=True, pressures=True)
+    events = session.feed([foreign(sample, KINDS[kind]) for sample in walk])
+    json.dumps(session.snapshot(), allow_nan=False)
+    session.pack()
+    exact = [evolve(plain(sample, KINDS[kind]), saturated=False) for sample in walk]
+    assert events + session.finish() == run_session(exact, poses=True, pressures=True)
+
+
+@pytest.mark.parametrize("sequence", [list, np.array], ids=["lists", "arrays"])
+def test_vectors_may_be_lists_and_arrays(sequence: Callable[[Any], Any]) -> None:
+    walk = samples()[:400]
+    assert run_session([foreign(one, float, sequence) for one in walk]) == run_session([plain(one) for one in walk])
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"acc": (1.0, 2.0)},
+        {"gyro": (1.0, 2.0, 3.0, 4.0)},
+        {"acc": 9.81},
+        {"acc": "xyz"},
+        {"acc": ("1", "2", "3")},
+        {"gyro": (0.0, None, 0.0)},
+        {"acc": (0.0, 1j, 9.81)},
+        {"quat": (1.0, 0.0, 0.0)},
+        {"mag": (1.0,)},
+        {"pressure": 5.0},
+        {"pressure": ("much",)},
+        {"air_pressure": "x"},
+        {"air_pressure": (1.0,)},
+        {"saturated": "no"},
+        {"t": "1.0"},
+        {"known_at": "now"},
+    ],
+    ids=lambda change: " ".join(f"{name} {value!r}" for name, value in change.items()),
+)
+def test_a_value_that_is_no_number_is_a_type_error_that_names_it_and_changes_nothing(change: dict[str, Any]) -> None:
+    session = Session()
+    walk = samples()[:300]
+    session.feed(walk)
+    snapshot = session.snapshot()
+    with pytest.raises(TypeError, match=next(iter(change))):
+        session.feed(evolve(samples()[300], **change))
+    assert session.snapshot() == snapshot
+
+
+def test_times_of_packets_and_of_advance_may_be_of_another_kind() -> None:
+    packets = insoles().packets
+    sessions = Session(), Session()
+    events = [session.feed([evolve(packet, t=number(packet.t)) for packet in packets])
+              for session, number in zip(sessions, (np.float64, float), strict=True)]  # fmt: skip
+    assert events[0] == events[1]
+    end = packets[-1].t + 10.0
+    assert sessions[0].advance(np.float64(end)) == sessions[1].advance(end)
+    for session in sessions:
+        session.pack()
+    assert repr(sessions[0].snapshot()) == repr(sessions[1].snapshot())
+
+
+def test_the_sensors_of_a_limb_are_converted_too() -> None:
+    session = Session()
+    limb = evolve(samples()[0], site=next(site for site in type(LEFT) if site.foot is None))
+    (limitation,) = session.feed(foreign(limb, np.float64))
+    assert type(limitation.t) is float
+
+
+def test_a_sample_that_says_not_when_it_was_known_was_known_at_once() -> None:
+    walk = samples()[:400]
+    assert run_session([evolve(one, known_at=None) for one in walk]) == run_session(
+        [evolve(one, known_at=one.t) for one in walk]
+    )
+
+
+def test_settings_and_calibrations_may_hold_numbers_of_numpy() -> None:
+    checks = SensorChecks(SensorChecksSettings(least_rate=np.float64(20.0)))
+    shoe = ShoeGeometry(heel_radius=np.float64(0.12))
+    session = Session(DEFAULT.exchanged(SensorChecks, checks), calibration=Calibration(shoe=shoe))
+    session.feed(samples())
+    session.pack()
+    saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
+    assert Session.restore(saved).snapshot() == session.snapshot()
+    assert [type(part.settings.least_rate) for part in of(SensorChecks, [*session.recipe.parts])] == [float]
+
+
+def test_a_reader_that_gives_numbers_of_numpy_is_rejected_in_words() -> None:
+    cells = (Cell(np.float64(0.1), 0.0),)
+    for reading, words in (
+        (Reading(samples=(Measured(acc=(np.float64(0.0), 0.0, 9.81)),)), "acc is a float64"),
+        (Reading(battery=np.float64(0.5)), "battery is a float64"),
+        (Reading(layout=Layout(1, Foot.LEFT, cells, 0.28)), "layout is a float64"),
+    ):
+        with pytest.raises(WireError, match=words):
+            check_reading(reading)
