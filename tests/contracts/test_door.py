@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import pickle
 from collections.abc import Callable
+from copy import copy, deepcopy
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
@@ -11,9 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
-from walks import LEFT, insoles, of, run_session, samples
+from toys import BOTH
+from walks import LEFT, insoles, machines, of, run_session, samples
 
-from solepath import Calibration, Cell, Foot, Layout, Sample, Session
+from solepath import Calibration, Cell, Foot, Layout, Packet, PacketRejected, Placed, Rejection, Sample, Session
 from solepath.body.checks.sensors import SensorChecks, SensorChecksSettings
 from solepath.calibration import ShoeGeometry
 from solepath.link.driver import Measured, Reading
@@ -106,10 +109,10 @@ def test_a_value_that_is_no_number_is_a_type_error_that_names_it_and_changes_not
 
 def test_times_of_packets_and_of_advance_may_be_of_another_kind() -> None:
     packets = insoles().packets
+    rounded = [np.float32(packet.t) for packet in packets]
     sessions = Session(), Session()
-    events = [session.feed([evolve(packet, t=number(packet.t)) for packet in packets])
-              for session, number in zip(sessions, (np.float64, float), strict=True)]  # fmt: skip
-    assert events[0] == events[1]
+    events = sessions[0].feed([evolve(packet, t=t) for packet, t in zip(packets, rounded, strict=True)])
+    assert events == sessions[1].feed([evolve(packet, t=float(t)) for packet, t in zip(packets, rounded, strict=True)])
     end = packets[-1].t + 10.0
     assert sessions[0].advance(np.float64(end)) == sessions[1].advance(end)
     for session in sessions:
@@ -124,7 +127,7 @@ def test_the_sensors_of_a_limb_are_converted_too() -> None:
     assert type(limitation.t) is float
 
 
-def test_a_sample_that_says_not_when_it_was_known_was_known_at_once() -> None:
+def test_a_sample_without_known_at_was_known_at_once() -> None:
     walk = samples()[:400]
     assert run_session([evolve(one, known_at=None) for one in walk]) == run_session(
         [evolve(one, known_at=one.t) for one in walk]
@@ -151,3 +154,47 @@ def test_a_reader_that_gives_numbers_of_numpy_is_rejected_in_words() -> None:
     ):
         with pytest.raises(WireError, match=words):
             check_reading(reading)
+
+
+@pytest.mark.parametrize("device", ["C0:FF:EE\ud800", "a\nb", "x" * 300], ids=["half a surrogate", "two lines", "long"])
+def test_an_address_that_cannot_be_saved_is_rejected_with_its_packet(device: str) -> None:
+    session = Session()
+    (rejection,) = session.feed(Packet(0.0, LEFT, "device/battery", b"\x20", device))
+    assert isinstance(rejection, PacketRejected) and rejection.reason is Rejection.MALFORMED
+    assert session.now is None
+    session.pack()
+    with pytest.raises(ValueError, match="no address"):
+        session.bind(LEFT, device)
+    with pytest.raises(ValueError, match="no address"):
+        Session(devices={LEFT: device})
+
+
+def test_copies_of_a_session_go_on_by_themselves() -> None:
+    packets = insoles().packets
+    half = len(packets) // 2
+    session = Session(poses=True)
+    session.feed(packets[:half])
+    copies = [copy(session), deepcopy(session), pickle.loads(pickle.dumps(session))]
+    events = session.feed(packets[half:]) + session.finish()
+    for one in copies:
+        assert one.feed(packets[half:]) + one.finish() == events
+        assert one.pack() == session.pack()
+
+
+def test_a_copy_of_a_session_keeps_the_floor_plan_and_the_parts_of_the_app() -> None:
+    machine = machines()["session, particles"]
+    session = machine.start()
+    half = len(machine.items) // 2
+    session.feed(machine.items[:half])
+    copies = [copy(session), deepcopy(session), pickle.loads(pickle.dumps(session))]
+    events = session.feed(machine.items[half:])
+    assert any([isinstance(event, Placed) for event in events])
+    for one in copies:
+        assert one.feed(machine.items[half:]) == events
+
+
+def test_a_session_with_devices_of_the_app_is_copied_but_not_pickled_and_gives_the_reason() -> None:
+    session = Session(profiles=[BOTH])
+    assert isinstance(deepcopy(session), Session)
+    with pytest.raises(TypeError, match=r"snapshot.*restore"):
+        pickle.dumps(session)

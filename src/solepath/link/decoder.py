@@ -30,6 +30,14 @@ SET_BACK_PACKETS = 20
 MAX_ARRIVAL_TIME = 1e11
 """Largest magnitude of an arrival time, s."""
 
+LONGEST_ADDRESS = 256
+"""Largest length of a device's address; those of systems have 17 characters, or 36."""
+
+
+def is_address(device: str) -> bool:
+    """Return whether `device` can be saved as an address: printable text of at most LONGEST_ADDRESS characters."""
+    return len(device) <= LONGEST_ADDRESS and device.isprintable()
+
 
 @define
 class Decoder:
@@ -65,8 +73,12 @@ class Decoder:
             return self._reject(packet, Rejection.ABSURD, f"arrival time {t:g} s")
         if packet.site is not self.site:
             return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
-        if packet.device != self.device and self._is_other_device(packet):
-            return self._reject(packet, Rejection.WRONG_DEVICE, f"of {packet.device or 'nobody'}, not {self.device}")
+        if packet.device != self.device:
+            if not is_address(packet.device):
+                return self._reject(packet, Rejection.MALFORMED, f"device {packet.device!r:.80} is no address")
+            if self._is_other_device(packet):
+                detail = f"of {packet.device or 'nobody'}, not {self.device}"
+                return self._reject(packet, Rejection.WRONG_DEVICE, detail)
         if self.newest_arrival is not None and t < self.newest_arrival:
             if self.backward_packets + 1 < SET_BACK_PACKETS:
                 self.backward_packets += 1

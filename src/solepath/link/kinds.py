@@ -64,6 +64,8 @@ class DeviceKinds:
 
     loaded: dict[str, DeviceKind] = field(factory=dict)
     """Kinds that an app added, and built-in kinds that were used before."""
+    drivers: list[Driver] = field(factory=list)
+    """Drivers of the kinds that an app added."""
 
     def get(self, name: str) -> DeviceKind | None:
         """Return the kind of this name; None when there is none."""
@@ -90,6 +92,7 @@ def make_kinds(drivers: Iterable[Driver] = ()) -> DeviceKinds:
         if driver.name in _RESERVED_NAMES or driver.name in added_names:
             raise ValueError(f"there is a device {driver.name!r} already")
         added_names.add(driver.name)
+        table.drivers.append(driver)
         table.loaded[driver.name] = _declared_kind(driver, built_in=False)
     return table
 

@@ -32,7 +32,9 @@ from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent,
 from ..events.happening import json_ready
 from ..link.driver import Driver
 from ..session import Session
+from ..session.state import SessionState
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
+from ..types.attrs import define, field
 from .errors import RecordingError, os_error_text
 from .packets import FORMAT, VERSION, read_start_time
 
@@ -84,19 +86,16 @@ SCHEMAS: dict[str, dict[str, Any]] = {
 """JSON schema of each kind of message."""
 
 
-class _SampleKeepingSession(Session):
-    """A session that adds every sample that it uses to `samples`, which the caller empties."""
+@define
+class _SampleKeepingState(SessionState):
+    """State of a session that adds every sample that it uses to `samples`, which the caller empties."""
 
-    __slots__ = ("samples",)
+    samples: list[Sample] = field(factory=list, init=False)
 
-    def __init__(self, profiles: Iterable[Driver]) -> None:
-        super().__init__(poses=True, profiles=profiles)
-        self.samples: list[Sample] = []
-
-    def _use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
+    def use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
         items = list(items)
         self.samples += [sample for sample in items if isinstance(sample, Sample)]
-        super()._use_items(site, items, events)
+        super().use_items(site, items, events)
 
 
 class McapWriter:
@@ -115,7 +114,8 @@ class McapWriter:
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
         self.path, self.count, self.outside = Path(path), 0, 0
         self._header = dict(header)
-        self._session = _SampleKeepingSession(profiles)
+        self._session = Session(poses=True, profiles=profiles)
+        self._state = self._session._state = _SampleKeepingState(self._session._state.wearer)
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._sequences: dict[int, int] = {}
@@ -172,7 +172,7 @@ class McapWriter:
 
     def _write_results(self, events: list[Event]) -> None:
         """Write the new samples of the session, and then its events."""
-        samples, self._session.samples = self._session.samples, []
+        samples, self._state.samples = self._state.samples, []
         for sample in samples:
             self._write_sample(sample)
         for event in events:

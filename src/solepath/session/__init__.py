@@ -1,5 +1,5 @@
 """The session that an app holds for one wearer: it takes packets or samples and returns events."""
 
-from .session import NUMBER_TYPES, Session
+from .session import Session
 
-__all__ = ["NUMBER_TYPES", "Session"]
+__all__ = ["Session"]

@@ -13,15 +13,14 @@ from typing import TYPE_CHECKING, Any
 from ..body.gait.means import GaitParameters
 from ..body.part import Position
 from ..calibration import Calibration
-from ..events import Event, PacketRejected, Placed, SampleRejected
+from ..events import Event, Placed
 from ..foot.phase import SUPPORT
 from ..foot.tracker import FootTracker
-from ..link.decoder import Decoder
+from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
-from ..types.attrs import evolve
-from ..types.plain import as_float, has_floats, with_floats
+from ..types.plain import number
 from .arguments import check_calibration, check_start, index_floorplan
 from .state import SessionState
 from .wearer import WearerParts, WearerSettings, sort_by_key
@@ -31,8 +30,6 @@ if TYPE_CHECKING:
     from ..floorplan.plan import FloorPlan, Start
     from ..link.driver import Driver
     from ..saving.codec import Json
-
-NUMBER_TYPES = (float, int)
 
 
 class Session:
@@ -46,9 +43,9 @@ class Session:
     for impossible values of these arguments.
 
     `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
-    give events, never an exception, unless the app's own reader or part raises one. Numbers of a sample may be those of
-    numpy or pandas. It raises TypeError for an item that is neither packet nor sample and for a sample whose values are
-    no numbers, after using the items before it and changing nothing by this one, and ValueError after `finish`.
+    give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
+    that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy), after using the
+    items before it, and ValueError after `finish`.
 
     Latency: zero velocity and live position are known with the sample. Heel-strike and toe-off have a latency of one
     sample once a foot has pushed off the first time; without a push-off, swing is known after 0.15 s (0.4 s right after
@@ -90,9 +87,9 @@ class Session:
         if state.finished:
             raise ValueError("this session is finished")
         if isinstance(data, Sample):
-            return self._feed_sample(state, data)
+            return state.feed_sample(data)
         if isinstance(data, Packet):
-            return self._feed_packet(data)
+            return state.feed_packet(data, self._kinds)
         if not isinstance(data, Iterable) or isinstance(data, str | bytes):
             raise TypeError(f"feed takes packets or samples, not {type(data).__name__}")
         events: list[Event] = []
@@ -104,87 +101,26 @@ class Session:
 
     def advance(self, now: float) -> list[Event]:
         """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity."""
-        now = as_float(now)
+        now = number("now", now)
         if not isfinite(now):
             raise ValueError(f"now is {now}")
-        state = self._state
-        if state.finished:
-            return []
-        if state.now is None or now > state.now:
-            state.now = now
-        events: list[Event] = []
-        for decoder in state.decoders.values():
-            self._use_items(decoder.site, decoder.advance(now, self._kinds), events)
-        return events
+        return [] if self._state.finished else self._state.advance(now, self._kinds)
 
     def finish(self) -> list[Event]:
         """Return the events that were held back; the session can still be read, but no longer fed."""
-        state, events = self._state, list[Event]()
-        if not state.finished:
-            for decoder in state.decoders.values():
-                self._use_items(decoder.site, decoder.finish(), events)
-            if state.now is not None:
-                events += state.wearer.finish(state.now)
-            state.finished = True
-        return events
+        return [] if self._state.finished else self._state.finish()
 
     def bind(self, site: Site, device: str) -> None:
         """Bind `site` to another device, "" for the next that sends, and forget the old layout, ranges and clock."""
         if not isinstance(site, Site) or not isinstance(device, str):
             raise TypeError("a Site is bound to the address of a device, a str")
+        if not is_address(device):
+            raise ValueError(f"{device!r:.80} is no address of a device")
         state = self._state
         decoder = state.decoders.get(site)
         if decoder is None or not decoder.is_bound_to(device):
             state.decoders = sort_by_key({**state.decoders, site: Decoder(site, device)}, Site)
             state.wearer.reset(site)
-
-    def _feed_packet(self, packet: Packet) -> list[Event]:
-        state, events = self._state, list[Event]()
-        site, channel, data, device = packet.site, packet.channel, packet.data, packet.device
-        has_valid_types = isinstance(packet.t, NUMBER_TYPES) and isinstance(site, Site) and isinstance(channel, str)
-        if not (has_valid_types and isinstance(data, bytes | bytearray | memoryview) and isinstance(device, str)):
-            raise TypeError("a packet holds a time, a Site, a channel's name, bytes and a device's address")
-        if packet.t.__class__ is not float:
-            packet = evolve(packet, t=as_float(packet.t))
-        decoder = state.decoders.get(site) or Decoder(site)
-        items = decoder.feed(packet, self._kinds)
-        for item in items:
-            if isinstance(item, PacketRejected):
-                # a rejected packet changes nothing, so time does not pass with it either
-                if site not in state.decoders:
-                    return [event for event in items if isinstance(event, PacketRejected)]
-                self._use_items(site, items, events)
-                return events
-        if site not in state.decoders:
-            state.decoders = sort_by_key({**state.decoders, site: decoder}, Site)
-        for other_site, other_decoder in state.decoders.items():
-            if other_site is not site and (other_items := other_decoder.advance(packet.t, self._kinds)):
-                self._use_items(other_site, other_items, events)
-        if state.now is None or packet.t > state.now:
-            state.now = packet.t
-        if decoder.link is not None:
-            until = decoder.link.unsettled_until
-            if until != state.wearer.unsettled.get(site):
-                state.wearer.unsettle(site, until)
-        self._use_items(site, items, events)
-        return events
-
-    def _feed_sample(self, state: SessionState, sample: Sample) -> list[Event]:
-        if not isinstance(sample.site, Site):
-            raise TypeError(f"site of a sample is a Site, not {sample.site!r:.80}")
-        if not has_floats(sample):
-            sample = with_floats(sample)
-        events = state.wearer.feed(sample)
-        rejected = events and any([isinstance(event, SampleRejected) for event in events])
-        if not rejected and (state.now is None or sample.t > state.now):
-            state.now = sample.t
-        return events
-
-    def _use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
-        """Pass the samples and events of a link to the wearer, and add the events that follow."""
-        wearer = self._state.wearer
-        for item in items:
-            events += wearer.feed(item) if isinstance(item, Sample) else wearer.receive(site, item)
 
     @property
     def now(self) -> float | None:
@@ -235,8 +171,19 @@ class Session:
         tracker = self._state.wearer.feet.get(foot)
         return None if tracker is None else tracker.phase
 
+    def __deepcopy__(self, memo: dict[int, Any]) -> Session:
+        memo.update({id(one): one for one in (self._plan, self._state.wearer.settings)})
+        copied = type(self).__new__(type(self))
+        copied._kinds, copied._plan, copied._state = self._kinds, self._plan, deepcopy(self._state, memo)
+        return copied
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        from .snapshot import pickled
+
+        return pickled(self.snapshot(), self._state, self._kinds, self._plan)
+
     def snapshot(self) -> dict[str, Json]:
-        """Return the whole state as plain data for JSON or another encoder; this takes some milliseconds."""
+        """Return the whole state as plain data for JSON; this takes some milliseconds."""
         from .snapshot import take_snapshot
 
         return take_snapshot(self._state)
@@ -260,7 +207,7 @@ class Session:
         return cls._from_state(restore_state(saved, parts), profiles, floorplan)
 
     def pack(self) -> bytes:
-        """Return the state, without its recipe, as 10 to 20 kB in about 0.3 ms (protocol/snapshot.md); needs numpy."""
+        """Return the state, without its recipe, as 10 to 20 kB (protocol/snapshot.md); needs numpy."""
         from .packed import pack
 
         return pack(self._state)
@@ -280,7 +227,7 @@ class Session:
         `recipe` must be the one with which the session was packed; the other arguments are those of `restore`. Only the
         recipe's name and the classes of its parts are compared. The settings of `recipe` are used from now on, so a
         tuned recipe can continue. Raises SnapshotError if name or class differs, for other bytes, and where `restore`
-        raises it. The checksum detects accidental damage, not manipulation: trust a state as you trust code."""
+        raises it. The checksum finds accidents, not manipulation: trust a state as you trust code."""
         from .packed import unpack
 
         return cls._from_state(unpack(data, recipe, parts), profiles, floorplan)

@@ -16,6 +16,7 @@ from .wearer import sort_by_key
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
+    from .session import Session
 
 
 def take_snapshot(state: SessionState) -> dict[str, Json]:
@@ -43,9 +44,32 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
     return state
 
 
+def pickled(
+    saved: dict[str, Json], state: SessionState, kinds: DeviceKinds, plan: IndexedPlan | None
+) -> tuple[Any, ...]:
+    """Return how pickle and `copy` save a session: the snapshot `saved`, and the app's own classes by their names.
+
+    Raises TypeError for a session with devices of the app, whose functions pickle cannot save."""
+    if kinds.drivers:
+        raise TypeError("a session with devices of the app is not pickled: use snapshot(), and restore(profiles=...)")
+    classes = dict.fromkeys([type(part) for part in _parts(state.wearer.settings.recipe)])
+    return _unpickled, (saved, tuple([cls for cls in classes if cls.__name__ not in PARTS]), plan)
+
+
+def _unpickled(saved: Any, parts: tuple[type, ...], plan: IndexedPlan | None) -> Session:
+    from .session import Session
+
+    return Session.restore(saved, parts=parts, floorplan=plan)
+
+
+def _parts(recipe: Recipe) -> list[Any]:
+    parts = (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place)
+    return [part for part in parts if part is not None]
+
+
 def check_names(recipe: Recipe) -> None:
     """Raise TypeError for an app's part that has the name of a part of solepath: it would be restored as that."""
-    for part in (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place):
+    for part in _parts(recipe):
         name = type(part).__name__
         if name in PARTS and part_class(name) is not type(part):
             raise TypeError(f"it could not tell this {name} from solepath's own: give it another name")

@@ -56,29 +56,26 @@ def with_floats(sample: Sample) -> Sample:
     Numbers of numpy, of pandas and of any class that float() takes are converted, vectors may be lists or arrays."""
     return evolve(
         sample,
-        t=_float("t", sample.t),
-        known_at=_float("known_at", sample.t if sample.known_at is None else sample.known_at),
+        t=number("t of a sample", sample.t),
+        known_at=number("known_at of a sample", sample.t if sample.known_at is None else sample.known_at),
         acc=_floats("acc", sample.acc, 3),
         gyro=_floats("gyro", sample.gyro, 3),
         quat=_floats("quat", sample.quat, 4),
         mag=_floats("mag", sample.mag, 3),
         pressure=_cells(sample.pressure),
-        air_pressure=None if sample.air_pressure is None else _float("air_pressure", sample.air_pressure),
+        air_pressure=None if sample.air_pressure is None else number("air_pressure of a sample", sample.air_pressure),
         saturated=_flag("saturated", sample.saturated),
     )
 
 
-def _float(name: str, value: Any) -> float:
-    """Return a number as a float; raise TypeError for what is none, also for text that reads like one."""
-    if value.__class__ is float:
-        number: float = value
-        return number
+def number(what: str, value: Any) -> float:
+    """Return a number as a float; raise TypeError, naming `what` it is, for anything else, also for text."""
     try:
         if not isinstance(value, str | bytes | bytearray):
             return as_float(value)
     except (TypeError, ValueError):
         pass
-    raise TypeError(f"{name} of a sample is a number, not {value!r:.80}")
+    raise TypeError(f"{what} is a number, not {value!r:.80}")
 
 
 def _floats(name: str, values: Any, count: int) -> Any:
@@ -88,7 +85,7 @@ def _floats(name: str, values: Any, count: int) -> Any:
     numbers = tuple(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes) else ()
     if len(numbers) != count:
         raise TypeError(f"{name} of a sample is {count} numbers, not {values!r:.80}")
-    return tuple([_float(name, value) for value in numbers])
+    return tuple([number(f"{name} of a sample", value) for value in numbers])
 
 
 def _cells(values: Any) -> tuple[float, ...] | None:
@@ -97,7 +94,7 @@ def _cells(values: Any) -> tuple[float, ...] | None:
         return None
     if not isinstance(values, Iterable) or isinstance(values, str | bytes):
         raise TypeError(f"pressure of a sample is a number for each cell, not {values!r:.80}")
-    cells: Any = [None if value is None else _float("pressure", value) for value in values]
+    cells: Any = [None if value is None else number("pressure of a sample", value) for value in values]
     return tuple(cells)
 
 
