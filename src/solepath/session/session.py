@@ -178,9 +178,12 @@ class Session:
         return copied
 
     def __reduce__(self) -> tuple[Any, ...]:
-        from .snapshot import pickled
+        from .snapshot import own_classes
 
-        return pickled(self.snapshot(), self._state, self._kinds, self._plan)
+        if self._kinds.drivers:
+            text = "a session with devices of the app is not pickled"
+            raise TypeError(f"{text}: use snapshot(), and restore(profiles=...)")
+        return _resume, (self.snapshot(), own_classes(self._state), self._plan)
 
     def snapshot(self) -> dict[str, Json]:
         """Return the whole state as plain data for JSON; this takes some milliseconds."""
@@ -246,3 +249,8 @@ class Session:
         check_fit(state, session._kinds, session._plan)
         state.wearer.set_plan(session._plan)
         return session
+
+
+def _resume(saved: Any, parts: tuple[type, ...], plan: IndexedPlan | None) -> Session:
+    """Return the session that pickle or `copy` saved as a snapshot."""
+    return Session.restore(saved, parts=parts, floorplan=plan)

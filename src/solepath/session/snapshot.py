@@ -16,7 +16,6 @@ from .wearer import sort_by_key
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
-    from .session import Session
 
 
 def take_snapshot(state: SessionState) -> dict[str, Json]:
@@ -44,22 +43,10 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
     return state
 
 
-def pickled(
-    saved: dict[str, Json], state: SessionState, kinds: DeviceKinds, plan: IndexedPlan | None
-) -> tuple[Any, ...]:
-    """Return how pickle and `copy` save a session: the snapshot `saved`, and the app's own classes by their names.
-
-    Raises TypeError for a session with devices of the app, whose functions pickle cannot save."""
-    if kinds.drivers:
-        raise TypeError("a session with devices of the app is not pickled: use snapshot(), and restore(profiles=...)")
+def own_classes(state: SessionState) -> tuple[type, ...]:
+    """Return the classes of the parts of a session that are those of an app."""
     classes = dict.fromkeys([type(part) for part in _parts(state.wearer.settings.recipe)])
-    return _unpickled, (saved, tuple([cls for cls in classes if cls.__name__ not in PARTS]), plan)
-
-
-def _unpickled(saved: Any, parts: tuple[type, ...], plan: IndexedPlan | None) -> Session:
-    from .session import Session
-
-    return Session.restore(saved, parts=parts, floorplan=plan)
+    return tuple([cls for cls in classes if cls.__name__ not in PARTS])
 
 
 def _parts(recipe: Recipe) -> list[Any]:
