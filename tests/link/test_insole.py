@@ -22,9 +22,11 @@ from walks import of
 
 from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection
 from solepath.link.decoder import Decoder
+from solepath.link.devices.insole import InsoleLink
 from solepath.saving import codec
 from solepath.types import Sample, Site
 from solepath.types.vector import GRAVITY
+from solepath.wire.fragment import split
 from solepath.wire.insole import InsoleSample
 
 
@@ -158,6 +160,20 @@ def test_an_end_of_a_fragment_is_not_that_fragment() -> None:
     [rejected] = decoder.feed(evolve(second, data=second.data[:1] + second.data[-3:]))
     assert rejected.reason is Rejection.TRUNCATED
     assert feed(decoder, third, last) == []
+
+
+def test_a_frame_in_fragments_that_is_rejected_changes_nothing_but_its_fragments() -> None:
+    decoder = Decoder(site=LEFT)
+    feed(decoder, *fragment_packets(0, 0))
+    other_layout = insole_frame(1, samples=(InsoleSample(tuple(range(25)), (0, 0, 2048, 0, 0, 0)),))
+    *first, last = [packet(11.0 + k, "insole/frame", piece) for k, piece in enumerate(split(other_layout, 20, 1))]
+    feed(decoder, *first)
+    before = codec.save(decoder)
+    assert isinstance(decoder.link, InsoleLink)
+    [rejected] = decoder.feed(last)
+    assert rejected.reason is Rejection.WRONG_LAYOUT
+    decoder.link.reassembly = codec.load(type(decoder.link.reassembly), before["link"]["is"]["reassembly"])
+    assert codec.save(decoder) == before
 
 
 def test_fragments_without_end_do_not_fill_the_memory() -> None:

@@ -89,7 +89,7 @@ class Decoder:
         try:
             return self._use_packet(packet, kinds)
         except WireError as error:
-            return self._reject(packet, error.reason, error.detail)
+            return [*error.earlier, *self._reject(packet, error.reason, error.detail)]
 
     def advance(self, now: float, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
         """Return the events of time that passes until `now`, s, without packets; ignore a time that is not finite."""

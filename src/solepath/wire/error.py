@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from ..events import Rejection
+from ..events import PacketRejected, Rejection
 
 
 class WireError(ValueError):
-    """Error for bytes that do not fit their channel, with the `reason` for events and a `detail` in words."""
+    """Error for bytes that do not fit their channel, with the `reason` for events and a `detail` in words.
 
-    def __init__(self, reason: Rejection, detail: str) -> None:
+    `earlier` are the events of packets before it, which became known with it."""
+
+    def __init__(self, reason: Rejection, detail: str, earlier: tuple[PacketRejected, ...] = ()) -> None:
         super().__init__(f"{reason.value}: {detail}")
         self.reason = reason
         self.detail = detail
+        self.earlier = earlier

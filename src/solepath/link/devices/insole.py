@@ -104,7 +104,7 @@ class InsoleLink(DeviceLink):
             out = self._read_frame(parse_frame(data), arrival)
             if self.reassembly.newest_fragment is None:
                 return out
-            return self._report_dropped(self.reassembly.drop(), arrival) + out
+            return [*self._report_dropped(self.reassembly.drop(), arrival), *out]
         if channel == "insole/info":
             return self._read_info(data, arrival)
         parse_control(data)  # a command to the insole, whose effect shows in frames and INFO
@@ -124,21 +124,27 @@ class InsoleLink(DeviceLink):
 
     def _read_fragment(self, data: bytes, arrival: float) -> Output:
         frame_data, drop_reason = self.reassembly.feed(parse_fragment(data))
-        out = self._report_dropped(drop_reason, arrival)
-        if frame_data is not None:
-            try:
-                out += self._read_frame(parse_frame(frame_data), arrival)
-            except WireError as error:
-                out.append(self._report_rejected(error.reason, error.detail, arrival))
-        return out
+        dropped = self._report_dropped(drop_reason, arrival)
+        if frame_data is None:
+            return [*dropped]
+        try:
+            return [*dropped, *self._read_frame(parse_frame(frame_data), arrival)]
+        except WireError as error:  # the packet is rejected with its frame, and only the fragments are gone
+            raise WireError(error.reason, error.detail, tuple(dropped)) from None
 
-    def _report_dropped(self, detail: str | None, arrival: float) -> Output:
-        return [] if detail is None else [self._report_rejected(Rejection.TRUNCATED, detail, arrival)]
-
-    def _report_rejected(self, reason: Rejection, detail: str, arrival: float) -> PacketRejected:
-        return PacketRejected(
-            t=arrival, known_at=arrival, site=self.site, channel="insole/frame", reason=reason, detail=detail
-        )
+    def _report_dropped(self, detail: str | None, arrival: float) -> list[PacketRejected]:
+        if detail is None:
+            return []
+        return [
+            PacketRejected(
+                t=arrival,
+                known_at=arrival,
+                site=self.site,
+                channel="insole/frame",
+                reason=Rejection.TRUNCATED,
+                detail=detail,
+            )
+        ]
 
     def _read_info(self, data: bytes, arrival: float) -> Output:
         info = parse_info(data)
