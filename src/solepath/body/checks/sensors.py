@@ -193,7 +193,7 @@ class SensorChecks(Part):
             return findings
         if check.settled_at is not None:
             if not check.settled_at <= times[-1] < check.settled_at + EXAMINED_AGAIN:
-                check.axes, check.stances, check.settled_at = AxesCheck(), StanceFinder(), None
+                check.settled_at = None
             return findings
         axes, is_slow, cuts_off = check.axes, interval > LONGEST_INTERVAL, check.gyro_range.cuts_off
         axes.uncertain = is_slow
@@ -204,7 +204,8 @@ class SensorChecks(Part):
                 None if axes.settled or cuts_off else axes.add(t, stride),
             ]
         if (axes.settled or cuts_off) and check.gravity.knows_stances and (is_slow or check.bandwidth.judged):
-            check.settled_at = times[-1]
+            # what was learnt is reported, and the state of a session stays small
+            check.axes, check.stances, check.settled_at = AxesCheck(), StanceFinder(), times[-1]
         return findings
 
 
