@@ -41,6 +41,20 @@ class WakingPart(Part):
 
 
 @define
+class SatisfiedPart(Part):
+    """A part that is idle from its third sample on, and counts what it is fed."""
+
+    needs_samples: ClassVar[bool] = True
+    idle: bool = field(default=False, init=False)
+    eventless: int = field(default=0, init=False)
+
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
+        self.eventless += not view.events
+        self.idle = self.eventless >= 3
+        return ()
+
+
+@define
 class EventPart(Part):
     """A part that declares no need of samples."""
 
@@ -78,6 +92,12 @@ def test_a_part_that_is_idle_no_longer_is_fed_from_then_on_in_a_restored_session
         each_session.feed(WALK_SAMPLES[400:600])
     assert last_part(session) == last_part(restored) != WakingPart()
     assert last_part(session).eventless > 150
+
+
+def test_a_part_that_becomes_idle_with_a_sample_is_not_fed_the_next_one() -> None:
+    session = with_part(SatisfiedPart())
+    session.feed(WALK_SAMPLES)
+    assert last_part(session).eventless == 3
 
 
 def test_a_part_that_declares_no_need_of_samples_gets_none_of_a_barometer_either() -> None:

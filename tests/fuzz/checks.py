@@ -61,6 +61,11 @@ class Checked:
                     raise Broken("a restored session has another state")
                 self.twin = None
 
+    def advance(self, now: float) -> None:
+        """Let time pass; the twin does not follow."""
+        self.twin = None
+        self._check_events(self.session.advance(now))
+
     def finish(self) -> None:
         """Check the size of the state and the last events."""
         if len(self.session.pack()) > MOST_PACKED:
@@ -92,8 +97,8 @@ class Checked:
         for event in events:
             if not isinstance(event, PacketRejected | SampleRejected):
                 return  # the item was used
-            if isinstance(event, SampleRejected) and event.defect is not None:
-                return  # the unit of a foot that had no usable sample yet is remembered
+            if isinstance(event, SampleRejected) and (event.defect is not None or event.site.foot is None):
+                return  # the unit of a foot without usable samples is kept, and the time of a limb far ahead
             is_counted = event.reason in (Rejection.TIME_BACKWARDS, Rejection.LATE)
             if isinstance(event, PacketRejected) and (is_counted or event.channel == "insole/frame"):
                 return  # packets of an earlier time are counted, and fragments forgotten (link/decoder.py)

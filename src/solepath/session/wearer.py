@@ -112,7 +112,7 @@ class WearerParts:
         if not events and sample.air_pressure is None:  # the case of nearly all samples
             view = tracker.view(sample, known_at, (), False, None)
             for part in self.sampled:
-                if output := part.feed(view):
+                if not part.idle and (output := part.feed(view)):  # it may be idle since the sample before
                     self._apply(output, events)
                     number = next(number for number, one in enumerate(self.parts) if one is part)
                     self._run_parts(events, view, known_at, number + 1)
