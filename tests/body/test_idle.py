@@ -94,10 +94,14 @@ def test_a_part_that_is_idle_no_longer_is_fed_from_then_on_in_a_restored_session
     assert last_part(session).eventless > 150
 
 
-def test_a_part_that_becomes_idle_with_a_sample_is_not_fed_the_next_one() -> None:
+def test_a_part_that_becomes_idle_with_a_sample_is_not_fed_the_next_one_in_a_restored_session_or_any() -> None:
     session = with_part(SatisfiedPart())
-    session.feed(WALK_SAMPLES)
+    session.feed(WALK_SAMPLES[:50])
     assert last_part(session).eventless == 3
+    restored = Session.restore(session.snapshot(), parts=[SatisfiedPart])
+    for each_session in (session, restored):
+        each_session.feed(WALK_SAMPLES[50:])
+    assert last_part(session) == last_part(restored)
 
 
 def test_a_part_that_declares_no_need_of_samples_gets_none_of_a_barometer_either() -> None:
