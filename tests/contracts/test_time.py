@@ -11,7 +11,18 @@ import pytest
 from attrs import evolve
 from walks import LEFT, NAMES, PACKET_NAMES, RIGHT, machines, of, samples
 
-from solepath import Foot, FootMoved, PacketsLost, Sample, SampleGap, Session, StreamResumed, StreamStale, StrideTaken
+from solepath import (
+    Foot,
+    FootMoved,
+    PacketsLost,
+    Sample,
+    SampleGap,
+    Session,
+    StreamResumed,
+    StreamStale,
+    StrideTaken,
+    recipes,
+)
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -161,3 +172,11 @@ def test_lost_packets_are_counted_and_their_gap_degrades_the_step() -> None:
     assert lost.t == pytest.approx(gap.t + 0.01, abs=1e-3)
     assert [stride.degraded for stride in of(StrideTaken, emitted)].count(True) == 1
     assert len(of(StrideTaken, emitted)) == len(walk.truth.strides(Foot.LEFT))
+
+
+@pytest.mark.parametrize("name", recipes.NAMES)
+def test_feet_whose_clocks_are_years_apart_have_no_event_that_was_known_before_it_happened(name: str) -> None:
+    left, right = [[sample for sample in samples() if sample.site is site] for site in (LEFT, RIGHT)]
+    later = evolve(left[0], t=1e8, known_at=1e8)
+    events = Session(recipes.by_name(name)).feed([later, *right])
+    assert all(event.known_at >= event.t for event in events)

@@ -255,7 +255,7 @@ class TwoSecondWindows(ActivityPart):
     def _end_ride(self, ride: ElevatorPulses, t: float, known_at: float) -> list[Event]:
         self.ride = None
         t = self._not_before_reported(t)
-        ridden = LiftRidden(t=t, known_at=known_at, t_start=ride.t_start, up=ride.up, height=None)
+        ridden = LiftRidden(t=t, known_at=max(known_at, t), t_start=ride.t_start, up=ride.up, height=None)
         return [ridden, *self._change(t, Activity.STANDING, known_at)]
 
     def _withdraw_ride(self, ride: ElevatorPulses, known_at: float) -> list[Event]:
@@ -273,6 +273,7 @@ class TwoSecondWindows(ActivityPart):
         if self.reported_t is None and self.origin is not None:
             t = self.origin  # the first window also stands for the half-second before it, used for levelling
         self.activity, self.reported_t = activity, t
+        known_at = max(known_at, t)  # feet whose clocks are far apart have windows of the future
         return [
             ActivityChanged(t=t, known_at=known_at, final=final, activity=activity, probability=None, revises=revises)
         ]
