@@ -12,10 +12,12 @@ from base64 import b64decode, b64encode
 from binascii import crc32
 from collections import deque
 from collections.abc import Callable
+from enum import Enum
 from functools import partial
 from math import isfinite
 from typing import Any, TypeVar
 
+from .limits import check_size, shorten
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 from .schema import is_record, locate_error, record_of
 
@@ -48,9 +50,10 @@ def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
     """Return the record of class `cls` that `save` turned into `value`.
 
     `classes` looks up the classes of open records. Raises SnapshotError when the value does not fit, and
-    TypeError when `cls` is not a record."""
+    TypeError when `cls` is not a record. limits.py bounds the size of a value."""
     loader = _codec(record_of(cls))[1]
     try:
+        check_size(value)
         loaded: T = loader(value, classes)
     except SnapshotError:
         raise
@@ -77,7 +80,7 @@ def _codec(node: Node) -> tuple[_Saver, _Loader]:
         case ScalarNode(kind):
             return _scalar_codec(kind)
         case EnumNode(cls):
-            return (lambda word: word.value), (lambda value, _: cls(value))
+            return (lambda word: word.value), partial(_load_enum, cls)
         case MaybeNode(of):
             return _maybe_codec(*_codec(of))
         case TupleNode(items) if {*map(_is_float, items)} == {True}:
@@ -106,10 +109,17 @@ def _scalar_codec(kind: type) -> tuple[_Saver, _Loader]:
 
     def check(value: Any, _: object = None) -> Any:
         if type(value) is not kind:
-            raise SnapshotError(f"expected {kind.__name__}, found {value!r}")
+            raise SnapshotError(f"expected {kind.__name__}, found {shorten(value)}")
         return value
 
     return check, check
+
+
+def _load_enum(cls: type[Enum], value: Any, _: object) -> Enum:
+    try:
+        return cls(value)
+    except (TypeError, ValueError):
+        raise SnapshotError(f"{shorten(value)} is no {cls.__name__}") from None
 
 
 def _save_float(value: Any) -> Json:
@@ -121,7 +131,7 @@ def _save_float(value: Any) -> Json:
 
 def _load_float(value: Any, _: object) -> float:
     if type(value) is not float and type(value) is not int:
-        raise SnapshotError(f"expected a number, found {value!r}")
+        raise SnapshotError(f"expected a number, found {shorten(value)}")
     return float(value)
 
 
@@ -143,7 +153,8 @@ def _load_floats(kind: type, count: int | None, values: Any, _: object) -> Any:
     if count is not None and len(_check_list(values)) != count:
         raise SnapshotError(f"expected {count} items, found {len(values)}")
     if {*map(type, _check_list(values))} - {float, int}:
-        raise SnapshotError(f"expected numbers, found {values!r:.80}")
+        found = next(value for value in values if type(value) not in (float, int))
+        raise SnapshotError(f"expected numbers, found {shorten(found)}")
     return kind(map(float, values))
 
 
@@ -191,7 +202,7 @@ def _deque_codec(save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader
         if isinstance(value, dict):
             max_length, items = value["maxlen"], _check_list(value["is"])
             if type(max_length) is not int or max_length < len(items) or value.keys() != {"maxlen", "is"}:
-                raise SnapshotError(f"not a deque: {value!r:.80}")
+                raise SnapshotError("a deque does not have the length that it may have")
             value = items
         return deque([load_item(item, classes) for item in _check_list(value)], max_length)
 
@@ -225,7 +236,9 @@ def _record_codec(node: RecordNode) -> tuple[_Saver, _Loader]:
         if not isinstance(value, dict):
             raise SnapshotError(f"expected {cls.__name__}, found {type(value).__name__}")
         if value.keys() != names:
-            raise SnapshotError(f"{cls.__name__} does not have the fields {sorted(value.keys() ^ names)}")
+            missing, unknown = sorted(names - value.keys()), [key for key in value if key not in names]
+            lacks = f"lacks the field {missing[0]}" if missing else f"has no field {shorten(unknown[0])}"
+            raise SnapshotError(f"{cls.__name__} {lacks}")
         record: Any = object.__new__(cls)
         for name, _, load_field in fields:
             object.__setattr__(record, name, load_field(value[name], classes))
@@ -266,5 +279,5 @@ def class_in(node: OpenNode, kind: Any, classes: Classes) -> type:
     if cls is None and node.others and isinstance(kind, str):
         cls = classes(kind)
     if cls is None:
-        raise SnapshotError(f"a snapshot of a part {kind!r:.80} that is not known here")
+        raise SnapshotError(f"a snapshot of a part {shorten(kind)} that is not known here")
     return cls

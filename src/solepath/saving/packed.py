@@ -12,12 +12,11 @@ from typing import Any
 from ..types.attrs import frozen
 from .codec import Classes, SnapshotError, check_open, class_in
 from .generator import CodeGenerator
+from .limits import MAX_VALUES, shorten
 from .nodes import OpenNode, RecordNode
 from .schema import describe, record_in, schema_checksum
 
 Lists = tuple[list[float], list[int], list[bool], list[bytes]]
-MAX_LIST_LENGTH = 1 << 20
-"""Largest length of a list of records that is read; no state has nearly as many."""
 
 
 class Streams:
@@ -112,10 +111,10 @@ class _OpenRecordCodec:
         identity = b(n()) if k == len(self.names) and self.node.others else b""
         name = identity.decode().partition(" ")[0] if identity else _get_word(self.names, k)
         if self.node.made and name != type(t).__name__:
-            raise SnapshotError(f"packed with {name}, and this recipe has {type(t).__name__}")
+            raise SnapshotError(f"packed with {name:.80}, and this recipe has {type(t).__name__}")
         _, expected, functions = self._find_functions(type(t) if self.node.made else class_in(self.node, name, C))
         if identity and identity != expected:
-            raise SnapshotError(f"packed with a part {name!r} that had other fields")
+            raise SnapshotError(f"packed with a part {shorten(name)} that had other fields")
         return functions.read(t, f, n, m, b, F, C)
 
 
@@ -151,7 +150,7 @@ def _rows(floats: Iterator[float], count: int, width: int) -> list[tuple[float, 
 
 def _check_count(count: int) -> range:
     """Return a range of this length; raise SnapshotError if no list can be that long."""
-    if not 0 <= count <= MAX_LIST_LENGTH:
+    if not 0 <= count <= MAX_VALUES:
         raise SnapshotError(f"a list of {count}")
     return range(count)
 

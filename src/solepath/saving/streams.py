@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from .limits import MAX_DIGITS, MAX_VALUES
+
 Units = tuple[float, float]
 """Load per count of a cell of the left and of the right insole, N; loads are multiples of it."""
 HEADER = Struct("<4I2d")
@@ -29,7 +31,10 @@ _CLASS_FACTORS = (1 << np.arange(0, 24, 3)).astype("f4")
 
 
 def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: Units) -> bytes:
-    """Return all four streams as bytes; raise ValueError or OverflowError for a number that is not finite."""
+    """Return all four streams as bytes.
+
+    Raises ValueError or OverflowError for a number that is not finite, ValueError for more than limits.py allows."""
+    _check_count(len(floats), len(ints), len(flags))
     try:
         # struct takes a third of the time that numpy needs for a list
         numbers = np.frombuffer(pack(f"<{len(floats) + len(ints)}d", *floats, *ints), "<f8")
@@ -106,8 +111,10 @@ def _pack_classes(classes: Any) -> bytes:
 def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], bytes]:
     """Return floats, ints, flags and joined bytes, the arguments of `to_bytes`, from its result.
 
-    Raises ValueError (or struct.error) for any other input. The result is never much larger than the input."""
+    Raises ValueError (or struct.error) for any other input. A value takes at least a bit of the input, and there are at
+    most MAX_VALUES, so that memory and time are bounded."""
     count, int_count, flag_count, digits_length, *units = HEADER.unpack_from(body)
+    _check_count(count, int_count, flag_count)
     cursor = _Cursor(body, HEADER.size)
     numbers = _read_numbers(cursor, cursor.take_bits(count + int_count, 3), (units[0], units[1]))
     with np.errstate(all="ignore"):
@@ -118,11 +125,23 @@ def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], by
     digits = cursor.take(digits_length).tobytes()
     ints: list[int] = integers.tolist()
     if digits:
-        large = iter(digits.split(b" "))
-        ints = [int(next(large)) if i == LARGE_INT else i for i in ints]
-        if next(large, None) is not None:
-            raise ValueError("large ints are left over")
+        ints = _with_large_ints(ints, digits.split(b" ", len(ints)))
     return numbers[:count].tolist(), ints, flags.astype(np.bool_).tolist(), cursor.take(None).tobytes()
+
+
+def _check_count(*counts: int) -> None:
+    if sum(counts) > MAX_VALUES:
+        raise ValueError(f"no state has more than {MAX_VALUES} values")
+
+
+def _with_large_ints(ints: list[int], digits: list[bytes]) -> list[int]:
+    """Return the ints with the large ones, which are given as digits, in place of LARGE_INT."""
+    if max(map(len, digits)) > MAX_DIGITS + 1:
+        raise ValueError(f"an int has more than {MAX_DIGITS} digits")
+    if ints.count(LARGE_INT) != len(digits):
+        raise ValueError("the number of large ints is another")
+    large = iter(digits)
+    return [int(next(large)) if i == LARGE_INT else i for i in ints]
 
 
 def _read_numbers(cursor: _Cursor, classes: Any, units: Units) -> Any:

@@ -17,6 +17,7 @@ from typing import Any
 from ..calibration import Calibration
 from ..recipes import Recipe, own
 from ..saving.codec import Classes, SnapshotError
+from ..saving.limits import MAX_SIZE, shorten
 from ..saving.packed import Lists, Streams, read, write
 from ..saving.schema import describe, record_of, schema_checksum
 from ..saving.streams import Units, from_bytes, to_bytes
@@ -78,6 +79,8 @@ def pack(state: SessionState) -> bytes:
         body = to_bytes(*lists, _units(wearer))
     except (ValueError, KeyError, OverflowError) as error:
         raise SnapshotError(f"a packed session cannot hold this: {error}") from error
+    if HEADER.size + len(body) > MAX_SIZE:
+        raise SnapshotError(f"a packed session cannot have more than {MAX_SIZE} bytes")
     start = HEADER.pack(MAGIC, FORM, VERSION, _schema_check(), 0)
     return HEADER.pack(MAGIC, FORM, VERSION, _schema_check(), crc32(body, crc32(start))) + body
 
@@ -102,14 +105,18 @@ def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionStat
         return _read_state(Streams(*from_bytes(body)), own_recipe, classes)
     except (SnapshotError, MemoryError, RecursionError):  # when memory runs out, the bytes may still be sound
         raise
+    except StopIteration:
+        raise SnapshotError("not a packed session: it was cut short") from None
     except Exception as error:
-        raise SnapshotError(f"not a packed session: {error or type(error).__name__}") from error
+        raise SnapshotError(f"not a packed session: {error}") from error
 
 
 def _check_header(data: Any) -> memoryview:
     """Return the body after checking the header."""
     if not isinstance(data, bytes | bytearray | memoryview):
         raise SnapshotError("not a packed session")
+    if memoryview(data).nbytes > MAX_SIZE:
+        raise SnapshotError(f"not a packed session: it has more than {MAX_SIZE} bytes")
     packed = bytes(data)
     if len(packed) < HEADER.size or not packed.startswith(MAGIC):
         raise SnapshotError("not a packed session")
@@ -134,7 +141,7 @@ def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionSt
     Raises SnapshotError when the state was packed with another recipe."""
     head: Head = read(HEAD, streams, classes)
     if head.recipe != recipe.name:
-        raise SnapshotError(f"packed with the recipe {head.recipe!r}, and this is {recipe.name!r}")
+        raise SnapshotError(f"packed with the recipe {shorten(head.recipe)}, and this is {recipe.name!r}")
     state: SessionState = read(STATE, streams, classes, _make_initial_state(recipe, head))
     streams.end()
     for foot in state.wearer.feet.values():

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..link.kinds import DeviceKinds
 from ..recipes import PARTS, Recipe, own, part_class
 from ..saving.codec import Classes, Json, SnapshotError, checksum, load, save
+from ..saving.limits import check_size, shorten
 from ..saving.schema import is_record
 from ..types import Foot, Site
 from ..types.attrs import evolve
@@ -22,6 +23,10 @@ def take_snapshot(state: SessionState) -> dict[str, Json]:
     """Return the state with a checksum, since damaged numbers could cause any fault later."""
     check_names(state.wearer.settings.recipe)
     saved_state = save(state)
+    try:
+        check_size(saved_state)
+    except ValueError as error:
+        raise SnapshotError(f"this state cannot be saved: {error}") from None
     return {"solepath": VERSION, "check": checksum(saved_state), "state": saved_state}
 
 
@@ -32,7 +37,7 @@ def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
         raise SnapshotError("not a snapshot of a session")
     version = saved["solepath"]
     if type(version) is not int or version != VERSION:
-        raise SnapshotError(f"a snapshot of version {version!r:.80}; this release reads version {VERSION} alone")
+        raise SnapshotError(f"a snapshot of version {shorten(version)}; this release reads version {VERSION} alone")
     state = load(SessionState, saved["state"], classes)
     state.decoders = sort_by_key(state.decoders, Site)
     state.wearer.feet = sort_by_key(state.wearer.feet, Foot)
@@ -87,6 +92,6 @@ def check_fit(state: SessionState, kinds: DeviceKinds, plan: IndexedPlan | None)
             continue
         kind = kinds.get(decoder.link.name)
         if kind is None:
-            raise SnapshotError(f"a snapshot of a device {decoder.link.name!r}: restore it with its profile")
+            raise SnapshotError(f"a snapshot of a device {shorten(decoder.link.name)}: restore it with its profile")
         if not kind.accepts(decoder.link):
-            raise SnapshotError(f"a snapshot of a device {decoder.link.name!r} as another driver declared it")
+            raise SnapshotError(f"a snapshot of a device {shorten(decoder.link.name)} as another driver declared it")

@@ -22,14 +22,16 @@ from ..messages import Command
 from ..scene.scene import Scene
 from .access import AccessDenied, PageAccess, listen, url_host
 from .client_errors import ClientErrors
-from .connection import HEADERS, BrowserConnection, ImmediateClose
+from .connection import HEADERS, BrowserConnection
+from .open_connections import ACCEPTED_AT_ONCE, MAX_CONNECTIONS, OpenConnections
 from .watcher import Watcher
 
 MAX_WATCHERS = 8
-MAX_CONNECTIONS = 64
-"""Largest number of connections at one time, those of watchers included."""
-IDLE_TIMEOUT = 10.0
+"""Largest number of browsers that watch at one time."""
+IDLE_TIMEOUT = 5.0
 """Time after which a connection without a complete request is closed, s."""
+WAITING_CONNECTIONS = 128
+"""Number of new connections that the system holds until the page accepts them."""
 METHODS = ("GET", "HEAD")
 CONTENT_TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 
@@ -42,6 +44,9 @@ class Page:
     with each command of a watcher who has the token; it is None where there is nothing to play.
 
     A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MAX_WATCHERS.
+    A watcher without the token makes room for one who has it, and an idle connection for a new one: nobody without the
+    token can keep its owner out.
+
     Entering the context raises OSError when the page cannot listen at `host` and `port`. Before that, `port` and `url`
     raise RuntimeError. Page and `scene` are for one event loop. When `scene` is replaced, as after a seek, watchers get
     the whole new scene."""
@@ -62,7 +67,9 @@ class Page:
         self._port = port
         self._access = PageAccess(self._host, secrets.token_urlsafe(16) if token is None else token)
         self._files = _files(files(__package__) / "static")
-        self._watchers: set[Watcher] = set()
+        self._watchers: dict[Watcher, None] = {}
+        """Watchers, in the order in which they came."""
+        self._open = OpenConnections(MAX_CONNECTIONS)
         self._server: web.Server | None = None
         self._listening: asyncio.Server | None = None
 
@@ -82,7 +89,9 @@ class Page:
         socket = listen(self._host, self._port)
         self._port = socket.getsockname()[1]
         self._server = web.Server(self._answer)
-        self._listening = await asyncio.get_running_loop().create_server(self._connect, sock=socket)
+        loop = asyncio.get_running_loop()
+        self._listening = await loop.create_server(self._connect, sock=socket, backlog=ACCEPTED_AT_ONCE)
+        socket.listen(WAITING_CONNECTIONS)  # the loop takes its backlog for both numbers
         return self
 
     async def __aexit__(self, *error: object) -> None:
@@ -95,22 +104,20 @@ class Page:
 
     def _connect(self) -> asyncio.BaseProtocol:
         """Return the protocol for a new connection."""
-        if self._server is None or len(self._server.connections) >= MAX_CONNECTIONS:
-            self.client_errors.report(f"more than {MAX_CONNECTIONS} connections at once: one is turned away")
-            return ImmediateClose()
-        return BrowserConnection(self._server, IDLE_TIMEOUT)
+        if self._server is None:
+            raise RuntimeError("the page is not served yet")
+        return BrowserConnection(self._server, IDLE_TIMEOUT, self._open, self.client_errors)
 
     async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
         connection = cast(BrowserConnection, request.protocol)
-        connection.has_requested = True
+        connection.handle_request()
         try:
             host = request.headers.get("Host")
             self._access.check_host(host)
             if request.method not in METHODS:
                 return web.Response(status=405, headers={**HEADERS, "Allow": ", ".join(METHODS)})
             if request.path == "/ws":
-                with connection.watching():
-                    return await self._watched(request, host or "")
+                return await self._watched(request, connection, host or "")
             return self._file(request)
         except AccessDenied as denied:
             self.client_errors.report(f"{denied}: turned away")
@@ -128,7 +135,7 @@ class Page:
         body, content_type = file
         return web.Response(body=body, content_type=content_type, charset="utf-8", headers=HEADERS)
 
-    async def _watched(self, request: web.BaseRequest, host: str) -> web.StreamResponse:
+    async def _watched(self, request: web.BaseRequest, connection: BrowserConnection, host: str) -> web.StreamResponse:
         if request.method != "GET":
             raise AccessDenied("a request for the socket is none for a WebSocket", 400)
         if "Sec-WebSocket-Protocol" in request.headers:
@@ -136,13 +143,23 @@ class Page:
         self._access.check_origin(request.headers.getall("Origin", []), host)
         may_control = self._access.may_control(request.query.getall("token", []))
         if len(self._watchers) >= MAX_WATCHERS:
-            raise AccessDenied(f"more than {MAX_WATCHERS} browsers requested to watch", 503)
+            self._make_room(may_control)
         watcher = Watcher(self, may_control)
-        self._watchers.add(watcher)
+        self._watchers[watcher] = None
         try:
-            return await watcher.watch(request)
+            with connection.watching():
+                return await watcher.watch(request)
         finally:
-            self._watchers.discard(watcher)
+            self._watchers.pop(watcher, None)
+
+    def _make_room(self, has_token: bool) -> None:
+        """Disconnect the oldest watcher without the token for one who has it; raise AccessDenied if that cannot be."""
+        others = [watcher for watcher in self._watchers if not watcher.may_control]
+        if not (has_token and others):
+            raise AccessDenied(f"more than {MAX_WATCHERS} browsers requested to watch", 503)
+        self.client_errors.report("a browser without the token made room for one that has it")
+        self._watchers.pop(others[0])
+        others[0].make_room()
 
 
 def _files(folder: Traversable) -> dict[str, tuple[bytes, str]]:

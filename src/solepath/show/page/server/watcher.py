@@ -39,8 +39,9 @@ class Watcher:
     """The connection to one browser that watches; `may_control` is true if the browser has sent the token."""
 
     def __init__(self, page: WatchedPage, may_control: bool) -> None:
+        self.may_control = may_control
         self._page = page
-        self._may_control = may_control
+        self._leaving: asyncio.Task[None] | None = None
         self._socket = web.WebSocketResponse(
             timeout=1.0, heartbeat=PING_INTERVAL, compress=False, max_msg_size=MAX_MESSAGE_SIZE + 1, autoclose=True
         )
@@ -52,14 +53,13 @@ class Watcher:
 
     async def watch(self, request: web.BaseRequest) -> web.StreamResponse:
         """Serve the browser from the handshake to the end; raise AccessDenied if the request is not for a WebSocket."""
+        transport = self._transport = request.transport
         try:
             await self._socket.prepare(request)
         except web.HTTPException:
             raise AccessDenied("a request for the socket is none for a WebSocket", 400) from None
-        transport = request.transport
         if transport is None:
             return self._socket
-        self._transport = transport
         sending = asyncio.create_task(self._show(transport))
         try:
             await self._listen()
@@ -70,15 +70,23 @@ class Watcher:
 
     async def end(self) -> None:
         """Send what has changed since the last frame, then close the connection."""
+        await self._close(WSCloseCode.GOING_AWAY, "ended", last=True)
+
+    def make_room(self) -> None:
+        """Start to close the connection, because a browser with the token came and there is no room for both."""
+        self._leaving = asyncio.create_task(self._close(WSCloseCode.TRY_AGAIN_LATER, "no room", last=False))
+
+    async def _close(self, code: int, reason: str, last: bool) -> None:
+        """Close the connection within a second; with `last`, send what has changed before."""
         try:
             async with asyncio.timeout(1.0):
-                if self._unread():
+                if self._unread() or not self._socket.prepared:
                     self._abort()
-                else:
-                    message = self._next()
-                    if message is not None:
-                        await self._socket.send_str(encode(message))
-                    await self._socket.close(code=WSCloseCode.GOING_AWAY, message=b"ended")
+                    return
+                message = self._next() if last else None
+                if message is not None:
+                    await self._socket.send_str(encode(message))
+                await self._socket.close(code=code, message=reason.encode())
         except (TimeoutError, ConnectionError):
             self._abort()
 
@@ -123,7 +131,7 @@ class Watcher:
             message, self._cursor = newest.message_since(self._cursor)
         self._scene = newest
         if message is not None and message["type"] == "scene":
-            message["control"] = self._may_control and self._page.commands is not None
+            message["control"] = self.may_control and self._page.commands is not None
         return message
 
     def _unread(self) -> bool:
@@ -160,7 +168,7 @@ class Watcher:
         except CommandError as error:
             code = WSCloseCode.POLICY_VIOLATION if error.is_json else WSCloseCode.INVALID_TEXT
             return code, f"{error}: its connection is closed"
-        if not self._may_control:
+        if not self.may_control:
             return WSCloseCode.POLICY_VIOLATION, f"a browser without the token requested to {command.do}"
         if self._page.commands is None:
             return WSCloseCode.POLICY_VIOLATION, f"a browser requested to {command.do}, and there is nothing to play"

@@ -1,0 +1,173 @@
+"""Reading a state takes memory and time in proportion to what a state may have, whatever the bytes or the JSON hold."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tracemalloc
+from typing import Any
+
+import pytest
+from signed import signed
+
+from solepath import Session, SnapshotError
+from solepath.saving.codec import checksum
+from solepath.saving.limits import MAX_DEPTH, MAX_DIGITS, MAX_SIZE, MAX_VALUES, check_size
+from solepath.saving.streams import HEADER, from_bytes, to_bytes
+from solepath.session.packed import HEADER as SESSION_HEADER
+
+START = Session().pack()[: SESSION_HEADER.size]
+
+BYTES_PER_VALUE = 200
+"""Most memory that reading takes for a value, bytes; a float in a list takes 32, and arrays pass by on the way."""
+
+HOSTILE = """
+import resource, sys
+import numpy  # so that its own memory is not counted
+from signed import signed
+from solepath import Session, SnapshotError
+from solepath.saving.streams import HEADER
+
+start = Session().pack()[:16]
+size = 150_000_000
+bodies = {
+    "zeros": HEADER.pack(size // 3 * 8 - 64, 0, 0, 0, 0.0, 0.0) + bytes(size),
+    "flags": HEADER.pack(0, 0, size * 8, 0, 0.0, 0.0) + bytes(size),
+    "digits": HEADER.pack(0, 8, 0, size, 0.0, 0.0) + bytes(3) + b"9" * size,
+    "bytes": HEADER.pack(0, 0, 0, 0, 0.0, 0.0) + bytes(size),
+}
+saved = signed(start + bodies.pop(sys.argv[1]))
+bodies.clear()
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + 20_000_000, -1))
+try:
+    Session.unpack(saved)
+except SnapshotError as error:
+    print(error)
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux limits the memory of a process so")
+@pytest.mark.parametrize("what", ["zeros", "flags", "digits", "bytes"])
+def test_a_large_packed_state_behind_a_right_checksum_is_rejected_at_once(what: str) -> None:
+    paths = [path for path in sys.path if path]
+    program = f"import sys; sys.path[:0] = {paths!r}\n{HOSTILE}"
+    done = subprocess.run([sys.executable, "-c", program, what], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == (f"not a packed session: it has more than {MAX_SIZE} bytes\n", "")
+
+
+def body_of(counts: tuple[int, int, int, int], length: int) -> bytes:
+    return HEADER.pack(*counts, 0.0, 0.0) + bytes(length)
+
+
+@pytest.mark.parametrize("counts", [(MAX_VALUES + 1, 0, 0, 0), (0, MAX_VALUES + 1, 0, 0), (0, 0, MAX_VALUES + 1, 0),
+                                    (MAX_VALUES, 1, 0, 0), (2**31, 2**31, 2**31, 0)])  # fmt: skip
+def test_more_values_than_a_state_may_have_are_not_read(counts: tuple[int, int, int, int]) -> None:
+    saved = signed(START + body_of(counts, MAX_SIZE - 1000))
+    tracemalloc.start()
+    with pytest.raises(SnapshotError, match=f"no state has more than {MAX_VALUES} values"):
+        Session.unpack(saved)
+    assert tracemalloc.get_traced_memory()[1] < 2_000_000
+    tracemalloc.stop()
+
+
+@pytest.mark.parametrize("share", [0.01, 0.1])
+def test_memory_is_in_proportion_to_the_values(share: float) -> None:
+    count = round(share * MAX_VALUES)
+    saved = signed(START + body_of((count, 0, 0, 0), count // 8 * 3 + 3))
+    tracemalloc.start()
+    with pytest.raises(SnapshotError):
+        Session.unpack(saved)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 300_000 + BYTES_PER_VALUE * count
+
+
+def test_what_could_not_be_read_is_not_written() -> None:
+    assert from_bytes(memoryview(to_bytes([0.0] * MAX_VALUES, [], [], [], (0.0, 0.0))))[0] == [0.0] * MAX_VALUES
+    with pytest.raises(ValueError, match="no state has more"):
+        to_bytes([0.0] * MAX_VALUES, [1], [], [], (0.0, 0.0))
+    check_size([0.0] * MAX_VALUES)
+    with pytest.raises(ValueError, match="no snapshot has more"):
+        check_size([0.0] * MAX_VALUES + [0.0])
+
+
+@pytest.mark.parametrize("digits", [b"9" * (MAX_DIGITS + 2), b"9" * 1_000_000, b" " * 1_000_000, b"1 2 3", b"", b"x"])
+def test_large_ints_that_no_state_has_are_rejected(digits: bytes) -> None:
+    body = to_bytes([], [2**60], [], [], (0.0, 0.0)).replace(b"%d" % 2**60, digits)
+    counts = (0, 1, 0, len(digits))
+    with pytest.raises(SnapshotError):
+        Session.unpack(signed(START + HEADER.pack(*counts, 0.0, 0.0) + body[HEADER.size :]))
+
+
+def nested(depth: int) -> Any:
+    value: Any = []
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+def endless() -> list[Any]:
+    value: list[Any] = []
+    value.append(value)
+    return value
+
+
+HOSTILE_VALUES: dict[str, Any] = {
+    "deep": nested(1_000_000),
+    "deep objects": json.loads('{"a":' * 500 + "1" + "}" * 500),
+    "just too deep": nested(MAX_DEPTH + 1),
+    "endless": endless(),
+    "long": [0.5] * (MAX_VALUES + 1),
+    "wide": [[0.5] * 1000] * 1_000_000,
+    "long object": dict.fromkeys(map(str, range(MAX_VALUES + 1))),
+    "long text": "x" * (MAX_SIZE + 1),
+    "long key": {"x" * (MAX_SIZE + 1): 1},
+    "huge": 10**MAX_DIGITS,
+    "very huge": 1 << 10_000_000,
+    "very huge, negative": -1 << 10_000_000,
+}
+
+
+def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    """Return a place of each kind of value: its path from the top."""
+    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    return [path, *[place for key, item in inner for place in places(item, (*path, key))]]
+
+
+@pytest.mark.parametrize("what", HOSTILE_VALUES)
+def test_hostile_json_is_rejected_in_one_sentence(what: str) -> None:
+    state = Session().snapshot()
+    for place in places(state)[:: len(places(state)) // 60]:
+        saved: Any = {"": json.loads(json.dumps(state))}
+        *path, last = ("", *place)
+        inside = saved
+        for key in path:
+            inside = inside[key]
+        inside[last] = HOSTILE_VALUES[what]
+        with pytest.raises(SnapshotError) as caught:
+            Session.restore(saved[""])
+        text = str(caught.value)
+        assert text and "\n" not in text and len(text) < 300
+
+
+def test_the_largest_values_within_the_limits_are_rejected_in_one_sentence_too() -> None:
+    """They fit no field of a session, or the checksum is another."""
+    for value in ([[]] * MAX_VALUES, "x" * MAX_SIZE, nested(MAX_DEPTH - 2), 10**MAX_DIGITS - 1, [{}] * 1000):
+        state: Any = Session().snapshot()
+        for place in places(state)[1::40]:
+            saved = json.loads(json.dumps(state))
+            inside = saved
+            for key in place[:-1]:
+                inside = inside[key]
+            inside[place[-1]] = value
+            with pytest.raises(SnapshotError) as caught:
+                Session.restore(saved)
+            assert "\n" not in str(caught.value) and len(str(caught.value)) < 300
+
+
+def test_a_session_is_far_from_the_limits() -> None:
+    state = Session().snapshot()
+    check_size(state)
+    assert checksum(state) is not None
