@@ -77,7 +77,9 @@ def test_the_site_and_the_channel_can_be_given(tmp_path):
     assert {(p.site, p.channel) for p in read_packets(out)} == {
         (Site.PELVIS, "receiver/connected"), (Site.PELVIS, "cc2650/movement"),
     }  # fmt: skip
-    assert "there is no channel 'cc2650/moment'; there are: " in complaint(path, out, "--handle", "0x2b=cc2650/moment")
+    assert "there is no channel 'cc2650/moment'; there are: " in complaint(
+        path, out, "--force", "--handle", "0x2b=cc2650/moment"
+    )
 
 
 def test_an_option_that_cannot_be_parsed_is_named(log, tmp_path):
@@ -141,12 +143,14 @@ def test_impossible_file_names_are_rejected(log, tmp_path):
     assert complaint(log, tmp_path / "walk.csv").endswith(
         "walk.csv: ends neither in .jsonl nor in .mcap, which says what to write"
     )
-    assert complaint(walk, walk).endswith("is no btsnoop log; a recording is converted to .mcap only")
+    assert complaint(walk, tmp_path / "other.jsonl").endswith(
+        "is no btsnoop log; a recording is converted to .mcap only"
+    )
     assert "--site and --handle are for btsnoop logs" in complaint(
         walk, tmp_path / "walk.mcap", "--site", f"{TAG}=pelvis"
     )
-    assert complaint(tmp_path / "none.log", walk).endswith("none.log: no such file or directory")
-    assert complaint(tmp_path, walk).endswith("is a directory, not a recording")
+    for source, flaw in ((tmp_path / "none.log", "no such file or directory"), (tmp_path, "is a directory")):
+        assert f"{source}: {flaw}" in complaint(source, tmp_path / "other.jsonl")
     same = tmp_path / "same.jsonl"
     same.write_bytes(log.read_bytes())
     assert complaint(same, same).endswith("is what this command reads; write to another file")

@@ -79,7 +79,7 @@ def earlier(tmp_path: Path) -> dict[str, bytes]:
     """Return the files of an earlier run."""
     (tmp_path / "out").mkdir()
     starts = {
-        "r.html": '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="generator" content="solepath">',
+        "r.html": '<!DOCTYPE html>\n<html lang="en"><head><meta name="generator" content="solepath">',
         "out/events.jsonl": '{"event": "HeelStrike", ',
         "out/track.csv": "t_s,foot,x_m,y_m,z_m,phase\n",
     }

@@ -115,7 +115,7 @@ class _Archive:
             with self._zip_file.open(info) as file:
                 self._values += _claimed_values(file, info.file_size)
             if self._values > MAX_VALUES:
-                raise RecordingError(self._path, f"holds more than {MAX_VALUES // 1_000_000} million numbers")
+                raise RecordingError(self._path, f"holds more than {MAX_VALUES:,} numbers")
             with self._zip_file.open(info) as file:
                 array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
         except ARCHIVE_ERRORS as error:

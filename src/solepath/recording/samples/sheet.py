@@ -93,7 +93,7 @@ def read_csv(path: Path, one_foot: Foot, bad_rows: BadRows) -> list[FootTable]:
                     foot_values.extend(numeric)
                     foot_numbers.append(number)
             if sum(map(len, values)) > MAX_VALUES:
-                raise RecordingError(path, f"holds more than {MAX_VALUES // 1_000_000} million numbers")
+                raise RecordingError(path, f"holds more than {MAX_VALUES:,} numbers")
     tables = [_make_table(path, *parts) for parts in zip(feet, values, line_numbers, strict=True)]
     return [table for table in tables if len(table)]
 
@@ -106,7 +106,7 @@ def _read_lines(path: Path, file: TextIO) -> Iterator[tuple[int, str]]:
         if len(line) > MAX_LINE_LENGTH:
             raise RecordingError(path, f"is longer than {MAX_LINE_LENGTH} characters", f"line {number}")
         if size > MAX_LENGTH:
-            raise RecordingError(path, f"is longer than {MAX_LENGTH // 1_000_000_000} billion characters")
+            raise RecordingError(path, f"is longer than {MAX_LENGTH:,} characters")
         yield number, line
 
 
