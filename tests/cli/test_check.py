@@ -124,13 +124,24 @@ def test_a_file_that_is_no_recording_is_an_error_and_gets_no_verdict(name: str, 
     assert name in run_failing("check", tmp_path / name)
 
 
-def test_rows_before_one_that_cannot_be_read_are_checked(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+def test_a_row_that_cannot_be_read_is_named_and_the_others_are_checked(
+    columns: dict[str, np.ndarray], tmp_path: Path
+) -> None:
     acc = columns["acc"].copy()
     acc[2000] = np.nan
     done = run("check", saved(tmp_path, columns, acc=acc), "--foot", "left")
-    assert done.returncode == 1 and done.stderr == ""
-    assert re.search(r"^walk.npz: 20.0 s, left foot 1\d strides$", done.stdout, re.MULTILINE)
-    assert "acc, row 2000: is nan" in done.stdout and "what comes after it was not checked" in done.stdout
+    assert done.returncode == 0 and done.stderr == ""
+    assert re.search(r"^walk.npz: 2\d.\d s, left foot 2\d strides$", done.stdout, re.MULTILINE)
+    assert "\n  acc, row 2000: is nan, not a finite number (t = 20 s); this row is left out\n" in done.stdout
+
+
+def test_many_rows_that_cannot_be_read_must_be_mended(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+    acc = columns["acc"].copy()
+    acc[:500] = np.nan
+    done = run("check", saved(tmp_path, columns, acc=acc), "--foot", "left")
+    assert done.returncode == 1
+    assert "must be mended:\n  acc, row 0: is nan" in done.stdout
+    assert f"500 of {len(acc)} rows are left out" in done.stdout
 
 
 def test_a_file_that_is_not_there_is_an_error_and_no_verdict(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ from programs import TAKES, started
 from recordings import into, written
 from watchers import ANYWHERE, address
 
-from solepath.cli.common.files import FileReplacements
+from solepath.saving.files import FileReplacements
 
 
 def test_a_file_is_removed_when_ctrl_c_comes_while_it_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -54,7 +54,7 @@ def test_a_file_is_there_as_it_was_until_it_is_kept(kept: bool, tmp_path: Path) 
 def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two machines that share a directory may give two programs the same number."""
     files = FileReplacements()
-    monkeypatch.setattr("solepath.cli.common.files._numbers", count(7))
+    monkeypatch.setattr("solepath.saving.files._numbers", count(7))
     another = tmp_path / f".solepath-{os.getpid()}-7.part"
     another.write_text("half of a track")
     with pytest.raises(OSError, match=r"track\.csv"):
@@ -78,8 +78,13 @@ def long_recording(recording: Path) -> Path:
 def earlier(tmp_path: Path) -> dict[str, bytes]:
     """Return the files of an earlier run."""
     (tmp_path / "out").mkdir()
-    for name in ("r.html", "out/events.jsonl", "out/track.csv"):
-        (tmp_path / name).write_text(f"an earlier {name}")
+    starts = {
+        "r.html": '<!DOCTYPE html>\n<html lang="en"><head><meta name="generator" content="solepath">',
+        "out/events.jsonl": '{"event": "HeelStrike", ',
+        "out/track.csv": "t_s,foot,x_m,y_m,z_m,phase\n",
+    }
+    for name, start in starts.items():
+        (tmp_path / name).write_text(f"{start}an earlier {name}")
     return written(tmp_path)
 
 

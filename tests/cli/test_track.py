@@ -19,6 +19,7 @@ from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import LiveEvent
 from solepath.recording import read_packets
+from solepath.show.output import STRIDE_COLUMNS
 from solepath.types import Foot, Packet, Site
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
@@ -150,25 +151,29 @@ def test_a_recording_cut_in_the_middle_of_a_line_is_reported_and_loses_nothing_b
     assert len(rows_in(tmp_path / "strides.csv")) == len(rows_in(tracked[1] / "strides.csv"))
 
 
-def test_a_bad_row_ends_the_walk_there_and_what_came_before_is_written(one_foot, tmp_path):
+def test_a_bad_row_is_named_and_the_others_are_used(one_foot, tmp_path):
     with np.load(one_foot) as archive:
         columns = {key: archive[key] for key in archive.files}
     columns["acc"][700, 1] = np.nan
     np.savez(tmp_path / "bad.npz", **columns)
-    result = solepath("track", tmp_path / "bad.npz", "--out", tmp_path)
-    assert one_line(result).endswith("bad.npz: acc, row 700: is nan, not a finite number (t = 7 s)")
-    assert "recipe default: 7.0 s" in result.stdout
-    assert [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")][-1] == columns["t"][699]
+    result = solepath("track", tmp_path / "bad.npz", "--foot", "left", "--out", tmp_path)
+    assert result.returncode == 0
+    fault = "acc, row 700: is nan, not a finite number (t = 7 s); this row is left out"
+    assert result.stderr == f"solepath: {tmp_path / 'bad.npz'}: {fault}\n"
+    times = [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")]
+    assert times[-1] == columns["t"][-1] and columns["t"][700] not in times
     assert rows_in(tmp_path / "strides.csv")
 
 
-def test_a_line_that_is_not_json_ends_the_walk_there(packets, tmp_path):
+def test_a_line_that_is_not_json_costs_one_line(packets, tmp_path):
     lines = packets.read_bytes().splitlines(keepends=True)
     half = len(lines) // 2
     (tmp_path / "bad.jsonl").write_bytes(b"".join([*lines[:half], b"\x1b[31moh no\n", *lines[half:]]))
-    result = solepath("track", tmp_path / "bad.jsonl", "--out", tmp_path)
-    assert one_line(result).endswith(f"bad.jsonl: line {half + 1}: is not JSON")
-    assert rows_in(tmp_path / "track.csv")
+    for path in (packets, tmp_path / "bad.jsonl"):
+        result = solepath("track", path, "--out", tmp_path / path.stem)
+        assert result.returncode == 0
+    assert result.stderr.endswith(f"bad.jsonl: line {half + 1}: is not JSON; this line is left out\n")
+    assert (tmp_path / "bad" / "track.csv").read_bytes() == (tmp_path / "walk" / "track.csv").read_bytes()
 
 
 BAD_FILES = {
@@ -185,11 +190,12 @@ BAD_FILES = {
 @pytest.mark.parametrize("name", BAD_FILES)
 def test_a_file_that_cannot_be_used_gets_one_line_and_status_2_and_replaces_nothing(tmp_path, name):
     (tmp_path / name).write_bytes(BAD_FILES[name][0])
-    (tmp_path / "strides.csv").write_text("of an earlier run\n")
+    earlier = ",".join(STRIDE_COLUMNS) + "\nof an earlier run\n"
+    (tmp_path / "strides.csv").write_text(earlier)
     line = run_failing("track", tmp_path / name, "--out", tmp_path)
     assert BAD_FILES[name][1] in line and name in line
     assert {path.name for path in tmp_path.iterdir()} == {name, "strides.csv"}
-    assert (tmp_path / "strides.csv").read_text() == "of an earlier run\n"
+    assert (tmp_path / "strides.csv").read_text() == earlier
 
 
 def test_a_header_alone_is_a_whole_recording_of_nothing(tmp_path):

@@ -117,7 +117,7 @@ def test_our_figures_stand_beside_the_papers_and_are_marked_as_emulated():
 @pytest.mark.parametrize(("ending", "magic"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
 def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path, ending, magic):
     figures = pytest.importorskip("solepath.lab.tables.figures", exc_type=ImportError)
-    figures.draw(TWO_ROWS, tmp_path / f"figure.{ending}")
+    figures.draw(TWO_ROWS, tmp_path / f"figure.{ending}", ending)
     assert (tmp_path / f"figure.{ending}").read_bytes().startswith(magic)
 
 

@@ -104,42 +104,6 @@ def test_cut_anywhere_after_the_header_no_packet_before_the_cut_is_lost(tmp_path
         assert f"line {whole_lines + 2}: cut off" in reports[0]
 
 
-@pytest.mark.parametrize(
-    ("line", "complaint"),
-    [
-        ("hello\n", "is not JSON"),
-        ("[1, 2]\n", "is not a JSON object but [1, 2]"),
-        ('{"t": NaN}\n', "NaN is not JSON"),
-        ("\x00\x01\n", "is not JSON"),
-        ("[" * 30_000 + "\n", "is not JSON"),
-        ('{"t": 1.0, "site": "left_foot", "channel": "x"}\n', '"data" is missing'),
-        (line_of(t="1"), '"t" is not a number but "1"'),
-        (line_of(t=True), '"t" is not a number but true'),
-        (line_of().replace("1.0", "1e999"), '"t" is not a finite number'),
-        (line_of(t=10**400), '"t" is not a finite number'),
-        (line_of(site="hand"), '"site" is not one of left_foot'),
-        (line_of(site=["left_foot"]), '"site" is not one of left_foot'),
-        (line_of(channel=7), '"channel" is not text but 7'),
-        (line_of(data="f5 0"), '"data" is not pairs of hexadecimal digits but "f5 0"'),
-        (line_of(data="f5f"), '"data" is not pairs'),
-        (line_of(data=None), '"data" is not pairs'),
-        (line_of(device=None), '"device" is not text but null'),
-        (line_of(data="00" * 40_000), "is longer than 65536 bytes"),
-    ],
-)
-def test_a_bad_line_is_named_after_everything_before_it_was_read(tmp_path, line, complaint):
-    packets, sentence = read_until_damage(recording_file(tmp_path, HEADER + line_of(t=0.5) + line + line_of(t=9.0)))
-    assert [packet.t for packet in packets] == [0.5]
-    assert f": line 3: {complaint}" in sentence
-    assert sentence.isprintable() and len(sentence) < 400
-
-
-def test_bytes_that_are_not_text_are_named(tmp_path):
-    path = tmp_path / "walk.jsonl"
-    path.write_bytes(HEADER.encode() + b'{"t": \xff}\n')
-    assert "line 2: is not text" in read_until_damage(path)[1]
-
-
 @pytest.mark.parametrize("version", [2, 0, "1", 1.0, True, None])
 def test_an_unknown_version_is_rejected(tmp_path, version):
     header = json.dumps({"format": "solepath-packets", "version": version})

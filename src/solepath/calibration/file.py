@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 from ..saving.codec import SnapshotError, load, save
+from ..saving.files import FileTooLarge, read_bounded, write_whole
 from .limits import find_fault
 from .records import Calibration, CalibrationError
 
@@ -16,9 +17,9 @@ MAX_FILE_SIZE = 8_000_000
 
 
 def write_calibration(path: Path | str, calibration: Calibration) -> None:
-    """Write the calibration to a file. Raise OSError when that fails."""
+    """Write the calibration to a file. Raise OSError when that fails; the file then has its earlier content."""
     document = {"format": FORMAT, "version": VERSION, "calibration": save(calibration)}
-    Path(path).write_text(json.dumps(document, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    write_whole(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
 
 
 def read_calibration(path: Path | str) -> Calibration:
@@ -27,8 +28,6 @@ def read_calibration(path: Path | str) -> Calibration:
     CalibrationError is raised when the file cannot be read, is not a calibration, or holds a value outside its limits.
     """
     try:
-        if Path(path).exists() and not Path(path).is_file() and not Path(path).is_dir():
-            raise CalibrationError(f"{path}: is no regular file")
         document = json.loads(bounded_text(Path(path)))
     except CalibrationError:
         raise
@@ -61,10 +60,7 @@ def bounded_text(path: Path, encoding: str = "utf-8") -> str:
 
     CalibrationError is raised when the file is larger or has no end, OSError when it cannot be read, ValueError when it
     is not text."""
-    with path.open("rb") as file:
-        data = file.read(MAX_FILE_SIZE + 1)
-    if len(data) > MAX_FILE_SIZE:
-        raise CalibrationError(
-            f"{path}: is larger than {MAX_FILE_SIZE // 1_000_000} MB, too large for what it should be"
-        )
-    return data.decode(encoding)
+    try:
+        return read_bounded(path, MAX_FILE_SIZE).decode(encoding)
+    except FileTooLarge as error:
+        raise CalibrationError(f"{path}: {error}, too large for what it should be") from None

@@ -12,7 +12,7 @@ from ..recording import printable
 from ..show.tables.table import number, table
 from ..types import Foot
 from .common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
-from .common.files import check_writable
+from .common.files import CALIBRATION, OutputFile, check_outputs, check_writable
 from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
 MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
@@ -41,6 +41,8 @@ def run(options: argparse.Namespace) -> int:
 
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # a folder gets an OSError
         raise Failure(f"{options.out}: is no regular file")
+    inputs = [*getattr(options, "files", []), getattr(options, "file", None), getattr(options, "marks", None)]
+    check_outputs([OutputFile(options.out, CALIBRATION)], inputs, force=False)
     check_writable(options.out)
     known = read_calibration(options.out) if options.out.exists() else Calibration()
     learnt, lines = options.learn(options, known)

@@ -10,14 +10,14 @@ from typing import Any
 
 from ..body.checks.axes import SETTLED_STRIDES
 from ..events import DefectFound, Event, SampleGap, StrideTaken
-from ..recording import RecordingError, printable
+from ..recording import RecordingError, open_source, printable
 from ..recording.errors import UnusableValues
 from ..session import Session
 from ..show.tables.table import counted
 from ..types import Foot, Packet, Sample
 from ..types.attrs import define, field
 from .common.failure import recipe_named
-from .common.inputs import add_calibration, add_foot, assumed_foot, calibration_of, foot_of, source_of
+from .common.inputs import add_calibration, add_foot, assumed_foot, calibration_of, foot_of
 
 UNSEEN = (
     "all three axes of an accelerometer reversed, which turns left into right",
@@ -31,7 +31,8 @@ UNSEEN = (
 )
 """Some defects that may be in data of which the checks report nothing; there are others."""
 LARGE_SHARE = 0.1
-"""Share of degraded strides of a foot from which on they are mentioned; chosen by hand."""
+"""Share of degraded strides of a foot from which on they are mentioned, and of damaged rows that must be mended; chosen
+by hand."""
 MOST_GAPS = 1000
 """Largest number of gaps of a foot that are remembered until its next stride."""
 
@@ -107,14 +108,14 @@ def run(options: argparse.Namespace) -> int:
     """Check the recording and print the verdict; return 1 if something must be mended, else 0.
 
     RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
-    read, and gets a verdict. Rows or packets before one that cannot be read are checked."""
+    read, and gets a verdict. Rows and packets that cannot be read are left out and named."""
     from ..show.observer import Observer
     from ..show.tables.summary import link_health, wear_lines
 
     recipe, calibration = recipe_named(options.recipe), calibration_of(options)
-    name = printable(options.file.name)
+    name, flaws = printable(options.file.name), list[str]()
     try:
-        source = source_of(options.file, foot_of(options))
+        source = open_source(options.file, foot_of(options), report=flaws.append)
     except UnusableValues as error:
         print(f"{name}: its values cannot be used")
         _print_list("must be mended", [_without_path(error)])
@@ -140,8 +141,12 @@ def run(options: argparse.Namespace) -> int:
     except RecordingError as error:
         if not observer.item_count:
             raise
-        must.append(f"{_without_path(error)}; what comes after it was not checked")
+        must.append(_without_path(error))
     take(None, session.finish())
+    bad_rows = source.bad_rows
+    has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
+    prefix = f"{printable(str(options.file))}: "
+    (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
     must += [*wear_lines(observer), *observer.troubles]
     may += [f"{foot} foot: {text}" for foot in Foot if (text := degraded[foot].sentence()) is not None]
     may += [*observer.limitations, *link_health(observer)]

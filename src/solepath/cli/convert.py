@@ -8,10 +8,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..recording import PacketWriter, RecordingError, os_error_text, printable, read_header, read_packets
+from ..recording import PacketWriter, RecordingError, os_error_text, printable
+from ..recording.packets import open_packets
+from ..saving.files import FileReplacements
 from ..types import Packet, Site
 from .common.failure import Failure, note
-from .common.files import FileReplacements
+from .common.files import RECORDING as RECORDING_KIND
+from .common.files import OutputFile, add_force, check_outputs
 
 if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
@@ -53,6 +56,7 @@ def add_to(commands: Any) -> None:
         help="what an attribute is whose discovery is not in the log, for instance 0x002b=cc2650/movement; may be "
         "given again",
     )
+    add_force(command)
     command.set_defaults(run=run)
 
 
@@ -89,6 +93,7 @@ def run(options: argparse.Namespace) -> int:
 
     source, out = options.source, options.out
     open_writer = _writer_class(out)
+    check_outputs([OutputFile(out, RECORDING_KIND)], [source], force=options.force)
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
     total = source.stat().st_size if source.is_file() else 0
@@ -101,9 +106,9 @@ def run(options: argparse.Namespace) -> int:
         elif out.suffix.lower() == RECORDING:
             raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
         else:
-            header = read_header(source)
-            packets = read_packets(source, report=note, progress=show)
-        count, damage = _write(packets, header, open_writer, source, out)
+            opened = open_packets(source, report=note, progress=show)
+            packets, header = opened.packets, opened.header
+        count, damage = _write(packets, header, open_writer, out)
     for device in [] if log is None else log.devices.values():
         if device.site is not None and device.count:
             kind = "" if device.profile is None else f", {device.profile.name}"
@@ -163,13 +168,11 @@ def _writer_class(out: Path) -> OpenWriter:
 
 
 def _write(
-    packets: Iterable[Packet], header: Mapping[str, Any], open_writer: OpenWriter, source: Path, out: Path
+    packets: Iterable[Packet], header: Mapping[str, Any], open_writer: OpenWriter, out: Path
 ) -> tuple[int, RecordingError | None]:
     """Write the packets to `out`; return their number and, if the source is damaged, the error that ended them.
 
     If the source is damaged before its first packet, or a packet cannot be written, `out` stays as it was."""
-    if out.exists() and out.samefile(source):
-        raise Failure(f"{printable(str(out))}: is what is to be converted")
     damage: RecordingError | None = None
     with _replacement(out) as path:
         try:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..recording import PacketWriter, printable
 from ..types import Foot
 from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_share, parse_whole_number
+from .common.files import RECORDING, OutputFile, add_force, check_outputs
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
@@ -56,6 +57,7 @@ def add_to(commands: Any) -> None:
     shown.add_argument("--terminal", action="store_true", help="show it in the terminal, not in the browser")
     add_speed(command, f"1 on the page, {TERMINAL_SPEED:g} in the terminal")
     command.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording for `track`")
+    add_force(command)
     command.set_defaults(run=run)
 
 
@@ -67,6 +69,8 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.gait import gait_lines
     from ..show.tables.summary import latency
 
+    if options.record is not None:
+        check_outputs([OutputFile(options.record, RECORDING)], [], force=options.force)
     address = _page_address(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
     emulated_radio = radio(options.loss, options.jitter)
@@ -82,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
         flush=True,
     )
     if options.record:
-        _record(demo, options.record)
+        _record(demo, options.record, options.force)
     if address is not None:
         _show(demo, address, pace)
     elif sys.stdout.isatty() and is_installed("rich"):
@@ -124,9 +128,9 @@ def _show(demo: Demo, address: PageAddress, pace: float) -> None:
     compute_rest(player, "walk")
 
 
-def _record(demo: Demo, path: Path) -> None:
+def _record(demo: Demo, path: Path, force: bool) -> None:
     """Write the packets of the walk as a recording."""
-    with PacketWriter(path) as writer:
+    with PacketWriter(path, replace=force) as writer:
         for packet in demo.walk.packets:
             writer.write(packet)
     print(f"{len(demo.walk.packets)} packets recorded in {printable(str(path))}", flush=True)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..recipes import DEFAULT, NAMES, by_name
 from .common.failure import Failure, note, recipe_named
-from .common.files import write_json
+from .common.files import SCORES, OutputFile, add_force, check_outputs, check_writable, write_json
 from .common.inputs import add_calibration, calibration_of
 
 if TYPE_CHECKING:
@@ -56,6 +56,7 @@ def add_to(commands: Any) -> None:
         "--markdown", action="store_true", help="print one table of the averages only, as docs/accuracy.md quotes it"
     )
     command.add_argument("--json", metavar="FILE", type=Path, help="write the scores as JSON too")
+    add_force(command)
     command.add_argument(
         "--compare",
         metavar="OLD",
@@ -90,6 +91,10 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
+    if options.json is not None:
+        inputs = [options.compare, options.calibration]
+        check_outputs([OutputFile(options.json, SCORES)], inputs, force=options.force)
+        check_writable(options.json)
     all_recipes = [by_name(name) for name in NAMES]
     chosen = [recipe_named(name) for name in options.recipe]
     if options.ablation:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
 from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_whole_number, recipe_named
-from .common.files import check_writable, write_json
+from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, check_writable, write_json
 
 if TYPE_CHECKING:
     from ..fleet.demo.stage import DemoStage
@@ -64,6 +64,7 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("--out", metavar="DIR", type=Path, help="leave the events there, as Parquet in DIR/events")
     command.add_argument("--json", metavar="FILE", type=Path, help="write the figures as JSON too")
+    add_force(command)
     command.add_argument(
         "--keep", action="store_true", help="keep all that the runs wrote: recovery stores, logs, events"
     )
@@ -154,6 +155,7 @@ def _check(options: argparse.Namespace) -> None:
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
         raise Failure(f"{options.out} is there already, and not an empty directory")
     if options.json is not None:
+        check_outputs([OutputFile(options.json, FLEET_FIGURES)], [], force=options.force)
         check_writable(options.json)
 
 

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from ..recording import printable
+from ..saving.files import replace_whole
 from .common.failure import Failure, parse_count, parse_whole_number, require
-from .common.files import check_writable, write_json
+from .common.files import EXPERIMENT, FIGURE, OutputFile, add_force, check_outputs, check_writable, write_json
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 """Names of the experiments; each has a module in lab.reproduce."""
@@ -41,6 +42,7 @@ def add_to(commands: Any) -> None:
         type=Path,
         help="draw the paper's main figure into this file, .png, .svg or .pdf (default: NAME.png)",
     )
+    add_force(command)
     command.add_argument(
         "--processes", metavar="N", type=parse_count, default=os.cpu_count() or 1, help="how many walks at a time"
     )
@@ -52,9 +54,11 @@ def run(options: argparse.Namespace) -> int:
     if options.name not in NAMES:
         raise Failure(f"there is no experiment {options.name!r}; there are: {', '.join(NAMES)}")
     figure = _figure(options)
-    for path in (options.json, figure):
-        if path is not None:
-            check_writable(path)
+    kinds = ((options.json, EXPERIMENT), (figure, FIGURE))
+    outputs = [OutputFile(path, kind) for path, kind in kinds if path is not None]
+    check_outputs(outputs, [], force=options.force)
+    for output in outputs:
+        check_writable(output.path)
 
     from ..lab.reproduce.tables import as_json
     from ..lab.tables.comparison import comparison_with_paper
@@ -73,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
     if figure is not None:
         from ..lab.tables.figures import draw
 
-        draw(experiment, figure)
+        replace_whole(figure, lambda path: draw(experiment, path, figure.suffix[1:].lower()))
         print(f"figure drawn in {printable(str(figure))}")
     return 0
 

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..calibration import Calibration
-from ..recording import RecordingError, Source, printable, read_header, read_start_time
+from ..recording import RecordingError, Source, printable, read_start_time
 from ..session import Session
 from ..types import Packet, Sample
 from .common.failure import note, recipe_named
+from .common.files import REPORT, OutputFile, add_force, check_outputs, check_writable, files_of_track
 from .common.inputs import (
     add_calibration,
     add_clocks,
@@ -70,6 +71,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
     )
+    add_force(command)
     add_view(command, command, "play it")
     add_speed(command, "1, on the page")
     command.set_defaults(run=run)
@@ -81,6 +83,7 @@ def run(options: argparse.Namespace) -> int:
     from .common.results import Results
 
     recipe = recipe_named(options.recipe)
+    _check_outputs(options)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     address = page_address_of(options)
@@ -123,14 +126,20 @@ def run(options: argparse.Namespace) -> int:
     raise recording.failure
 
 
+def _check_outputs(options: argparse.Namespace) -> None:
+    """Raise Failure or OSError when a file of --out or --report is one that must not, or cannot, be written."""
+    has_plan = options.floorplan is not None
+    outputs = files_of_track(options.out, places=has_plan, plan=has_plan)
+    if options.report is not None:
+        outputs.append(OutputFile(options.report, REPORT))
+    check_outputs(outputs, [options.file, options.calibration, options.floorplan], force=options.force)
+    if options.report is not None:
+        check_writable(options.report, made=options.out)
+
+
 def _start_text(source: Source) -> str:
     """Return the date and time at which the recording started, as text; "" if they are not known."""
-    if source.samples is not None:
-        return ""
-    try:
-        moment = read_start_time(read_header(source.path))
-    except RecordingError:
-        return ""  # the run itself reports what is wrong with it
+    moment = read_start_time(source.header)
     return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
 
 

@@ -2,7 +2,8 @@
 
 from .clock_offset import shift_clock
 from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
-from .packets import FORMAT, LONGEST_LINE, VERSION, PacketWriter, read_header, read_packets, read_start_time
+from .packet_writer import PacketWriter
+from .packets import FORMAT, LONGEST_LINE, VERSION, read_header, read_packets, read_start_time
 from .source import Source, open_source, read_samples
 
 __all__ = [

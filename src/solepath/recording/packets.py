@@ -1,10 +1,10 @@
-"""Writing and reading of recordings of packets, which are JSON Lines as in protocol/recording.md.
+"""Reading of recordings of packets, which are JSON Lines as in protocol/recording.md.
 
-Reading yields all packets before the first damage, then raises an error that says in one sentence what is damaged."""
+A line that is damaged costs one packet: it is reported and left out. A file with more damaged lines than whole ones is
+no recording."""
 
 from __future__ import annotations
 
-import io
 import json
 from collections.abc import Callable, Iterator, Mapping
 from datetime import UTC, datetime
@@ -13,8 +13,11 @@ from pathlib import Path
 from sys import float_info
 from typing import Any, BinaryIO
 
+from attrs import frozen
+
 from ..types import Packet, Site
-from .errors import RecordingError, Report, open_file, os_error_text, printable, warn
+from .bad_rows import BadRows
+from .errors import RecordingError, Report, open_file, printable, warn
 
 FORMAT = "solepath-packets"
 """Value of the key "format" in the header."""
@@ -22,20 +25,16 @@ VERSION = 1
 """Version of the format that this release reads and writes."""
 LONGEST_LINE = 65_536
 """Largest size of a line, bytes (protocol/recording.md)."""
+SAMPLES_HINT = "samples have names that end in .npz or .csv"
+MAX_SKIPPED = 16_000_000
+"""Largest part of a damaged line that is skipped, bytes: a power failure may leave some megabytes of zeros."""
 
 
 def read_header(path: Path | str) -> dict[str, Any]:
     """Return the header of a recording, which is its first line; RecordingError when that line is no header."""
     path = Path(path)
     with open_file(path) as file:
-        for number, _, line in _read_lines(file):
-            try:
-                fields = _parse_object(line)
-                _check_header(fields)
-            except _LineError as flaw:
-                raise RecordingError(path, str(flaw), f"line {number}") from None
-            return fields
-    raise RecordingError(path, "is empty")
+        return _parse_header(path, _read_lines(file))
 
 
 def read_start_time(header: Mapping[str, Any]) -> tuple[datetime, float | None] | None:
@@ -60,43 +59,118 @@ def read_packets(
 ) -> Iterator[Packet]:
     """Return an iterator that reads the packets of a recording one by one, in the order in which they arrived.
 
-    `report` receives one sentence about an incomplete last line. `progress` receives the number of bytes read so far,
-    after each line. Any other violation of protocol/recording.md raises RecordingError after the packets before it."""
+    `report` receives one sentence about an incomplete last line, and about each of the first damaged lines, which are
+    left out. `progress` receives the number of bytes read so far, after each line. RecordingError for a file that
+    cannot be read or has no valid header, and after the last packet if more lines are damaged than whole."""
+    yield from open_packets(path, report=report, progress=progress).packets
+
+
+@frozen(eq=False)
+class OpenRecording:
+    """A recording that was opened once, as a pipe can be: its header, and an iterator over its packets.
+
+    `bad_lines` counts the lines that the iterator has left out. The file is closed after the last packet."""
+
+    header: dict[str, Any]
+    packets: Iterator[Packet]
+    bad_lines: BadRows
+    _file: BinaryIO
+
+    def close(self) -> None:
+        """Close the file before its end."""
+        self._file.close()
+
+
+def open_packets(
+    path: Path | str, *, report: Report = warn, progress: Callable[[int], None] | None = None
+) -> OpenRecording:
+    """Open a recording and read its header; the arguments and errors are those of `read_packets`."""
     path = Path(path)
-    with open_file(path) as file:
-        header_seen = False
-        for number, read, line in _read_lines(file):
-            where = f"line {number}"
-            if progress is not None:
-                progress(read)
+    file = open_file(path)
+    try:
+        lines = _read_lines(file, progress)
+        header = _parse_header(path, lines)
+    except BaseException:
+        file.close()
+        raise
+    bad_lines = BadRows(path, report)
+    return OpenRecording(header, _parse_packets(path, file, lines, bad_lines), bad_lines, file)
+
+
+def _parse_header(path: Path, lines: Iterator[_Line]) -> dict[str, Any]:
+    for line in lines:
+        try:
+            fields = _parse_object(line)
+            fault = header_fault(fields)
+            if fault is not None:
+                raise _LineError(fault)
+        except _NoObjectError as flaw:
+            is_log = line.data.startswith(b"btsnoop\0")
+            hint = "a btsnoop log has to be a file, for `solepath convert`" if is_log else SAMPLES_HINT
+            raise RecordingError(path, f"{flaw}; {hint}", f"line {line.number}") from None
+        except _LineError as flaw:
+            raise RecordingError(path, str(flaw), f"line {line.number}") from None
+        return fields
+    raise RecordingError(path, "is empty")
+
+
+def _parse_packets(path: Path, file: BinaryIO, lines: Iterator[_Line], bad_lines: BadRows) -> Iterator[Packet]:
+    with file:
+        for line in lines:
+            where = f"line {line.number}"
             try:
-                fields = _parse_object(line)
-                if not header_seen:
-                    _check_header(fields)
-                    header_seen = True
-                    continue
-                packet = _parse_packet(fields)
+                packet = _parse_packet(_parse_object(line))
             except _NoObjectError as flaw:
                 # a line that was cut off lacks its last brace, so it is never an object
-                if header_seen and not line.endswith(b"\n") and len(line) <= LONGEST_LINE:
-                    report(f"{printable(str(path))}: {where}: cut off in the middle; everything before it is used")
-                    return
-                hint = "" if header_seen else "; samples have names that end in .npz or .csv"
-                raise RecordingError(path, f"{flaw}{hint}", where) from None
+                if not line.is_whole and not line.is_too_long:
+                    bad_lines.report(
+                        f"{printable(str(path))}: {where}: cut off in the middle; everything before it is used"
+                    )
+                    break
+                bad_lines.add(where, str(flaw))
             except _LineError as flaw:
-                raise RecordingError(path, str(flaw), where) from None
-            yield packet
-        if not header_seen:
-            raise RecordingError(path, "is empty")
+                bad_lines.add(where, str(flaw))
+            else:
+                bad_lines.add_good()
+                yield packet
+        bad_lines.finish()
 
 
-def _read_lines(file: BinaryIO) -> Iterator[tuple[int, int, bytes]]:
-    """Yield each line that is not blank, with its number and the number of bytes read up to its end."""
-    read = number = 0
-    while line := file.readline(LONGEST_LINE + 1):
-        number, read = number + 1, read + len(line)
-        if line.strip():
-            yield number, read, line
+@frozen
+class _Line:
+    """A line of a file; `data` has at most LONGEST_LINE + 1 bytes of it."""
+
+    number: int
+    data: bytes
+    is_whole: bool
+    """Flag: the line ends with a line feed."""
+
+    @property
+    def is_too_long(self) -> bool:
+        """Whether the line is longer than a recording may have."""
+        return len(self.data) > LONGEST_LINE
+
+
+def _read_lines(file: BinaryIO, progress: Callable[[int], None] | None = None) -> Iterator[_Line]:
+    """Yield each line that is not blank, and report the number of bytes read up to its end.
+
+    Of a line that is too long only the start is kept in memory; after MAX_SKIPPED bytes of it the file ends there."""
+    bytes_read = number = 0
+    while data := file.readline(LONGEST_LINE + 1):
+        number, bytes_read = number + 1, bytes_read + len(data)
+        is_whole, skipped, part = data.endswith(b"\n"), 0, data
+        if len(data) > LONGEST_LINE:
+            while part and not part.endswith(b"\n") and skipped < MAX_SKIPPED:
+                part = file.readline(LONGEST_LINE)
+                skipped += len(part)
+            bytes_read += skipped
+            is_whole = part.endswith(b"\n")
+        if progress is not None:
+            progress(bytes_read)
+        if data.strip():
+            yield _Line(number, data, is_whole)
+        if skipped >= MAX_SKIPPED and not is_whole:
+            return
 
 
 class _LineError(Exception):
@@ -107,13 +181,13 @@ class _NoObjectError(_LineError):
     """Error for a line that is not a JSON object."""
 
 
-def _parse_object(line: bytes) -> dict[str, Any]:
-    if len(line) > LONGEST_LINE:
-        raise _NoObjectError(f"is longer than {LONGEST_LINE} bytes, so this is not a recording of packets")
+def _parse_object(line: _Line) -> dict[str, Any]:
+    if line.is_too_long:
+        raise _NoObjectError(f"is longer than {LONGEST_LINE} bytes")
     try:
-        value = json.loads(line.decode("utf-8"), parse_constant=_reject_constant)
+        value = json.loads(line.data.decode("utf-8"), parse_constant=_reject_constant)
     except UnicodeDecodeError:
-        raise _NoObjectError("is not text, so this is not a recording of packets") from None
+        raise _NoObjectError("is not text") from None
     except (ValueError, RecursionError):
         raise _NoObjectError("is not JSON") from None
     if not isinstance(value, dict):
@@ -125,12 +199,14 @@ def _reject_constant(name: str) -> None:
     raise _NoObjectError(f"{name} is not JSON")
 
 
-def _check_header(header: dict[str, Any]) -> None:
+def header_fault(header: Mapping[str, Any]) -> str | None:
+    """Return what is wrong with the header of a recording; None for a valid one."""
     if header.get("format") != FORMAT:
-        raise _LineError(f'is not the header of a recording: "format" is not "{FORMAT}"')
+        return f'is not the header of a recording: "format" is not "{FORMAT}"'
     version = header.get("version")
     if type(version) is not int or version != VERSION:
-        raise _LineError(f"is of version {_shorten(version)}; this release reads version {VERSION}")
+        return f"is of version {_shorten(version)}; this release reads version {VERSION}"
+    return None
 
 
 def _parse_packet(fields: dict[str, Any]) -> Packet:
@@ -160,101 +236,3 @@ _HEX = frozenset("0123456789abcdefABCDEF")
 
 def _shorten(value: Any) -> str:
     return printable(json.dumps(value), 40)
-
-
-def _format_line(fields: dict[str, Any]) -> bytes:
-    encoded = json.dumps(fields, allow_nan=False).encode("utf-8") + b"\n"
-    if len(encoded) > LONGEST_LINE:
-        raise ValueError(f"a line of {len(encoded)} bytes is too long for a recording")
-    return encoded
-
-
-class PacketWriter:
-    """Writes packets as a recording, and passes each line to the operating system before `write` returns.
-
-        with PacketWriter("walk.jsonl", {"began": "2026-11-21T09:30:00Z", "began_t": 12.5}) as writer:
-            writer.write(packet)
-
-    An existing file is replaced. `count`: number of packets in the file. If the process is killed, written packets are
-    safe. RecordingError when the file cannot be opened or written, for example on a full disk. Then the file ends with
-    its last complete packet, and writing may continue when there is space again. ValueError for a packet or header that
-    a recording cannot hold (a time that is not finite, a line that is too long); the file is then unchanged."""
-
-    def __init__(self, path: Path | str, header: Mapping[str, Any] = {}) -> None:
-        """Open the file and write its header.
-
-        `header`: further keys for the first line, for example `began` and `began_t` (protocol/recording.md), or the
-        result of `read_header` for another recording. ValueError when it names another format or version."""
-        self.count = 0
-        self._path = Path(path)
-        required_keys = {"format": FORMAT, "version": VERSION}
-        try:
-            _check_header({**required_keys, **header})
-        except _LineError as flaw:
-            raise ValueError(f"a header that {flaw}") from None
-        header_line = _format_line({**required_keys, **header})
-        self._size = 0
-        """Size of the complete lines in the file, bytes."""
-        self._torn = False
-        """True when an incomplete line is in the file and could not be removed."""
-        try:
-            # unbuffered, so that a failed write is an error at once and `close` has no data to lose
-            self._file: io.FileIO = self._path.open("wb", buffering=0)
-        except OSError as error:
-            raise RecordingError(self._path, os_error_text(error)) from error
-        try:
-            self._write_line(header_line)
-        except BaseException:
-            self._file.close()
-            raise
-
-    def write(self, packet: Packet) -> None:
-        """Write one packet."""
-        if not isfinite(packet.t):
-            raise ValueError(f"a packet at {packet.t} s cannot be recorded")
-        line = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
-        if packet.device:
-            line["device"] = packet.device
-        self._write_line(_format_line(line))
-        self.count += 1
-
-    def _write_line(self, encoded: bytes) -> None:
-        if self._torn:
-            raise RecordingError(self._path, f"ends in the middle of a line; {self._describe_saved()}")
-        bytes_written = 0
-        try:
-            while bytes_written < len(encoded):
-                bytes_written += self._file.write(encoded[bytes_written:]) or 0
-        except OSError as error:
-            self._remove_torn_line()
-            raise RecordingError(self._path, f"{os_error_text(error)}; {self._describe_saved()}") from error
-        except BaseException:  # for example KeyboardInterrupt between two parts of a line
-            self._remove_torn_line()
-            raise
-        self._size += bytes_written
-
-    def _remove_torn_line(self) -> None:
-        try:
-            if self._file.tell() != self._size:
-                self._file.truncate(self._size)
-                self._file.seek(self._size)
-        except OSError:  # a pipe cannot be truncated
-            self._torn = True
-
-    def _describe_saved(self) -> str:
-        return f"the {self.count} packets before that are safe" if self.count != 1 else "the packet before that is safe"
-
-    def close(self) -> None:
-        """Close the file; RecordingError when the system reports only now that data could not be written."""
-        try:
-            self._file.close()
-        except OSError as error:
-            raise RecordingError(
-                self._path, f"{os_error_text(error)} on closing; the last packets may be missing"
-            ) from error
-
-    def __enter__(self) -> PacketWriter:
-        return self
-
-    def __exit__(self, *error: object) -> None:
-        self.close()

@@ -4,54 +4,94 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from attrs import define
+from attrs import define, field
 
 from ..types import Foot, Packet, Sample
+from .bad_rows import BadRows
 from .clock_offset import shift_clock
-from .errors import RecordingError, Report, open_file, printable, warn
-from .packets import read_packets
+from .errors import RecordingError, Report, printable, warn
+from .packets import OpenRecording, open_packets
 
 if TYPE_CHECKING:
     from .samples import SampleRecording
 
 SAMPLE_SUFFIXES = (".npz", ".csv")
 """Suffixes of files that hold samples."""
+MAX_LOOKED_AT = 20_000
+"""Largest number of packets of a pipe that `look_ahead` reads and keeps: some 100 s of two insoles."""
 
 
 @define
 class Source:
     """The packets or samples of a recording, in the order in which a session needs them.
 
-    Iterating raises RecordingError at data that cannot be used, after all packets or samples before them. A recording
-    of packets that has only a header is no error, but is reported. `foot`, `report`: as in `open_source`."""
+    A file may be iterated again, a pipe once. Iterating raises RecordingError at data that cannot be used, after all
+    packets or samples before them. A recording of packets that has only a header is no error, but is reported. `foot`,
+    `report`: as in `open_source`."""
 
     path: Path
     foot: Foot | None
     report: Report
     total: int = 0
-    """Size of a recording of packets, bytes, or number of samples."""
+    """Size of a recording of packets, bytes, or number of samples; 0 for a pipe of packets."""
     done: int = 0
     """Part of `total` that was iterated, in the same unit."""
     samples: SampleRecording | None = None
     """Samples of the recording; None for a recording of packets."""
+    header: dict[str, Any] = field(factory=dict)
+    """Header of a recording of packets."""
+    bad_rows: BadRows | None = None
+    """Rows or lines that were left out so far, because they are damaged."""
     clock_offset: float = 0.0
     """Time to add to the times of the right foot, s, when the feet were recorded with separate clocks."""
+    _pipe: OpenRecording | None = None
+    """The pipe, which can be opened once; None for a file."""
+    _packets_ahead: list[Packet] = field(factory=list)
+    _failure: RecordingError | None = None
+    """Error at which `look_ahead` ended."""
 
     def __iter__(self) -> Iterator[Packet | Sample]:
         items = self._iterate_packets() if self.samples is None else self._iterate_samples(self.samples)
         return shift_clock(items, self.clock_offset) if self.clock_offset else items
+
+    def look_ahead(self) -> Iterator[Packet]:
+        """Yield the packets without reports, of a pipe only the first MAX_LOOKED_AT; iterating yields them again."""
+        if self._pipe is None:
+            yield from open_packets(self.path, report=lambda _: None).packets
+            return
+        try:
+            for packet in self._pipe.packets:
+                self._packets_ahead.append(packet)
+                yield packet
+                if len(self._packets_ahead) >= MAX_LOOKED_AT:
+                    return
+        except RecordingError as error:
+            self._failure = error
+            raise
 
     def _iterate_samples(self, samples: SampleRecording) -> Iterator[Packet | Sample]:
         for sample in samples:
             self.done += 1
             yield sample
 
+    def _read_packets(self) -> Iterator[Packet]:
+        if self._pipe is not None:
+            ahead, self._packets_ahead = self._packets_ahead, []
+            yield from chain(ahead, self._pipe.packets)
+            if self._failure is not None:
+                raise self._failure
+            return
+        opened = open_packets(self.path, report=self.report, progress=partial(setattr, self, "done"))
+        self.bad_rows = opened.bad_lines
+        yield from opened.packets
+
     def _iterate_packets(self) -> Iterator[Packet | Sample]:
         has_packets = has_used_packets = False
-        for packet in read_packets(self.path, report=self.report, progress=partial(setattr, self, "done")):
+        for packet in self._read_packets():
             has_packets = True
             if self.foot is None or packet.site.foot in (None, self.foot):
                 has_used_packets = True
@@ -72,16 +112,19 @@ def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = 
         from .samples import load_samples  # imports numpy, which packets do not need
 
         samples = load_samples(path, foot, report=report)
-        return Source(path, foot, report, total=len(samples), samples=samples)
-    open_file(path).close()
-    return Source(path, foot, report, total=path.stat().st_size)
+        return Source(path, foot, report, total=len(samples), samples=samples, bad_rows=samples.bad_rows)
+    opened = open_packets(path, report=report)
+    if not path.is_file():
+        return Source(path, foot, report, header=opened.header, bad_rows=opened.bad_lines, pipe=opened)
+    opened.close()
+    return Source(path, foot, report, total=path.stat().st_size, header=opened.header)
 
 
 def read_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Iterator[Sample]:
     """Return an iterator over the samples of an .npz or .csv file, with both feet in order of time.
 
     `foot`: for samples that name no foot, the foot that wore the sensor (None: the right foot); else the only foot to
-    read (None: both). A row that cannot be used raises RecordingError after all rows before it."""
+    read (None: both). `report` receives a sentence about each of the first rows that are left out."""
     from .samples import load_samples
 
     return iter(load_samples(path, foot, report=report))

@@ -16,10 +16,13 @@ from ...emulate.sensors import insole_device, sensortags
 from ...emulate.sensors.device import Device
 from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
+from ...saving.files import read_bounded
 from ...types import Site
 from ..common.failure import Failure, address_error_text, has_terminal, host_and_port
 from .devices import SERVE_TIME
 
+MAX_FAULTS = 1_000_000
+"""Largest size of a script of faults, bytes: some 30,000 lines."""
 MAX_DISTANCE = 5000.0
 """Longest walk, m; a longer one would take minutes and gigabytes to compute."""
 RESTART_DELAY = 10.0
@@ -54,7 +57,7 @@ def prepare_bench(options: argparse.Namespace) -> Bench:
             devices=dict.fromkeys(feet, kinds[options.device]),
             seed=options.seed,
             mtu=options.mtu,
-            faults=parse_faults(options.faults.read_text("utf-8")) if options.faults else (),
+            faults=parse_faults(read_bounded(options.faults, MAX_FAULTS).decode()) if options.faults else (),
         )
     except ValueError as error:
         if options.faults is None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..common.failure import recipe_named
+from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable, files_of_track
 from ..common.inputs import add_calibration, add_floorplan, calibration_of, floorplan_of
 from ..common.view import add_view, need_page, page_address_of
 from .devices import add_devices, need_bleak
@@ -35,6 +36,7 @@ def add_to(commands: Any) -> None:
         help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into this directory, with a floor plan "
         "places.csv too",
     )
+    add_force(live)
     live.set_defaults(run=run)
 
     record: argparse.ArgumentParser = commands.add_parser(
@@ -46,12 +48,14 @@ def add_to(commands: Any) -> None:
     )
     add_devices(record)
     record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
+    add_force(record)
     record.set_defaults(run=run, recipe="default", calibration=None, out=None, floorplan=None, start=None, view=None)
 
 
 def run(options: argparse.Namespace) -> int:
     """Receive from the devices; return the exit status."""
     recipe = recipe_named(options.recipe)
+    _check_outputs(options)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     address = page_address_of(options)
@@ -61,3 +65,16 @@ def run(options: argparse.Namespace) -> int:
     from .live_run import listen
 
     return listen_to_end(partial(listen, options, recipe, calibration, plan, start, address))
+
+
+def _check_outputs(options: argparse.Namespace) -> None:
+    """Raise Failure or OSError when a file of --record, `record --out` or --out must not, or cannot, be written.
+
+    Whether the recording can be written is known when it is opened, before the search."""
+    of_out = files_of_track(options.out, places=options.floorplan is not None)
+    recording = [] if options.record is None else [OutputFile(options.record, RECORDING)]
+    check_outputs([*recording, *of_out], [options.calibration, options.floorplan], force=options.force)
+    if options.out is not None:
+        options.out.mkdir(parents=True, exist_ok=True)
+    for output in of_out:
+        check_writable(output.path)

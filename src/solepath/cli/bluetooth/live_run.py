@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import sys
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import AsyncExitStack, contextmanager
 from pathlib import Path
@@ -21,16 +22,18 @@ from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, os_error_text, printable
 from ...session import Session
 from ...show.observer import Observer
-from ...show.output import EVENTS_FILE, GAIT_CYCLES_FILE, PLACES_FILE, STRIDES_FILE, TRACK_FILE, TrackFiles
+from ...show.output import TrackFiles
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet
 from ..common.failure import Failure, is_installed, note
-from ..common.files import check_writable
 from ..common.loop import unless_stopped
 from ..common.view import PageAddress, newtons_of, serve_page
 from .backend import backend_of, packets_until
 from .devices import SCAN_TIME, choose_devices, listening_time, named_devices
+
+MAX_HELD = 10_000
+"""Largest number of packets and of events that are kept before a sensor sends: a quarter of an hour of ticks."""
 
 
 async def listen(
@@ -44,7 +47,6 @@ async def listen(
 ) -> int:
     """Receive until `stop` is set or the time is over; return the exit status."""
     devices = named_devices(options)
-    check_all_writable(options.record, options.out, plan is not None)
     seconds = listening_time(options)
     session = Session(
         recipe, calibration=calibration, poses=True, pressures=address is not None, floorplan=plan, start=start
@@ -52,6 +54,8 @@ async def listen(
     observer = Observer()
     scene: Scene | None = None
     async with AsyncExitStack() as stack:
+        files = LiveFiles(options.record, options.out, places=plan is not None, force=options.force)
+        stack.callback(files.discard)
         async with unless_stopped(stop):
             backend = await stack.enter_async_context(backend_of(options.via))
             if not devices:
@@ -62,8 +66,6 @@ async def listen(
             floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)
             scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, observer=observer)
             await stack.enter_async_context(serve_page(scene, address))
-        # the files are opened only now: a search that finds nothing must not replace files of an earlier run
-        files = LiveFiles(options.record, options.out, plan is not None)
         live = LiveSession(session, observer if scene is None else scene, files)
         end_hint = "Ctrl-C ends" if seconds is None else f"{seconds:g} s"
         try:
@@ -82,6 +84,9 @@ async def listen(
         print("\n".join(place_lines(observer.places)))
     if files.failure is not None:
         raise Failure(files.failure)
+    if files.unchanged:
+        names = " and ".join([printable(str(path)) for path in files.unchanged])
+        raise Failure(f"no sensor sent anything: {names} {'is' if len(files.unchanged) == 1 else 'are'} unchanged")
     if options.record:
         print(f"recorded in {printable(str(options.record))}")
     if options.out:
@@ -115,26 +120,61 @@ class LiveSession:
 
 @define(init=False)
 class LiveFiles:
-    """The files that are written while a session runs; `failure` says why writing has failed, None while it works."""
+    """The files that are written while a session runs; `failure` says why writing has failed, None while it works.
+
+    The recording is locked from the start. Files of an earlier run are replaced when a sensor sends its first packet,
+    not by what the receiver itself reports; `unchanged` has those for which no sensor sent any."""
 
     failure: str | None
+    unchanged: list[Path]
+    _record: Path | None
+    _out: Path | None
+    _places: bool
     _packets: PacketWriter | None
     _events: TrackFiles | None
+    _is_started: bool
+    """Flag: a sensor has sent a packet."""
+    _packets_before: deque[Packet]
+    """Packets of the receiver before a recording is replaced."""
+    _events_before: deque[Event]
 
-    def __init__(self, record: Path | None, out: Path | None, places: bool = False) -> None:
-        """Open the files; `places` says that there is a floor plan. Raise Failure when one cannot be opened."""
+    def __init__(self, record: Path | None, out: Path | None, *, places: bool = False, force: bool = False) -> None:
+        """Open and lock the recording; `places` says that there is a floor plan, `force` that it may be replaced.
+
+        Raise Failure when it cannot be opened."""
+        self._record, self._out, self._places, self._is_started = record, out, places, False
         self.failure = self._packets = self._events = None
-        try:
-            if record is not None:
-                self._packets = PacketWriter(record, start_keys())
-            if out is not None:
-                self._events = TrackFiles(out, places=places)
-        except (RecordingError, OSError) as error:
-            self.close()
-            raise Failure(_error_text(error)) from None
+        self.unchanged, self._packets_before, self._events_before = [], deque(maxlen=MAX_HELD), deque(maxlen=MAX_HELD)
+        if record is not None:
+            try:
+                self._packets = PacketWriter(record, start_keys(), replace=force)
+            except RecordingError as error:
+                raise Failure(str(error)) from None
 
     def write_packet(self, packet: Packet) -> None:
         """Write a packet into the recording."""
+        if not self._is_started and not packet.channel.startswith("receiver/"):
+            self._start()
+        if self._packets is not None and self._packets.replaces and not self._is_started:
+            self._packets_before.append(packet)
+        else:
+            self._write_packet(packet)
+
+    def _start(self) -> None:
+        self._is_started = True
+        for packet in self._packets_before:
+            self._write_packet(packet)
+        self._packets_before.clear()
+        try:
+            if self._out is not None:
+                self._events = TrackFiles(self._out, places=self._places)
+        except OSError as error:
+            self.failure = self.failure or _error_text(error)
+        for event in self._events_before:
+            self.write_event(event)
+        self._events_before.clear()
+
+    def _write_packet(self, packet: Packet) -> None:
         if self._packets is not None and self.failure is None:
             try:
                 self._packets.write(packet)
@@ -143,6 +183,8 @@ class LiveFiles:
 
     def write_event(self, event: Event) -> None:
         """Write an event into the files of `out`."""
+        if self._out is not None and not self._is_started:
+            self._events_before.append(event)
         if self._events is not None:
             try:
                 self._events.write(event)
@@ -150,7 +192,13 @@ class LiveFiles:
                 self._events, self.failure = None, self.failure or _error_text(error)
 
     def close(self) -> None:
-        """Close all files."""
+        """Close all files; those for which nothing came stay as they were."""
+        if not self._is_started:
+            if self._record is not None and self._packets is not None and self._packets.replaces:
+                self.discard()
+                self.unchanged.append(self._record)
+            if self._out is not None:
+                self.unchanged.append(self._out)
         for file in (self._packets, self._events):
             try:
                 if file is not None:
@@ -158,17 +206,10 @@ class LiveFiles:
             except (RecordingError, OSError) as error:
                 self.failure = self.failure or _error_text(error)
 
-
-def check_all_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
-    """Raise Failure if the recording or a file of `out` cannot be written; files keep their contents."""
-    try:
-        if out is not None:
-            out.mkdir(parents=True, exist_ok=True)
-        names = (EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE, *([PLACES_FILE] if places else []))
-        for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
-            check_writable(path)
-    except OSError as error:
-        raise Failure(_error_text(error)) from None
+    def discard(self) -> None:
+        """Close the recording, if it is open, and leave everything as it was if nothing was written."""
+        if self._packets is not None:
+            self._packets.discard()
 
 
 def _error_text(error: RecordingError | OSError) -> str:

@@ -11,7 +11,7 @@ from ...calibration import Calibration
 from ...link.decoder import Decoder
 from ...recipes import Recipe
 from ...recording import RecordingError, Source, open_source, printable
-from ...types import Foot, Packet, Sample, Site
+from ...types import Foot, Sample, Site
 from .failure import Failure, note, parse_offset
 
 if TYPE_CHECKING:
@@ -93,18 +93,14 @@ def _has_pressure(source: Source) -> bool:
         return any("pressure" in table.columns for table in source.samples.tables)
     decoders: dict[Site, Decoder] = {}
     try:
-        for item in open_source(source.path, source.foot, report=_ignore):
-            if isinstance(item, Packet):
-                records = decoders.setdefault(item.site, Decoder(item.site)).feed(item)
+        for packet in source.look_ahead():
+            if source.foot is None or packet.site.foot in (None, source.foot):
+                records = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet)
                 if any(isinstance(record, Sample) and record.pressure for record in records):
                     return True
     except RecordingError:
         return True  # the run itself reports what is wrong with it
     return False
-
-
-def _ignore(sentence: str) -> None:
-    """Ignore a flaw, since the run itself reports it."""
 
 
 def add_calibration(command: argparse.ArgumentParser) -> None:

@@ -10,13 +10,13 @@ from attrs import define, field
 from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recording import printable
+from ...saving.files import FileReplacements
 from ...show.observer import Observer
 from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
 from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
-from .files import FileReplacements, check_writable
 
 
 @define
@@ -48,7 +48,6 @@ class Results:
         self._picture = None if self.plan is None else PlanPicture(self.plan)
         self._report = None
         if self.report is not None:
-            check_writable(self.report)
             self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
 
     def open_files(self) -> None:

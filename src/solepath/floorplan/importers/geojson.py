@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from ...saving.files import write_whole
 from ...types.attrs import evolve
 from ..checks import MAX_BEARING, MAX_LATITUDE
 from ..doors import cut_doors
@@ -184,7 +185,7 @@ def write_floorplan(path: Path | str, plan: FloorPlan) -> None:
     """Write the plan to a file in the plan frame; reading it returns an equal plan, if doors are cut out of the walls.
 
     Raises OSError when the file cannot be written, ValueError for numbers that JSON does not have."""
-    Path(path).write_text(format_floorplan(plan), encoding="utf-8")
+    write_whole(path, format_floorplan(plan))
 
 
 def format_floorplan(plan: FloorPlan) -> str:

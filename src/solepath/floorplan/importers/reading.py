@@ -7,6 +7,7 @@ from __future__ import annotations
 from io import BytesIO
 from pathlib import Path
 
+from ...saving.files import FileTooLarge, read_bounded
 from ..checks import find_fault
 from ..plan import FloorPlan, FloorPlanError
 
@@ -49,17 +50,14 @@ def _read(path: Path, storey: float) -> FloorPlan:
     if path.is_dir():
         names = [name for name in imdf.FILES if (path / name).is_file()]
         return imdf.read_archive({name: _read_bounded(path / name) for name in names}, storey)
-    if path.exists() and not path.is_file():
-        raise FloorPlanError("is no regular file")
     return _plan(_read_bounded(path), storey)
 
 
 def _read_bounded(path: Path) -> bytes:
-    with path.open("rb") as file:
-        data = file.read(MAX_FILE_SIZE + 1)
-    if len(data) > MAX_FILE_SIZE:
-        raise FloorPlanError(f"is larger than {MAX_FILE_SIZE // 1_000_000} MB, too large for a floor plan")
-    return data
+    try:
+        return read_bounded(path, MAX_FILE_SIZE)
+    except FileTooLarge as error:
+        raise FloorPlanError(f"{error}, too large for a floor plan") from None
 
 
 def _plan(data: bytes, storey: float) -> FloorPlan:

@@ -16,6 +16,7 @@ from typing import Any
 from attrs import frozen
 
 from ...recording import RecordingError
+from ...saving.files import FileTooLarge, read_bounded
 from ..measures.confusion import CLASSES
 
 DIGITS = 3
@@ -107,6 +108,8 @@ class Changes:
 
 Scores = dict[str, dict[str, Any]]
 """Scores of an evaluation in the form that report.as_json returns."""
+MAX_FILE_SIZE = 64_000_000
+"""Largest size of a file of scores, bytes: some ten times that of all recipes on all data sets."""
 SUMMARY_ROWS = {"mean": "mean", "median": "median", "pooled": "together"}
 """Key in JSON of each row of a group's summary."""
 
@@ -114,9 +117,11 @@ SUMMARY_ROWS = {"mean": "mean", "median": "median", "pooled": "together"}
 def read_scores(path: Path) -> Scores:
     """Return the scores in the JSON file of an earlier evaluation. Raise RecordingError when it holds none."""
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
+        document = json.loads(read_bounded(path, MAX_FILE_SIZE))
     except OSError as error:
         raise RecordingError(path, error.strerror or "cannot be read") from None
+    except FileTooLarge as error:
+        raise RecordingError(path, f"{error}, too large for scores") from None
     except (ValueError, RecursionError):
         raise RecordingError(path, "is not JSON") from None
     try:

@@ -24,8 +24,12 @@ def formats() -> list[str]:
     return sorted(FigureCanvasBase.get_supported_filetypes())
 
 
-def draw(reproduction: Reproduction, path: Path) -> None:
-    """Draw the panels side by side into a file, in the format of its extension. Raise OSError when that fails."""
+METADATA_KEYS = {"png": "Software", "pdf": "Creator", "svg": "Creator", "eps": "Creator", "ps": "Creator"}
+"""Key of the drawing program in the metadata of each format that has such a key."""
+
+
+def draw(reproduction: Reproduction, path: Path, extension: str) -> None:
+    """Draw the panels side by side into a file, in the format of an extension. Raise OSError when that fails."""
     figure = Figure(figsize=(PANEL_SIZE * max(1, len(reproduction.panels)), PANEL_SIZE), layout="constrained")
     axes = figure.subplots(1, max(1, len(reproduction.panels)), squeeze=False)[0]
     for ax, panel in zip(axes, reproduction.panels, strict=False):
@@ -35,7 +39,8 @@ def draw(reproduction: Reproduction, path: Path) -> None:
             _draw_floor(ax, panel)
         ax.set_title(panel.title, fontsize=10)
     figure.suptitle(f"{reproduction.name}, emulated ({reproduction.paper_title})", fontsize=11)
-    figure.savefig(path, dpi=120)
+    metadata = {METADATA_KEYS[extension]: "solepath"} if extension in METADATA_KEYS else None
+    figure.savefig(path, dpi=120, format=extension, metadata=metadata)
 
 
 def _draw_boxes(ax: Axes, panel: BoxPlots, reproduction: Reproduction) -> None:

@@ -96,8 +96,9 @@ _KIND_BY_MONITOR_OPCODE = {
 
 
 def is_btsnoop(path: Path) -> bool:
-    """Return whether the file starts as a btsnoop log does; RecordingError for a pipe, or a file that is unreadable."""
-    reject_pipe(path)  # bytes that are read from a pipe here could not be read again
+    """Return whether the file starts as a btsnoop log does, which no pipe can be; RecordingError when unreadable."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        return False  # bytes that are read from a pipe here could not be read again
     with open_file(path) as file:
         return file.read(len(MAGIC)) == MAGIC
 

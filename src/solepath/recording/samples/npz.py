@@ -4,17 +4,24 @@ from __future__ import annotations
 
 import struct
 import tokenize
-import zipfile
 import zlib
+from io import BytesIO
+from math import prod
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, BinaryIO
+from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...types import Foot
 from ..errors import RecordingError, open_file, printable
-from .table import QUANTITIES, Floats, FootTable, to_floats
+from .table import MAX_VALUES, QUANTITIES, Floats, FootTable, to_floats
+
+MAX_PIPED = 256_000_000
+"""Largest size of an archive that comes through a pipe, bytes; which is kept whole, as its list is at its end."""
+HEADER_READERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+"""Functions of numpy that read the header of an array, by version; version 3 is for names of columns."""
 
 ARCHIVE_ERRORS = (
     ValueError,  # pickled objects, a header that does not fit its array
@@ -27,7 +34,7 @@ ARCHIVE_ERRORS = (
     SyntaxError,
     tokenize.TokenError,
     struct.error,
-    zipfile.BadZipFile,
+    BadZipFile,
     zlib.error,
 )
 """Exceptions that numpy raises for a damaged archive."""
@@ -36,58 +43,96 @@ ARCHIVE_ERRORS = (
 def read_npz(path: Path, one_foot: Foot) -> list[FootTable]:
     """Return the tables of the feet in the file, of which only the shapes are checked.
 
-    `one_foot`: foot of a file whose keys name no foot."""
+    `one_foot`: foot of a file whose keys name no foot. The sizes that the archive and its arrays claim are compared
+    before anything is unpacked; RecordingError for more than MAX_VALUES numbers."""
     with open_file(path) as file:
-        start = file.read(4)
-    if not start:
-        raise RecordingError(path, "is empty")
-    if start != b"PK\x03\x04":
-        raise RecordingError(path, "is not an .npz archive")
-    try:
-        archive = np.load(path, allow_pickle=False)
-    except ARCHIVE_ERRORS as error:
-        raise RecordingError(
-            path, f"is not a whole .npz archive ({_describe_error(error)}); was it cut off?"
-        ) from error
-    with archive:
-        keys_found = set(archive.files)
-        feet = [foot for foot in Foot if any(f"{q}_{foot.value}" in keys_found for q in QUANTITIES)]
-        bare_keys = [q for q in QUANTITIES if q in keys_found]
-        if bare_keys and feet:
-            named_key = next(q for q in QUANTITIES if f"{q}_{feet[0].value}" in keys_found)
-            example_keys = f"{bare_keys[0]} and {named_key}_{feet[0].value}"
-            raise RecordingError(path, f"holds both {example_keys}: is it of one foot or of two?")
-        if bare_keys:
-            return [_read_table(path, archive, one_foot, "")]
-        if feet:
-            return [_read_table(path, archive, foot, f"_{foot.value}") for foot in feet]
-        keys = printable(", ".join(sorted(keys_found)) or "nothing", 80)
-        raise RecordingError(path, f"has no key acc or pressure, nor acc_left or acc_right (it holds {keys})")
+        stream: BinaryIO = file
+        if not file.seekable():
+            stream = BytesIO(file.read(MAX_PIPED + 1))
+            if stream.getbuffer().nbytes > MAX_PIPED:
+                raise RecordingError(path, f"is a pipe of more than {MAX_PIPED // 1_000_000} MB: save it as a file")
+        start = stream.read(4)
+        stream.seek(0)
+        if not start:
+            raise RecordingError(path, "is empty")
+        if start != b"PK\x03\x04":
+            raise RecordingError(path, "is not an .npz archive")
+        try:
+            archive = _Archive(path, ZipFile(stream))
+        except ARCHIVE_ERRORS as error:
+            raise RecordingError(
+                path, f"is not a whole .npz archive ({_describe_error(error)}); was it cut off?"
+            ) from error
+        return _read_tables(path, archive, one_foot)
 
 
-def _read_table(path: Path, archive: Any, foot: Foot, suffix: str) -> FootTable:
-    names = {q: q + suffix for q in QUANTITIES if q + suffix in archive.files}
-    time_key = "t" + suffix if "t" + suffix in archive.files else "t"
-    if time_key not in archive.files:
+def _read_tables(path: Path, archive: _Archive, one_foot: Foot) -> list[FootTable]:
+    keys_found = set(archive.keys)
+    feet = [foot for foot in Foot if any(f"{q}_{foot.value}" in keys_found for q in QUANTITIES)]
+    bare_keys = [q for q in QUANTITIES if q in keys_found]
+    if bare_keys and feet:
+        named_key = next(q for q in QUANTITIES if f"{q}_{feet[0].value}" in keys_found)
+        example_keys = f"{bare_keys[0]} and {named_key}_{feet[0].value}"
+        raise RecordingError(path, f"holds both {example_keys}: is it of one foot or of two?")
+    if bare_keys:
+        return [_read_table(path, archive, one_foot, "")]
+    if feet:
+        return [_read_table(path, archive, foot, f"_{foot.value}") for foot in feet]
+    keys = printable(", ".join(sorted(keys_found)) or "nothing", 80)
+    raise RecordingError(path, f"has no key acc or pressure, nor acc_left or acc_right (it holds {keys})")
+
+
+def _read_table(path: Path, archive: _Archive, foot: Foot, suffix: str) -> FootTable:
+    names = {q: q + suffix for q in QUANTITIES if q + suffix in archive.keys}
+    time_key = "t" + suffix if "t" + suffix in archive.keys else "t"
+    if time_key not in archive.keys:
         raise RecordingError(path, f'has no key "t"{suffix and f" and no key {time_key + suffix}"}')
     if "gyro" in names and "acc" not in names:
         raise RecordingError(path, f"has the key gyro{suffix} but no key acc{suffix}")
-    t = to_floats(path, time_key, _read_array(path, archive, time_key), 0)
+    t = to_floats(path, time_key, archive.read(time_key), 0)
     columns: dict[str, Floats] = {}
     for quantity, name in names.items():
-        array = to_floats(path, name, _read_array(path, archive, name), None if quantity == "pressure" else 3)
+        array = to_floats(path, name, archive.read(name), None if quantity == "pressure" else 3)
         if len(array) != len(t):
             raise RecordingError(path, f"has {len(array)} rows but {time_key} has {len(t)}", name)
         columns[quantity] = array
     return FootTable(path, foot, {"t": time_key, **names}, t, columns)
 
 
-def _read_array(path: Path, archive: Any, key: str) -> NDArray[Any]:
-    try:
-        array: NDArray[Any] = archive[key]
-    except ARCHIVE_ERRORS as error:
-        raise RecordingError(path, f"cannot be read ({_describe_error(error)})", key) from error
-    return array
+class _Archive:
+    """The arrays of an archive by key, of which at most MAX_VALUES numbers are read in all."""
+
+    def __init__(self, path: Path, zip_file: ZipFile) -> None:
+        self._path, self._zip_file, self._values = path, zip_file, 0
+        self.keys = {info.filename.removesuffix(".npy"): info for info in zip_file.infolist()}
+
+    def read(self, key: str) -> NDArray[Any]:
+        """Return an array; raise RecordingError when it is too large, damaged, or of objects."""
+        info = self.keys[key]
+        try:
+            if info.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+                raise ValueError("numpy packs in another way")
+            with self._zip_file.open(info) as file:
+                self._values += _claimed_values(file, info.file_size)
+            if self._values > MAX_VALUES:
+                raise RecordingError(self._path, f"holds more than {MAX_VALUES:,} numbers")
+            with self._zip_file.open(info) as file:
+                array: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
+        except ARCHIVE_ERRORS as error:
+            raise RecordingError(self._path, f"cannot be read ({_describe_error(error)})", key) from error
+        return array
+
+
+def _claimed_values(file: IO[bytes], size: int) -> int:
+    """Return the number of values that the header of an array claims; ValueError when the file is not as large."""
+    version = np.lib.format.read_magic(file)
+    if version not in HEADER_READERS:
+        raise ValueError("its header has another version")
+    shape, _, dtype = HEADER_READERS[version](file)
+    count = prod(shape)
+    if not dtype.hasobject and count * dtype.itemsize > size:
+        raise ValueError(f"its header claims {count} values, which do not fit into it")
+    return count
 
 
 def _describe_error(error: BaseException) -> str:

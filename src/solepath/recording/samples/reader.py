@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import heapq
 import re
-from collections.abc import Iterator
-from operator import attrgetter, itemgetter
+from collections.abc import Iterator, Sequence
+from operator import attrgetter
 from pathlib import Path
 
+import numpy as np
 from attrs import frozen
 
 from ...types import Foot, Sample
+from ..bad_rows import MAX_NAMED, BadRows
 from ..errors import RecordingError, Report, warn
 from .npz import read_npz
 from .sheet import read_csv
-from .table import FootTable, check_table
+from .table import FootTable, check_units, remove_bad_rows
 
 NAMED_LEFT = re.compile(r"^left(?![a-z])|(?<![a-z])left$", re.IGNORECASE)
 """Pattern of the name of a file of the left foot alone, as left.csv and walk-left.csv."""
@@ -24,33 +26,19 @@ SAMPLE_SUFFIXES = (".npz", ".csv")
 
 @frozen
 class SampleRecording:
-    """The samples of a file, of which at least the first rows are usable.
+    """The samples of a file without the rows that cannot be used, which `bad_rows` counts.
 
-    Iterating gives the samples of all feet in order of time, the left foot first at equal times. A row that cannot be
-    used raises RecordingError after all samples before it."""
+    Iterating gives the samples of all feet in order of time, the left foot first at equal times."""
 
     path: Path
     tables: tuple[FootTable, ...]
-    flaw: RecordingError | None = None
-    """Reason why the file could not be read beyond the last row of `tables`; None if it was read to its end."""
+    bad_rows: BadRows
 
     def __len__(self) -> int:
         return sum(map(len, self.tables))
 
     def __iter__(self) -> Iterator[Sample]:
-        samples = heapq.merge(*(table.make_samples() for table in self.tables), key=attrgetter("t"))
-        flawed_ends = [(float(table.t[-1]), table.flaw) for table in self.tables if table.flaw is not None]
-        if not flawed_ends:
-            yield from samples
-            if self.flaw is not None:
-                raise self.flaw
-            return
-        last_t, flaw = min(flawed_ends, key=itemgetter(0))
-        for sample in samples:
-            if sample.t > last_t:
-                break
-            yield sample
-        raise flaw
+        return heapq.merge(*(table.make_samples() for table in self.tables), key=attrgetter("t"))
 
 
 def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> SampleRecording:
@@ -58,19 +46,35 @@ def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
 
     `foot`: for samples that name no foot, the foot that wore the sensor (None: the left foot if the name of the file
     starts or ends with the word "left", else the right one); else the only foot to read (None: both). `report` receives
-    one sentence about an incomplete last line. RecordingError when nothing can be used."""
+    one sentence about an incomplete last line, and about each of the first rows that are left out. RecordingError when
+    nothing can be used, or if most rows cannot."""
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in SAMPLE_SUFFIXES:
         raise RecordingError(path, f"is neither {' nor '.join(SAMPLE_SUFFIXES)}, so it holds no samples")
     one_foot = foot or (Foot.LEFT if NAMED_LEFT.search(path.stem) else Foot.RIGHT)
-    if suffix == ".npz":
-        tables, flaw = read_npz(path, one_foot), None
-    else:
-        tables, flaw = read_csv(path, one_foot, report)
+    bad_rows = BadRows(path, report, "row")
+    tables = read_npz(path, one_foot) if suffix == ".npz" else read_csv(path, one_foot, bad_rows)
     used_tables = [table for table in tables if foot in (None, table.foot)]
     if not tables:
-        raise flaw or RecordingError(path, "holds no samples")
+        bad_rows.finish()
+        raise RecordingError(path, "holds no samples")
     if not used_tables and foot is not None:
         raise RecordingError(path, f"holds nothing of the {foot.value} foot")
-    return SampleRecording(path, tuple(check_table(table) for table in used_tables), flaw)
+    _remove_bad_rows(used_tables, bad_rows)
+    for table in used_tables:
+        check_units(table)
+    return SampleRecording(path, tuple(used_tables), bad_rows)
+
+
+def _remove_bad_rows(tables: Sequence[FootTable], bad_rows: BadRows) -> None:
+    """Remove the rows that cannot be used from the tables and report them, a row of both feet once."""
+    total = max(map(len, tables))
+    faults = [remove_bad_rows(table) for table in tables]
+    numbers = np.unique(np.concatenate([fault.numbers for fault in faults]))
+    named = {number: (where, what) for fault in faults for number, where, what in fault.named}
+    for number in sorted(named)[:MAX_NAMED]:
+        bad_rows.add(*named[number])
+    bad_rows.add_many(len(numbers) - min(len(named), MAX_NAMED))
+    bad_rows.good = total - len(numbers)
+    bad_rows.finish()

@@ -10,14 +10,24 @@ from __future__ import annotations
 
 import csv
 import re
+from array import array
+from collections.abc import Iterator
+from io import TextIOWrapper
 from pathlib import Path
+from typing import TextIO
 
 import numpy as np
 from attrs import define, field
 
 from ...types import Foot
-from ..errors import RecordingError, Report, open_file, printable
-from .table import QUANTITIES, FootTable
+from ..bad_rows import BadRows
+from ..errors import RecordingError, open_file, printable
+from .table import MAX_VALUES, QUANTITIES, FootTable
+
+MAX_LINE_LENGTH = 65_536
+"""Largest number of characters of a line; 4,000 pressure cells of two feet have less."""
+MAX_LENGTH = 4_000_000_000
+"""Largest number of characters of a file: 40 for each of MAX_VALUES. A device without end is read up to it."""
 
 _COLUMN = re.compile(r"(t|acc|gyro|pressure)(?:_(left|right))?(?:_([xyz]|[0-9]{1,4}))?(?:_(left|right))?")
 _NUMBER = re.compile(r"[-+]?[0-9.]+(?:e[-+]?[0-9]+)?")
@@ -46,44 +56,58 @@ class _FootColumns:
         return [self.time, *ordered]
 
 
-def read_csv(path: Path, one_foot: Foot, report: Report) -> tuple[list[FootTable], RecordingError | None]:
-    """Return the tables of the feet up to the first row that is no row of numbers, and that row's error, or None.
+def read_csv(path: Path, one_foot: Foot, bad_rows: BadRows) -> list[FootTable]:
+    """Return the tables of the feet, without the lines that are no row of numbers, which `bad_rows` gets.
 
     An incomplete last line is reported and left out. It is not detected if only digits of its last column are missing,
-    because the row is then complete."""
-    with open_file(path) as file:
-        data = file.read()
-    if not data.strip():
-        raise RecordingError(path, "is empty")
+    because the row is then complete. RecordingError for a file that is no table, or that is too large."""
     # bytes that are no text become part of a column's name or of a number, where they are reported
-    lines = data.decode("utf-8-sig", errors="replace").splitlines()
-    cut_off = not data.endswith((b"\n", b"\r"))
-    try:
-        header = [name.strip().lower() for name in _split_cells(lines[0])]
-        feet = _find_columns(header, one_foot)
-    except ValueError as error:
-        raise RecordingError(path, str(error), "line 1") from error
-    orders = [foot.list_columns() for foot in feet]
-    values: list[list[list[float]]] = [[] for _ in feet]
-    line_numbers: list[list[int]] = [[] for _ in feet]
-    flaw: RecordingError | None = None
-    for number, line in enumerate(lines[1:], start=2):
+    with TextIOWrapper(open_file(path), encoding="utf-8-sig", errors="replace") as file:
+        lines = _read_lines(path, file)
+        number, line = next(lines, (1, ""))
         if not line.strip():
-            continue
+            line = next((text for _, text in lines if text.strip()), "")
+            raise RecordingError(path, "has an empty first line" if line else "is empty", "line 1" if line else "")
         try:
-            parsed = _parse_row(_split_cells(line), header, orders)
+            header = [name.strip().lower() for name in _split_cells(line)]
+            feet = _find_columns(header, one_foot)
         except ValueError as error:
-            if cut_off and number == len(lines):
-                report(f"{printable(str(path))}: line {number}: cut off in the middle; everything before it is used")
-            else:
-                flaw = RecordingError(path, str(error), f"line {number}")
-            break
-        for foot_values, foot_numbers, numeric in zip(values, line_numbers, parsed, strict=True):
-            if numeric is not None:
-                foot_values.append(numeric)
-                foot_numbers.append(number)
+            raise RecordingError(path, str(error), "line 1") from error
+        orders = [foot.list_columns() for foot in feet]
+        values, line_numbers = [array("d") for _ in feet], [array("q") for _ in feet]
+        for number, line in lines:
+            if not line.strip():
+                continue
+            try:
+                parsed = _parse_row(_split_cells(line), header, orders)
+            except ValueError as error:
+                if line.endswith("\n"):
+                    bad_rows.add(f"line {number}", str(error))
+                    continue
+                text = f"line {number}: cut off in the middle; everything before it is used"
+                bad_rows.report(f"{printable(str(path))}: {text}")
+                break
+            bad_rows.good += 1
+            for foot_values, foot_numbers, numeric in zip(values, line_numbers, parsed, strict=True):
+                if numeric is not None:
+                    foot_values.extend(numeric)
+                    foot_numbers.append(number)
+            if sum(map(len, values)) > MAX_VALUES:
+                raise RecordingError(path, f"holds more than {MAX_VALUES:,} numbers")
     tables = [_make_table(path, *parts) for parts in zip(feet, values, line_numbers, strict=True)]
-    return [table for table in tables if len(table)], flaw
+    return [table for table in tables if len(table)]
+
+
+def _read_lines(path: Path, file: TextIO) -> Iterator[tuple[int, str]]:
+    """Yield each line with its number; RecordingError at a line or a file that is too long for a table."""
+    number = size = 0
+    while line := file.readline(MAX_LINE_LENGTH + 1):
+        number, size = number + 1, size + len(line)
+        if len(line) > MAX_LINE_LENGTH:
+            raise RecordingError(path, f"is longer than {MAX_LINE_LENGTH} characters", f"line {number}")
+        if size > MAX_LENGTH:
+            raise RecordingError(path, f"is longer than {MAX_LENGTH:,} characters")
+        yield number, line
 
 
 def _split_cells(line: str) -> list[str]:
@@ -175,13 +199,13 @@ def _parse_row(row: list[str], header: list[str], orders: list[list[int]]) -> li
     return parsed
 
 
-def _make_table(path: Path, foot: _FootColumns, rows: list[list[float]], lines: list[int]) -> FootTable:
-    array = np.array(rows, dtype=np.float64).reshape(len(rows), len(foot.list_columns()))
+def _make_table(path: Path, foot: _FootColumns, values: array[float], lines: array[int]) -> FootTable:
+    rows = np.frombuffer(values, dtype=np.float64).reshape(len(lines), len(foot.list_columns()))
     columns, start = {}, 1
     for quantity in QUANTITIES:
         width = len(foot.column_numbers.get(quantity, ()))
         if width:
-            columns[quantity] = array[:, start : start + width]
+            columns[quantity] = rows[:, start : start + width]
             start += width
     names = {"t": foot.time_name, **{quantity: quantity + foot.suffix for quantity in columns}}
-    return FootTable(path, foot.foot, names, array[:, 0], columns, lines)
+    return FootTable(path, foot.foot, names, rows[:, 0], columns, np.frombuffer(lines, dtype=np.int64))

@@ -1,13 +1,12 @@
 """The samples of one foot as columns, and the checks of each column.
 
-There are two kinds of fault. A wrong shape or unit makes a whole column useless, so its error is raised at once. A
-value that is not finite, or time that runs backwards, ends the table at that row: the rows before it are used, and the
-error is raised after them."""
+There are two kinds of fault. A wrong shape or unit makes a whole column useless, so its error is raised at once. A row
+with a value that is not finite, or whose time is out of order, is left out and reported."""
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator, Mapping
-from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +15,13 @@ from attrs import define
 from numpy.typing import NDArray
 
 from ...types import SITE_OF_FOOT, Foot, Sample
+from ..bad_rows import MAX_NAMED
 from ..errors import RecordingError, UnusableValues, printable
 
 Floats = NDArray[np.float64]
 
+MAX_VALUES = 100_000_000
+"""Largest count of numbers in a file of samples, which take 0.8 GB: three hours of two feet with 16 cells at 200 Hz."""
 QUANTITIES = ("acc", "gyro", "pressure")
 """Quantities that a table may have."""
 BLOCK_SIZE = 4096
@@ -45,10 +47,8 @@ class FootTable:
     """Name of each quantity in the file."""
     t: Floats
     columns: dict[str, Floats]
-    lines: list[int] | None = None
+    lines: NDArray[np.int64] | None = None
     """Line number of each row in a text file; None for an archive, whose rows count from 0."""
-    flaw: RecordingError | None = None
-    """Error of the row after the last usable row; None if all rows are usable."""
 
     def __len__(self) -> int:
         return len(self.t)
@@ -85,41 +85,83 @@ def to_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> 
     return value.astype(np.float64)
 
 
-def check_table(table: FootTable) -> FootTable:
-    """Return the table, cut before its first row that cannot be used; RecordingError when no row can be used.
+@define
+class RowFaults:
+    """The rows of a table that cannot be used: their numbers in the file, and place and fault of the first ones."""
 
-    It is UnusableValues when the numbers are in another unit, or the times are not those of the samples."""
+    numbers: NDArray[np.int64]
+    named: list[tuple[int, str, str]]
+    """Number, place and fault of the first rows."""
+
+
+def remove_bad_rows(table: FootTable) -> RowFaults:
+    """Remove the rows that cannot be used from the table, and return them.
+
+    These have a value that is not finite (a pressure of NaN is a missing cell), or a time that is out of order: the
+    fewest rows are removed without which time never decreases."""
     if not len(table):
         raise RecordingError(table.path, "holds no samples", table.names["t"])
-    end, fault, quantity = _first_bad_row(table)
-    if end < len(table):
-        table.flaw = RecordingError(table.path, fault, table.locate_value(end, quantity))
-        if end == 0:
-            raise table.flaw
-        table.t = table.t[:end]
-        table.columns = {q: column[:end] for q, column in table.columns.items()}
-    for quantity, complaint in _find_wrong_units(table.t, table.columns):
-        raise UnusableValues(table.path, complaint, table.names[quantity])
-    return table
-
-
-def _first_bad_row(table: FootTable) -> tuple[int, str, str]:
-    faults: list[tuple[int, str, str]] = [(len(table), "", "t")]
+    numbers = np.arange(len(table)) if table.lines is None else table.lines
+    bad = np.zeros(len(table), dtype=bool)
+    faults: dict[int, tuple[str, str]] = {}
     for quantity, column in {"t": table.t, **table.columns}.items():
         values = column.reshape(len(table), -1)
-        # a pressure of NaN is a missing cell, which the session reports
         is_usable = np.isfinite(values) | np.isnan(values) if quantity == "pressure" else np.isfinite(values)
-        rows = np.flatnonzero(~is_usable.all(axis=1))
-        if len(rows):
-            value = next(v for v in values[rows[0], ~is_usable[rows[0]]].tolist())
-            time_text = f" (t = {table.t[rows[0]]:.6g} s)" if quantity != "t" else ""
-            faults.append((int(rows[0]), f"is {value}, not a finite number{time_text}", quantity))
-    decreases = np.flatnonzero(np.diff(table.t) < 0.0)  # false at a time that is not a number, which was found above
-    if len(decreases):
-        row = int(decreases[0]) + 1
-        before, after = float(table.t[row - 1]), float(table.t[row])
-        faults.append((row, f"time runs backwards, from {before!r} s to {after!r} s", "t"))
-    return min(faults, key=itemgetter(0))
+        is_bad = ~is_usable.all(axis=1)
+        for row in np.flatnonzero(is_bad & ~bad)[:MAX_NAMED].tolist():
+            value = next(v for v in values[row, ~is_usable[row]].tolist())
+            time_text = f" (t = {table.t[row]:.6g} s)" if quantity != "t" else ""
+            faults[row] = (table.locate_value(row, quantity), f"is {value}, not a finite number{time_text}")
+        bad |= is_bad
+    finite = np.flatnonzero(~bad)
+    out_of_order = finite[_out_of_order(table.t[finite])]
+    bad[out_of_order] = True
+    for row in out_of_order[:MAX_NAMED].tolist():
+        faults[row] = (table.locate_value(row, "t"), _describe_order(table.t, bad, row))
+    if bad.any():
+        table.t = table.t[~bad]
+        table.columns = {q: column[~bad] for q, column in table.columns.items()}
+        table.lines = None if table.lines is None else table.lines[~bad]
+    return RowFaults(numbers[bad], [(int(numbers[row]), *faults[row]) for row in sorted(faults)[:MAX_NAMED]])
+
+
+def _out_of_order(t: Floats) -> NDArray[np.int64]:
+    """Return the fewest indices without which the times never decrease: those beside a longest sequence that does not.
+
+    `ends` holds, for each length, the least time at which such a sequence ends (patience sorting)."""
+    if len(t) < 2 or not np.any(np.diff(t) < 0.0):
+        return np.empty(0, dtype=np.int64)
+    ends: list[float] = []
+    end_rows: list[int] = []
+    previous = np.full(len(t), -1, dtype=np.int64)
+    for row, time in enumerate(t.tolist()):
+        length = bisect_right(ends, time)
+        if length == len(ends):
+            ends.append(time)
+            end_rows.append(row)
+        else:
+            ends[length], end_rows[length] = time, row
+        if length:
+            previous[row] = end_rows[length - 1]
+    kept = np.zeros(len(t), dtype=bool)
+    row = end_rows[-1]
+    while row >= 0:
+        kept[row] = True
+        row = int(previous[row])
+    return np.flatnonzero(~kept)
+
+
+def _describe_order(t: Floats, bad: NDArray[np.bool_], row: int) -> str:
+    before, after = np.flatnonzero(~bad[:row]), np.flatnonzero(~bad[row + 1 :])
+    places = [f"after {float(t[before[-1]])!r} s"] if len(before) else []
+    places += [f"before {float(t[row + 1 + after[0]])!r} s"] if len(after) else []
+    return f"time is out of order: {float(t[row])!r} s {' and '.join(places)}"
+
+
+def check_units(table: FootTable) -> None:
+    """Raise UnusableValues when the numbers are in another unit, or the times are not those of the samples."""
+    for quantity, complaint in _find_wrong_units(table.t, table.columns):
+        raise UnusableValues(table.path, complaint, table.names[quantity])
 
 
 def _find_wrong_units(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str, str]]:

@@ -32,6 +32,7 @@ def skeleton(title: str) -> tuple[Element, Element]:
     html = Element("html", {"lang": "en"})
     head = add(html, "head")
     add(head, "meta", charset="utf-8")
+    add(head, "meta", name="generator", content="solepath")
     add(head, "meta", name="viewport", content="width=device-width, initial-scale=1")
     add(head, "meta", name="color-scheme", content="light dark")
     add(head, "title", title)

@@ -75,7 +75,15 @@ class PlanPicture:
         lines = 2 if width < NARROW_WIDTH else 1
         height = SPACE_ABOVE + rows * (frame.height + PANEL_GAP) + lines * SPACE_BELOW
         size = {"width": px(width), "height": px(height), "viewBox": f"0 0 {px(width)} {px(height)}"}
-        svg = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size, "font-family": "system-ui, sans-serif"})
+        svg = Element(
+            "svg",
+            {
+                "id": "solepath-plan",
+                "xmlns": "http://www.w3.org/2000/svg",
+                **size,
+                "font-family": "system-ui, sans-serif",
+            },
+        )
         SubElement(svg, "title").text = _plain(title)
         SubElement(svg, "rect", {"width": "100%", "height": "100%", "fill": PAPER_COLOUR})
         _text(svg, MARGIN, 30.0, title, size=17.0, weight="600")

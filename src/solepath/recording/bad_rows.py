@@ -1,0 +1,72 @@
+"""The rows of a recording that cannot be used: each costs only itself, is counted, and the first ones are named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from attrs import define, field
+
+from .errors import RecordingError, Report, printable
+
+MAX_NAMED = 3
+"""Largest number of rows of a file that are named; of more, only the number is reported."""
+MAX_EXCESS = 1000
+"""Number of bad rows, beyond that of the good ones, at which the reading ends."""
+
+
+@define
+class BadRows:
+    """Counts the rows of a file that were left out, and reports them.
+
+    `noun` is what a row is called. The first sentences are held back until there are more good rows than bad ones,
+    since a file of bad rows gets an error instead."""
+
+    path: Path
+    report: Report
+    noun: str = "line"
+    count: int = 0
+    """Number of bad rows."""
+    good: int = 0
+    """Number of good rows."""
+    _first: tuple[str, str] = ("", "")
+    """Place and fault of the first bad row."""
+    _held_back: list[str] = field(factory=list)
+
+    def add_good(self) -> None:
+        """Count a good row."""
+        self.good += 1
+        if self._held_back and self.good > self.count:
+            self._report_named()
+
+    def add(self, where: str, what: str) -> None:
+        """Count the bad row at `where`, whose fault is `what`; raise RecordingError after far too many."""
+        if not self.count:
+            self._first = (where, what)
+        if self.count < MAX_NAMED:
+            self._held_back.append(f"{where}: {what}; this {self.noun} is left out")
+        self.count += 1
+        if self.count > self.good + MAX_EXCESS:
+            self._raise()
+
+    def add_many(self, count: int) -> None:
+        """Count bad rows that are not named, after MAX_NAMED that are."""
+        self.count += count
+
+    def finish(self) -> None:
+        """Report the number of bad rows if not all were named; raise RecordingError if they are more than half."""
+        if self.count > self.good:
+            self._raise()
+        self._report_named()
+        if self.count > MAX_NAMED:
+            total = self.count + self.good
+            self.report(f"{printable(str(self.path))}: {self.count} of {total} {self.noun}s are left out")
+
+    def _report_named(self) -> None:
+        for sentence in self._held_back:
+            self.report(f"{printable(str(self.path))}: {sentence}")
+        self._held_back.clear()
+
+    def _raise(self) -> None:
+        where, what = self._first
+        rest = f"; {self.count} of {self.count + self.good} {self.noun}s cannot be used" if self.count > 1 else ""
+        raise RecordingError(self.path, f"{what}{rest}", where)

@@ -1,0 +1,111 @@
+"""Reading of whole files up to a limit, and writing of files that are replaced only by complete ones."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from errno import EISDIR
+from itertools import count
+from pathlib import Path
+from stat import S_IMODE, S_IWUSR
+
+from ..types.attrs import define, field
+
+_numbers = count()
+
+
+class FileTooLarge(ValueError):
+    """Error for a file that is larger than what is read, or that has no end, such as a device."""
+
+
+def read_bounded(path: Path, max_size: int) -> bytes:
+    """Return the bytes of a file, a pipe or a device; raise FileTooLarge for more than `max_size`, or OSError."""
+    with path.open("rb") as file:
+        data = file.read(max_size + 1)
+    if len(data) > max_size:
+        raise FileTooLarge(f"is larger than {max_size // 1_000_000} MB")
+    return data
+
+
+def write_whole(path: Path | str, text: str) -> None:
+    """Write a text as the whole content of a file, in UTF-8; raise OSError, naming the file, when that fails.
+
+    Whatever ends the program, and if the disk is full, the file has its earlier content or the whole text."""
+    replace_whole(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8", newline="\n"))
+
+
+def replace_whole(path: Path, write: Callable[[Path], object]) -> None:
+    """Replace a file by the one that `write` writes to the path that it is given, if it raises nothing."""
+    files = FileReplacements()
+    try:
+        temporary = files.temporary_path(path)
+        try:
+            write(temporary)
+        except OSError as error:  # the system names the temporary file, or none
+            raise OSError(error.errno, error.strerror, str(path)) from None
+        files.move_to_targets()
+    finally:
+        files.discard()
+
+
+@define
+class FileReplacements:
+    """Replaces files when they are complete.
+
+    `temporary_path` returns a file to write instead of the target. `move_to_targets` moves all temporary files to their
+    targets, once the disk has them; `discard` removes them. A temporary file is in the directory of its target, so that
+    a target is unchanged or complete, whatever ends the program, and after a power failure too. A path that is no
+    regular file, such as a pipe, is written directly."""
+
+    _targets: dict[Path, Path] = field(factory=dict, init=False)
+    """Path of the file that each temporary path replaces."""
+
+    def temporary_path(self, path: Path, *, read_only: bool = False) -> Path:
+        """Make an empty file in the directory of `path` and return it; raise OSError, naming `path`, when that fails.
+
+        With `read_only`, a file without write permission is replaced as well, by one without this permission."""
+        target = Path(os.path.realpath(path))  # a symbolic link stays; the file that it points to is replaced
+        exists = target.exists()
+        if target.is_dir():
+            raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
+        if exists and not target.is_file():
+            return path
+        if exists and not read_only:
+            target.open("ab").close()
+        temporary = target.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
+        self._targets[temporary] = target  # before it exists: Ctrl-C may come between any two lines
+        try:
+            temporary.open("xb").close()
+            if exists:
+                _copy_mode(target, temporary)  # the new file has the same permissions
+                temporary.chmod(temporary.stat().st_mode | S_IWUSR)
+        except OSError as error:
+            if isinstance(error, FileExistsError):
+                del self._targets[temporary]  # the file belongs to another program and stays
+            raise OSError(error.errno, error.strerror, str(path)) from None
+        return temporary
+
+    def move_to_targets(self) -> None:
+        """Move all temporary files to their targets; raise OSError, naming the target, when one cannot be moved."""
+        for temporary, target in list(self._targets.items()):
+            try:
+                with temporary.open("r+b") as file:
+                    os.fsync(file.fileno())  # otherwise a power failure may leave the new name with no content
+                if target.exists():
+                    _copy_mode(target, temporary)
+                os.replace(temporary, target)
+            except OSError as error:
+                raise OSError(error.errno, error.strerror, str(target)) from None
+            del self._targets[temporary]
+
+    def discard(self) -> None:
+        """Remove all temporary files."""
+        for temporary in self._targets:
+            with suppress(OSError):
+                temporary.unlink()
+        self._targets.clear()
+
+
+def _copy_mode(source: Path, target: Path) -> None:
+    target.chmod(S_IMODE(source.stat().st_mode))

@@ -1,0 +1,216 @@
+"""No command writes over what it reads, another program's file or, without --force, a recording; pipes are files."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+from commands import run, run_failing
+from here import PROTOCOL
+from programs import started, wait_for
+from recordings import PACKETS, into, recorded, written
+
+from solepath.calibration import Calibration
+from solepath.calibration.file import write_calibration
+from solepath.cli.common import files
+from solepath.recording import read_packets
+
+READ = "is what this command reads; write to another file"
+GAUGE = "counts,newtons\n" + "".join(f"{counts},{0.1 * counts:.1f}\n" for counts in (60, 100, 400, 800, 1200, 1900))
+
+
+def name_of(how: str, path: Path) -> Path:
+    """Return the same file under another name."""
+    other = path.with_name(f"other-{path.name}")
+    if how == "symbolic link":
+        other.symlink_to(path)
+    elif how == "hard link":
+        other.hardlink_to(path)
+    return path if how == "itself" else other
+
+
+@pytest.mark.parametrize("how", ["itself", "symbolic link", "hard link"])
+@pytest.mark.parametrize("option", ["FILE", "--calibration", "--floorplan", "--out"])
+def test_track_writes_over_nothing_that_it_reads(recording: Path, tmp_path: Path, how: str, option: str) -> None:
+    walk = Path(shutil.copy(recording, tmp_path / "events.jsonl"))
+    known, plan = tmp_path / "me.json", Path(shutil.copy(PROTOCOL / "floorplans" / "house.geojson", tmp_path))
+    write_calibration(known, Calibration(weight=700.0))
+    if option == "--out":
+        if how != "itself":
+            name_of(how, walk).rename(tmp_path / "walk.jsonl")
+        source = walk if how == "itself" else tmp_path / "walk.jsonl"
+        target, arguments = walk, (source, "--out", tmp_path)
+    else:
+        target = name_of(how, {"FILE": walk, "--calibration": known, "--floorplan": plan}[option])
+        arguments = (walk, "--calibration", known, "--floorplan", plan, "--report", target)
+    before = written(tmp_path)
+    for force in ((), ("--force",)):
+        assert run_failing("track", *arguments, *force) == f"solepath: {target}: {READ}\n"
+    assert written(tmp_path) == before
+
+
+def test_other_commands_write_over_nothing_that_they_read(recording: Path, tmp_path: Path) -> None:
+    walk, gauge = Path(shutil.copy(recording, tmp_path / "walk.mcap")), tmp_path / "gauge.csv"
+    gauge.write_text(GAUGE)
+    scores = tmp_path / "old.json"
+    scores.write_text("{}\n")
+    known = tmp_path / "me.json"
+    write_calibration(known, Calibration())
+    before = written(tmp_path)
+    for arguments in (
+        ("convert", walk, walk, "--force"),
+        ("calibrate", "newton", gauge, "--out", gauge),
+        ("calibrate", "modes", walk, gauge, "--out", gauge),
+        ("evaluate", tmp_path, "--compare", scores, "--json", scores, "--force"),
+        ("evaluate", tmp_path, "--calibration", known, "--json", known, "--force"),
+        ("live", "--via", "tcp:127.0.0.1:1", "--calibration", known, "--record", known, "--force"),
+    ):
+        assert run_failing(*arguments).endswith(f": {READ}\n"), arguments
+    assert written(tmp_path) == before
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [
+        ("notes.html", ["track", "WALK", "--report", "FILE"]),
+        ("track.csv", ["track", "WALK", "--out", "FOLDER"]),
+        ("events.jsonl", ["track", "WALK", "--out", "FOLDER"]),
+        ("notes.json", ["evaluate", "FOLDER", "--json", "FILE"]),
+        ("notes.json", ["reproduce", "kupt-dfpc", "--json", "FILE"]),
+        ("notes.png", ["reproduce", "kupt-dfpc", "--figure", "FILE"]),
+        ("strides.csv", ["live", "--via", "tcp:127.0.0.1:1", "--out", "FOLDER"]),
+    ],
+)
+def test_a_file_of_another_program_is_replaced_with_force_only(
+    recording: Path, tmp_path: Path, name: str, arguments: list[str]
+) -> None:
+    if "--figure" in arguments:
+        pytest.importorskip("matplotlib", reason="the extra figures is not installed")
+    path = tmp_path / name
+    path.write_text("t_s,foot,my own notes\n")
+    words = {"WALK": recording, "FILE": path, "FOLDER": tmp_path}
+    sentence = run_failing(*[words.get(argument, argument) for argument in arguments])
+    assert sentence == f"solepath: {path}: exists and is no such file that solepath wrote; --force replaces it\n"
+    assert path.read_text() == "t_s,foot,my own notes\n"
+    if arguments[0] == "track":
+        assert run("track", recording, *into(tmp_path)[2:], "--out", tmp_path, "--force").returncode == 0
+
+
+def test_what_a_command_wrote_itself_and_what_is_empty_is_replaced(recording: Path, tmp_path: Path) -> None:
+    plan = PROTOCOL / "floorplans" / "house.geojson"
+    (tmp_path / "r.html").write_text("")
+    for _ in range(2):
+        assert run("track", recording, "--floorplan", plan, *into(tmp_path)).returncode == 0
+    assert {kind.is_own(tmp_path / "out" / name) for name, kind in files.TRACK_KINDS.items()} == {True}
+
+
+def test_the_json_of_each_command_is_known_again(tmp_path: Path) -> None:
+    path = tmp_path / "x.json"
+    scores = {"default": {"loops": {"recordings": {}, "summary": {}, "failures": []}}}
+    experiment = {"name": "kupt-dfpc", "emulated": True, "table": {}, "paper": {}}
+    fleet = {"wearers": 3, "seconds": 4.0}
+    kinds = {files.SCORES: scores, files.EXPERIMENT: experiment, files.FLEET_FIGURES: fleet}
+    for own, document in kinds.items():
+        files.write_json(path, document)
+        assert [kind for kind in kinds if kind.is_own(path)] == [own]
+
+
+def test_a_figure_is_known_again(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="the extra figures is not installed")
+    from solepath.lab.reproduce.tables import Reproduction
+    from solepath.lab.tables.figures import draw
+
+    for extension in ("png", "svg", "pdf", "eps"):
+        path = tmp_path / f"figure.{extension}"
+        draw(Reproduction("x", "a paper", "", "m", ()), path, extension)
+        assert files.FIGURE.is_own(path), extension
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["record", "--via", "tcp:127.0.0.1:1", "--out", "FILE"],
+        ["live", "--via", "tcp:127.0.0.1:1", "--record", "FILE"],
+        ["demo", "--terminal", "--distance", "1", "--record", "FILE"],
+        ["convert", "WALK", "FILE"],
+    ],
+)
+def test_a_recording_is_replaced_with_force_only_and_not_before_packets_come(
+    recording: Path, tmp_path: Path, arguments: list[str]
+) -> None:
+    path = tmp_path / ("old.mcap" if arguments[0] == "convert" else "old.jsonl")
+    recorded(path, PACKETS)
+    before = path.read_bytes()
+    words = [{"FILE": path, "WALK": recording}.get(argument, argument) for argument in arguments]
+    assert run_failing(*words) == f"solepath: {path}: exists; --force replaces it\n"
+    if arguments[0] in ("record", "live"):
+        assert run(*words, "--force").returncode == 2
+        assert path.read_bytes() == before
+    else:
+        assert run(*words, "--force").returncode == 0
+        assert path.read_bytes() != before
+
+
+def test_two_outputs_are_two_files(recording: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    sentence = run_failing("track", recording, "--out", out, "--report", out / "events.jsonl")
+    assert sentence == f"solepath: {out / 'events.jsonl'}: two outputs cannot be one file\n"
+
+
+def test_a_report_may_be_in_the_directory_that_is_made(recording: Path, tmp_path: Path) -> None:
+    out = tmp_path / "new" / "walk"
+    assert run("track", recording, "--out", out, "--report", out / "r.html").returncode == 0
+    assert {"r.html", "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"} == {f.name for f in out.iterdir()}
+    nowhere = tmp_path / "nowhere" / "r.html"
+    assert f"{nowhere}: No such file" in run_failing("track", recording, "--out", tmp_path / "x", "--report", nowhere)
+
+
+def test_of_two_recorders_of_one_file_the_second_gets_one_line(insoles: str, tmp_path: Path) -> None:
+    path = tmp_path / "both.jsonl"
+    options = ["--via", insoles, "--left", "solepath L", "--out", path]
+    with started("record", *options, "--duration", 60) as first:
+        wait_for(path, "insole/frame")
+        second = run("record", *options, "--duration", 5, "--force")
+        assert (second.returncode, second.stdout.count("recorded")) == (2, 0)
+        assert second.stderr == f"solepath: {path}: another program is recording into it\n"
+        wait_for(path, "insole/frame", times=100)
+        first.terminate()
+        first.communicate()
+    assert sum(packet.channel == "insole/frame" for packet in read_packets(path, report=pytest.fail)) >= 100
+
+
+def test_a_recording_stays_if_no_sensor_sends_anything(insoles: str, tmp_path: Path) -> None:
+    path = recorded(tmp_path / "walk.jsonl", PACKETS)
+    before = written(tmp_path)
+    done = run("record", "--via", insoles, "--left", "nobody", "--out", path, "--duration", 3, "--force")
+    assert done.returncode == 2
+    assert done.stderr.endswith(f"solepath: no sensor sent anything: {path} is unchanged\n")
+    assert written(tmp_path) == before
+
+
+@pytest.mark.parametrize("recipe", ["default", "kupt-dfpc"])
+def test_a_recording_comes_through_a_pipe_as_from_a_file(recording: Path, tmp_path: Path, recipe: str) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    threading.Thread(target=pipe.write_bytes, args=(recording.read_bytes(),), daemon=True).start()
+    for source, out in ((pipe, "piped"), (recording, "read")):
+        done = run("track", source, "--recipe", recipe, "--out", tmp_path / out)
+        assert (done.returncode, done.stderr) == (0, "")
+    assert written(tmp_path / "piped") == written(tmp_path / "read")
+
+
+def test_the_shell_may_make_the_pipe(recording: Path, tmp_path: Path) -> None:
+    shell = shutil.which("bash")
+    if shell is None:
+        pytest.skip("no bash here")
+    for command in (f'check <(cat "{recording}")', f'convert <(cat "{recording}") "{tmp_path / "walk.mcap"}"'):
+        if command.startswith("convert"):
+            pytest.importorskip("mcap", reason="the extra mcap is not installed")
+        line = f'"{sys.executable}" -m solepath {command}'
+        done = subprocess.run([shell, "-c", line], capture_output=True, text=True, timeout=60)
+        assert (done.returncode, done.stderr) == (0, ""), done.stderr

@@ -1,0 +1,214 @@
+"""One row of a recording that cannot be used costs one row, which is named; a file of such rows is rejected."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from recordings import PACKETS, recorded
+
+from solepath.recording import RecordingError, read_packets, read_samples
+from solepath.recording.packets import MAX_SKIPPED
+from solepath.types import Packet, Sample
+
+HEADER = '{"format": "solepath-packets", "version": 1}\n'
+COLUMNS = "t,acc_x,acc_y,acc_z\n"
+
+
+def line_of(**fields: object) -> str:
+    return json.dumps({"t": 1.0, "site": "left_foot", "channel": "insole/frame", "data": "f5"} | fields) + "\n"
+
+
+def packets_of(path: Path) -> tuple[list[Packet], list[str]]:
+    """Return the packets of a recording and the reports, without the path."""
+    reports: list[str] = []
+    packets = list(read_packets(path, report=reports.append))
+    assert all(report.startswith(f"{path}: ") and report.isprintable() and len(report) < 400 for report in reports)
+    return packets, [report.removeprefix(f"{path}: ") for report in reports]
+
+
+def samples_of(path: Path) -> tuple[list[Sample], list[str]]:
+    """Return the samples of a file and the reports, without the path."""
+    reports: list[str] = []
+    samples = list(read_samples(path, report=reports.append))
+    return samples, [report.removeprefix(f"{path}: ") for report in reports]
+
+
+@pytest.mark.parametrize(
+    ("line", "complaint"),
+    [
+        ("hello\n", "is not JSON"),
+        ("[1, 2]\n", "is not a JSON object but [1, 2]"),
+        ('{"t": NaN}\n', "NaN is not JSON"),
+        ("\x00\x01\n", "is not JSON"),
+        ("[" * 30_000 + "\n", "is not JSON"),
+        ('{"t": 1.0, "site": "left_foot", "channel": "x"}\n', '"data" is missing'),
+        (line_of(t="1"), '"t" is not a number but "1"'),
+        (line_of(t=True), '"t" is not a number but true'),
+        (line_of().replace("1.0", "1e999"), '"t" is not a finite number'),
+        (line_of(t=10**400), '"t" is not a finite number'),
+        (line_of(site="hand"), '"site" is not one of left_foot'),
+        (line_of(site=["left_foot"]), '"site" is not one of left_foot'),
+        (line_of(channel=7), '"channel" is not text but 7'),
+        (line_of(data="f5 0"), '"data" is not pairs of hexadecimal digits but "f5 0"'),
+        (line_of(data="f5f"), '"data" is not pairs'),
+        (line_of(data=None), '"data" is not pairs'),
+        (line_of(device=None), '"device" is not text but null'),
+        (line_of(data="00" * 40_000), "is longer than 65536 bytes"),
+        ("\0" * 1_000_000 + line_of(), "is longer than 65536 bytes"),
+        (line_of()[:30] + line_of(), "is not JSON"),
+    ],
+)
+def test_a_damaged_line_is_named_and_costs_one_packet(tmp_path: Path, line: str, complaint: str) -> None:
+    path = tmp_path / "walk.jsonl"
+    path.write_text(HEADER + line_of(t=0.5) + line + line_of(t=9.0))
+    packets, reports = packets_of(path)
+    assert [packet.t for packet in packets] == [0.5, 9.0]
+    assert len(reports) == 1 and reports[0].startswith(f"line 3: {complaint}")
+    assert reports[0].endswith("; this line is left out")
+
+
+def test_bytes_that_are_not_text_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "walk.jsonl"
+    path.write_bytes(HEADER.encode() + b'{"t": \xff}\n' + line_of().encode())
+    packets, reports = packets_of(path)
+    assert len(packets) == 1 and reports == ["line 2: is not text; this line is left out"]
+
+
+def test_of_many_damaged_lines_the_first_are_named_and_all_are_counted(tmp_path: Path) -> None:
+    path = tmp_path / "walk.jsonl"
+    path.write_text(HEADER + "".join(line_of(t=k) + ("?\n" if k % 3 == 0 else "") for k in range(30)))
+    packets, reports = packets_of(path)
+    assert [packet.t for packet in packets] == list(range(30))
+    assert [report.partition(":")[0] for report in reports[:-1]] == ["line 3", "line 7", "line 11"]
+    assert reports[-1] == "10 of 40 lines are left out"
+
+
+@pytest.mark.parametrize("good", [0, 1, 4])
+def test_a_recording_with_more_damaged_lines_than_whole_ones_is_rejected(tmp_path: Path, good: int) -> None:
+    path = tmp_path / "walk.jsonl"
+    path.write_text(HEADER + line_of() * good + "?\n" * 5)
+    with pytest.raises(RecordingError, match=rf"line {good + 2}: is not JSON; 5 of {good + 5} lines cannot be used"):
+        packets_of(path)
+
+
+def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path) -> None:
+    path = tmp_path / "walk.jsonl"
+    path.write_text(HEADER + "?\n" * 5000)
+    with pytest.raises(RecordingError, match="1001 of 1001 lines cannot be used"):
+        packets_of(path)
+
+
+def test_a_line_without_end_ends_the_file_there(tmp_path: Path) -> None:
+    path = recorded(tmp_path / "walk.jsonl", PACKETS)
+    with path.open("ab") as file:
+        file.truncate(path.stat().st_size + 3 * MAX_SKIPPED)  # a hole of zeros, as after a power failure
+    packets, reports = packets_of(path)
+    assert packets == PACKETS and len(reports) == 1 and "line 5: is longer than 65536 bytes" in reports[0]
+
+
+def still(n: int = 20) -> dict[str, np.ndarray]:
+    """Return the columns of a foot at rest."""
+    acc, gyro = np.tile([0.25, -0.5, 9.75], (n, 1)), np.tile([0.125, 0.0, -0.0625], (n, 1))
+    return {"t": np.arange(n) / 100.0, "acc": acc, "gyro": gyro, "pressure": np.tile([100.0, 200.0], (n, 1))}
+
+
+def saved(path: Path, columns: dict[str, np.ndarray]) -> Path:
+    """Write columns of one foot as .npz or .csv."""
+    if path.suffix == ".npz":
+        np.savez(path, **columns)
+        return path
+    names, values = ["t"], [columns["t"]]
+    for quantity, letters in (("acc", "xyz"), ("gyro", "xyz"), ("pressure", "01")):
+        names += [f"{quantity}_{letter}" for letter in letters]
+        values += list(columns[quantity].T)
+    rows = [",".join([repr(float(value)) for value in row]) for row in zip(*values, strict=True)]
+    path.write_text("\n".join([",".join(names), *rows]) + "\n")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("quantity", "value"),
+    [(q, v) for q in ("acc", "gyro", "pressure") for v in (np.nan, np.inf, -np.inf) if (q, v) != ("pressure", np.nan)],
+)
+@pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])
+def test_a_value_that_is_not_finite_costs_its_row(tmp_path: Path, name: str, quantity: str, value: float) -> None:
+    columns = still()
+    columns[quantity][7, 1] = value
+    samples, reports = samples_of(saved(tmp_path / name, columns))
+    assert [sample.t for sample in samples] == [t for k, t in enumerate(columns["t"].tolist()) if k != 7]
+    place = f"{quantity}, row 7" if name == "walk.npz" else f"line 9, {quantity}"
+    assert reports == [f"{place}: is {value}, not a finite number (t = 0.07 s); this row is left out"]
+
+
+@pytest.mark.parametrize(
+    ("row", "t", "complaint"),
+    [
+        (7, 0.02, "0.02 s after 0.06 s and before 0.08 s"),
+        (7, 5.0, "5.0 s after 0.06 s and before 0.08 s"),
+        (0, 9.0, "9.0 s before 0.01 s"),
+        (19, -3.0, "-3.0 s after 0.18 s"),
+    ],
+)
+@pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])
+def test_one_time_stamp_out_of_order_costs_its_row(
+    tmp_path: Path, name: str, row: int, t: float, complaint: str
+) -> None:
+    columns = still()
+    columns["t"][row] = t
+    samples, reports = samples_of(saved(tmp_path / name, columns))
+    assert [sample.t for sample in samples] == [k / 100.0 for k in range(20) if k != row]
+    place = f"t, row {row}" if name == "walk.npz" else f"line {row + 2}, t"
+    assert reports == [f"{place}: time is out of order: {complaint}; this row is left out"]
+
+
+def test_of_a_clock_that_was_set_back_the_longer_part_is_used(tmp_path: Path) -> None:
+    columns = still()
+    columns["t"][14:] -= 1.0
+    samples, reports = samples_of(saved(tmp_path / "walk.npz", columns))
+    assert len(samples) == 14 and reports[-1] == "6 of 20 rows are left out" and len(reports) == 4
+
+
+@pytest.mark.parametrize(
+    ("row", "complaint"),
+    [
+        ("0.03,0,0", "line 5: has 3 columns instead of 4"),
+        ("0.03,0,0,9.8,1", "line 5: has 5 columns instead of 4"),
+        ("0.03,0,,9.8", "line 5: acc_y is blank, not a number"),
+        ("0.03,0,n/a,9.8", 'line 5: acc_y is "n/a", not a number'),
+        ('0.03,0,"0,9.8', "line 5: has 3 columns instead of 4"),
+    ],
+)
+def test_a_row_that_is_no_row_is_named_and_costs_one_sample(tmp_path: Path, row: str, complaint: str) -> None:
+    path = tmp_path / "walk.csv"
+    rows = [f"{0.01 * n:.2f},0,0,9.8" for n in range(6)]
+    rows[3] = row
+    path.write_text(COLUMNS + "\n".join(rows) + "\n")
+    samples, reports = samples_of(path)
+    assert [sample.t for sample in samples] == [0.0, 0.01, 0.02, 0.04, 0.05]
+    assert reports == [f"{complaint}; this row is left out"]
+
+
+def test_faults_of_all_kinds_are_counted_together_and_a_row_of_both_feet_once(tmp_path: Path) -> None:
+    path = tmp_path / "walk.csv"
+    rows = [[0.01 * k, 0, 0, 9.8, 0, 0, 9.8] for k in range(30)]
+    rows[4][0] = -1.0  # of both feet
+    rows[9][1] = rows[12][6] = np.nan
+    lines = [",".join(map(str, row)) for row in rows]
+    lines[20] = "and so on"
+    path.write_text(
+        "t,acc_x_left,acc_y_left,acc_z_left,acc_x_right,acc_y_right,acc_z_right\n" + "\n".join(lines) + "\n"
+    )
+    samples, reports = samples_of(path)
+    assert len(samples) == 2 * 28 - 2
+    assert reports[-1] == "4 of 30 rows are left out"
+
+
+@pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])
+def test_a_file_with_more_bad_rows_than_good_ones_is_rejected(tmp_path: Path, name: str) -> None:
+    columns = still()
+    columns["acc"][3:14, 0] = np.nan
+    with pytest.raises(RecordingError, match="is nan, not a finite number .*; 11 of 20 rows cannot be used"):
+        samples_of(saved(tmp_path / name, columns))

@@ -1,0 +1,168 @@
+"""Files that are larger than they look, or have no end: one line, within a bound of memory."""
+
+from __future__ import annotations
+
+import io
+import os
+import subprocess
+import sys
+import threading
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from recordings import PACKETS, recorded
+
+from solepath.calibration import Calibration
+from solepath.calibration.file import read_calibration, write_calibration
+from solepath.recording import RecordingError, open_source, read_packets, read_samples
+from solepath.recording.samples import npz, sheet
+
+MEMORY = 1_500_000_000
+"""Largest size of the address space of a command, bytes; numpy alone takes some 600 MB of it."""
+
+BOUNDED = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_AS, (int(sys.argv[1]), int(sys.argv[1])))
+from solepath.cli import main
+sys.exit(main(sys.argv[2:]))
+"""
+
+
+def complaint(*arguments: object) -> str:
+    """Return the one line on stderr of a command that fails with little memory."""
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"}  # each thread takes address space
+    command = [sys.executable, "-c", BOUNDED, str(MEMORY), *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, env=environment)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr[-500:]
+    return done.stderr
+
+
+def still(n: int = 200) -> dict[str, np.ndarray]:
+    """Return the columns of a foot at rest."""
+    return {"t": np.arange(n) / 100.0, "acc": np.tile([0.0, 0.0, 9.81], (n, 1)), "gyro": np.zeros((n, 3))}
+
+
+def array_header(shape: tuple[int, ...], descr: str = "<f8") -> bytes:
+    stream = io.BytesIO()
+    np.lib.format.write_array_header_1_0(stream, {"descr": descr, "fortran_order": False, "shape": shape})
+    return stream.getvalue()
+
+
+def inflating(path: Path, claimed: int, actual: int) -> Path:
+    """Write an archive whose `acc` claims so many rows and inflates to `actual` bytes of zeros."""
+    np.savez(path, **{key: value for key, value in still().items() if key != "acc"})
+    with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive, archive.open("acc.npy", "w") as file:
+        file.write(array_header((claimed, 3)))
+        for _ in range(actual // 10_000_000):
+            file.write(bytes(10_000_000))
+    return path
+
+
+def test_an_archive_that_inflates_to_a_gigabyte_is_rejected_before_that(tmp_path: Path) -> None:
+    path = inflating(tmp_path / "walk.npz", 40_000_000, 960_000_000)
+    assert path.stat().st_size < 2_000_000
+    assert "walk.npz: holds more than 100,000,000 numbers" in complaint("track", path)
+
+
+def test_an_array_that_claims_more_than_its_file_holds_is_rejected_before_memory_is_taken(tmp_path: Path) -> None:
+    path = inflating(tmp_path / "walk.npz", 10**12, 10_000_000)
+    assert "acc: cannot be read (its header claims 3000000000000 values" in complaint("track", path)
+
+
+def test_a_central_directory_that_lies_about_a_size_inflates_no_more_than_that(tmp_path: Path) -> None:
+    path = inflating(tmp_path / "walk.npz", 200, 1_000_000_000)
+    size = path.read_bytes().rfind((1_000_000_128).to_bytes(4, "little"))
+    data = bytearray(path.read_bytes())
+    data[size : size + 4] = (128 + 4800).to_bytes(4, "little")
+    path.write_bytes(data)
+    assert "acc: cannot be read" in complaint("track", path)
+
+
+@pytest.mark.parametrize("name", ["walk.csv", "walk.npz", "walk.jsonl", "me.json", "plan.geojson"])
+def test_a_device_without_end_is_rejected_in_one_line(tmp_path: Path, name: str) -> None:
+    endless, walk = tmp_path / name, recorded(tmp_path / "good.jsonl", PACKETS)
+    endless.symlink_to("/dev/zero")
+    option = {"me.json": "--calibration", "plan.geojson": "--floorplan"}.get(name)
+    sentence = complaint("track", *([walk, option, endless] if option else [endless]))
+    reason = {
+        "walk.csv": "line 1: is longer than 65536",
+        "walk.npz": "is not an .npz",
+        "walk.jsonl": "line 1: is longer",
+    }
+    assert f"{endless}: {reason.get(name, 'is larger than')}" in sentence
+
+
+def test_an_endless_table_is_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path, header = tmp_path / "walk.csv", "t,acc_x,acc_y,acc_z\n"
+    path.write_text(header + "".join(f"{k / 100},0,0,9.8\n" for k in range(300)))
+    monkeypatch.setattr(sheet, "MAX_VALUES", 1000)
+    with pytest.raises(RecordingError, match="holds more than 1,000 numbers"):
+        list(read_samples(path))
+    monkeypatch.setattr(sheet, "MAX_LENGTH", 2000)
+    with pytest.raises(RecordingError, match="is longer than 2,000 characters"):
+        list(read_samples(path))
+
+
+def fed(pipe: Path, data: bytes) -> threading.Thread:
+    """Make a pipe and write data into it, once, in another thread."""
+    os.mkfifo(pipe)
+    thread = threading.Thread(target=pipe.write_bytes, args=(data,), daemon=True)
+    thread.start()
+    return thread
+
+
+@pytest.mark.parametrize("name", ["walk.csv", "walk.npz"])
+def test_samples_come_through_a_pipe_as_from_a_file(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    if name == "walk.npz":
+        np.savez(path, **still())
+    else:
+        path.write_text("t,acc_x,acc_y,acc_z\n" + "".join(f"{k / 100},0,0,9.8\n" for k in range(300)))
+    fed(tmp_path / f"pipe-{name}", path.read_bytes())
+    assert list(read_samples(tmp_path / f"pipe-{name}")) == list(read_samples(path))
+
+
+def test_an_archive_that_is_too_large_for_a_pipe_is_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(npz, "MAX_PIPED", 1000)
+    np.savez(tmp_path / "walk.npz", **still())
+    fed(tmp_path / "pipe.npz", (tmp_path / "walk.npz").read_bytes())
+    with pytest.raises(RecordingError, match="is a pipe of more than 0 MB: save it as a file"):
+        list(read_samples(tmp_path / "pipe.npz"))
+
+
+def test_a_pipe_of_packets_is_opened_once_and_can_be_looked_at_ahead(tmp_path: Path) -> None:
+    path = recorded(tmp_path / "walk.jsonl", PACKETS, {"note": "x"})
+    fed(tmp_path / "pipe", path.read_bytes())
+    source = open_source(tmp_path / "pipe")
+    assert source.header["note"] == "x"
+    assert next(source.look_ahead()) == PACKETS[0]
+    assert list(source) == PACKETS == list(read_packets(path))
+
+
+def test_a_calibration_comes_through_a_pipe(tmp_path: Path) -> None:
+    write_calibration(tmp_path / "me.json", Calibration(weight=700.0))
+    fed(tmp_path / "pipe", (tmp_path / "me.json").read_bytes())
+    assert read_calibration(tmp_path / "pipe") == Calibration(weight=700.0)
+
+
+FULL_DISK = """
+import resource, sys
+from solepath.calibration import Calibration, InsoleCalibration
+from solepath.calibration.file import write_calibration
+from solepath.types import Foot
+resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+try:
+    write_calibration(sys.argv[1], Calibration(insoles={Foot.LEFT: InsoleCalibration(noise=(0.5,) * 1000)}))
+except OSError as error:
+    print(error.filename, error.strerror)
+"""
+
+
+def test_a_calibration_that_cannot_be_written_whole_leaves_the_earlier_one(tmp_path: Path) -> None:
+    path = tmp_path / "me.json"
+    write_calibration(path, Calibration(weight=700.0))
+    done = subprocess.run([sys.executable, "-c", FULL_DISK, path], capture_output=True, text=True, check=True)
+    assert done.stdout == f"{path} File too large\n"
+    assert read_calibration(path) == Calibration(weight=700.0) and list(tmp_path.iterdir()) == [path]
