@@ -69,8 +69,9 @@ def test_a_command_prints_what_the_document_shows():
 
 
 def test_a_live_source_samples_and_a_saved_session(played):
-    (_, _, saved), names = played("docs/session.md")
+    (_, _, saved, rebooted), names = played("docs/session.md")
     assert saved.startswith("Position(t=")
+    assert rebooted.startswith("ClockReset(t=") and "RIGHT_FOOT" in rebooted
     with redirect_stdout(io.StringIO()) as out:
         names["notified"](bytearray())
         names["every_second"]()

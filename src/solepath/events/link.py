@@ -80,10 +80,10 @@ class SampleGap(Happening):
 
 @frozen(kw_only=True)
 class ClockReset(Happening):
-    """The device's clock jumped or the device restarted; sample times start from a new fit.
+    """The device's clock jumped, the device restarted, or the receiver's clock did; sample times start from a new fit.
 
     A fit converts the device's ticks to time (link/clock.py). `t` is the first time of the new fit. It is reported at
-    the arrival of the packet that shows it."""
+    the arrival of the packet that shows it, or by `Session.restart_clock`."""
 
     site: Site
     restarted: bool

@@ -48,7 +48,7 @@ class Gait:
     def reset(self) -> None:
         """Discard what depends on unbroken samples, because times restart."""
         self.phase_start = None
-        self.stride.mark_degraded(None)
+        self.stride.cut()
         self.template.reset()
 
     def start_walking(self, on_ground: bool) -> None:

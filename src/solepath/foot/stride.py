@@ -132,11 +132,16 @@ class StrideBuilder:
         self.cop_interval = 1
         self.cop_skipped = 0
 
-    def mark_degraded(self, until: float | None) -> None:
-        """Mark that samples up to `until`, s, cannot be trusted; None if times restart."""
+    def mark_degraded(self, until: float) -> None:
+        """Mark that samples up to `until`, s, cannot be trusted."""
         self.degraded = True
-        if until is None or self.degraded_until is None or until > self.degraded_until:
+        if self.degraded_until is None or until > self.degraded_until:
             self.degraded_until = until
+
+    def cut(self) -> None:
+        """Discard the stride, because times restart: its start and its end would be times of two clocks."""
+        self.degraded = True
+        self.t_start = self.t_contact = self.degraded_until = None
 
     def add_motion(self, t: float, dt: float, height: float, speed: float, sagittal: float, still: bool) -> None:
         """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown).
@@ -232,7 +237,7 @@ class StrideBuilder:
 
         `position` (m), `attitude` and `stretch` (`Corrector.anchor`) are in the navigation frame."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
-            return None  # no stride, or a restart of times has cut it in two
+            return None
         displacement = world.rotate_vector(sub(position, self.start))
         length, dz = hypot(displacement[0], displacement[1]), displacement[2]
         turn = heading_turned(self.attitude, attitude)

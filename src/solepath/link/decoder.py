@@ -113,6 +113,19 @@ class Decoder:
         """Return the samples that still wait for other data; call it at the end of all data."""
         return [] if self.link is None or self.newest_arrival is None else self.link.flush(self.newest_arrival)
 
+    def restart_clock(self, now: float) -> Output:
+        """Restart times at `now`, s, because the receiver's clock restarted; return waiting samples and ClockReset.
+
+        The next packet may have arrived earlier or later by the new clock; it starts a new fit."""
+        out = self.finish()
+        self.newest_arrival, self.backward_packets = None, 0
+        if self.newest_stream_arrival is not None:
+            self.newest_stream_arrival = now
+        if self.link is not None:
+            self.link.restart_clock()
+        out.append(ClockReset(t=now, known_at=now, site=self.site, restarted=False))
+        return out
+
     def is_bound_to(self, device: str) -> bool:
         """Return whether the site is bound to this address, in upper or lower case; for "", whether it is not bound."""
         return device == self.device or device.upper() == self.device.upper()
@@ -191,7 +204,7 @@ class Decoder:
     def _restart(self, packet: Packet, kinds: DeviceKinds) -> Output:
         """Restart times with this packet, because the receiver's clock was set back, unless the packet is unusable."""
         trial = deepcopy(self)
-        out = trial._reset_times(packet.t)
+        out = trial.restart_clock(packet.t)
         try:
             out = out + trial._use_packet(packet, kinds)
         except WireError as error:
@@ -200,17 +213,13 @@ class Decoder:
             setattr(self, attribute.name, getattr(trial, attribute.name))
         return out
 
-    def _reset_times(self, t: float) -> Output:
-        self.newest_arrival, self.newest_stream_arrival, self.stale, self.backward_packets = None, None, False, 0
-        if self.link is not None:
-            self.link.restart_clock()
-        return [ClockReset(t=t, known_at=t, site=self.site, restarted=False)]
-
     def _reject(self, packet: Packet, reason: Rejection, detail: str) -> Output:
-        newest = 0.0 if self.newest_arrival is None else self.newest_arrival
-        t = packet.t if -MAX_ARRIVAL_TIME <= packet.t <= MAX_ARRIVAL_TIME else newest
+        newest, t = self.newest_arrival, packet.t
+        if not -MAX_ARRIVAL_TIME <= t <= MAX_ARRIVAL_TIME:
+            t = 0.0 if newest is None else newest
+        known_at = t if newest is None else max(t, newest)
         return [
             PacketRejected(
-                t=t, known_at=max(t, newest), site=packet.site, channel=packet.channel, reason=reason, detail=detail
+                t=t, known_at=known_at, site=packet.site, channel=packet.channel, reason=reason, detail=detail
             )
         ]

@@ -30,7 +30,7 @@ class DeviceLink(Protocol):
         """Return the samples that still wait for other data, as known at `known_at`, s."""
 
     def restart_clock(self) -> None:
-        """Discard the clock fit, because the receiver's clock was set back."""
+        """Discard the clock fit, because the receiver's clock restarted."""
 
     def handle_reconnection(self) -> None:
         """Prepare for counters that may have restarted, because the device was connected again."""

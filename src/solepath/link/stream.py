@@ -97,7 +97,7 @@ class StreamLink(DeviceLink):
         return self.signature
 
     def restart_clock(self) -> None:
-        """Restart the clock fit and the times, because the receiver's clock was set back."""
+        """Restart the clock fit and the times, because the receiver's clock restarted."""
         self.packet_run.clock, self.newest_arrival, self.last_t = None, None, None
         if self.periodic is not None:
             self.periodic = make_periodic_clock(self.periodic.period)

@@ -236,9 +236,10 @@ def _record_codec(node: RecordNode) -> tuple[_Saver, _Loader]:
         if not isinstance(value, dict):
             raise SnapshotError(f"expected {cls.__name__}, found {type(value).__name__}")
         if value.keys() != names:
-            missing, unknown = sorted(names - value.keys()), [key for key in value if key not in names]
-            lacks = f"lacks the field {missing[0]}" if missing else f"has no field {shorten(unknown[0])}"
-            raise SnapshotError(f"{cls.__name__} {lacks}")
+            unknown = next((key for key in value if key not in names), None)
+            lacks = "no field" if unknown is not None else "not the field"
+            which = unknown if unknown is not None else min(names - value.keys())
+            raise SnapshotError(f"{cls.__name__} has {lacks} {shorten(which)}")
         record: Any = object.__new__(cls)
         for name, _, load_field in fields:
             object.__setattr__(record, name, load_field(value[name], classes))

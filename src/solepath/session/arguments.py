@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from copy import deepcopy
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from ..calibration import Calibration, CalibrationError
-from ..types.plain import make_plain
+from ..types.plain import make_plain, number
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -56,3 +57,11 @@ def check_start(start: Start, plan: IndexedPlan | None) -> Start:
     if fault is not None:
         raise plans.FloorPlanError(f"start: {fault}")
     return own_start
+
+
+def check_now(now: float) -> float:
+    """Return the time `now` as a float; raise TypeError for what is no number, ValueError for NaN and infinity."""
+    time = number("now", now)
+    if not isfinite(time):
+        raise ValueError(f"now is {time}")
+    return time

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
-from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from ..body.gait.means import GaitParameters
@@ -20,8 +19,7 @@ from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
-from ..types.plain import number
-from .arguments import check_calibration, check_start, index_floorplan
+from .arguments import check_calibration, check_now, check_start, index_floorplan
 from .state import SessionState
 from .wearer import WearerParts, WearerSettings, sort_by_key
 
@@ -47,10 +45,9 @@ class Session:
     that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy), after using the
     items before it, and ValueError after `finish`.
 
-    Latency: zero velocity and live position are known with the sample. Heel-strike and toe-off have a latency of one
-    sample once a foot has pushed off the first time; without a push-off, swing is known after 0.15 s (0.4 s right after
-    a heel-strike). The latency of foot-flat and of the stride that it ends is about 40 ms. The latency of heel-off is
-    40 to 140 ms, in slow walking up to 320 ms."""
+    Latency: zero velocity and live position are known with the sample; heel-strike and toe-off with the next one
+    (before a first push-off, swing after 0.15 s, or 0.4 s right after a heel-strike); foot-flat and the stride that it
+    ends after 40 ms; heel-off after 40 to 140 ms, in slow walking up to 320 ms."""
 
     __slots__ = ("_kinds", "_plan", "_state")
 
@@ -101,10 +98,11 @@ class Session:
 
     def advance(self, now: float) -> list[Event]:
         """Let time pass until `now`, s, packets' clock, and return the events; raise ValueError for NaN or infinity."""
-        now = number("now", now)
-        if not isfinite(now):
-            raise ValueError(f"now is {now}")
-        return [] if self._state.finished else self._state.advance(now, self._kinds)
+        return [] if self._state.finished else self._state.advance(check_now(now), self._kinds)
+
+    def restart_clock(self, now: float) -> list[Event]:
+        """Continue on a clock that restarted or was set, and is now at `now`, s; return a ClockReset of each site."""
+        return [] if self._state.finished else self._state.restart_clock(check_now(now))
 
     def finish(self) -> list[Event]:
         """Return the events that were held back; the session can still be read, but no longer fed."""
@@ -202,9 +200,9 @@ class Session:
     ) -> Session:
         """Return a session that continues from the snapshot `saved`.
 
-        A snapshot holds no functions and no floor plan. Therefore give `profiles`, `floorplan` and `parts` (the classes
-        of the app's own parts) again, with unchanged functions. Raises SnapshotError for a damaged snapshot, one of
-        another version, and one taken with other devices, another floor plan or other parts."""
+        Give `profiles`, `floorplan` and `parts` (the classes of the app's own parts) again, with unchanged functions.
+        Raises SnapshotError for a damaged snapshot, one of another version, and one taken with other devices, another
+        floor plan or other parts."""
         from .snapshot import restore_state
 
         return cls._from_state(restore_state(saved, parts), profiles, floorplan)
@@ -227,10 +225,10 @@ class Session:
     ) -> Session:
         """Return a session that continues from packed bytes.
 
-        `recipe` must be the one with which the session was packed; the other arguments are those of `restore`. Only the
-        recipe's name and the classes of its parts are compared. The settings of `recipe` are used from now on, so a
-        tuned recipe can continue. Raises SnapshotError if name or class differs, for other bytes, and where `restore`
-        raises it. The checksum finds accidents, not manipulation: trust a state as you trust code."""
+        `recipe` must be the one with which the session was packed; the other arguments are those of `restore`. Only its
+        name and the classes of its parts are compared; its settings are used from now on, so a tuned recipe can
+        continue. Raises SnapshotError if name or class differs, for other bytes, and where `restore` raises it. The
+        checksum finds accidents, not manipulation: trust a state as you trust code."""
         from .packed import unpack
 
         return cls._from_state(unpack(data, recipe, parts), profiles, floorplan)

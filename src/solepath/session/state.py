@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ..events import Event, PacketRejected, SampleRejected
+from ..events import ClockReset, Event, PacketRejected, SampleRejected
 from ..link.decoder import Decoder
 from ..link.kinds import DeviceKinds
 from ..types import Packet, Sample, Site
@@ -76,6 +76,21 @@ class SessionState:
         events: list[Event] = []
         for decoder in self.decoders.values():
             self.use_items(decoder.site, decoder.advance(now, kinds), events)
+        return events
+
+    def restart_clock(self, now: float) -> list[Event]:
+        """Continue at `now`, s, on a clock that restarted or was set, for packets and for samples."""
+        events: list[Event] = []
+        for site in Site:
+            decoder = self.decoders.get(site)
+            if decoder is not None:
+                self.use_items(site, decoder.restart_clock(now), events)
+            elif site.foot in self.wearer.feet:
+                reset = ClockReset(t=now, known_at=now, site=site, restarted=False)
+                events += self.wearer.receive(site, reset)
+            else:
+                self.wearer.reset(site)
+        self.now = now
         return events
 
     def finish(self) -> list[Event]:

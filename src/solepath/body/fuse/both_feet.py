@@ -110,11 +110,13 @@ class BothFeet(MeanOfFeet):
         return outputs
 
     def reset(self, site: Site) -> None:
-        """Reset a foot as `MeanOfFeet` does, and discard its newest stride."""
+        """Reset a foot as `MeanOfFeet` does, and discard its newest stride; if both are, the wearer may have moved."""
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
             self.strides[0 if site.foot is Foot.LEFT else 1] = None
             self.corridor.reset()
+            if self.started and self.left.t is self.right.t is None:
+                self.errors.inflate_both()
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """Return the wearer's position, with the mean's covariance at the newest stride; None before any sample."""
@@ -127,8 +129,7 @@ class BothFeet(MeanOfFeet):
         return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, mean.covariance[5]))
 
     def _start(self) -> None:
-        self.started = True
-        self.width = WALKING_WIDTH
+        self.started, self.width = True, WALKING_WIDTH
         self.errors.start()
         if not self.left.unplaced and not self.right.unplaced:
             for track, k in ((self.left, 0.5), (self.right, -0.5)):
@@ -146,8 +147,7 @@ class BothFeet(MeanOfFeet):
         if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
             self._restart()
             return ()
-        own_position = event.position
-        c, s = cos(this.turn), sin(this.turn)
+        own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
         t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off

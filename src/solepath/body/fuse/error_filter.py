@@ -45,6 +45,8 @@ HEADING_DRIFT = 0.0015
 """Random walk of the heading error that adds to the drift rate, rad/sqrt(s)."""
 DEGRADED_ERROR = 0.06
 """Standard deviation of the heading error that a degraded stride adds, rad."""
+UNSEEN_DISTANCE = 3.0
+"""Distance that a wearer may have walked while both clocks restarted, m: that of a foot in a gap (propagated.py)."""
 
 Term = tuple[int, float]
 """Index of a state, and the derivative of the measurement with respect to it."""
@@ -152,6 +154,13 @@ class TrackErrorFilter:
         p, x = self.covariance, foot * STATES_PER_FOOT
         p[x][x] += distance * distance
         p[x + Y][x + Y] += distance * distance
+
+    def inflate_both(self) -> None:
+        """Inflate the variance of the position of both feet, which may have moved on together unseen."""
+        for axis in (X, Y):
+            for one in (axis, axis + STATES_PER_FOOT):
+                for other in (axis, axis + STATES_PER_FOOT):
+                    self.covariance[one][other] += UNSEEN_DISTANCE * UNSEEN_DISTANCE
 
     def correct(self, terms: Sequence[Term], z: float, variance: float, gate: float) -> list[float] | None:
         """Correct the filter with the innovation `z` of a measurement with these terms and this noise variance.

@@ -144,7 +144,7 @@ class MeanOfFeet(TrackPart):
         """Reset the times of a foot, so that its next sample counts as its first."""
         if site.foot is not None:
             placed = self._track(site.foot)
-            placed.t, placed.absent_for = None, 0.0
+            placed.t, placed.started_at, placed.absent_for = None, None, 0.0
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """Return the position of the wearer; None before any sample."""

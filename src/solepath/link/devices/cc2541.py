@@ -214,7 +214,7 @@ class Cc2541Link(DeviceLink):
         self.firmware = firmware
 
     def restart_clock(self) -> None:
-        """Restart the clock fits and the times, because the receiver's clock was set back."""
+        """Restart the clock fits and the times, because the receiver's clock restarted."""
         self.acc_clock, self.gyro_clock = (
             make_periodic_clock(self.acc_clock.period),
             make_periodic_clock(self.gyro_clock.period),

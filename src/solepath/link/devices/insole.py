@@ -111,7 +111,7 @@ class InsoleLink(DeviceLink):
         return []
 
     def restart_clock(self) -> None:
-        """Discard the clock fit, because the receiver's clock was set back."""
+        """Discard the clock fit, because the receiver's clock restarted."""
         self.packet_run.clock = None
 
     def handle_reconnection(self) -> None:

@@ -122,9 +122,7 @@ class AnglePerMetre(ActivityPart):
             clocks.clear()
             self.flights.reset()
         if not clocks:
-            self.moved_at = self.stride_t = None
-            if self.reported_t is not None and t < self.reported_t:
-                self.reported_t = None
+            self.moved_at = self.stride_t = self.reported_t = None
         waiting_since.pop(foot, None)
         return True
 

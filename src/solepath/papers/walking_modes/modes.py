@@ -118,6 +118,8 @@ class Modes(TrackPart):
         self.places.chain.reset(site)
         self.places.tracks.reset(site)
         self.limb_sensors.reset(site)
+        if site.foot is not None:
+            self.recognition.reset(site.foot)
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add a sample of a foot; update the reference foot, touchdowns and walking mode."""

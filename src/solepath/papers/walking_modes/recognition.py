@@ -87,6 +87,11 @@ class Recognition:
         sole.mode = mode
         return mode
 
+    def reset(self, foot: Foot) -> None:
+        """Discard the times of a foot's contacts, because its clock restarts."""
+        contact = self.soles[foot].contact
+        contact.t_start = contact.t_end = None
+
     def is_blind(self, foot: Foot) -> bool:
         """Return whether the foot's cells do not show left and right, so that they show no mode except standing."""
         return self.soles[foot].contact.blind

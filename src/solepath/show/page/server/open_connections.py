@@ -66,7 +66,7 @@ class OpenConnections:
 
 
 def peer_of(address: object) -> str:
-    """Return the peer to which a connection counts: its IPv4 address, or the network of its IPv6 address."""
+    """Return the peer to which a connection from `address` counts: an IPv4 address, or the network of an IPv6 one."""
     host = address[0] if isinstance(address, tuple) and address else ""
     try:
         parsed = ip_address(str(host).partition("%")[0])
