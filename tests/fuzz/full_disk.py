@@ -25,13 +25,12 @@ from solepath.recording import PacketWriter, read_packets
 RECORDER = """
 import sys
 from solepath.recording import PacketWriter, RecordingError, read_packets
-with PacketWriter("new.jsonl") as writer:
-    for packet in read_packets("walk.jsonl"):
-        try:
+try:
+    with PacketWriter("new.jsonl") as writer:
+        for packet in read_packets("walk.jsonl"):
             writer.write(packet)
-        except RecordingError as error:
-            print(error, file=sys.stderr)
-            sys.exit(2)
+except RecordingError as error:
+    sys.exit(print(error, file=sys.stderr) or 2)
 """
 """Program that copies a recording as an app writes it."""
 CALIBRATOR = """
@@ -114,8 +113,9 @@ def check_writer(writer: Writer, folder: Path, steps: int) -> str:
         after = contents(folder, writer)
         if writer.grows:
             (path,) = writer.outputs
-            kept, given = list(read_packets(folder / path)), list(read_packets(folder / "walk.jsonl"))
-            if kept != given[: len(kept)] or not after[path].endswith(b"\n"):
+            kept = list(read_packets(folder / path)) if after[path] else []
+            given = list(read_packets(folder / "walk.jsonl"))
+            if kept != given[: len(kept)] or after[path][-1:] not in (b"", b"\n") or len(after[path]) + 1000 < limit:
                 raise Broken(f"{writer.name}, {limit} bytes: not the first packets")
         elif after != whole:
             raise Broken(f"{writer.name}, {limit} bytes: files of an earlier run are others now")

@@ -179,7 +179,7 @@ def _find_wrong_units(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tupl
                 f"the median of |acc| is {median:.3g} m/s^2, not 9.8: this looks like {_guess_acc_unit(median)}",
             )
     if "gyro" in columns:
-        high = float(np.percentile(_vector_lengths(columns["gyro"]), 99.0))
+        high = float(np.percentile(_vector_lengths(columns["gyro"]), 99.0, method="higher"))
         if high > MAX_GYRO:
             unit = "deg/s" if high < 4000.0 else "thousandths of a degree a second, or raw counts"
             yield "gyro", f"|gyro| reaches {high:.3g} rad/s, faster than a foot turns: this looks like {unit}"
