@@ -135,7 +135,7 @@ def test_a_row_that_cannot_be_read_is_named_and_the_others_are_checked(
     assert "\n  acc, row 2000: is nan, not a finite number (t = 20 s); this row is left out\n" in done.stdout
 
 
-def test_many_rows_that_cannot_be_read_must_be_mended(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+def test_many_rows_that_cannot_be_read_give_status_1(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
     acc = columns["acc"].copy()
     acc[:500] = np.nan
     done = run("check", saved(tmp_path, columns, acc=acc), "--foot", "left")

@@ -135,13 +135,13 @@ def test_closing_the_terminal_ends_the_page_as_ctrl_c_does_and_all_is_written(
     assert written(tmp_path) == written(plain[0])
 
 
-def test_a_damaged_recording_is_played_up_to_the_damage_and_a_public_page_is_reported(recording: Path, tmp_path: Path):
+def test_a_damaged_recording_is_played_and_a_public_page_is_reported(recording: Path, tmp_path: Path):
     lines = recording.read_text().splitlines()
     torn = tmp_path / "torn.jsonl"
     torn.write_text("\n".join([*lines[: len(lines) // 2], "what?", *lines[len(lines) // 2 :]]))
     result = run("track", torn, "--view", "0.0.0.0:0", "--speed", 32)
     damage, warning = result.stderr.splitlines()
-    assert result.returncode == 2 and f"torn.jsonl: line {len(lines) // 2 + 1}: is not JSON" in damage
+    assert result.returncode == 0 and f"torn.jsonl: line {len(lines) // 2 + 1}: is not JSON" in damage
     assert "can be reached from other machines" in warning
     assert re.match(r"the page: http://[^/]+:\d+/#token=\S{16,}\n", result.stdout)
 

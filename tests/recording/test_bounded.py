@@ -132,7 +132,7 @@ def test_an_archive_that_is_too_large_for_a_pipe_is_rejected(tmp_path: Path, mon
         list(read_samples(tmp_path / "pipe.npz"))
 
 
-def test_a_pipe_of_packets_is_opened_once_and_can_be_looked_at_ahead(tmp_path: Path) -> None:
+def test_a_pipe_of_packets_is_opened_once_and_can_be_read_ahead(tmp_path: Path) -> None:
     path = recorded(tmp_path / "walk.jsonl", PACKETS, {"note": "x"})
     fed(tmp_path / "pipe", path.read_bytes())
     source = open_source(tmp_path / "pipe")

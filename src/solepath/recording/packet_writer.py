@@ -67,7 +67,7 @@ class PacketWriter:
 
     @property
     def replaces(self) -> bool:
-        """Whether the file still has the content that the first packet will replace."""
+        """True while the file has earlier content, which the first packet replaces."""
         return self._had_content
 
     def write(self, packet: Packet) -> None:

@@ -147,7 +147,7 @@ class _Line:
 
     @property
     def is_too_long(self) -> bool:
-        """Whether the line is longer than a recording may have."""
+        """True for a line that is longer than a recording may have."""
         return len(self.data) > LONGEST_LINE
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 SAMPLE_SUFFIXES = (".npz", ".csv")
 """Suffixes of files that hold samples."""
-MAX_LOOKED_AT = 20_000
+MAX_AHEAD = 20_000
 """Largest number of packets of a pipe that `look_ahead` reads and keeps: some 100 s of two insoles."""
 
 
@@ -59,7 +59,7 @@ class Source:
         return shift_clock(items, self.clock_offset) if self.clock_offset else items
 
     def look_ahead(self) -> Iterator[Packet]:
-        """Yield the packets without reports, of a pipe only the first MAX_LOOKED_AT; iterating yields them again."""
+        """Yield the packets without reports, of a pipe only the first MAX_AHEAD; iterating yields them again."""
         if self._pipe is None:
             yield from open_packets(self.path, report=lambda _: None).packets
             return
@@ -67,7 +67,7 @@ class Source:
             for packet in self._pipe.packets:
                 self._packets_ahead.append(packet)
                 yield packet
-                if len(self._packets_ahead) >= MAX_LOOKED_AT:
+                if len(self._packets_ahead) >= MAX_AHEAD:
                     return
         except RecordingError as error:
             self._failure = error

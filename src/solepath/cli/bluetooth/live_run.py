@@ -47,7 +47,6 @@ async def listen(
 ) -> int:
     """Receive until `stop` is set or the time is over; return the exit status."""
     devices = named_devices(options)
-    seconds = listening_time(options)
     session = Session(
         recipe, calibration=calibration, poses=True, pressures=address is not None, floorplan=plan, start=start
     )
@@ -56,6 +55,7 @@ async def listen(
     async with AsyncExitStack() as stack:
         files = LiveFiles(options.record, options.out, places=plan is not None, force=options.force)
         stack.callback(files.discard)
+        seconds = listening_time(options)
         async with unless_stopped(stop):
             backend = await stack.enter_async_context(backend_of(options.via))
             if not devices:
