@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import hypot
+from math import fsum, hypot
 
 from ..types.attrs import evolve
 from .crossing import MAX_CELLS, Walls
@@ -78,7 +78,7 @@ def _faults_of_size(plan: FloorPlan) -> Iterator[str]:
         yield f"the plan has more than {MAX_LEVELS} levels or {MAX_WALLS} walls"
     if len(plan.connectors) > MAX_STOPS or sum(len(one.stops) for one in plan.connectors) > MAX_STOPS:
         yield f"the plan's stairs and lifts have more than {MAX_STOPS} stops"
-    corners = sum(len(level.doors) + sum(map(len, level.rooms)) for level in plan.levels)
+    corners = sum(len(level.doors) + sum(map(len, level.rooms)) for level in plan.levels)  # whole numbers
     corners += sum(len(stop.outline) for one in plan.connectors for stop in one.stops)
     if corners > MAX_CORNERS:
         yield f"the plan has more than {MAX_CORNERS} doors and corners of rooms"
@@ -90,7 +90,7 @@ def _faults_of_length(plan: FloorPlan) -> Iterator[str]:
     rings = [room for level in plan.levels for room in level.rooms]
     rings += [stop.outline for one in plan.connectors for stop in one.stops]
     lines += [line for ring in rings for line in zip(ring, (*ring[1:], *ring[:1]), strict=True)]
-    length = sum([hypot(b[0] - a[0], b[1] - a[1]) for a, b in lines])
+    length = fsum([hypot(b[0] - a[0], b[1] - a[1]) for a, b in lines])
     if length > MAX_TOTAL_LENGTH:
         yield (f"the walls, doors and rooms of the plan come to {length / 1000.0:.0f} km; it can have "
                f"{MAX_TOTAL_LENGTH / 1000.0:.0f}")  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import fsum, hypot
 
 from .plan import Point
 from .segments import distance
@@ -52,7 +52,7 @@ def contains(lines: Edges, x: float, y: float) -> bool:
 def area(outline: Ring) -> float:
     """Return the area of the ring, m^2; positive if it runs counter-clockwise."""
     ox, oy = outline[0]
-    return 0.5 * sum((ax - ox) * (by - oy) - (bx - ox) * (ay - oy) for ax, ay, bx, by in edges(outline))
+    return 0.5 * fsum((ax - ox) * (by - oy) - (bx - ox) * (ay - oy) for ax, ay, bx, by in edges(outline))
 
 
 def find_inner_point(outline: Ring) -> Point:
@@ -60,7 +60,7 @@ def find_inner_point(outline: Ring) -> Point:
 
     It is the centroid if that is inside, else the middle of the widest inner interval along x at the centroid's y."""
     lines, (ox, oy) = edges(outline), outline[0]
-    x, y = sum(p[0] for p in outline) / len(outline), sum(p[1] for p in outline) / len(outline)
+    x, y = fsum(p[0] for p in outline) / len(outline), fsum(p[1] for p in outline) / len(outline)
     size = area(outline)
     if abs(size) > 1e-9:
         sx = sy = 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, isfinite
+from math import fsum, inf, isfinite
 from typing import NamedTuple
 
 from ..events import Defect, Rejection, SampleRejected
@@ -69,7 +69,7 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
         return reason
     if sample.pressure:
         try:
-            total: float = sum(sample.pressure)
+            total: float = sum(sample.pressure)  # only compared: a last bit does not matter
         except (OverflowError, TypeError):
             total = inf
         if not LEAST_TOTAL < total < ABSURD_TOTAL:
@@ -111,7 +111,7 @@ def _absurd_value(name: str, value: float) -> RejectionReason:
 def _total_of_numbers(cells: tuple[float, ...]) -> float:
     """Return the sum of the cells that are numbers; cell_health.py handles the others."""
     try:
-        return sum([value for value in cells if value is not None and isfinite(value)])
+        return fsum([value for value in cells if value is not None and isfinite(value)])
     except OverflowError:  # an int may be too large for a float
         return inf
 

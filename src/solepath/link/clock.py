@@ -21,6 +21,7 @@ between the radio's connection events are nearly equal, this delay may for long 
 from __future__ import annotations
 
 from copy import copy
+from math import fsum
 
 from ..types.attrs import define, field
 
@@ -184,7 +185,7 @@ class Clock:
         # uncertainty is reduced towards 0; a drift of 4 % is followed within about two seconds.
         spare_points = len(times) - 4
         drift_error = (
-            4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / spare_points)
+            4.0 * (fsum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / spare_points)
             if spare_points > 0
             else 0.0
         )
@@ -205,7 +206,7 @@ def _support_slope(times: list[float], residuals: list[float]) -> float:
                 break
             hull.pop()
         hull.append(i)
-    middle = sum(times) / len(times)
+    middle = fsum(times) / len(times)
     for a, b in zip(hull, hull[1:], strict=False):
         if times[b] >= middle:
             return (residuals[b] - residuals[a]) / (times[b] - times[a])

@@ -184,7 +184,7 @@ class _SchemaBuilder:
         others = any([is_open(kind) for kind in kinds])
         if len(kinds) == 1 and not others:
             node = self.node(kinds[0], made)
-        elif len(records) + sum(map(is_open, kinds)) == len(kinds):
+        elif len(records) + len([*filter(is_open, kinds)]) == len(kinds):
             node = OpenNode(records, others, made)
         else:
             raise TypeError(f"it could not tell apart {hint!r}")

@@ -130,7 +130,7 @@ def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], by
 
 
 def _check_count(*counts: int) -> None:
-    if sum(counts) > MAX_VALUES:
+    if sum(counts) > MAX_VALUES:  # whole numbers
         raise ValueError(f"no state has more than {MAX_VALUES} values")
 
 

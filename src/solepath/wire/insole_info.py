@@ -185,8 +185,9 @@ def _find_problem(header: _InfoHeader, runs: list[_AreaRun]) -> str:
         return "a tick rate or interval of zero"
     if not all(isfinite(scale) and scale >= 0.0 for scale in scales):
         return f"scales that are negative or not finite: {scales}"
-    if sum(run.cells for run in runs) != header.cells or any(run.cells == 0 for run in runs):
-        return f"areas for {sum(run.cells for run in runs)} of {header.cells} cells"
+    cells = sum([run.cells for run in runs])  # whole numbers
+    if cells != header.cells or any([run.cells == 0 for run in runs]):
+        return f"areas for {cells} of {header.cells} cells"
     if any(a.area == b.area for a, b in zip(runs, runs[1:], strict=False)):
         return "neighbouring areas that should be one run"
     return ""

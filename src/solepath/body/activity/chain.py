@@ -10,7 +10,7 @@ fitted to labels, but chosen by hand while looking at HuGaDB's recordings and em
 from __future__ import annotations
 
 from functools import lru_cache
-from math import log
+from math import fsum, log
 
 from ...types import Activity
 from ...types.attrs import frozen
@@ -114,7 +114,7 @@ def chain_of(chances: Chances, shifts: Shifts) -> Chain:
         [
             tuple(
                 [
-                    (i, log(1.0 - sum(chances_from[name].values()) if name == to else chances_from[name][to]))
+                    (i, log(1.0 - fsum(chances_from[name].values()) if name == to else chances_from[name][to]))
                     for i, name in enumerate(_STATE_NAMES)
                     if name == to or to in chances_from[name]
                 ]

@@ -118,7 +118,7 @@ def _log_variance(variance: float) -> float:
 
 def _shares(bins: list[tuple[int, ...]], counts: list[int]) -> list[float]:
     """Return the share of each bin among the samples of one part of a window, of one or two blocks."""
-    samples = sum(counts)
+    samples = sum(counts)  # whole numbers
     if len(bins) == 1:
         return [n / samples for n in bins[0]]
     return [a / samples + b / samples for a, b in zip(*bins, strict=True)]

@@ -20,6 +20,8 @@ for the end of a flight; when a stair stride follows, the unjudged stride belong
 
 from __future__ import annotations
 
+from math import fsum
+
 from ...events import FlightClimbed, StrideTaken
 from ...types import Foot
 from ...types.attrs import define, field
@@ -153,12 +155,12 @@ class Flights:
         return 1 + sum([abs(t - at) < ACTIVE_TIME for at in others])
 
     def _end(self, known_at: float, events: list[FlightClimbed]) -> None:
-        untrusted = sum(self.untrusted.values())
+        untrusted = sum(self.untrusted.values())  # whole numbers
         trusted_count = self.stride_count - untrusted
         height = 0.0
         if 0 < trusted_count >= untrusted:
             feet = len(self.rises | self.untrusted)
-            height = (sum(self.rises.values()) + untrusted * self.trusted_rise / trusted_count) / feet
+            height = (fsum(self.rises.values()) + untrusted * self.trusted_rise / trusted_count) / feet
         if self.direction * height >= MIN_FLIGHT_HEIGHT and self.stride_count > 1:
             events.append(
                 FlightClimbed(

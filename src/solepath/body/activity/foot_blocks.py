@@ -137,7 +137,7 @@ class FootBlocks:
 
     def close(self) -> None:
         """Close the block under way and keep it."""
-        n, rates = sum(self.acc_bins), sum(self.gyro_bins)
+        n, rates = sum(self.acc_bins), sum(self.gyro_bins)  # whole numbers
         if self.index is None or not n:
             return
         mean = self.force / n

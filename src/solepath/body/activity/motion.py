@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache, cached_property
-from math import dist, exp, hypot, log, tanh
+from math import dist, exp, fsum, hypot, log, tanh
 from operator import truediv
 from typing import Any
 
@@ -62,7 +62,7 @@ class Network:
         hidden_values = tuple([tanh(value) for value in _weighted_sums(self.hidden, self.hidden_half, inputs)])
         output_values = _weighted_sums(self.output, self.output_half, hidden_values)
         highest = max(output_values)
-        total = highest + log(sum([exp(value - highest) for value in output_values]))
+        total = highest + log(fsum([exp(value - highest) for value in output_values]))
         return [value - total for value in output_values]
 
 
@@ -178,7 +178,7 @@ def _rows(data: Sequence[Sequence[Any]]) -> tuple[Row, ...]:
 
 
 def _with_half_squares(rows: Sequence[Row], bias: Row) -> Row:
-    return tuple([b + 0.5 * sum([w * w for w in row]) for row, b in zip(rows, bias, strict=True)])
+    return tuple([b + 0.5 * fsum([w * w for w in row]) for row, b in zip(rows, bias, strict=True)])
 
 
 def _weighted_sums(rows: Sequence[Row], half: Row, inputs: Row) -> list[float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from math import exp, log
+from math import exp, fsum, log
 
 from ...types import Foot
 from ...types.attrs import define, field
@@ -110,7 +110,7 @@ class PressureHeight:
     def height(self, first: int, last: int) -> float | None:
         """Return the mean height over the blocks `first` to `last`, m; None when they have no pressure."""
         neighbours = [height for index, height in self.blocks if first <= index <= last]
-        return sum(neighbours) / len(neighbours) if neighbours else None
+        return fsum(neighbours) / len(neighbours) if neighbours else None
 
     def score_slope(self, index: int, block: float) -> tuple[float, ...]:
         """Return the log-likelihood of the slope around block number `index` for each state, relative to the best.
@@ -122,9 +122,9 @@ class PressureHeight:
         if len(neighbours) < 3 or neighbours[-1][0] - neighbours[0][0] < MIN_SLOPE_SPAN:
             return NO_EVIDENCE
         n = len(neighbours)
-        middle = sum([t for t, _ in neighbours]) / n
-        spread = sum([(t - middle) ** 2 for t, _ in neighbours])
-        slope = sum([(t - middle) * height for t, height in neighbours]) / spread
+        middle = fsum([t for t, _ in neighbours]) / n
+        spread = fsum([(t - middle) ** 2 for t, _ in neighbours])
+        slope = fsum([(t - middle) * height for t, height in neighbours]) / spread
         variance = BLOCK_NOISE * BLOCK_NOISE / spread
         scores = []
         for mean, deviation in _SLOPE_OF_STATE:

@@ -174,7 +174,7 @@ class StanceFinder:
 
     def _time_between(self, first: int, last: int) -> float:
         """Return the time between two instants, s."""
-        return TICK * sum(interval[0] for interval in self.intervals[first + 1 : last + 1])  # of whole numbers: exact
+        return TICK * sum(interval[0] for interval in self.intervals[first + 1 : last + 1])  # whole numbers
 
     def _close(self, end: int) -> ClosedStride | None:
         """Return the stride that ends at interval `end`; after it, none is under way."""

@@ -9,7 +9,7 @@ is aligned in the same way. Without absence, no track is rotated or moved."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, fsum, hypot, sin
 from typing import ClassVar, Final
 
 from ...foot.view import FootPose, FootView
@@ -154,7 +154,7 @@ class MeanOfFeet(TrackPart):
         poses_used = self._select_poses(poses)
         k = 1.0 / len(poses_used)
         places = [self._track(pose.foot).place(pose.position) for pose in poses_used]
-        x, y, z = (sum([place[axis] for place in places]) * k for axis in range(3))
+        x, y, z = (fsum([place[axis] for place in places]) * k for axis in range(3))
         if len(poses_used) == 1:
             dx, dy, dz = self._offset_to_mean(poses_used[0].foot)
             x, y, z = x + dx, y + dy, z + dz
@@ -162,7 +162,7 @@ class MeanOfFeet(TrackPart):
             poses_used = [pose for pose in poses_used if pose.foot is not self.placed_last]
             k = 1.0 / len(poses_used)
         covariances = [pose.covariance for pose in poses_used]
-        xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
+        xx, xy, xz, yy, yz, zz = (fsum([c[i] for c in covariances]) * k * k for i in range(6))
         if len(poses_used) == 1:
             across, up = self._track(poses_used[0].foot).added_variance
             xx, yy, zz = xx + across, yy + across, zz + up
@@ -250,5 +250,5 @@ def _mean_displacement(start: Vec3, end: Vec3, other_start: Vec3, other_end: Vec
 
 def _mean(vectors: list[Vec3]) -> Vec3:
     k = 1.0 / len(vectors)
-    x, y, z = (sum([v[axis] for v in vectors]) * k for axis in range(3))
+    x, y, z = (fsum([v[axis] for v in vectors]) * k for axis in range(3))
     return (x, y, z)

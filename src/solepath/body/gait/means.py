@@ -12,7 +12,7 @@ et al.)."""
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import sqrt
+from math import fsum, sqrt
 from typing import Any
 
 from ...events import GaitCycleMeasured
@@ -294,5 +294,6 @@ def combine_feet(figures: list[Figure | None]) -> Figure | None:
     if not known:
         return None
     deviations = [figure.sd for figure in known if figure.sd is not None]
-    sd = sqrt(sum([deviation * deviation for deviation in deviations]) / len(deviations)) if deviations else None
-    return Figure(sum([figure.mean for figure in known]) / len(known), sd, sum([figure.strides for figure in known]))
+    sd = sqrt(fsum([deviation * deviation for deviation in deviations]) / len(deviations)) if deviations else None
+    strides = sum([figure.strides for figure in known])  # whole numbers
+    return Figure(fsum([figure.mean for figure in known]) / len(known), sd, strides)

@@ -10,7 +10,7 @@ detected, it has pivoted. A pivot is not a stride, but part of a turn."""
 
 from __future__ import annotations
 
-from math import pi
+from math import fsum, pi
 
 from ...events import StrideTaken
 from ...types import Foot
@@ -48,7 +48,7 @@ class TurnProcess:
     def angle(self) -> float:
         """Mean turn of the feet that have samples, rad, counter-clockwise positive."""
         angles = [angle for angle in (self.left, self.right) if angle is not None]
-        return sum(angles) / len(angles)
+        return fsum(angles) / len(angles)
 
 
 @define
@@ -171,4 +171,4 @@ def remove_whole_turns(left: float | None, right: float | None) -> tuple[float |
         return left, right
     whole_turn = 2.0 * pi if left < right else -2.0 * pi
     corrected_left, corrected_right = (left + whole_turn, right), (left, right - whole_turn)
-    return corrected_left if abs(sum(corrected_left)) <= abs(sum(corrected_right)) else corrected_right
+    return corrected_left if abs(fsum(corrected_left)) <= abs(fsum(corrected_right)) else corrected_right

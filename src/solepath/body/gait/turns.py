@@ -10,7 +10,7 @@ angle is used."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import pi
+from math import fsum, pi
 from typing import ClassVar
 
 from ...events import FootFlat, StrideTaken, TurnMade
@@ -48,7 +48,7 @@ def classify(left: float | None, right: float | None) -> Turn | None:
     if known_left is None or known_right is None or abs(known_left + known_right) < 2.0 * MIN_CLASSIFIED_TURN:
         return None
     values = features(known_left, known_right)
-    scores = {turn: sum(w * x for w, x in zip(weights, values, strict=True)) for turn, weights in WEIGHTS.items()}
+    scores = {turn: fsum(w * x for w, x in zip(weights, values, strict=True)) for turn, weights in WEIGHTS.items()}
     return max(scores, key=lambda turn: scores[turn])
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import cos, pi, sin, sqrt
+from math import cos, fsum, pi, sin, sqrt
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Start
@@ -102,7 +102,7 @@ def rows_at_all_exits(scatter: Scatter, plan: IndexedPlan, arrived: LevelReached
         if entered.kind is arrived.kind:
             for exit_landing, share in _weigh_exits(plan.plan, landings, entered, arrived):
                 weights[exit_landing.index] = weights.get(exit_landing.index, 0.0) + share
-    total, roots = sum(weights.values()), sum([sqrt(weight) for weight in weights.values()])
+    total, roots = fsum(weights.values()), fsum([sqrt(weight) for weight in weights.values()])
     rows: list[Row] = []
     for index in sorted(weights):
         exit_landing = landings[index - 1]

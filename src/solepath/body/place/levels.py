@@ -6,7 +6,7 @@ The walls of the plan and later events decide between them."""
 
 from __future__ import annotations
 
-from math import hypot
+from math import fsum, hypot
 
 from ...events import WearerMoved
 from ...floorplan.index import IndexedPlan
@@ -85,21 +85,21 @@ class LevelChanges(PlaceHypotheses):
         rows = [row for row in rows if not row[7]] or [(*row[:7], 0) for row in rows]
         if rows and not changing:
             changing = find_level_changes(plan.plan, rows, arrived.kind, self.displacement_since(arrived.t_start))
-        total = sum([row[4] for row in rows])
+        total = fsum([row[4] for row in rows])
         is_same_climb = self.arrived_at is not None and arrived.t_start < self.arrived_at + SAME_STAIRS_TIME
         if changing and is_same_climb and not has_exit(plan.plan, changing, arrived.up):
             self.cancel_level_change()  # the rest of a climb that already counted as a whole storey
             return
         self.random = next_random(self.random)
         exit_rows = rows_at_exits(plan, changing, arrived, self.random)
-        exit_weight = sum([row[4] for row in exit_rows])
+        exit_weight = fsum([row[4] for row in exit_rows])
         if exit_weight <= MIN_LANDING_SHARE * total:
             if arrived.certainty <= MIN_CERTAINTY:
                 self.cancel_level_change()
                 return
             exit_rows = rows_at_all_exits(self.scatter, plan, arrived, self.settings.max_rows)
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
-            exit_weight = sum([row[4] for row in exit_rows])
+            exit_weight = fsum([row[4] for row in exit_rows])
             landing_share = 1.0 - STAYING_SHARE[arrived.kind]
             has_weights = exit_weight > 0.0 and total > 0.0
             k = total * landing_share / (1.0 - landing_share) / exit_weight if has_weights else 1.0

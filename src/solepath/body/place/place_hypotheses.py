@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from math import cos, hypot, pi, sin
+from math import cos, fsum, hypot, pi, sin
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
@@ -116,7 +116,7 @@ def rows_after_wrong_turn(plan: IndexedPlan, rows: list[Row], displacement: Poin
     dx, dy = displacement
     x0, y0 = plan.plan.origin
     drawn_rows = resample_rows([row for row in rows if not row[7]], ROWS_PER_HEADING, 0.5)
-    total, drawn = sum([row[4] for row in rows]), sum([row[4] for row in drawn_rows])
+    total, drawn = fsum([row[4] for row in rows]), fsum([row[4] for row in drawn_rows])
     added: list[Row] = []
     if not drawn > 0.0:
         return added

@@ -10,7 +10,7 @@ latency of a level."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import hypot, isfinite, pi
+from math import fsum, hypot, isfinite, pi
 from typing import ClassVar
 
 from ...events import Event, Placed, PlaceLost, StrideTaken, TurnMade, WearerMoved
@@ -166,7 +166,7 @@ class Placing(LevelChanges):
         previous = self.newest_placed
         previous_rows = rows
         # both feet make a turn of the wearer: half of each stride's turn counts
-        turned = min(0.5 * sum([abs(stride.heading_change) for stride in strides]), pi)
+        turned = min(0.5 * fsum([abs(stride.heading_change) for stride in strides]), pi)
         error_factor = DEGRADED_FACTOR if any([stride.degraded for stride in strides]) else 1.0
         rows = self.move_rows(plan, rows, move, error_factor, turned)
         self.stride_count = (self.stride_count + 1) % OUTSIDE_INTERVAL
@@ -216,7 +216,7 @@ class Placing(LevelChanges):
         else:
             self.strides_outside = 0
         # one candidate: 8 more rows for each metre of spread
-        others = sum([min(1.0, 10.0 * candidate.weight) for candidate in candidates[1:]])
+        others = fsum([min(1.0, 10.0 * candidate.weight) for candidate in candidates[1:]])
         count = min(
             self.settings.max_rows, KNOWN_ROWS + int(ROWS_PER_CANDIDATE * others if others else 8.0 * min(spread, 5.0))
         )

@@ -5,7 +5,7 @@ have few digits, because there are many rows and a snapshot must be small."""
 
 from __future__ import annotations
 
-from math import atan2, hypot, sqrt
+from math import atan2, fsum, hypot, sqrt
 from struct import Struct
 
 from ...events import Candidate
@@ -62,7 +62,7 @@ def resample_rows(rows: list[Row], count: int, offset: float) -> list[Row]:
     Each row is drawn with a frequency proportional to the root of its weight, and gets that root as weight. The
     distribution stays the same, and more rows of low weight are kept."""
     roots = [sqrt(row[4]) for row in rows]
-    step = sum(roots) / count
+    step = fsum(roots) / count
     if not step > 0.0:
         return []
     threshold, cumulative = offset * step, 0.0
@@ -77,8 +77,8 @@ def resample_rows(rows: list[Row], count: int, offset: float) -> list[Row]:
 
 def effective_count(rows: list[Row]) -> float:
     """Return the effective number of rows, by the roots of their weights."""
-    total = sum([row[4] for row in rows])
-    roots = sum([sqrt(row[4]) for row in rows])
+    total = fsum([row[4] for row in rows])
+    roots = fsum([sqrt(row[4]) for row in rows])
     return roots * roots / total if total > 0.0 else 0.0
 
 
@@ -96,10 +96,10 @@ def candidates_of(
     below `limit`, m. There must be a row. Places are rounded to a millimetre, because they are saved."""
     origin = plan.origin
     groups = _group_rows(rows, limit)
-    total = sum([group[0] for group in groups])
+    total = fsum([group[0] for group in groups])
     groups.sort(key=_weight, reverse=True)
     kept = [group for group in groups if group[0] >= MIN_CANDIDATE_WEIGHT * total] or groups[:1]
-    rest = total - sum([group[0] for group in kept])
+    rest = total - fsum([group[0] for group in kept])
     candidates = []
     for group in kept:
         weight, x, y, a, b, length, level, row_origin, landing = group
@@ -111,9 +111,9 @@ def candidates_of(
         name = plan.connectors[row_origin - 1].name if row_origin else "start"
         candidates.append(Candidate(plan.levels[level].id, position, heading, round(share, 5), name))
     bx, by = kept[0][1] / kept[0][0], kept[0][2] / kept[0][0]
-    squares = sum([row[4] * ((row[0] - bx) ** 2 + (row[1] - by) ** 2) for row in rows])
+    squares = fsum([row[4] * ((row[0] - bx) ** 2 + (row[1] - by) ** 2) for row in rows])
     if len(candidates) > 1:
-        candidates[0] = evolve(candidates[0], weight=1.0 - sum([candidate.weight for candidate in candidates[1:]]))
+        candidates[0] = evolve(candidates[0], weight=1.0 - fsum([candidate.weight for candidate in candidates[1:]]))
     return tuple(candidates), sqrt(squares / total)
 
 

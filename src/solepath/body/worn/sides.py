@@ -23,7 +23,7 @@ motion is mirrored and a left foot looks like a right foot. That wrong data is a
 from __future__ import annotations
 
 from bisect import bisect_right
-from math import hypot, sqrt
+from math import fsum, hypot, sqrt
 
 from ...events import StrideTaken, ToeOff
 from ...foot.view import FootView
@@ -222,7 +222,7 @@ def _add_landing(side: SwapEvidence, stride: StrideTaken, up: Vec3) -> None:
     a, b, c = forward
     turns = rate_integral.turns_between(toe_off_index, heel_strike_index)
     angles = [a * x + b * y + c * z for x, y, z in turns]  # positive: the left edge rises
-    leftward = sum(angles) / len(angles) - angles[-1]
+    leftward = fsum(angles) / len(angles) - angles[-1]
     side.roll.add(-leftward if stride.foot is Foot.LEFT else leftward)
 
 
@@ -254,5 +254,5 @@ def _add_stance(side: SwapEvidence, is_left: bool) -> None:
     if n < MIN_CENTRES:
         return
     middle_values, end_values = ys[n // 3 : n - n // 3], ys[n - n // 6 :]
-    leftward = sum(end_values) / len(end_values) - sum(middle_values) / len(middle_values)
+    leftward = fsum(end_values) / len(end_values) - fsum(middle_values) / len(middle_values)
     side.centre.add(leftward if is_left else -leftward)

@@ -63,7 +63,7 @@ class RowOrder:
 
     def __attrs_post_init__(self) -> None:
         self._waiting = sorted(self.held_rows)
-        self._size = sum(map(_size, self.held_rows.values()))
+        self._size = sum(map(_size, self.held_rows.values()))  # whole numbers
 
     def take(self, run: int, number: int, payload: Payload) -> PassedRows:
         """Add one row and return the rows that pass now; `run` and `number` are from 0 to MAX_COUNT."""

@@ -8,7 +8,7 @@ Autom. Control 53, 2008)."""
 
 from __future__ import annotations
 
-from math import exp, sqrt
+from math import exp, fsum, sqrt
 
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
@@ -71,7 +71,7 @@ class LinearDedrift(Strapdown):
         return 0.0
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        self.length += sqrt(sum(v * v for v in sub(position, self.position)))
+        self.length += sqrt(fsum(v * v for v in sub(position, self.position)))
         self.swing += dt
         self.time_since_anchor += dt
         self.attitude, self.velocity, self.position = attitude, velocity, position

@@ -11,7 +11,7 @@ and the zero velocity of the next stance shows its size."""
 
 from __future__ import annotations
 
-from math import asin, sqrt
+from math import asin, fsum, sqrt
 from typing import NamedTuple
 
 from ...types import Quat, Vec3
@@ -60,7 +60,7 @@ class SwingSamples:
 
     def reintegrate(self, peak: ClippedPeak, angle: float) -> IntegratedMotion:
         """Return the end state of the stored samples with `angle` rad more about the clipped axis."""
-        end = sum([row[0] for row in self.rows]) - peak.age
+        end = fsum([row[0] for row in self.rows]) - peak.age
         t, extra_rates, total = peak.duration - end, [], 0.0
         for dt, _, _ in self.rows:
             relative_time = (t + 0.5 * dt) / peak.duration if peak.duration > 0.0 else 0.5
@@ -76,7 +76,7 @@ class SwingSamples:
             total += extra_rate * dt
         if not total > 0.0:
             extra_rates = [1.0] * len(self.rows)
-            total = sum([row[0] for row in self.rows])
+            total = fsum([row[0] for row in self.rows])
         k = angle / total if total > 0.0 else 0.0
         q = self.start_attitude
         vx = vy = vz = x = y = z = 0.0

@@ -102,7 +102,7 @@ class CellHealth:
             return events
         self.wrong_count = None
         try:
-            all_numeric = -ABSURD_TOTAL < sum(cells) < ABSURD_TOTAL
+            all_numeric = -ABSURD_TOTAL < sum(cells) < ABSURD_TOTAL  # only compared: a last bit does not matter
         except (TypeError, OverflowError):
             all_numeric = False
         if self.non_numeric or not all_numeric:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import atan2, hypot, pi
+from math import atan2, fsum, hypot, pi
 
 from ...types import Layout
 from ...types.attrs import define, field
@@ -31,7 +31,7 @@ class CellSpan:
 
     def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
         """Add one sample; cells with an index in `excluded` do not count in the sum."""
-        total = sum(cells) - sum([cells[i] for i in excluded])
+        total = fsum(cells) - fsum([cells[i] for i in excluded])
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import fsum
 from operator import mul
 
 from ...events import Event, FootPressed, LayoutKnown
@@ -89,13 +90,13 @@ class Sole:
         if health.excluded or health.non_numeric:  # the calibration's cubic may turn 0 into a force
             failed_cells = {*health.excluded, *[i for i, _ in health.non_numeric]}
             values = tuple([0.0 if i in failed_cells else value for i, value in enumerate(values)])
-        force = sum(values)  # in the unit of the cells
+        force = fsum(values)  # in the unit of the cells
         centre, layout = None, insole.layout
         if layout is not None and not self.layout_estimated and len(values) == len(layout.cells):
             # after a long time in the air the range of loads is small; then the highest cell value sets the limit
             least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
             if force > least_force:
-                centre = (sum(map(mul, layout.xs, values)) / force, sum(map(mul, layout.ys, values)) / force)
+                centre = (fsum(map(mul, layout.xs, values)) / force, fsum(map(mul, layout.ys, values)) / force)
         return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
 
     def _check_count(

@@ -5,6 +5,7 @@ Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023. 
 
 from __future__ import annotations
 
+from math import fsum
 from typing import Any
 
 from construct import ExprValidator, Int32ul, Struct, Terminated
@@ -24,7 +25,7 @@ MAX_LENGTH_ERROR = 0.01
 
 def _has_length_one(quat: tuple[float, ...], _: Any) -> bool:
     # the squared length deviates from 1 by twice as much as the length
-    return dot.all_finite(quat, None) and abs(sum([part * part for part in quat]) - 1.0) < 2.0 * MAX_LENGTH_ERROR
+    return dot.all_finite(quat, None) and abs(fsum([part * part for part in quat]) - 1.0) < 2.0 * MAX_LENGTH_ERROR
 
 
 def _replace_prefix(channel: str) -> str:

@@ -17,7 +17,7 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import cos, hypot, pi, sin
+from math import cos, fsum, hypot, pi, sin
 from typing import ClassVar
 
 from ...body.part import PartInput, PartOutput, Position, TrackPart
@@ -136,7 +136,7 @@ class Footsteps(TrackPart):
         if not poses:
             return None
         x, y = self._mean()
-        heading = 0.5 * sum([path.heading for path in self.paths.values()])
+        heading = 0.5 * fsum([path.heading for path in self.paths.values()])
         present = [
             f
             for f in poses
@@ -148,7 +148,7 @@ class Footsteps(TrackPart):
             dx, dy = _rotate((px - path.track_position[0], py - path.track_position[1]), heading - path.own_heading)
             x, y = x + k * dx, y + k * dy
         covariances = [foot.covariance for foot in present]
-        xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
+        xx, xy, xz, yy, yz, zz = (fsum([c[i] for c in covariances]) * k * k for i in range(6))
         t = max([foot.t for foot in poses])
         return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
 

@@ -12,7 +12,7 @@ Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, inf, sin
+from math import atan2, cos, fsum, hypot, inf, sin
 
 from ...body.gait.turning_steps import TurningStrideFilter
 from ...calibration import Calibration
@@ -147,10 +147,10 @@ class Projection(Strapdown):
         settings, rows = self.settings, segment.rows
         phi = settings.outwards * settings.toe_out
         if settings.as_printed:
-            length, turn = sum(stride_length(rows, times, phi)), swing_turn(rows, times)
+            length, turn = fsum(stride_length(rows, times, phi)), swing_turn(rows, times)
         else:
             end = AXIS_SHARE * self.least_saturated if self.least_saturated > 0.0 else inf
-            length, turn = sum(closed_stride_length(rows, times, phi, end)), vertical_turn(rows, times, end)
+            length, turn = fsum(closed_stride_length(rows, times, phi, end)), vertical_turn(rows, times, end)
         turn = self.turning.turn(turn)
         fx, fy, _ = rotate(self.rest_attitude, segment.forward)
         # the direction of walking lies phi to the right of the foot's long axis

@@ -36,7 +36,7 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, inf, sin
+from math import cos, fsum, inf, sin
 
 from ...types import Vec3
 from .critical_times import CriticalTimes, Row
@@ -88,7 +88,7 @@ def rows_closed_at_rest(rows: Sequence[Row], times: CriticalTimes, end: float = 
         ]
 
     def speed(changed_rows: list[Row]) -> float:
-        return sum(_lengths(changed_rows, 0.0, 0.0)[1])
+        return fsum(_lengths(changed_rows, 0.0, 0.0)[1])
 
     # the toe rose `angle` more than was measured, and sank `angle` + `angle_at_rest` more
     least_angle = max(0.0, -angle_at_rest)

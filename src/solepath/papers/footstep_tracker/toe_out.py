@@ -9,7 +9,7 @@ accelerometer is larger. If s_f is shorter than s, no angle fits, and none is le
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import acos, isfinite
+from math import acos, fsum, isfinite
 
 from ...calibration import Calibration, CalibrationError
 from ...events import StrideTaken
@@ -52,7 +52,7 @@ def toe_out(items: Iterable[Packet | Sample], distance: float) -> list[ToeOut]:
                 lengths.setdefault(event.foot, []).append(event.length)
     toe_outs: list[ToeOut] = []
     for foot in [foot for foot in Foot if len(lengths.get(foot, ())) >= FEWEST_STRIDES]:
-        along = sum(lengths[foot])
+        along = fsum(lengths[foot])
         angle = acos(distance / along) if along >= distance else None
         if angle is not None and angle > LARGEST_ANGLE:
             sentence = f"the strides of the {foot.value} foot come to {along:.1f} m of {distance:g} m"

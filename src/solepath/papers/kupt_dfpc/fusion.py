@@ -31,7 +31,7 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import isfinite, sqrt
+from math import fsum, isfinite, sqrt
 from typing import ClassVar
 
 from ...body.part import PartOutput, Position, TrackPart
@@ -262,13 +262,13 @@ def correlation(one: tuple[float, ...], other: tuple[float, ...]) -> float | Non
     n = len(one)
     if n == 0 or n != len(other):
         return None
-    one_mean, other_mean = sum(one) / n, sum(other) / n
+    one_mean, other_mean = fsum(one) / n, fsum(other) / n
     xs = [x - one_mean for x in one]
     ys = [y - other_mean for y in other]
-    xx, yy = sum([x * x for x in xs]), sum([y * y for y in ys])
+    xx, yy = fsum([x * x for x in xs]), fsum([y * y for y in ys])
     if not (xx > LEAST_SPREAD and yy > LEAST_SPREAD):
         return None
-    r = abs(sum([x * y for x, y in zip(xs, ys, strict=True)])) / (sqrt(xx) * sqrt(yy))
+    r = abs(fsum([x * y for x, y in zip(xs, ys, strict=True)])) / (sqrt(xx) * sqrt(yy))
     return min(r, 1.0) if isfinite(r) else None
 
 

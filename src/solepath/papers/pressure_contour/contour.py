@@ -29,7 +29,7 @@ from __future__ import annotations
 
 from collections import deque
 from itertools import combinations
-from math import cos, hypot, inf, pi, sin
+from math import cos, fsum, hypot, inf, pi, sin
 from operator import mul, sub
 
 from ...types import Cell, Layout
@@ -113,7 +113,7 @@ class Contours:
         self.per_area = [
             1.0 / (max(cell.area, 1e-9) * len(heel)) if cell.x < HEEL_SHARE * layout.length else 0.0 for cell in used
         ]
-        centre = (sum(cell.x for cell in heel) / len(heel), sum(cell.y for cell in heel) / len(heel))
+        centre = (fsum(cell.x for cell in heel) / len(heel), fsum(cell.y for cell in heel) / len(heel))
         self._set_rays(used, centre)
         if not self.rays or sum(1 for count, _ in self.rays if count) < 2 * RAY_PAIRS - 2:
             self.points, self.rays = [], []
@@ -151,7 +151,7 @@ class Contours:
     def _radii(self, cells: list[float]) -> tuple[float, ...]:
         """Return the radii r(theta), m, ray by ray, each for all levels."""
         pressures = [a * cells[i] + b * cells[j] + c * cells[k] for i, j, k, a, b, c in self.points]
-        mean = 1.0 if self.levels_in_pascals else sum(map(mul, self.per_area, cells))
+        mean = 1.0 if self.levels_in_pascals else fsum(map(mul, self.per_area, cells))
         levels = [share * mean for share in self.levels]
         count = len(levels)
         middle = pressures[0]
@@ -194,8 +194,8 @@ class Contours:
             if min(present) >= 0.0 and min(past) >= 0.0:
                 # with all rays the matrix of the normal equations is RAY_PAIRS times the identity
                 radius_changes = list(map(sub, present, past))
-                sum_x += sum(map(mul, radius_changes, _COS)) / RAY_PAIRS
-                sum_y += sum(map(mul, radius_changes, _SIN)) / RAY_PAIRS
+                sum_x += fsum(map(mul, radius_changes, _COS)) / RAY_PAIRS
+                sum_y += fsum(map(mul, radius_changes, _SIN)) / RAY_PAIRS
                 contours += 1
                 continue
             displacement = _fit_pairs(present, past)

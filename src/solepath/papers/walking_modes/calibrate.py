@@ -9,7 +9,7 @@ steps. A mark is the point of the ground below the ankle."""
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import atan2, cos, sin
+from math import atan2, cos, fsum, sin
 from operator import attrgetter
 from pathlib import Path
 
@@ -132,8 +132,8 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[Ste
         steps.append((newest, (newest.x - before.x, newest.y - before.y), (x - px, y - py), direction))
     # angle from the session's frame to that of the marks, by least squares over all steps
     turn = atan2(
-        sum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
-        sum([mx * true[0] + my * true[1] for _, true, (mx, my), _ in steps]),
+        fsum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
+        fsum([mx * true[0] + my * true[1] for _, true, (mx, my), _ in steps]),
     )
     c, s = cos(turn), sin(turn)
     errors = []
@@ -152,8 +152,8 @@ def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tup
     means = {
         foot: {
             mode: (
-                sum([e.forward for e in mode_errors]) / len(mode_errors),
-                sum([e.left for e in mode_errors]) / len(mode_errors),
+                fsum([e.forward for e in mode_errors]) / len(mode_errors),
+                fsum([e.left for e in mode_errors]) / len(mode_errors),
             )
             for mode, mode_errors in errors_of[foot].items()
         }

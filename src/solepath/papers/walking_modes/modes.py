@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
-from math import atan2, hypot
+from math import atan2, fsum, hypot
 from typing import ClassVar
 
 from ...body.part import PartOutput, Position, TrackPart
@@ -284,7 +284,7 @@ class Modes(TrackPart):
         scale, turn = SCALE_SIGMA**2, HEADING_SIGMA**2
         xx, yy = variance + scale * x * x + turn * y * y, variance + scale * y * y + turn * x * x
         xy = (scale - turn) * x * y
-        track_covariance = [sum([foot.covariance[i] for foot in poses]) / len(poses) ** 2 for i in range(6)]
+        track_covariance = [fsum([foot.covariance[i] for foot in poses]) / len(poses) ** 2 for i in range(6)]
         if not self.places.chain.aligned:
             xx, xy, yy = xx + track_covariance[0], xy + track_covariance[1], yy + track_covariance[3]
         return (xx, xy, 0.0, yy, 0.0, track_covariance[5])

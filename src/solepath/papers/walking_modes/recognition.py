@@ -9,6 +9,8 @@ source were chosen by hand."""
 
 from __future__ import annotations
 
+from math import fsum
+
 from ...types import OTHER, Foot, Layout, WalkingMode
 from ...types.attrs import define, field
 from .mode import LEAST_STEP_LENGTH, LONGEST_CONTACT, STANDING_WEIGHT, Contact, at_reference_speed, decide
@@ -63,7 +65,7 @@ class Recognition:
         contact = sole.contact
         sole.in_newtons = state.highest_pressure is None
         contact.set_layout(layout)
-        total = sum(cells)
+        total = fsum(cells)
         pressed = self.contact_detector.is_down(state, sole.pressed)
         both_loads = total + self.soles[OTHER[foot]].contact.last_load
         contact.last_load = total

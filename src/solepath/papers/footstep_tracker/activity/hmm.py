@@ -6,7 +6,7 @@ there."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import exp, isfinite
+from math import exp, fsum, isfinite
 
 LEAST_LIKELIHOOD = 1e-12
 """Least likelihood of a state relative to the likeliest one. With a smaller one it could not become likely again."""
@@ -38,5 +38,5 @@ def forward(belief: Sequence[float], transitions: Matrix, likelihoods: Sequence[
 def bayes_update(prior: Sequence[float], likelihoods: Sequence[float]) -> tuple[float, ...]:
     """Return the posterior by Bayes' rule; no state becomes impossible."""
     joint = [max(p * f, LEAST_LIKELIHOOD) for p, f in zip(prior, likelihoods, strict=True)]
-    scale = 1.0 / sum(joint)
+    scale = 1.0 / fsum(joint)
     return tuple([p * scale for p in joint])

@@ -34,6 +34,7 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import fsum
 from typing import ClassVar
 
 from ....body.part import ActivityPart, PartOutput
@@ -165,7 +166,7 @@ class TwoSecondWindows(ActivityPart):
             events += self._change(self._block_start(self.newest_decided) + HOP, Activity.UNKNOWN, known_at)
         self.newest_decided = index
         model = self.settings.model or shipped()
-        if sum([w.variance for w in windows.values()]) > model.moving * len(windows):
+        if fsum([w.variance for w in windows.values()]) > model.moving * len(windows):
             self.moving_windows += 1
             for foot in windows:
                 self.standing[foot].add_movement()
@@ -193,7 +194,7 @@ class TwoSecondWindows(ActivityPart):
         """Return the likeliest movement after this window, by the hidden Markov model."""
         feet = [model.log_likelihoods(window) for window in windows.values()]
         share = 1.0 / BLOCKS
-        likelihoods = scaled_likelihoods([share * sum(values) for values in zip(*feet, strict=True)])
+        likelihoods = scaled_likelihoods([share * fsum(values) for values in zip(*feet, strict=True)])
         belief = self.belief
         self.belief = (
             bayes_update(UNIFORM_BELIEF, likelihoods)

@@ -15,7 +15,7 @@ Numbers without a source were chosen by hand."""
 from __future__ import annotations
 
 from collections import deque
-from math import radians, sqrt
+from math import fsum, radians, sqrt
 
 from ....types import Vec3
 from ....types.attrs import define, field, frozen
@@ -161,15 +161,15 @@ class FootWindows:
 
 def measure_window(blocks: deque[WindowBlock]) -> FootWindow | None:
     """Return the window of these blocks; None when it has too few samples."""
-    count = sum([block.count for block in blocks])
+    count = sum([block.count for block in blocks])  # whole numbers
     if count < FEWEST_SAMPLES:
         return None
     share = 1.0 / count
-    x, y, z = (share * sum([getattr(block, axis) for block in blocks]) for axis in "xyz")
+    x, y, z = (share * fsum([getattr(block, axis) for block in blocks]) for axis in "xyz")
     m1, m2, m3, energy = (
-        share * sum([getattr(block, name) for block in blocks]) for name in ("along", "square", "cube", "energy")
+        share * fsum([getattr(block, name) for block in blocks]) for name in ("along", "square", "cube", "energy")
     )
-    turns = sum([block.turns for block in blocks])
+    turns = sum([block.turns for block in blocks])  # whole numbers
     variance = max(0.0, m2 - m1 * m1)
     third = m3 - 3.0 * m1 * m2 + 2.0 * m1 * m1 * m1
     return FootWindow(
@@ -177,7 +177,7 @@ def measure_window(blocks: deque[WindowBlock]) -> FootWindow | None:
         mean=sqrt(x * x + y * y + z * z),
         variance=variance,
         skewness=third / (variance * sqrt(variance)) if variance > 1e-9 else 0.0,
-        turning=sum([block.turning for block in blocks]) / turns if turns >= FEWEST_SAMPLES else None,
+        turning=fsum([block.turning for block in blocks]) / turns if turns >= FEWEST_SAMPLES else None,
         across=max(0.0, energy - (m2 + 2.0 * GRAVITY * m1 + GRAVITY * GRAVITY)),
     )
 

@@ -12,7 +12,7 @@ with z up, as sensors with a magnetometer do. Or they are computed from accelera
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import atan2, cos, hypot, sin, sqrt
+from math import atan2, cos, fsum, hypot, sin, sqrt
 from typing import NamedTuple
 
 from ....calibration import Limbs
@@ -95,7 +95,7 @@ class LowerLimbs:
         """Set a new attitude of a sensor; the quaternion may have any length except 0."""
         if not all([-LARGEST_COMPONENT < part < LARGEST_COMPONENT for part in quat]):
             return
-        length = sqrt(sum([part * part for part in quat]))
+        length = sqrt(fsum([part * part for part in quat]))
         if length < 1.0 / LARGEST_COMPONENT:
             return
         k = 1.0 / length
