@@ -93,7 +93,7 @@ def test_every_sample_with_cells_is_shown_with_its_own_times() -> None:
     assert [(e.t, e.foot) for e in emitted] == [(s.t, s.site.foot) for s in fed if s.pressure]
     for event in emitted:
         assert len(event.values) == 24 and min(event.values) >= 0.0 and not event.final
-        assert event.force == fsum(event.values)
+        assert event.force == pytest.approx(fsum(event.values), rel=1e-12)
 
 
 def test_a_foot_that_has_not_stepped_yet_is_shown_as_its_cells_have_it() -> None:

@@ -1,4 +1,4 @@
-"""Floats are summed by `fsum`, which is exact: the rounding of `sum` differs between Python 3.11 and 3.12."""
+"""Floats are summed by `fsum` or in a loop: the rounding of `sum` differs between Python 3.11 and 3.12."""
 
 from __future__ import annotations
 

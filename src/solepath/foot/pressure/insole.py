@@ -11,10 +11,9 @@ The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
-from math import fsum
-from operator import itemgetter, mul
+from operator import itemgetter
 
 from ...calibration import Calibration, Newtons
 from ...types import Foot, Layout
@@ -137,16 +136,16 @@ class InsoleLoads:
             pairs = zip(cells, settings.noise, strict=True)
             cells = tuple([value - unloaded if value > unloaded else 0.0 for value, unloaded in pairs])
         self.cells = cells
-        total = self.sum = fsum(cells)
+        total = self.sum = total_of(cells)
         self.total.update(t, total)
         largest = max(cells) if cells else 0.0
         self.highest = max(self.highest * 0.9999, largest)
         heel = forefoot = None
         if self.layout is not None and len(cells) == len(self.layout.cells):
             if self.heel_cells:
-                heel = self.heel.update(t, fsum(make_picker(self.heel_cells)(cells)))
+                heel = self.heel.update(t, total_of(make_picker(self.heel_cells)(cells)))
             if self.forefoot_cells:
-                forefoot = self.forefoot.update(t, fsum(make_picker(self.forefoot_cells)(cells)))
+                forefoot = self.forefoot.update(t, total_of(make_picker(self.forefoot_cells)(cells)))
         low, high = self.total.low, self.total.high
         load_range = high - low
         if load_range <= LEAST_LOAD_RANGE * high or load_range <= 0.0:
@@ -195,10 +194,30 @@ class InsoleLoads:
         loads = [
             value - unloaded if value > unloaded else 0.0 for value, unloaded in zip(cells, self.tare, strict=True)
         ]
-        load = fsum(loads)
+        load, x_sum, y_sum = weighted_sums(loads, layout.xs, layout.ys)
         if load <= LEAST_LOAD * (self.total.high - self.total.low):
             return None
-        return (fsum(map(mul, layout.xs, loads)) / load, fsum(map(mul, layout.ys, loads)) / load)
+        return x_sum / load, y_sum / load
+
+
+def total_of(values: Iterable[float]) -> float:
+    """Return the sum of the values, from the first to the last.
+
+    A loop gives the same bits in every Python; `sum` does not, and `fsum` takes more than twice its time."""
+    total = 0.0
+    for value in values:
+        total += value
+    return total
+
+
+def weighted_sums(weights: Iterable[float], xs: Iterable[float], ys: Iterable[float]) -> tuple[float, float, float]:
+    """Return the sum of the weights, of weights times `xs`, and of weights times `ys`; all have one length."""
+    total = x_sum = y_sum = 0.0
+    for weight, x, y in zip(weights, xs, ys, strict=True):
+        total += weight
+        x_sum += weight * x
+        y_sum += weight * y
+    return total, x_sum, y_sum
 
 
 @lru_cache(maxsize=16)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from math import fsum
-from operator import mul
-
 from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from ...types.attrs import define, evolve, field
@@ -12,7 +9,7 @@ from ..limitations import Limitations
 from ..settings import FootSettings
 from ..stance.stance import Load
 from .cell_health import CellHealth
-from .insole import LEAST_LOAD, InsoleLoads
+from .insole import LEAST_LOAD, InsoleLoads, total_of, weighted_sums
 from .layout_guess import LayoutGuess
 
 
@@ -90,13 +87,14 @@ class Sole:
         if health.excluded or health.non_numeric:  # the calibration's cubic may turn 0 into a force
             failed_cells = {*health.excluded, *[i for i, _ in health.non_numeric]}
             values = tuple([0.0 if i in failed_cells else value for i, value in enumerate(values)])
-        force = fsum(values)  # in the unit of the cells
+        force = total_of(values)  # in the unit of the cells
         centre, layout = None, insole.layout
         if layout is not None and not self.layout_estimated and len(values) == len(layout.cells):
             # after a long time in the air the range of loads is small; then the highest cell value sets the limit
             least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
             if force > least_force:
-                centre = (fsum(map(mul, layout.xs, values)) / force, fsum(map(mul, layout.ys, values)) / force)
+                _, x_sum, y_sum = weighted_sums(values, layout.xs, layout.ys)
+                centre = (x_sum / force, y_sum / force)
         return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
 
     def _check_count(
