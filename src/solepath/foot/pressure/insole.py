@@ -191,10 +191,7 @@ class InsoleLoads:
         layout = self.layout
         if layout is None or not len(cells) == len(layout.cells) == len(self.tare):
             return None
-        loads = [
-            value - unloaded if value > unloaded else 0.0 for value, unloaded in zip(cells, self.tare, strict=True)
-        ]
-        load, x_sum, y_sum = weighted_sums(loads, layout.xs, layout.ys)
+        load, x_sum, y_sum = weighted_sums(cells, self.tare, layout.xs, layout.ys)
         if load <= LEAST_LOAD * (self.total.high - self.total.low):
             return None
         return x_sum / load, y_sum / load
@@ -210,13 +207,17 @@ def total_of(values: Iterable[float]) -> float:
     return total
 
 
-def weighted_sums(weights: Iterable[float], xs: Iterable[float], ys: Iterable[float]) -> tuple[float, float, float]:
-    """Return the sum of the weights, of weights times `xs`, and of weights times `ys`; all have one length."""
+def weighted_sums(
+    cells: Iterable[float], tare: Iterable[float], xs: Iterable[float], ys: Iterable[float]
+) -> tuple[float, float, float]:
+    """Return the sums of the loads above tare, of loads times `xs`, and of loads times `ys`; all have one length."""
     total = x_sum = y_sum = 0.0
-    for weight, x, y in zip(weights, xs, ys, strict=True):
-        total += weight
-        x_sum += weight * x
-        y_sum += weight * y
+    for value, unloaded, x, y in zip(cells, tare, xs, ys, strict=True):
+        if value > unloaded:
+            load = value - unloaded
+            total += load
+            x_sum += load * x
+            y_sum += load * y
     return total, x_sum, y_sum
 
 

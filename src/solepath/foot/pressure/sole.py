@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import repeat
+
 from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from ...types.attrs import define, evolve, field
@@ -93,7 +95,7 @@ class Sole:
             # after a long time in the air the range of loads is small; then the highest cell value sets the limit
             least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
             if force > least_force:
-                _, x_sum, y_sum = weighted_sums(values, layout.xs, layout.ys)
+                _, x_sum, y_sum = weighted_sums(values, repeat(0.0, len(values)), layout.xs, layout.ys)
                 centre = (x_sum / force, y_sum / force)
         return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
 
