@@ -21,7 +21,8 @@ from walks import insoles
 from watchers import ANYWHERE, Watcher, address, watch
 
 from solepath import ActivityChanged, Session
-from solepath.cli.bluetooth.live_run import LiveFiles, LiveSession
+from solepath.cli.bluetooth.live_files import LiveFiles
+from solepath.cli.bluetooth.live_run import LiveSession
 from solepath.show.page.scene.scene import Scene
 
 pytest.importorskip("aiohttp")

@@ -22,6 +22,7 @@ from solepath.calibration import ShoeGeometry
 from solepath.link.driver import Measured, Reading
 from solepath.link.reading_check import check_reading
 from solepath.recipes import DEFAULT
+from solepath.types.plain import has_floats, with_floats
 from solepath.wire.error import WireError
 
 KINDS: dict[str, Callable[[float], Any]] = {
@@ -67,6 +68,15 @@ def test_a_walk_in_numbers_of_another_kind_gives_the_same_events_and_can_be_save
     session.pack()
     exact = [evolve(plain(sample, KINDS[kind]), saturated=False) for sample in walk]
     assert events + session.finish() == run_session(exact, poses=True, pressures=True)
+
+
+@pytest.mark.parametrize("name", ["t", "known_at", "acc", "gyro", "mag", "air_pressure", "pressure", "saturated"])
+def test_one_number_of_another_kind_is_converted_and_a_sample_without_any_is_left_alone(name: str) -> None:
+    sample = evolve(samples()[0], mag=(1e-5, 0.0, 4e-5), air_pressure=101_325.0)
+    assert has_floats(sample)
+    changed = evolve(sample, **{name: getattr(foreign(sample, np.float64), name)})
+    assert not has_floats(changed)
+    assert has_floats(with_floats(changed)) and with_floats(changed) == sample
 
 
 @pytest.mark.parametrize("sequence", [list, np.array], ids=["lists", "arrays"])

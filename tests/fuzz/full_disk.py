@@ -26,7 +26,7 @@ RECORDER = """
 import sys
 from solepath.recording import PacketWriter, RecordingError, read_packets
 try:
-    with PacketWriter("new.jsonl") as writer:
+    with PacketWriter("new.jsonl", replace=True) as writer:
         for packet in read_packets("walk.jsonl"):
             writer.write(packet)
 except RecordingError as error:

@@ -38,8 +38,13 @@ LONGEST_ROUND = 120
 
 
 def limit_process() -> None:
-    """Limit the memory of a process, so that input cannot fill that of the machine."""
+    """Limit the memory of a process, so that input cannot fill that of the machine, and the time of a round."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    signal.signal(signal.SIGALRM, _raise_hang)
+
+
+def _raise_hang(number: int, frame: object) -> None:
+    raise TimeoutError(f"a round of more than {LONGEST_ROUND} s")
 
 
 def run_round(target: str, seed: int) -> tuple[int, int, str]:

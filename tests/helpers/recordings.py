@@ -18,8 +18,8 @@ PACKETS = [
 
 
 def recorded(path: Path, packets: Iterable[Packet], header: dict[str, Any] | None = None) -> Path:
-    """Write the packets into a recording and return its path."""
-    with PacketWriter(path, {} if header is None else header) as writer:
+    """Write the packets into a recording, in place of one that exists, and return its path."""
+    with PacketWriter(path, {} if header is None else header, replace=True) as writer:
         for packet in packets:
             writer.write(packet)
     return path

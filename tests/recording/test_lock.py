@@ -55,10 +55,10 @@ def test_the_lock_of_a_killed_writer_is_free(tmp_path: Path) -> None:
 def test_a_recording_stays_until_the_first_packet_comes(tmp_path: Path) -> None:
     path = recorded(tmp_path / "walk.jsonl", PACKETS)
     before = path.read_bytes()
-    with PacketWriter(path) as writer:
+    with PacketWriter(path, replace=True) as writer:
         assert writer.replaces and path.read_bytes() == before
     assert path.read_bytes() == before
-    with PacketWriter(path) as writer:
+    with PacketWriter(path, replace=True) as writer:
         writer.write(PACKETS[1])
         assert not writer.replaces
         assert list(read_packets(path)) == [PACKETS[1]]
@@ -68,9 +68,9 @@ def test_a_recording_that_must_not_be_replaced_is_named(tmp_path: Path) -> None:
     path = recorded(tmp_path / "walk.jsonl", PACKETS)
     before = path.read_bytes()
     with pytest.raises(RecordingError, match=r"walk\.jsonl: exists, and is not replaced"):
-        PacketWriter(path, replace=False)
+        PacketWriter(path)
     assert path.read_bytes() == before
-    PacketWriter(path).close()  # the lock is free
+    PacketWriter(path, replace=True).close()  # the lock is free
 
 
 def test_a_new_file_without_packets_has_a_header_or_is_removed(tmp_path: Path) -> None:
@@ -78,7 +78,7 @@ def test_a_new_file_without_packets_has_a_header_or_is_removed(tmp_path: Path) -
     assert read_header(tmp_path / "walk.jsonl")["note"] == "x"
     PacketWriter(tmp_path / "other.jsonl").discard()
     assert not (tmp_path / "other.jsonl").exists()
-    PacketWriter(tmp_path / "walk.jsonl").discard()
+    PacketWriter(tmp_path / "walk.jsonl", replace=True).discard()
     assert read_header(tmp_path / "walk.jsonl")["note"] == "x"
 
 
@@ -125,7 +125,7 @@ def test_values_that_json_does_not_have_cost_no_file_and_no_line(tmp_path: Path)
     before = path.read_bytes()
     with pytest.raises(TypeError):
         PacketWriter(path, {"note": b"bytes"})
-    with PacketWriter(path) as writer:
+    with PacketWriter(path, replace=True) as writer:
         with pytest.raises(TypeError):
             writer.write(Packet(1.0, Site.LEFT_FOOT, b"insole/frame", b""))  # type: ignore[arg-type]
         assert path.read_bytes() == before

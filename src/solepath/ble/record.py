@@ -13,7 +13,7 @@ from ..types import Packet
 
 
 async def record(
-    packets: AsyncIterable[Packet], path: Path | str, header: Mapping[str, Any] = {}
+    packets: AsyncIterable[Packet], path: Path | str, header: Mapping[str, Any] = {}, *, replace: bool = False
 ) -> AsyncIterator[Packet]:
     """Write each packet to the file and yield it, so that a replay feeds a session the same input.
 
@@ -21,9 +21,10 @@ async def record(
             session.feed(packet)
 
     `header` holds further keys of the first line. `began`, the date and time (UTC), and `began_t`, the same moment on
-    the packets' clock, s, are set by this function. Raises RecordingError when the file cannot be made or written any
-    further (the disk is full); packets already in the file stay intact."""
-    with PacketWriter(path, {**header, **start_keys()}) as writer:
+    the packets' clock, s, are set by this function. Raises RecordingError for a file with content, unless `replace` is
+    true, and when the file cannot be made or written any further (the disk is full); packets already in the file stay
+    intact."""
+    with PacketWriter(path, {**header, **start_keys()}, replace=replace) as writer:
         async for packet in packets:
             writer.write(packet)
             yield packet

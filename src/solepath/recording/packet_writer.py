@@ -27,10 +27,9 @@ class PacketWriter:
         with PacketWriter("walk.jsonl", {"began": "2026-11-21T09:30:00Z", "began_t": 12.5}) as writer:
             writer.write(packet)
 
-    From the start to `close` the file is locked: a second writer of the same file raises RecordingError and changes
-    nothing. An existing file is replaced when the first packet is written, so that it stays as it was if none comes;
-    with `replace=False` it is never replaced, and RecordingError is raised at once. A new file without packets has a
-    header.
+    A file with content is not replaced: RecordingError is raised at once. With `replace=True` it is replaced when the
+    first packet is written, so that it stays as it was if none comes. From the start to `close` the file is locked: a
+    second writer of the same file raises RecordingError and changes nothing. A new file without packets has a header.
 
     `count`: number of packets in the file. If the process is killed, written packets are safe, and the lock is free.
     RecordingError when the file cannot be opened or written, for example on a full disk. Then the file ends with its
@@ -39,7 +38,7 @@ class PacketWriter:
     have (bytes, dates); the file is then unchanged. Text that is not valid Unicode (half of a surrogate pair, as in the
     name of a file or device) is written as a JSON escape and read back as it was."""
 
-    def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, replace: bool = True) -> None:
+    def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, replace: bool = False) -> None:
         """Open and lock the file.
 
         `header`: further keys for the first line, for example `began` and `began_t` (protocol/recording.md), or the

@@ -29,23 +29,20 @@ def as_float(value: float) -> float:
 
 
 def has_floats(sample: Sample) -> bool:
-    """Return whether no number of the sample must be converted; it is called for every sample, and so is fast."""
-    acc, gyro, pressure = sample.acc, sample.gyro, sample.pressure
-    if acc is not None:
-        if acc.__class__ is not tuple or len(acc) != 3:
-            return False
-        x, y, z = acc
-        if not (x.__class__ is y.__class__ is z.__class__ is float):
-            return False
-    if gyro is not None:
-        if gyro.__class__ is not tuple or len(gyro) != 3:
-            return False
-        x, y, z = gyro
-        if not (x.__class__ is y.__class__ is z.__class__ is float):
-            return False
+    """Return whether no number of the sample must be converted; it is called for every sample, and so is fast.
+
+    A sample with an attitude is always converted, as the attitude is normalised anyway."""
+    for vector in (sample.acc, sample.gyro, sample.mag):
+        if vector is not None:
+            if vector.__class__ is not tuple or len(vector) != 3:
+                return False
+            x, y, z = vector
+            if not (x.__class__ is y.__class__ is z.__class__ is float):
+                return False
+    pressure = sample.pressure
     if pressure is not None and (pressure.__class__ is not tuple or not PLAIN_NUMBERS.issuperset(map(type, pressure))):
         return False
-    if sample.quat is not None or sample.mag is not None or sample.air_pressure is not None:
+    if sample.quat is not None or (sample.air_pressure is not None and sample.air_pressure.__class__ is not float):
         return False
     return sample.t.__class__ is sample.known_at.__class__ is float and sample.saturated.__class__ is bool
 

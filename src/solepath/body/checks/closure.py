@@ -75,9 +75,11 @@ def _steps(stride: ClosedStride) -> list[Step]:
         half_x, half_y, half_z = unit * tx, unit * ty, unit * tz
         x, y, z = before_x + half_x, before_y + half_y, before_z + half_z
         square = 0.25 * (x * x + y * y + z * z)
-        k = 0.5 - square * (1.0 / 12.0 - square / 240.0)  # sin(h) / (2 h), h half of the angle
+        # sin(h) / (2 h) and cos(h), h half of the angle, to 1e-5 up to an angle of 1.7 rad: a fast swing at 10 Hz
+        k = 0.5 - square * (1.0 / 12.0 - square * (1.0 / 240.0 - square / 10080.0))
+        e = 1.0 - square * (0.5 - square * (1.0 / 24.0 - square / 720.0))
         share = scale * duration
-        steps.append((1.0 - square * (0.5 - square / 24.0), k * x, k * y, k * z, share * ax, share * ay, share * az))
+        steps.append((e, k * x, k * y, k * z, share * ax, share * ay, share * az))
         before_x, before_y, before_z = half_x, half_y, half_z
     return steps
 
@@ -96,7 +98,6 @@ def _integrals(steps: list[Step], sign: float) -> tuple[list[Vec3], Matrix]:
             w * q - x * r + y * e + z * p,
             w * r + x * q - y * p + z * e,
         )
-        # the quaternion stays normalised to 1e-6 over a stride: the series of cos and sin are that good
         twice_x, twice_y, twice_z = x + x, y + y, z + z
         xx, yy, zz, xy = twice_x * x, twice_y * y, twice_z * z, twice_x * y
         xz, yz, wx, wy, wz = twice_x * z, twice_y * z, twice_x * w, twice_y * w, twice_z * w

@@ -43,7 +43,7 @@ GYROSCOPE = RangeKind("gyroscope", "rad/s", 2.0)
 
 
 def find_extremes(values: Sequence[Vec3]) -> Extremes:
-    """Return the extremes of every other sample of a block: a peak that is cut off has two neighbours, one of them."""
+    """Return the extremes of every other sample of a block, among which is one of any two neighbours at an end."""
     x, y, z = zip(*values[::2], strict=True)
     return max(x), -min(x), max(y), -min(y), max(z), -min(z)
 

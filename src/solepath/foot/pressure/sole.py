@@ -95,8 +95,8 @@ class Sole:
             # after a long time in the air the range of loads is small; then the highest cell value sets the limit
             least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
             if force > least_force:
-                _, x_sum, y_sum = weighted_sums(values, repeat(0.0, len(values)), layout.xs, layout.ys)
-                centre = (x_sum / force, y_sum / force)
+                load, x_sum, y_sum = weighted_sums(values, repeat(0.0, len(values)), layout.xs, layout.ys)
+                centre = (x_sum / load, y_sum / load)
         return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
 
     def _check_count(

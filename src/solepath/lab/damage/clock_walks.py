@@ -83,14 +83,11 @@ def read_walk(job: ClockJob) -> ClockWalk | str:
         if len(recording.tables) < 2:
             return "one foot"
         samples = recording
-    try:
-        for sample in samples:
-            events += session.feed(sample)
-            foot = sample.site.foot
-            if foot is not None and sample.acc is not None and sample.gyro is not None:
-                spans[foot] = (spans.get(foot, (sample.t, 0.0))[0], sample.t)
-    except RecordingError:
-        pass  # the samples before the fault count
+    for sample in samples:
+        events += session.feed(sample)
+        foot = sample.site.foot
+        if foot is not None and sample.acc is not None and sample.gyro is not None:
+            spans[foot] = (spans.get(foot, (sample.t, 0.0))[0], sample.t)
     of_feet = tuple([event for event in events if isinstance(event, FootEvent) and not is_clocks(event)])
     return ClockWalk(job, of_feet, spans, session.now or 0.0)
 

@@ -97,7 +97,7 @@ _KIND_BY_MONITOR_OPCODE = {
 
 def is_btsnoop(path: Path) -> bool:
     """Return whether the file starts as a btsnoop log does, which no pipe can be; RecordingError when unreadable."""
-    if path.exists() and not path.is_file() and not path.is_dir():
+    if _is_pipe(path):
         return False  # bytes that are read from a pipe here could not be read again
     with open_file(path) as file:
         return file.read(len(MAGIC)) == MAGIC
@@ -105,8 +105,13 @@ def is_btsnoop(path: Path) -> bool:
 
 def reject_pipe(path: Path) -> None:
     """Raise RecordingError if `path` is a pipe or a device, because logs are read more than once."""
-    if path.exists() and not path.is_file() and not path.is_dir():
+    if _is_pipe(path):
         raise RecordingError(path, "is a pipe or a device; it is read more than once, so it has to be a file")
+
+
+def _is_pipe(path: Path) -> bool:
+    """Return whether there is something at `path` that is neither a file nor a folder."""
+    return path.exists() and not path.is_file() and not path.is_dir()
 
 
 def read_records(
