@@ -18,6 +18,7 @@ from solepath.calibration import Calibration
 from solepath.calibration.file import read_calibration, write_calibration
 from solepath.recording import RecordingError, open_source, read_packets, read_samples
 from solepath.recording.samples import npz, sheet
+from solepath.recording.samples.npz import read_arrays
 
 MEMORY = 1_500_000_000
 """Largest size of the address space of a command, bytes; numpy alone takes some 600 MB of it."""
@@ -166,3 +167,16 @@ def test_a_calibration_that_cannot_be_written_whole_leaves_the_earlier_one(tmp_p
     done = subprocess.run([sys.executable, "-c", FULL_DISK, path], capture_output=True, text=True, check=True)
     assert done.stdout == f"{path} File too large\n"
     assert read_calibration(path) == Calibration(weight=700.0) and list(tmp_path.iterdir()) == [path]
+
+
+def test_the_list_of_a_data_set_that_is_too_large_is_not_read(tmp_path: Path) -> None:
+    (tmp_path / "openshoe_loops").mkdir()
+    with (tmp_path / "openshoe_loops" / "dataset.json").open("wb") as file:
+        file.truncate(10_000_000_000)  # a hole: it takes no space on the disk
+    assert "dataset.json: does not say which recordings there are" in complaint("evaluate", tmp_path)
+
+
+def test_a_truth_that_inflates_to_a_gigabyte_is_rejected_before_that(tmp_path: Path) -> None:
+    path = inflating(tmp_path / "walk.npz", 40_000_000, 960_000_000)
+    with pytest.raises(RecordingError, match=r"holds more than 100,000,000 numbers"):
+        read_arrays(path, lambda key: key in ("t", "acc"))

@@ -13,6 +13,8 @@ from solepath import Packet, Session
 from solepath.recording import RecordingError
 from solepath.recording.btsnoop import is_btsnoop, open_btsnoop
 from solepath.recording.btsnoop.att import AttOpcode
+from solepath.recording.btsnoop.log import MOST_ATTRIBUTES
+from solepath.recording.btsnoop.values import MOST_DEVICES
 
 
 def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path):
@@ -47,6 +49,45 @@ def test_records_that_the_logger_cut_short_or_dropped_are_counted(tmp_path):
     packets, reports = read(log, tmp_path)
     assert data_of(packets, "insole/frame") == [*frames()[:2]]
     assert reports == ["records that the logger cut short: 1", "records that the logger says it dropped: 7"]
+
+
+def test_an_insole_is_found_among_connections_that_never_end(tmp_path):
+    log = start_connection(Log())
+    for number in range(300):
+        log.connect(0x100 + number, f"D1:00:00:00:{number >> 8:02X}:{number & 255:02X}")
+        if number % 50 == 0:
+            log.notify(0x40, FRAME, frames()[number // 50])
+    packets, reports = read(log, tmp_path)
+    assert data_of(packets, "insole/frame") == [*frames()[:6]]
+    assert reports == ["connections beyond 100, each of which ended the longest silent one: 201"]
+
+
+def test_what_is_kept_of_a_log_is_limited_whatever_its_size(tmp_path):
+    log = start_connection(Log())
+    log.notify(0x40, FRAME, frames()[0])
+    for number in range(MOST_DEVICES + 10):
+        log.connect(number, f"D1:00:00:00:{number >> 8:02X}:{number & 255:02X}")
+        for handle in range(1 + MOST_ATTRIBUTES // MOST_DEVICES):
+            log.notify(number, handle, b"x")
+        log.acl(number, bytes(1000), sent=False, keep=slice(0, 2))  # its end is missing
+    reports = list[str]()
+    opened = open_btsnoop(log.save(tmp_path / "flood.log"), report=reports.append)
+    assert [packet.data for packet in opened if packet.channel == "insole/frame"] == [frames()[0]]
+    assert len(opened.devices) == MOST_DEVICES
+    assert sum(len(device.evidence_by_handle) for device in opened.devices.values()) == MOST_ATTRIBUTES
+    assert [report for report in reports if f"packets of more than {MOST_DEVICES} devices" in report]
+    assert [report for report in reports if f"values of more than {MOST_ATTRIBUTES:,} attributes" in report]
+
+
+def test_the_types_of_a_device_are_limited(tmp_path):
+    log = start_connection(Log())
+    for first in range(0x100, 0x800, 100):
+        types = b"".join(struct.pack("<HH", handle, 0x2A00) for handle in range(first, min(first + 100, 0x800)))
+        log.add_request(0x40, "040100ffff", b"\x05\x01" + types)
+    log.notify(0x40, FRAME, frames()[0])
+    packets, reports = read(log, tmp_path)
+    assert data_of(packets, "insole/frame") == [frames()[0]]
+    assert reports == [f"types of more than 500 attributes of a device, left out: {0x800 - 0x100 - 496}"]
 
 
 @given(cut=st.integers(min_value=1, max_value=10_000))

@@ -207,6 +207,16 @@ def test_whatever_a_recording_holds_can_be_exported(tmp_path):
     assert 1000 <= len(content_by_topic) < 1010
 
 
+def test_a_file_with_content_is_replaced_only_when_asked(tmp_path):
+    path = tmp_path / "walk.mcap"
+    path.write_bytes(b"of another program")
+    with pytest.raises(RecordingError, match="walk.mcap: exists, and is not replaced"):
+        McapWriter(path)
+    assert path.read_bytes() == b"of another program"
+    McapWriter(path, replace=True).close()
+    assert b"of another program" not in path.read_bytes()
+
+
 def test_what_cannot_be_written_is_one_clear_error(tmp_path):
     with pytest.raises(RecordingError, match="none/walk.mcap: no such file or directory"):
         McapWriter(tmp_path / "none" / "walk.mcap")

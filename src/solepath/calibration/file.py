@@ -41,11 +41,8 @@ def read_calibration(path: Path | str) -> Calibration:
         raise CalibrationError(f"{path}: is not a calibration")
     if document.get("version") != VERSION:
         raise CalibrationError(f"{path}: is of version {document.get('version')!r}; this release reads {VERSION}")
-    content = document.get("calibration")
-    if isinstance(content, dict):
-        content.setdefault("toe_out", {})  # older files have no toe_out and stay valid
     try:
-        calibration = load(Calibration, content)
+        calibration = load(Calibration, document.get("calibration"))
     except SnapshotError as error:
         content = str(error).removeprefix("not a snapshot of Calibration: ")
         raise CalibrationError(f"{path}: is not a calibration ({content})") from None

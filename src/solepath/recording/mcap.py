@@ -105,13 +105,21 @@ class McapWriter:
             for packet in read_packets("walk.jsonl"):
                 writer.write(packet)
 
-    An existing file is replaced. `header`: header of the recording that the packets come from. `profiles`: drivers of
-    an app's own devices, as for Session. `count`: number of packets written. `outside`: number of timestamps that were
-    outside the range of log times, and replaced by the nearest log time. RecordingError when the file cannot be
-    written, ValueError for a packet whose time is not finite. `close` writes the session's last results, and the index;
-    a file that was never closed has complete chunks but no index."""
+    A file with content is not replaced unless `replace` is true: RecordingError is raised at once. `header`: header of
+    the recording that the packets come from. `profiles`: drivers of an app's own devices, as for Session. `count`:
+    number of packets written. `outside`: number of timestamps that were outside the range of log times, and replaced by
+    the nearest log time. RecordingError when the file cannot be written, ValueError for a packet whose time is not
+    finite. `close` writes the session's last results, and the index; a file that was never closed has complete chunks
+    but no index."""
 
-    def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
+    def __init__(
+        self,
+        path: Path | str,
+        header: Mapping[str, Any] = {},
+        *,
+        profiles: Iterable[Driver] = (),
+        replace: bool = False,
+    ) -> None:
         self.path, self.count, self.outside = Path(path), 0, 0
         self._header = dict(header)
         self._session = Session(poses=True, profiles=profiles)
@@ -122,6 +130,9 @@ class McapWriter:
         self._zero_time: int | None = None
         """Time since 1970 at `t` = 0, ns; None until the first packet."""
         try:
+            has_content = self.path.is_file() and self.path.stat().st_size > 0
+            if has_content and not replace:
+                raise RecordingError(self.path, "exists, and is not replaced")
             self._file = self.path.open("wb")  # noqa: SIM115 - this class is the context manager
         except OSError as error:
             raise RecordingError(self.path, os_error_text(error)) from error

@@ -4,13 +4,13 @@ Positions are in m, x to the toe and y to the left, from the rear end of the hee
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 from ...calibration import Calibration, InsoleCalibration
 from ...recording import RecordingError
 from ...types import Cell, Foot, Layout
+from ..descriptions import read_description
 
 SWITCH_LAYOUT = 2
 """Layout number of marpino_heel_toe, whose first cell is a switch below the toe and the second one below the heel."""
@@ -48,7 +48,7 @@ def smart_insole(path: Path) -> Calibration:
     toe. Seen from above with y downwards that is a right foot. Raise RecordingError when the file has no cells."""
     about = path.parent / "dataset.json"
     try:
-        cell_positions: Sequence[tuple[float, float]] = json.loads(about.read_text(encoding="utf-8"))["cell_xy_mm"]
+        cell_positions: Sequence[tuple[float, float]] = read_description(about)["cell_xy_mm"]
         rear = max(y for _, y in cell_positions) + MARGIN
         front = min(y for _, y in cell_positions) - MARGIN
     except (OSError, ValueError, KeyError, TypeError) as error:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from pathlib import Path
@@ -12,6 +11,7 @@ from attrs import frozen
 from ...calibration import Calibration
 from ...recipes import Recipe
 from ...recording import RecordingError
+from ..descriptions import read_description
 from ..measures.score import Scored
 from ..processes import Progress, run_jobs
 from .datasets import DATASETS, EMULATED, DataSet
@@ -64,7 +64,7 @@ def recordings(folder: Path, data_set: DataSet) -> list[tuple[Path, Meta]]:
     recordings_found: list[tuple[Path, Meta]] = []
     for file in _description_files(folder, data_set):
         try:
-            entries: dict[str, Meta] = json.loads(file.read_text(encoding="utf-8"))["recordings"]
+            entries: dict[str, Meta] = read_description(file)["recordings"]
             recordings_found += [
                 (file.with_name(f"{name}.npz"), entries[name])
                 for name in sorted(entries)

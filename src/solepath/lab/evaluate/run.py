@@ -18,6 +18,7 @@ from ...calibration import Calibration, merged
 from ...events import Event
 from ...recipes import Recipe
 from ...recording.samples import load_samples
+from ...recording.samples.npz import read_arrays
 from ...session import Session
 from ...types import Foot, Sample, Vec3
 from ..measures.alignment import Floats
@@ -114,8 +115,7 @@ Arrays = dict[str, Any]
 
 def truth_of(path: Path) -> Arrays:
     """Return the arrays of the truth (names with gt_), the times and the pressure in a recording's file."""
-    with np.load(path, allow_pickle=False) as archive:
-        return {key: archive[key] for key in archive.files if key == "t" or key.startswith(("t_", "gt_", "pressure"))}
+    return read_arrays(path, lambda key: key == "t" or key.startswith(("t_", "gt_", "pressure")))
 
 
 def scored(path: Path, result: RecordingRun, **scores: Any) -> Scored:

@@ -6,15 +6,15 @@ standing up, bicycling and driving are none of the activities of this library, s
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
 from attrs import frozen
 
 from ...recording import RecordingError
+from ...recording.samples.npz import read_arrays
 from ...types import Activity
+from ..descriptions import read_description
 
 LABELS: dict[int, Activity] = {
     1: Activity.WALKING,
@@ -47,7 +47,7 @@ def recordings(folder: Path) -> list[LabelledRecording]:
     """Return the recordings in the folder of hugadb, sorted by name. Raise RecordingError when they are not listed."""
     about = folder / "dataset.json"
     try:
-        entries = json.loads(about.read_text(encoding="utf-8"))["recordings"]
+        entries = read_description(about)["recordings"]
         found = [LabelledRecording(folder / f"{name}.npz", int(entries[name]["subject"])) for name in sorted(entries)]
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise RecordingError(about, "does not say which recordings there are and who wore them") from error
@@ -56,10 +56,9 @@ def recordings(folder: Path) -> list[LabelledRecording]:
 
 def labels(path: Path) -> tuple[Sequence[float], list[Activity | None]]:
     """Return the times of the samples, s, and the activity of each; None for a sample without one of LABELS."""
-    with np.load(path, allow_pickle=False) as archive:
-        times: list[float] = archive["t"].tolist()
-        codes: list[int] = archive["activity"].tolist()
-    return times, [LABELS.get(code) for code in codes]
+    arrays = read_arrays(path, lambda key: key in ("t", "activity"))
+    times: list[float] = arrays["t"].tolist()
+    return times, [LABELS.get(code) for code in arrays["activity"].tolist()]
 
 
 FOLDS: tuple[frozenset[int], ...] = tuple(frozenset(wearers) for wearers in ((1, 12), (3, 15), (6,), (8,), (10,)))

@@ -58,6 +58,8 @@ FROM_CLIENT = REQUESTS | {AttOpcode.WRITE_COMMAND, AttOpcode.CONFIRMATION, AttOp
 
 DECLARATION_TYPE = "00002803-0000-1000-8000-00805f9b34fb"
 """Type of an attribute that declares a characteristic."""
+MOST_TYPES = 500
+"""Largest number of attributes of a device whose types are kept; the largest servers have some 200."""
 SMALLEST_MTU = 23
 """Smallest MTU (size of the largest PDU), which holds until client and server agree on another, bytes."""
 
@@ -197,7 +199,7 @@ class Conversation:
                 self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, body).mtu, request_body.mtu))
             case AttOpcode.INFORMATION, AttOpcode.FIND_INFORMATION:
                 for entry in parse_whole(INFORMATION, body).entries:
-                    self.types[entry.handle] = uuid_text(entry.type)
+                    self._add_type(entry.handle, uuid_text(entry.type))
             case AttOpcode.VALUES_BY_TYPE, AttOpcode.READ_BY_TYPE:
                 self._add_types(uuid_text(request_body.type), parse_whole(TYPE_RESPONSE, body))
             case AttOpcode.VALUE, AttOpcode.READ:
@@ -212,10 +214,16 @@ class Conversation:
         for entry in answer.entries:
             if kind == DECLARATION_TYPE:
                 declared = parse_whole(DECLARATION, entry.value)
-                self.types[declared.handle] = uuid_text(declared.type)
+                self._add_type(declared.handle, uuid_text(declared.type))
             else:
-                self.types[entry.handle] = kind
+                self._add_type(entry.handle, kind)
                 self._values.append(AttValue(AttOperation.READ, entry.handle, entry.value))
+
+    def _add_type(self, handle: int, kind: str) -> None:
+        if handle in self.types or len(self.types) < MOST_TYPES:
+            self.types[handle] = kind
+        else:
+            self.flaws[f"types of more than {MOST_TYPES} attributes of a device, left out"] += 1
 
     def _add_read(self, handle: int, value: bytes, newest_size: int | None = None) -> None:
         """Store the value read so far, and end the read unless the last answer filled the MTU.

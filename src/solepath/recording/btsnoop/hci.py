@@ -44,6 +44,8 @@ CONTINUING_FRAGMENT = 1
 """Packet boundary flag of an ACL packet that continues a PDU."""
 ATT_CHANNEL = 4
 """L2CAP channel of the attribute protocol."""
+MOST_CONNECTIONS = 100
+"""Largest number of connections at once; a controller has some ten. A damaged log may claim any number."""
 FIRST_DYNAMIC_CHANNEL = 0x40
 """First of the L2CAP channels that are opened on request, for example for the enhanced attribute protocol (EATT)."""
 
@@ -108,6 +110,7 @@ class Controller:
 
     flaws: Counter[str]
     _connections: dict[tuple[int, int], HciConnection] = field(factory=dict)
+    """Connections by adapter and handle; the one that has been silent longest is first."""
     _public_addresses: dict[int, str] = field(factory=dict)
     _random_addresses: dict[int, str] = field(factory=dict)
     _connection_count: int = 0
@@ -144,40 +147,47 @@ class Controller:
             complete = parse_whole(LE_CONNECTION_COMPLETE, parameters)
             if complete.status == 0:
                 handle = complete.handle & HANDLE_MASK
-                yield from self._remove_connection(record, handle)
-                yield ConnectionChange(
-                    record.t, self._add_connection(record, handle, address_text(complete.peer)), True
-                )
+                yield from self._remove_connection(record.t, (record.adapter, handle))
+                yield from self._make_room(record.t)
+                connection = self._add_connection(record.adapter, handle, address_text(complete.peer))
+                yield ConnectionChange(record.t, connection, True)
         elif event.code == DISCONNECTED:
             disconnection = parse_whole(DISCONNECTION_COMPLETE, parameters)
             if disconnection.status == 0:
-                yield from self._remove_connection(record, disconnection.handle & HANDLE_MASK)
+                yield from self._remove_connection(record.t, (record.adapter, disconnection.handle & HANDLE_MASK))
         elif event.code == COMMAND_COMPLETE and len(parameters) == READ_ADDRESS_COMPLETE.sizeof():
             completed = parse_whole(READ_ADDRESS_COMPLETE, parameters)
             if completed.opcode == READ_BD_ADDR and completed.status == 0:
                 self._public_addresses[record.adapter] = address_text(completed.address)
 
-    def _add_connection(self, record: HciRecord, handle: int, address: str) -> HciConnection:
-        connection = self._connections[record.adapter, handle] = HciConnection(
-            self._connection_count, record.adapter, handle, address
-        )
+    def _add_connection(self, adapter: int, handle: int, address: str) -> HciConnection:
+        connection = HciConnection(self._connection_count, adapter, handle, address)
+        self._connections[adapter, handle] = connection
         self._connection_count += 1
         return connection
 
-    def _remove_connection(self, record: HciRecord, handle: int) -> Iterator[ConnectionChange]:
-        connection = self._connections.pop((record.adapter, handle), None)
-        if connection is not None:
-            yield ConnectionChange(record.t, connection, False)
+    def _make_room(self, t: int) -> Iterator[ConnectionChange]:
+        """End the connection that has been silent longest if there are MOST_CONNECTIONS."""
+        if len(self._connections) >= MOST_CONNECTIONS:
+            self.flaws[f"connections beyond {MOST_CONNECTIONS}, each of which ended the longest silent one"] += 1
+            yield from self._remove_connection(t, next(iter(self._connections)))
 
-    def _handle_acl(self, record: HciRecord) -> Iterator[Pdu]:
+    def _remove_connection(self, t: int, key: tuple[int, int]) -> Iterator[ConnectionChange]:
+        connection = self._connections.pop(key, None)
+        if connection is not None:
+            yield ConnectionChange(t, connection, False)
+
+    def _handle_acl(self, record: HciRecord) -> Iterator[ConnectionChange | Pdu]:
         if len(record.data) < 4:
             self.flaws["records that are not HCI"] += 1
             return
         handle_and_flags, size = ACL_HEADER.parse(record.data)
         handle, boundary, body = handle_and_flags & HANDLE_MASK, handle_and_flags >> 12 & 3, record.data[4:]
-        connection = self._connections.get((record.adapter, handle))
+        connection = self._connections.pop((record.adapter, handle), None)
         if connection is None:
-            connection = self._add_connection(record, handle, "")
+            yield from self._make_room(record.t)
+            connection = self._add_connection(record.adapter, handle, "")
+        self._connections[record.adapter, handle] = connection  # as the newest
         if len(body) != size:
             if record.whole:
                 self.flaws["records that are not HCI"] += 1

@@ -5,6 +5,7 @@ log. The second reading makes the packets, so that an hour of a phone's log need
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime, timedelta
 from functools import partial
@@ -22,6 +23,9 @@ from .evidence import ValueEvidence
 from .hci import ConnectionChange
 from .records import reject_pipe
 from .values import LoggedValue, ValueListener
+
+MOST_ATTRIBUTES = 10_000
+"""Largest number of attributes of a log, of all devices, whose values are examined; a phone reads some ten of each."""
 
 
 @define
@@ -90,10 +94,7 @@ def open_btsnoop(
         for item in listener.listen():
             started_at = item.t if started_at is None else started_at
             if isinstance(item, LoggedValue):
-                device = devices.setdefault(item.device, LoggedDevice(item.device))
-                device.evidence_by_handle.setdefault(item.att_value.handle, ValueEvidence()).add_value(
-                    item.att_value.operation, item.att_value.value
-                )
+                _add_evidence(devices, item, listener.flaws)
     except RecordingError as error:
         damage = error  # iterating the result raises it again, after the packets before it
     used_handles: set[tuple[str, int]] = set()
@@ -116,6 +117,20 @@ def open_btsnoop(
     for sentence in omissions:
         report(f"{printable(str(path))}: {sentence}")
     return BtsnoopLog(path, devices, started_at or 0, path.stat().st_size)
+
+
+def _add_evidence(devices: dict[str, LoggedDevice], value: LoggedValue, flaws: Counter[str]) -> None:
+    """Add a value to what is known of its attribute, if it is one of the first MOST_ATTRIBUTES."""
+    device = devices.get(value.device)
+    if device is None:
+        device = devices[value.device] = LoggedDevice(value.device)
+    evidence = device.evidence_by_handle.get(value.att_value.handle)
+    if evidence is None:
+        if sum(len(one.evidence_by_handle) for one in devices.values()) >= MOST_ATTRIBUTES:
+            flaws[f"values of more than {MOST_ATTRIBUTES:,} attributes, left out"] += 1
+            return
+        evidence = device.evidence_by_handle[value.att_value.handle] = ValueEvidence()
+    evidence.add_value(value.att_value.operation, value.att_value.value)
 
 
 def _describe_omissions(devices: list[LoggedDevice], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:

@@ -13,6 +13,9 @@ from .att import FROM_CLIENT, AttValue, Conversation
 from .hci import ConnectionChange, Controller, HciConnection, Pdu
 from .records import read_records
 
+MOST_DEVICES = 500
+"""Largest number of devices of a log that are examined; a phone that sees other people's devices connects to few."""
+
 
 @frozen
 class LoggedValue:
@@ -70,6 +73,9 @@ class ValueListener:
         device = pdu.connection.peer if peer_is_server else pdu.own_address
         conversation = self._conversations.get((pdu.connection.number, peer_is_server))
         if conversation is None:
+            if device not in self.types and len(self.types) >= MOST_DEVICES:
+                self.flaws[f"packets of more than {MOST_DEVICES} devices, left out"] += 1
+                return
             types = self.types.setdefault(device, {})
             conversation = self._conversations[pdu.connection.number, peer_is_server] = Conversation(types, self.flaws)
         yield from (LoggedValue(pdu.t, pdu.connection, device, att_value) for att_value in conversation.feed(pdu.data))

@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 import tokenize
 import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from io import BytesIO
 from math import prod
 from pathlib import Path
@@ -43,8 +45,22 @@ ARCHIVE_ERRORS = (
 def read_npz(path: Path, one_foot: Foot) -> list[FootTable]:
     """Return the tables of the feet in the file, of which only the shapes are checked.
 
-    `one_foot`: foot of a file whose keys name no foot. The sizes that the archive and its arrays claim are compared
-    before anything is unpacked; RecordingError for more than MAX_VALUES numbers."""
+    `one_foot`: foot of a file whose keys name no foot. RecordingError as for `read_arrays`."""
+    with _open_archive(path) as archive:
+        return _read_tables(path, archive, one_foot)
+
+
+def read_arrays(path: Path, is_used: Callable[[str], bool]) -> dict[str, NDArray[Any]]:
+    """Return the arrays of an archive whose keys are used, in order.
+
+    The sizes that the archive and its arrays claim are compared before anything is unpacked. RecordingError for a file
+    that is no whole archive, and for more than MAX_VALUES numbers."""
+    with _open_archive(path) as archive:
+        return {key: archive.read(key) for key in archive.keys if is_used(key)}
+
+
+@contextmanager
+def _open_archive(path: Path) -> Iterator[_Archive]:
     with open_file(path) as file:
         stream: BinaryIO = file
         if not file.seekable():
@@ -63,7 +79,7 @@ def read_npz(path: Path, one_foot: Foot) -> list[FootTable]:
             raise RecordingError(
                 path, f"is not a whole .npz archive ({_describe_error(error)}); was it cut off?"
             ) from error
-        return _read_tables(path, archive, one_foot)
+        yield archive
 
 
 def _read_tables(path: Path, archive: _Archive, one_foot: Foot) -> list[FootTable]:

@@ -20,8 +20,6 @@ from .table import FootTable, check_units, remove_bad_rows
 
 NAMED_LEFT = re.compile(r"^left(?![a-z])|(?<![a-z])left$", re.IGNORECASE)
 """Pattern of the name of a file of the left foot alone, as left.csv and walk-left.csv."""
-SAMPLE_SUFFIXES = (".npz", ".csv")
-"""Suffixes of files that hold samples."""
 
 
 @frozen
@@ -49,12 +47,15 @@ def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
     one sentence about an incomplete last line, and about each of the first rows that are left out. RecordingError when
     nothing can be used, or if most rows cannot."""
     path = Path(path)
-    suffix = path.suffix.lower()
-    if suffix not in SAMPLE_SUFFIXES:
-        raise RecordingError(path, f"is neither {' nor '.join(SAMPLE_SUFFIXES)}, so it holds no samples")
     one_foot = foot or (Foot.LEFT if NAMED_LEFT.search(path.stem) else Foot.RIGHT)
     bad_rows = BadRows(path, report, "row")
-    tables = read_npz(path, one_foot) if suffix == ".npz" else read_csv(path, one_foot, bad_rows)
+    match path.suffix.lower():
+        case ".npz":
+            tables = read_npz(path, one_foot)
+        case ".csv":
+            tables = read_csv(path, one_foot, bad_rows)
+        case _:
+            raise RecordingError(path, "is neither .npz nor .csv, so it holds no samples")
     used_tables = [table for table in tables if foot in (None, table.foot)]
     if not tables:
         bad_rows.finish()
