@@ -16,7 +16,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import FULL_SCALE, layout
 from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, SampleRejected, StrideTaken
 from solepath.foot.pressure.cell_health import CellHealth
-from solepath.foot.pressure.cells import enclosed, spacing
+from solepath.foot.pressure.cells import enclosed
 from solepath.types import Cell, Foot, Layout, Phase, Sample
 
 WALK = Route().stand(1.5).walk(30.0, 1.3).stop(1.0)
@@ -45,7 +45,7 @@ def among_loading_cells(cells: int) -> int:
     pressed = [s.pressure for s in walk(cells) if s.site is LEFT and s.pressure is not None]
     highest = [max(values) for values in zip(*pressed, strict=True)]
     loading = [value > 0.2 * max(highest) for value in highest]
-    around = [i for i in range(cells) if loading[i] and enclosed(foot_layout, spacing(foot_layout), i, loading)[0]]
+    around = [i for i in range(cells) if loading[i] and enclosed(foot_layout, i, loading)[0]]
     return max(around, key=lambda i: (foot_layout.cells[i].x < 0.7 * foot_layout.length, highest[i]))
 
 
@@ -216,13 +216,13 @@ def grid(side: int) -> Layout:
 
 def test_a_cell_is_enclosed_when_cells_on_all_its_sides_load() -> None:
     foot_layout = grid(3)
-    assert spacing(foot_layout) == pytest.approx(0.01)
+    assert foot_layout.spacing == pytest.approx(0.01)
     loading = [True] * 9
     assert enclosed(foot_layout, 0.01, 4, loading) == (True, True)
     assert enclosed(foot_layout, 0.01, 3, loading) == (False, True)  # at the rim
     assert enclosed(foot_layout, 0.01, 4, [False] * 9) == (False, False)
     assert enclosed(foot_layout, 0.01, 4, [True] * 3 + [False] * 6) == (False, True)
-    assert spacing(Layout(1, Foot.LEFT, (Cell(0.0, 0.0),), 0.3)) == 0.0
+    assert Layout(1, Foot.LEFT, (Cell(0.0, 0.0),), 0.3).spacing == 0.0
 
 
 # --- any input ---

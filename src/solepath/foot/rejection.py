@@ -48,7 +48,7 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
     t, known_at = sample.t, sample.known_at
     if (
         not LEAST_TIME <= t <= ABSURD_TIME
-        or (known_at is not None and not LEAST_TIME <= known_at <= ABSURD_TIME)
+        or not LEAST_TIME <= known_at <= ABSURD_TIME
         or (newest is not None and t <= newest)
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
@@ -149,7 +149,7 @@ def rejected(sample: Sample, rejection: RejectionReason, newest: float | None) -
     t, known_at = sample.t, sample.known_at
     if not -ABSURD_TIME <= t <= ABSURD_TIME:
         t = 0.0 if newest is None else newest
-    if known_at is None or not t <= known_at <= ABSURD_TIME:
+    if not t <= known_at <= ABSURD_TIME:
         known_at = t
     return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail, defect=defect)
 

@@ -176,7 +176,7 @@ class FootTracker:
         rejection = rejection_reason(sample, t_last)
         if rejection is not None:
             return [rejected(sample, rejection, t_last)]
-        known_at = t if sample.known_at is None else max(t, sample.known_at)
+        known_at = sample.known_at if sample.known_at > t else t
         if acc is None and gyro is None and not sample.pressure:
             return []  # from a barometer or magnetometer, which a foot does not use
         events: list[Event] = []

@@ -105,8 +105,8 @@ class WearerParts:
             return events
         if known_tracker is None:
             self._add_tracker(tracker)
-        t, known_at = sample.t, sample.known_at
-        known_at = t if known_at is None or known_at < t else known_at
+        t = sample.t
+        known_at = sample.known_at if sample.known_at > t else t
         if tracker.viewed_at is None or t > tracker.viewed_at:
             tracker.viewed_at = t
         if not events and sample.air_pressure is None:  # the case of nearly all samples
@@ -220,8 +220,8 @@ class WearerParts:
         fault = wrong_time(sample)
         if fault is not None:
             return [rejected(sample, fault, None)]
-        site, t, known_at = sample.site, sample.t, sample.known_at
-        known_at = t if known_at is None or known_at < t else known_at
+        site, t = sample.site, sample.t
+        known_at = sample.known_at if sample.known_at > t else t
         events: list[Event] = []
         parts = [part for part in self.parts if site in part.sites]
         for part in parts:

@@ -16,6 +16,7 @@ from .records import Sample
 
 _Value = TypeVar("_Value")
 
+FLOAT = frozenset((float,))
 PLAIN_NUMBERS = frozenset((float, int))
 """Types of the numbers of pressure cells that are not converted; counts are whole numbers."""
 
@@ -29,9 +30,7 @@ def as_float(value: float) -> float:
 
 
 def has_floats(sample: Sample) -> bool:
-    """Return whether no number of the sample must be converted; it is called for every sample, and so is fast.
-
-    A sample with an attitude is always converted, as the attitude is normalised anyway."""
+    """Return whether no number of the sample must be converted; it is called for every sample, and so is fast."""
     for vector in (sample.acc, sample.gyro, sample.mag):
         if vector is not None:
             if vector.__class__ is not tuple or len(vector) != 3:
@@ -42,7 +41,10 @@ def has_floats(sample: Sample) -> bool:
     pressure = sample.pressure
     if pressure is not None and (pressure.__class__ is not tuple or not PLAIN_NUMBERS.issuperset(map(type, pressure))):
         return False
-    if sample.quat is not None or (sample.air_pressure is not None and sample.air_pressure.__class__ is not float):
+    quat = sample.quat
+    if quat is not None and (quat.__class__ is not tuple or len(quat) != 4 or not FLOAT.issuperset(map(type, quat))):
+        return False
+    if sample.air_pressure is not None and sample.air_pressure.__class__ is not float:
         return False
     return sample.t.__class__ is sample.known_at.__class__ is float and sample.saturated.__class__ is bool
 

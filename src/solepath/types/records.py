@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from enum import Enum
 from functools import cached_property, lru_cache
+from math import dist
 from struct import pack
 from typing import Any, SupportsIndex
 
@@ -221,6 +222,13 @@ class Layout:
     def ys(self) -> tuple[float, ...]:
         """Position of each cell along the foot's y axis, to the left, m."""
         return tuple([cell.y for cell in self.cells])
+
+    @cached_property
+    def spacing(self) -> float:
+        """Usual distance from one cell to the next, m; 0 with fewer than two cells."""
+        positions = [(cell.x, cell.y) for cell in self.cells]
+        nearest = [min([dist(a, b) for b in positions if b is not a], default=0.0) for a in positions]
+        return sorted(nearest)[len(nearest) // 2] if nearest else 0.0
 
 
 def shared(layout: Layout) -> Layout:

@@ -17,7 +17,7 @@ from __future__ import annotations
 from ...events import CellFault
 from ...types import Layout
 from ...types.attrs import frozen
-from .cells import CellSpan, enclosed, spacing
+from .cells import CellSpan, enclosed
 
 LIVELY_RANGE = 0.15
 """Range above which a cell is lively, as a share of the largest range."""
@@ -106,7 +106,7 @@ class CellWindow:
     def _should_load(self, i: int, layout: Layout | None, lively_windows: int) -> bool:
         if layout is None:
             return len(self.ranges) <= MOST_PRESSED_CELLS or lively_windows >= LIVELY_WINDOWS_ALONE
-        is_enclosed, any_neighbours = enclosed(layout, spacing(layout), i, self.find_lively())
+        is_enclosed, any_neighbours = enclosed(layout, i, self.find_lively())
         return is_enclosed or (lively_windows >= LIVELY_WINDOWS and any_neighbours)
 
 

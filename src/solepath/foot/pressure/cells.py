@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from math import atan2, fsum, hypot, pi
 
 from ...types import Layout
@@ -42,30 +41,15 @@ class CellSpan:
         self.low, self.high = min(self.low, total), max(self.high, total)
 
 
-@lru_cache(maxsize=8)
-def spacing(layout: Layout) -> float:
-    """Return the usual distance from one cell to the next, m; 0 with fewer than two cells."""
-    positions = [(cell.x, cell.y) for cell in layout.cells]
-    nearest_distances = sorted(
-        [
-            min([hypot(x - u, y - v) for j, (u, v) in enumerate(positions) if j != i])
-            for i, (x, y) in enumerate(positions)
-        ]
-        if len(positions) > 1
-        else [0.0]
-    )
-    return nearest_distances[len(nearest_distances) // 2]
-
-
-def enclosed(layout: Layout, cell_distance: float, i: int, loading: list[bool]) -> tuple[bool, bool]:
+def enclosed(layout: Layout, i: int, loading: list[bool]) -> tuple[bool, bool]:
     """Return whether loading neighbours lie on all sides of cell `i`, and whether at least two neighbours load.
 
-    `cell_distance` is the usual distance between cells, m; `loading` is True for each cell that loads."""
-    cell_i = layout.cells[i]
+    `loading` is True for each cell that loads."""
+    cell_i, farthest = layout.cells[i], NEIGHBOUR_DISTANCE * layout.spacing
     angles, unloaded_neighbours = [], 0
     for j, cell in enumerate(layout.cells):
         dx, dy = cell.x - cell_i.x, cell.y - cell_i.y
-        if j == i or hypot(dx, dy) > NEIGHBOUR_DISTANCE * cell_distance:
+        if j == i or hypot(dx, dy) > farthest:
             continue
         if loading[j]:
             angles.append(atan2(dy, dx))

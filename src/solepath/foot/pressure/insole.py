@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import lru_cache
+from math import fsum
 from operator import itemgetter
 
 from ...calibration import Calibration, Newtons
@@ -136,16 +137,16 @@ class InsoleLoads:
             pairs = zip(cells, settings.noise, strict=True)
             cells = tuple([value - unloaded if value > unloaded else 0.0 for value, unloaded in pairs])
         self.cells = cells
-        total = self.sum = total_of(cells)
+        total = self.sum = fsum(cells)
         self.total.update(t, total)
         largest = max(cells) if cells else 0.0
         self.highest = max(self.highest * 0.9999, largest)
         heel = forefoot = None
         if self.layout is not None and len(cells) == len(self.layout.cells):
             if self.heel_cells:
-                heel = self.heel.update(t, total_of(make_picker(self.heel_cells)(cells)))
+                heel = self.heel.update(t, fsum(make_picker(self.heel_cells)(cells)))
             if self.forefoot_cells:
-                forefoot = self.forefoot.update(t, total_of(make_picker(self.forefoot_cells)(cells)))
+                forefoot = self.forefoot.update(t, fsum(make_picker(self.forefoot_cells)(cells)))
         low, high = self.total.low, self.total.high
         load_range = high - low
         if load_range <= LEAST_LOAD_RANGE * high or load_range <= 0.0:
@@ -195,16 +196,6 @@ class InsoleLoads:
         if load <= LEAST_LOAD * (self.total.high - self.total.low):
             return None
         return x_sum / load, y_sum / load
-
-
-def total_of(values: Iterable[float]) -> float:
-    """Return the sum of the values, from the first to the last.
-
-    A loop gives the same bits in every Python; `sum` does not, and `fsum` takes more than twice its time."""
-    total = 0.0
-    for value in values:
-        total += value
-    return total
 
 
 def weighted_sums(

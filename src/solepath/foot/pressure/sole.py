@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import repeat
+from math import fsum
 
 from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
@@ -11,7 +12,7 @@ from ..limitations import Limitations
 from ..settings import FootSettings
 from ..stance.stance import Load
 from .cell_health import CellHealth
-from .insole import LEAST_LOAD, InsoleLoads, total_of, weighted_sums
+from .insole import LEAST_LOAD, InsoleLoads, weighted_sums
 from .layout_guess import LayoutGuess
 
 
@@ -89,7 +90,7 @@ class Sole:
         if health.excluded or health.non_numeric:  # the calibration's cubic may turn 0 into a force
             failed_cells = {*health.excluded, *[i for i, _ in health.non_numeric]}
             values = tuple([0.0 if i in failed_cells else value for i, value in enumerate(values)])
-        force = total_of(values)  # in the unit of the cells
+        force = fsum(values)  # in the unit of the cells
         centre, layout = None, insole.layout
         if layout is not None and not self.layout_estimated and len(values) == len(layout.cells):
             # after a long time in the air the range of loads is small; then the highest cell value sets the limit

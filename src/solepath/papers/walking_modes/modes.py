@@ -112,7 +112,7 @@ class Modes(TrackPart):
         wrong = self.limb_sensors.add_sample(sample, self.places.chain)
         if wrong is not None:
             return [rejected(sample, wrong, self.limb_sensors.times.get(sample.site))]
-        return self._resolve_pending(t, t if sample.known_at is None else max(t, sample.known_at))
+        return self._resolve_pending(t, max(t, sample.known_at))
 
     def reset(self, site: Site) -> None:
         self.places.chain.reset(site)
