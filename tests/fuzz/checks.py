@@ -7,7 +7,7 @@ from math import isfinite
 from random import Random
 from typing import Any
 
-from solepath import ActivityChanged, PacketRejected, Rejection, SampleRejected, Session
+from solepath import ActivityChanged, Packet, PacketRejected, Rejection, SampleRejected, Session
 from solepath.recipes import Recipe
 
 MOST_EVENTS = 5_000
@@ -51,7 +51,7 @@ class Checked:
             return
         self._check_events(events)
         if before is not None and events:
-            self._check_unchanged(before, events)
+            self._check_unchanged(before, item, events)
         if self.twin is not None:
             if self.twin.feed(item) != events:
                 raise Broken("a restored session gives other events")
@@ -93,10 +93,12 @@ class Checked:
                 if not event.final:
                     self.open_activities.add(event.t)
 
-    def _check_unchanged(self, before: bytes, events: list[Any]) -> None:
+    def _check_unchanged(self, before: bytes, item: Any, events: list[Any]) -> None:
         for event in events:
             if not isinstance(event, PacketRejected | SampleRejected):
                 return  # the item was used
+            if isinstance(event, SampleRejected) and isinstance(item, Packet):
+                return  # the packet was used, for the clock and the sequence of its link
             if isinstance(event, SampleRejected) and (event.defect is not None or event.site.foot is None):
                 return  # the unit of a foot without usable samples is kept, and the time of a limb far ahead
             is_counted = event.reason in (Rejection.TIME_BACKWARDS, Rejection.LATE)
