@@ -180,3 +180,14 @@ def test_a_truth_that_inflates_to_a_gigabyte_is_rejected_before_that(tmp_path: P
     path = inflating(tmp_path / "walk.npz", 40_000_000, 960_000_000)
     with pytest.raises(RecordingError, match=r"holds more than 100,000,000 numbers"):
         read_arrays(path, lambda key: key in ("t", "acc"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "size"),
+    [(("emulate", "--listen", "127.0.0.1:0", "--faults"), 1), (("evaluate", ".", "--compare"), 64)],
+)
+def test_the_file_of_an_option_has_a_limit(tmp_path: Path, arguments: tuple[str, ...], size: int) -> None:
+    path = tmp_path / "holes"
+    with path.open("wb") as file:
+        file.truncate(10_000_000_000)
+    assert f"holes: is larger than {size} MB" in complaint(*arguments, path)

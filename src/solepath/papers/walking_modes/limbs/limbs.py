@@ -181,7 +181,7 @@ class LowerLimbs:
             return f"no attitude, and no acceleration with angular velocity, of the {_names(missing)}"
         world_changed = [site for site in SEGMENTS if self.segments[site].world_changed]
         if world_changed:
-            return f"the sensor at the {_names(world_changed)} began anew, and its world with it"
+            return f"the sensor at the {_names(world_changed)} restarted, and its world with it"
         if not self.aligned:
             return "the wearer did not stand still before the first step"
         ages = [
