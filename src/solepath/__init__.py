@@ -66,11 +66,13 @@ if TYPE_CHECKING:
     from .floorplan.index import IndexedPlan
     from .floorplan.plan import FloorPlan, FloorPlanError, Start
     from .saving.codec import SnapshotError
+    from .session.arguments import ItemError
 
 _LAZY_NAMES = {
     "FloorPlan": "floorplan.plan",
     "FloorPlanError": "floorplan.plan",
     "IndexedPlan": "floorplan.index",
+    "ItemError": "session.arguments",
     "SnapshotError": "saving.codec",
     "Start": "floorplan.plan",
     "read_calibration": "calibration.file",
@@ -119,6 +121,7 @@ __all__ = [
     "HeelStrike",
     "IndexedPlan",
     "InsoleNeverUnloads",
+    "ItemError",
     "KeysChanged",
     "Layout",
     "LayoutKnown",

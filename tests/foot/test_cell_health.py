@@ -218,10 +218,10 @@ def test_a_cell_is_enclosed_when_cells_on_all_its_sides_load() -> None:
     foot_layout = grid(3)
     assert foot_layout.spacing == pytest.approx(0.01)
     loading = [True] * 9
-    assert enclosed(foot_layout, 0.01, 4, loading) == (True, True)
-    assert enclosed(foot_layout, 0.01, 3, loading) == (False, True)  # at the rim
-    assert enclosed(foot_layout, 0.01, 4, [False] * 9) == (False, False)
-    assert enclosed(foot_layout, 0.01, 4, [True] * 3 + [False] * 6) == (False, True)
+    assert enclosed(foot_layout, 4, loading) == (True, True)
+    assert enclosed(foot_layout, 3, loading) == (False, True)  # at the rim
+    assert enclosed(foot_layout, 4, [False] * 9) == (False, False)
+    assert enclosed(foot_layout, 4, [True] * 3 + [False] * 6) == (False, True)
     assert Layout(1, Foot.LEFT, (Cell(0.0, 0.0),), 0.3).spacing == 0.0
 
 

@@ -10,8 +10,8 @@ from here import ROOT
 SRC = ROOT / "src" / "solepath"
 CORE = ("types", "wire", "link", "foot", "body", "session", "events", "saving", "calibration", "papers", "floorplan")
 """Folders of what runs for a sample, or makes a state."""
-MARKS = ("# whole numbers", "# only compared: a last bit does not matter")
-"""Comments of lines that may use `sum` all the same."""
+MARK = "# whole numbers"
+"""Comment of a line that may use `sum` all the same."""
 NOT_THE_SAME = {"sumprod", "mean", "stdev", "pstdev", "variance", "pvariance", "linear_regression", "correlation"}
 """Functions of math and statistics that other versions of Python lack or round otherwise."""
 
@@ -41,7 +41,7 @@ def found_in(source: str) -> list[int]:
         if isinstance(node, ast.Attribute) and ast.unparse(node.value) in ("math", "statistics"):
             found += [node.lineno] if node.attr in NOT_THE_SAME else []
         is_sum = isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "sum"
-        if is_sum and not is_count(node.args[0]) and not lines[node.lineno - 1].endswith(MARKS):
+        if is_sum and not is_count(node.args[0]) and not lines[node.lineno - 1].endswith(MARK):
             found.append(node.lineno)
     return sorted(found)
 

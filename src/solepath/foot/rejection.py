@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import fsum, inf, isfinite
+from math import hypot, inf, isfinite
 from typing import NamedTuple
 
 from ..events import Defect, Rejection, SampleRejected
@@ -14,13 +14,13 @@ ABSURD_ACC = 500.0
 """Limit of each axis of a specific force, m/s^2; no foot sensor measures more."""
 ABSURD_GYRO = 100.0
 """Limit of each axis of an angular rate, rad/s; no foot sensor measures more."""
-ABSURD_TOTAL = 1e7
-"""Limit of the sum over all cells, N or counts, positive or negative; no insole measures more."""
+ABSURD_PRESSURE = 1e7
+"""Limit of the root of the sum of squares over all cells, and so of each cell, N or counts; no insole measures more."""
 ABSURD_TIME = 1e11
 """Limit of a time, s, positive or negative."""
 
-LEAST_TOTAL, LEAST_TIME = -ABSURD_TOTAL, -ABSURD_TIME
-"""Lower limits of the sum over all cells and of a time, s."""
+LEAST_TIME = -ABSURD_TIME
+"""Lower limit of a time, s."""
 VALID_ACC_SQUARE, VALID_GYRO_SQUARE = ABSURD_ACC**2, ABSURD_GYRO**2
 """Squared norms, (m/s^2)^2 and (rad/s)^2, below which each axis is certainly within its limit."""
 
@@ -69,13 +69,13 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
         return reason
     if sample.pressure:
         try:
-            total: float = sum(sample.pressure)  # only compared: a last bit does not matter
+            size = hypot(*sample.pressure)  # bounds each cell, as a sum does not
         except (OverflowError, TypeError):
-            total = inf
-        if not LEAST_TOTAL < total < ABSURD_TOTAL:
-            total = _total_of_numbers(sample.pressure)
-            if not LEAST_TOTAL < total < ABSURD_TOTAL:
-                amount = "hundreds of digits" if abs(total) == inf else f"{_format_number(total)} in all"
+            size = inf
+        if not size < ABSURD_PRESSURE:
+            size = _size_of_numbers(sample.pressure)
+            if not size < ABSURD_PRESSURE:
+                amount = "hundreds of digits" if size == inf else _format_number(size)
                 return RejectionReason(Rejection.ABSURD, f"pressure of {amount}")
     return None
 
@@ -108,10 +108,10 @@ def _absurd_value(name: str, value: float) -> RejectionReason:
     return RejectionReason(Rejection.ABSURD, detail)
 
 
-def _total_of_numbers(cells: tuple[float, ...]) -> float:
-    """Return the sum of the cells that are numbers; cell_health.py handles the others."""
+def _size_of_numbers(cells: tuple[float, ...]) -> float:
+    """Return the root of the sum of squares of the cells that are numbers; cell_health.py handles the others."""
     try:
-        return fsum([value for value in cells if value is not None and isfinite(value)])
+        return hypot(*[value for value in cells if value is not None and isfinite(value)])
     except OverflowError:  # an int may be too large for a float
         return inf
 

@@ -20,7 +20,7 @@ from math import isfinite
 
 from ..events import BatteryLevel, ClockReset, Connected, PacketRejected, Rejection, StreamResumed, StreamStale
 from ..types import Packet, Site
-from ..types.attrs import define, fields
+from ..types.attrs import NOT_SAVED, define, field, fields
 from ..wire.error import WireError
 from .device_link import DeviceLink, Output
 from .kinds import BUILT_IN_KINDS, DeviceKinds
@@ -63,10 +63,12 @@ class Decoder:
     """Arrival of the newest packet of a channel that must not fall silent, s."""
     stale: bool = False
     """True from StreamStale until StreamResumed."""
+    used: bool = field(default=False, init=False, metadata=NOT_SAVED)
+    """Flag: the packet of the last `feed` was used, though it may report an earlier one that was rejected."""
 
     def feed(self, packet: Packet, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
         """Return the samples and events of one packet, in the order in which they become known."""
-        t = packet.t
+        t, self.used = packet.t, False
         if not isfinite(t):
             return self._reject(packet, Rejection.NOT_FINITE, f"arrival time {t}")
         if not -MAX_ARRIVAL_TIME <= t <= MAX_ARRIVAL_TIME:
@@ -141,7 +143,7 @@ class Decoder:
         if prefix == "device" or prefix == "receiver":
             out = self._read_standard(packet) if prefix == "device" else self._read_receiver(packet)
             self.device = self.device or packet.device
-            self.newest_arrival, self.backward_packets = packet.t, 0
+            self.newest_arrival, self.backward_packets, self.used = packet.t, 0, True
             return self.advance(packet.t, kinds) + out
         kind = kinds.loaded.get(prefix) or kinds.get(prefix)
         if kind is None or packet.channel not in kind.profile.channel_names:
@@ -155,7 +157,7 @@ class Decoder:
         out = kind.feed(link, packet.channel, packet.data, packet.t)
         self.link = link
         self.device = self.device or packet.device
-        self.newest_arrival, self.backward_packets = packet.t, 0
+        self.newest_arrival, self.backward_packets, self.used = packet.t, 0, True
         if packet.channel not in kind.profile.streams:
             return self.advance(packet.t, kinds) + out
         if self.stale or (

@@ -13,6 +13,8 @@ from .driver import MAX_COUNTER, Measured, Reading
 
 MAX_VALUE = 1e8
 """Largest magnitude of a sensor value, SI units; the largest of a known device is 24 bits of Pa, which are 1.7e7."""
+MOST_KNOWN, LONGEST_NAME = 64, 80
+"""Largest number of known numbers of a device, and length of their names, characters; a driver here has three."""
 MIN_RATE, MAX_RATE = 0.1, 10_000.0
 """Smallest and largest rate that a reading may have, samples a second."""
 
@@ -77,7 +79,10 @@ def _check_sample(sample: object) -> None:
 
 
 def _check_layout(layout: Layout) -> None:
+    if type(layout.id) is not int:  # an enum or another kind of int is kept as it is, and could not be saved
+        raise malformed(f"the layout's id is a {type(layout.id).__name__}, not an int")
     _check_counter("the layout's id", layout.id)
+    _check_type("the layout's foot", layout.foot, Foot)
     for cell in _check_tuple("cells", layout.cells):
         _check_type("one of the layout's cells", cell, Cell)
     scale = 0.0 if layout.scale is None else layout.scale
@@ -88,9 +93,13 @@ def _check_layout(layout: Layout) -> None:
 def _check_known(known: object) -> None:
     if not isinstance(known, Mapping):
         raise malformed(f"known is a {type(known).__name__}, not a mapping")
+    if len(known) > MOST_KNOWN:
+        raise WireError(Rejection.ABSURD, f"{len(known)} known numbers")
     for name, value in known.items():
         if type(name) is not str:
             raise malformed(f"known has a name that is a {type(name).__name__}")
+        if len(name) > LONGEST_NAME or not name.isprintable():
+            raise malformed(f"known has the name {name!r:.80}")
         _check_number("known", value)
         if name == "acc_range" and not value > 0.0:
             raise WireError(Rejection.ABSURD, f"an acc_range of {value:g} g")

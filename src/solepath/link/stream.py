@@ -21,7 +21,7 @@ from .counters import PacketPosition, PacketRun, SampleTimes, signed_difference
 from .device_link import DeviceLink, Output
 from .driver import MIN_SAMPLE_TICKS, Driver, DriverSignature, Reading, TimeAxis
 from .periodic import PeriodicClock, make_periodic_clock
-from .reading_check import MIN_RATE, check_reading
+from .reading_check import MIN_RATE, MOST_KNOWN, check_reading
 
 MAX_PRESSURE_WAIT = 1.0
 """Time without samples after which air pressure no longer waits for a sample, s."""
@@ -113,6 +113,8 @@ class StreamLink(DeviceLink):
         """Raise WireError when a reading cannot be used."""
         if reading.foot is not None and reading.foot is not self.site.foot:
             raise WireError(Rejection.WRONG_SITE, f"of a {reading.foot.value} foot")
+        if reading.known and len(self.known.keys() | reading.known) > MOST_KNOWN:
+            raise WireError(Rejection.ABSURD, f"more than {MOST_KNOWN} known numbers")
         if reading.samples and channel not in driver.profile.streams:
             raise malformed(f"samples on {channel!r}, which is no stream")
         axis = self.signature.axis

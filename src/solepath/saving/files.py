@@ -73,17 +73,22 @@ class FileReplacements:
             return path
         if exists and not read_only:
             target.open("ab").close()
-        temporary = target.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
-        self._targets[temporary] = target  # before it exists: Ctrl-C may come between any two lines
-        try:
-            temporary.open("xb").close()
-            if exists:
+        while True:
+            temporary = target.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
+            self._targets[temporary] = target  # before it exists: Ctrl-C may come between any two lines
+            try:
+                temporary.open("xb").close()
+                break
+            except FileExistsError:
+                del self._targets[temporary]  # of another program, or of one that was killed: containers repeat numbers
+            except OSError as error:
+                raise OSError(error.errno, error.strerror, str(path)) from None
+        if exists:
+            try:
                 _copy_mode(target, temporary)  # the new file has the same permissions
                 temporary.chmod(temporary.stat().st_mode | S_IWUSR)
-        except OSError as error:
-            if isinstance(error, FileExistsError):
-                del self._targets[temporary]  # the file belongs to another program and stays
-            raise OSError(error.errno, error.strerror, str(path)) from None
+            except OSError as error:
+                raise OSError(error.errno, error.strerror, str(path)) from None
         return temporary
 
     def move_to_targets(self) -> None:

@@ -7,11 +7,23 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from ..calibration import Calibration, CalibrationError
+from ..events import Event
 from ..types.plain import make_plain, number
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
     from ..floorplan.plan import FloorPlan, Start
+
+
+class ItemError(TypeError):
+    """Error of one of several items of `Session.feed`: it is neither packet nor sample, or has values of wrong types.
+
+    `number` is its place among them, from 0, and `events` are those of the items before it, which were used. The items
+    after it were not."""
+
+    def __init__(self, number: int, reason: TypeError, events: list[Event]) -> None:
+        super().__init__(f"item {number}: {reason}")
+        self.number, self.events = number, events
 
 
 def check_calibration(calibration: Calibration) -> Calibration:

@@ -19,7 +19,8 @@ from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
-from .arguments import check_calibration, check_now, check_start, index_floorplan
+from ..types.plain import flag
+from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
 from .state import SessionState
 from .wearer import WearerParts, WearerSettings, sort_by_key
 
@@ -42,8 +43,8 @@ class Session:
 
     `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
     give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
-    that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy), after using the
-    items before it, and ValueError after `finish`.
+    that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy): for one of several,
+    ItemError, with the events of those before it. It raises ValueError after `finish`.
 
     Latency: zero velocity and live position are known with the sample; heel-strike and toe-off with the next one
     (before a first push-off, swing after 0.15 s, or 0.4 s right after a heel-strike); foot-flat and the stride that it
@@ -67,7 +68,8 @@ class Session:
         own_calibration = Calibration() if calibration is None else check_calibration(calibration)
         self._plan = index_floorplan(floorplan)
         plan = None if self._plan is None else self._plan.fingerprint
-        wearer = WearerParts(WearerSettings(own(recipe), own_calibration, poses, pressures, plan))
+        with_poses, with_pressures = flag("poses", poses), flag("pressures", pressures)
+        wearer = WearerParts(WearerSettings(own(recipe), own_calibration, with_poses, with_pressures, plan))
         if start is not None:
             wearer.find_attribute("set_out")(check_start(start, self._plan))
         wearer.set_plan(self._plan)
@@ -90,10 +92,13 @@ class Session:
         if not isinstance(data, Iterable) or isinstance(data, str | bytes):
             raise TypeError(f"feed takes packets or samples, not {type(data).__name__}")
         events: list[Event] = []
-        for item in data:
-            if not isinstance(item, (Packet, Sample)):
-                raise TypeError(f"feed takes packets or samples, not {type(item).__name__}")
-            events += self.feed(item)
+        for number, item in enumerate(data):
+            try:
+                if not isinstance(item, (Packet, Sample)):
+                    raise TypeError(f"feed takes packets or samples, not {type(item).__name__}")
+                events += self.feed(item)
+            except TypeError as error:
+                raise ItemError(number, error, events) from error
         return events
 
     def advance(self, now: float) -> list[Event]:
@@ -112,6 +117,7 @@ class Session:
         """Bind `site` to another device, "" for the next that sends, and forget the old layout, ranges and clock."""
         if not isinstance(site, Site) or not isinstance(device, str):
             raise TypeError("a Site is bound to the address of a device, a str")
+        device = str(device)  # text of numpy cannot be saved
         if not is_address(device):
             raise ValueError(f"{device!r:.80} is no address of a device")
         state = self._state
@@ -174,6 +180,9 @@ class Session:
         copied = type(self).__new__(type(self))
         copied._kinds, copied._plan, copied._state = self._kinds, self._plan, deepcopy(self._state, memo)
         return copied
+
+    def __copy__(self) -> Session:
+        return self.__deepcopy__({})
 
     def __reduce__(self) -> tuple[Any, ...]:
         from .snapshot import own_classes

@@ -44,17 +44,18 @@ class SessionState:
         is_text = isinstance(packet.channel, str) and isinstance(packet.device, str)
         if not (is_text and isinstance(site, Site) and isinstance(data, bytes | bytearray | memoryview)):
             raise TypeError("a packet holds a time, a Site, a channel's name, bytes and a device's address")
-        if packet.t.__class__ is not float:
-            packet = evolve(packet, t=number("t of a packet", packet.t))
+        texts_plain = packet.device.__class__ is packet.channel.__class__ is str
+        if not (texts_plain and packet.t.__class__ is float and data.__class__ is bytes):
+            t, channel, device = number("t of a packet", packet.t), str(packet.channel), str(packet.device)
+            packet = evolve(packet, t=t, channel=channel, data=bytes(data), device=device)
         decoder = self.decoders.get(site) or Decoder(site)
         items = decoder.feed(packet, kinds)
-        for item in items:
-            if isinstance(item, PacketRejected):
-                # a rejected packet changes nothing, so time does not pass with it either
-                if site not in self.decoders:
-                    return [event for event in items if isinstance(event, PacketRejected)]
-                self.use_items(site, items, events)
-                return events
+        if not decoder.used:
+            # a rejected packet changes nothing, so time does not pass with it either
+            if site not in self.decoders:
+                return [event for event in items if isinstance(event, PacketRejected)]
+            self.use_items(site, items, events)
+            return events
         if site not in self.decoders:
             self.decoders = sort_by_key({**self.decoders, site: decoder}, Site)
         for other_site, other_decoder in self.decoders.items():

@@ -5,7 +5,7 @@ State made of other numbers could not be saved: a comparison of two numpy.float6
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Set
 from math import inf
 from typing import Any, TypeVar
 
@@ -63,14 +63,15 @@ def with_floats(sample: Sample) -> Sample:
         mag=_floats("mag", sample.mag, 3),
         pressure=_cells(sample.pressure),
         air_pressure=None if sample.air_pressure is None else number("air_pressure of a sample", sample.air_pressure),
-        saturated=_flag("saturated", sample.saturated),
+        saturated=flag("saturated of a sample", sample.saturated),
     )
 
 
 def number(what: str, value: Any) -> float:
     """Return a number as a float; raise TypeError, naming `what` it is, for anything else, also for text."""
+    kind = getattr(getattr(value, "dtype", None), "kind", "f")  # of numpy: no complex numbers, and no dates
     try:
-        if not isinstance(value, str | bytes | bytearray):
+        if kind in "biufO" and not isinstance(value, str | bytes | bytearray):
             return as_float(value)
     except (TypeError, ValueError):
         pass
@@ -81,28 +82,37 @@ def _floats(name: str, values: Any, count: int) -> Any:
     """Return a vector of `count` floats; None stays None."""
     if values is None:
         return None
-    numbers = tuple(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes) else ()
+    numbers = tuple(values) if _is_sequence(values) else ()
     if len(numbers) != count:
         raise TypeError(f"{name} of a sample is {count} numbers, not {values!r:.80}")
     return tuple([number(f"{name} of a sample", value) for value in numbers])
+
+
+def _is_sequence(values: Any) -> bool:
+    """Return whether there are values in an order; arrays have no common class."""
+    return isinstance(values, Iterable) and not isinstance(values, str | bytes | bytearray | Set | Mapping)
 
 
 def _cells(values: Any) -> tuple[float, ...] | None:
     """Return the loads of pressure cells as floats; a cell that was not measured stays None."""
     if values is None:
         return None
-    if not isinstance(values, Iterable) or isinstance(values, str | bytes):
+    if not _is_sequence(values):
         raise TypeError(f"pressure of a sample is a number for each cell, not {values!r:.80}")
     cells: Any = [None if value is None else number("pressure of a sample", value) for value in values]
     return tuple(cells)
 
 
-def _flag(name: str, value: Any) -> bool:
+def flag(what: str, value: Any) -> bool:
     """Return a flag as a bool; flags of numpy are not bools themselves, but equal one."""
-    flag = next((flag for flag in (False, True) if flag is value or value == flag), None)
-    if flag is None or isinstance(value, str | bytes):
-        raise TypeError(f"{name} of a sample is True or False, not {value!r:.80}")
-    return flag
+    if not isinstance(value, str | bytes):
+        for one in (False, True):
+            try:
+                if value is one or bool(value == one):
+                    return one
+            except (TypeError, ValueError):  # a missing value of pandas, an array
+                break
+    raise TypeError(f"{what} is True or False, not {value!r:.80}")
 
 
 def make_plain(value: _Value) -> _Value:

@@ -15,10 +15,12 @@ A cell is "lively" in a window in which it both loads and unloads. The numbers w
 
 from __future__ import annotations
 
+from math import hypot
+
 from ...events import CellFault, CellsFailed, Event, InsoleNeverUnloads
 from ...types import Layout, Phase, Site, Vec3
 from ...types.attrs import define, field
-from ..rejection import ABSURD_TOTAL
+from ..rejection import ABSURD_PRESSURE
 from .cell_window import LIVELY_WINDOWS_ALONE, CellWindow, unloads
 from .cells import CellSpan
 
@@ -102,7 +104,7 @@ class CellHealth:
             return events
         self.wrong_count = None
         try:
-            all_numeric = -ABSURD_TOTAL < sum(cells) < ABSURD_TOTAL  # only compared: a last bit does not matter
+            all_numeric = hypot(*cells) < ABSURD_PRESSURE
         except (TypeError, OverflowError):
             all_numeric = False
         if self.non_numeric or not all_numeric:
@@ -259,4 +261,4 @@ class CellHealth:
 
 
 def _is_number(value: float | None) -> bool:
-    return value is not None and -ABSURD_TOTAL < value < ABSURD_TOTAL
+    return value is not None and -ABSURD_PRESSURE < value < ABSURD_PRESSURE
