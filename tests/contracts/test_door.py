@@ -7,6 +7,7 @@ import pickle
 from collections.abc import Callable
 from copy import copy, deepcopy
 from decimal import Decimal
+from enum import IntEnum
 from fractions import Fraction
 from typing import Any
 
@@ -16,7 +17,20 @@ from attrs import evolve
 from toys import BOTH
 from walks import LEFT, insoles, machines, of, run_session, samples
 
-from solepath import Calibration, Cell, Foot, Layout, Packet, PacketRejected, Placed, Rejection, Sample, Session
+from solepath import (
+    Calibration,
+    Cell,
+    Foot,
+    ItemError,
+    Layout,
+    Packet,
+    PacketRejected,
+    Placed,
+    Rejection,
+    Sample,
+    SampleRejected,
+    Session,
+)
 from solepath.body.checks.sensors import SensorChecks, SensorChecksSettings
 from solepath.calibration import ShoeGeometry
 from solepath.link.driver import Measured, Reading
@@ -102,6 +116,11 @@ def test_vectors_may_be_lists_and_arrays(sequence: Callable[[Any], Any]) -> None
         {"air_pressure": "x"},
         {"air_pressure": (1.0,)},
         {"saturated": "no"},
+        {"saturated": np.array([True, False])},
+        {"acc": {1.0, 2.0, 3.0}},
+        {"gyro": bytearray(3)},
+        {"air_pressure": np.complex64(1.0)},
+        {"air_pressure": np.datetime64(5, "ns")},
         {"t": "1.0"},
         {"known_at": "now"},
     ],
@@ -115,6 +134,42 @@ def test_a_value_that_is_no_number_is_a_type_error_that_names_it_and_changes_not
     with pytest.raises(TypeError, match=next(iter(change))):
         session.feed(evolve(samples()[300], **change))
     assert session.snapshot() == snapshot
+
+
+def test_the_events_before_an_item_that_cannot_be_used_come_with_the_error() -> None:
+    walk, whole = samples(), Session()
+    wrong = evolve(walk[700], acc=(None, None, None))
+    session = Session()
+    with pytest.raises(ItemError, match="item 700: acc of a sample") as raised:
+        session.feed([*walk[:700], wrong, *walk[700:]])
+    assert raised.value.number == 700
+    assert raised.value.events + session.feed(walk[700:]) == whole.feed(walk)
+    with pytest.raises(ItemError, match="item 1: feed takes packets or samples, not str"):
+        session.feed([evolve(walk[-1], t=walk[-1].t + 0.01), "x"])
+
+
+@pytest.mark.parametrize(
+    "pressure", [(1e30, 5e12, -1e30), (1e308, -1e308) * 4, (10**400, -(10**400)), (5.0, -1e7)], ids=repr
+)
+def test_cells_that_cancel_each_other_are_absurd_in_every_python(pressure: tuple[float, ...]) -> None:
+    session = Session()
+    session.feed(samples()[0])
+    before = session.snapshot()
+    (rejection,) = session.feed(evolve(samples()[1], pressure=pressure))
+    assert isinstance(rejection, SampleRejected) and rejection.reason is Rejection.ABSURD
+    assert session.snapshot() == before
+
+
+def test_texts_and_flags_of_numpy_can_be_saved() -> None:
+    address = np.str_("C0:FF:EE:00:00:01")
+    packets = [evolve(one, device=address, channel=np.str_(one.channel)) for one in insoles().packets[:50]]
+    session = Session(poses=np.bool_(True), pressures=np.bool_(False), devices={LEFT: address})
+    session.feed([packet for packet in packets if packet.site is LEFT])
+    session.feed(evolve(packets[-1], site=LEFT, t=packets[-1].t + 1.0, data=memoryview(np.zeros((4, 2), np.uint8))))
+    assert Session.restore(json.loads(json.dumps(session.snapshot()))).pack() == session.pack()
+    for wrong in ("yes", 2, None):
+        with pytest.raises(TypeError, match="poses is True or False"):
+            Session(poses=wrong)
 
 
 def test_times_of_packets_and_of_advance_may_be_of_another_kind() -> None:
@@ -161,6 +216,10 @@ def test_a_reader_that_gives_numbers_of_numpy_is_rejected_in_words() -> None:
         (Reading(samples=(Measured(acc=(np.float64(0.0), 0.0, 9.81)),)), "acc is a float64"),
         (Reading(battery=np.float64(0.5)), "battery is a float64"),
         (Reading(layout=Layout(1, Foot.LEFT, cells, 0.28)), "layout is a float64"),
+        (Reading(layout=Layout(1, "left", (), 0.28)), "layout's foot is a str"),
+        (Reading(layout=Layout(IntEnum("Sizes", "SMALL")(1), Foot.LEFT, (), 0.28)), "layout's id is a Sizes"),
+        (Reading(known={"a\ud800": 1.0}), "known has the name"),
+        (Reading(known={f"number {k}": 1.0 for k in range(65)}), "65 known numbers"),
     ):
         with pytest.raises(WireError, match=words):
             check_reading(reading)
@@ -203,8 +262,35 @@ def test_a_copy_of_a_session_keeps_the_floor_plan_and_the_parts_of_the_app() -> 
         assert one.feed(machine.items[half:]) == events
 
 
+def test_a_subclass_of_session_is_copied_with_its_attributes_and_pickles_itself() -> None:
+    class Watched(Session):
+        pass
+
+    session = Watched()
+    session.wearer = ["Ann"]
+    session.feed(samples()[:100])
+    for copied in (copy(session), deepcopy(session)):
+        assert copied.wearer == ["Ann"] and copied.wearer is not session.wearer
+        assert isinstance(copied, Watched) and copied.pack() == session.pack()
+    with pytest.raises(TypeError, match="Watched is pickled"):
+        pickle.dumps(session)
+
+
+def test_what_is_known_of_a_device_does_not_grow_without_bound() -> None:
+    names = iter(range(1000))
+
+    def reader(sent: Any, known: Any) -> Reading:
+        return Reading(known={f"number {next(names)}": 1.0})
+
+    driver = evolve(BOTH, readers={"toy/data": reader})
+    session = Session(profiles=[driver])
+    data = driver.write("toy/data", {"number": 1, "ticks": 0, "count": 1, "up": [9.8]})
+    events = session.feed([Packet(0.01 * k, LEFT, "toy/data", data) for k in range(100)])
+    assert [event.detail for event in of(PacketRejected, events)] == ["more than 64 known numbers"] * 36
+
+
 def test_a_session_with_devices_of_the_app_is_copied_but_not_pickled_and_gives_the_reason() -> None:
     session = Session(profiles=[BOTH])
-    assert isinstance(deepcopy(session), Session)
+    assert deepcopy(session).snapshot() == copy(session).snapshot() == session.snapshot()
     with pytest.raises(TypeError, match=r"snapshot.*restore"):
         pickle.dumps(session)

@@ -118,6 +118,16 @@ def test_no_packet_is_lost_after_a_reboot_and_the_track_goes_on(uptime: float) -
     assert hypot(end.position[0] - moved.position.position[0], end.position[1] - moved.position.position[1]) < 1.0
 
 
+def test_restarting_the_clock_again_without_data_adds_no_uncertainty() -> None:
+    session = Session()
+    session.feed([packet for packet in insoles().packets if packet.t < 5.0])
+    session.restart_clock(4.0)
+    once = session.position
+    for now in (1.0, 2.0, 3.0):
+        session.restart_clock(now)
+    assert session.position == once
+
+
 @pytest.mark.parametrize("uptime", [4.0, 90_000.0])
 def test_no_sample_is_lost_after_a_reboot_and_the_track_goes_on(uptime: float) -> None:
     walk = samples(cells=0)

@@ -20,6 +20,7 @@ from decoded import (
 )
 from walks import of
 
+from solepath import Session
 from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection
 from solepath.link.decoder import Decoder
 from solepath.link.devices.insole import InsoleLink
@@ -174,6 +175,16 @@ def test_a_frame_in_fragments_that_is_rejected_changes_nothing_but_its_fragments
     assert rejected.reason is Rejection.WRONG_LAYOUT
     decoder.link.reassembly = codec.load(type(decoder.link.reassembly), before["link"]["is"]["reassembly"])
     assert codec.save(decoder) == before
+
+
+def test_a_fragment_that_reports_the_loss_of_an_earlier_frame_is_used_itself() -> None:
+    session = Session()
+    first, _, *_ = fragment_packets(0, 0)
+    begins, *rest = fragment_packets(1, 1)
+    session.feed(first)
+    [rejected] = session.feed(begins)
+    assert isinstance(rejected, PacketRejected) and session.now == begins.t > first.t
+    assert not of(PacketRejected, session.feed(rest))
 
 
 def test_fragments_without_end_do_not_fill_the_memory() -> None:

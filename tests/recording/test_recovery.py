@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import resource
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from math import dist
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from attrs import evolve
 from quoted import PAGES, blocks
 from walks import insoles, of
 
-from solepath import ClockReset, PacketRejected, Session, StrideTaken
+from solepath import ClockReset, Packet, PacketRejected, Rejection, Session, StrideTaken
 from solepath.recording import PacketWriter, RecordingWarning, read_packets
 
 CUT, TORN, FULL, REBOOTED = blocks(PAGES["docs/recovery.md"], "python")
@@ -29,9 +30,7 @@ Run = Callable[..., dict[str, Any]]
 def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Return a function that runs programs of the page in a folder with the recording of half a walk."""
     monkeypatch.chdir(tmp_path)
-    with PacketWriter("walk.jsonl") as writer:
-        for packet in PACKETS[:HALF]:
-            writer.write(packet)
+    record("walk-0001.jsonl", PACKETS[:HALF])
 
     def run_programs(*programs: str) -> dict[str, Any]:
         names: dict[str, Any] = {"__name__": "page"}
@@ -42,34 +41,67 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     return run_programs
 
 
+def record(name: str, packets: Sequence[Packet]) -> None:
+    with PacketWriter(name) as writer:
+        for packet in packets:
+            writer.write(packet)
+
+
+def fed(packets: Sequence[Packet]) -> Session:
+    session = Session()
+    session.feed(packets)
+    return session
+
+
 def test_a_recording_that_was_cut_gives_the_session_up_to_its_last_whole_line(run: Run) -> None:
-    whole = Path("walk.jsonl").read_bytes()
-    Path("walk.jsonl").write_bytes(whole[:-30])
+    path = Path("walk-0001.jsonl")
+    path.write_bytes(path.read_bytes()[:-30])
     with pytest.warns(RecordingWarning, match="cut off"):
         session = run(CUT)["session"]
-    undisturbed = Session()
-    undisturbed.feed(PACKETS[: HALF - 1])
+    undisturbed = fed(PACKETS[: HALF - 1])
     assert session.pack() == undisturbed.pack()
     assert session.feed(PACKETS[HALF - 1 :]) == undisturbed.feed(PACKETS[HALF - 1 :])
 
 
-@pytest.mark.parametrize("damage", ["torn", "changed", "absent", "none"])
-def test_a_snapshot_that_was_torn_is_found_out_and_the_recording_replayed(run: Run, damage: str) -> None:
+@pytest.mark.parametrize("damage", ["torn", "changed", "nested", "no session", "absent", "none"])
+@pytest.mark.parametrize("saved_after", [HALF // 3, HALF, HALF + 200])
+def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run, damage: str, saved_after: int) -> None:
+    record("walk-0002.jsonl", PACKETS[HALF : HALF + 300])
     names = run(CUT, TORN)
+    if saved_after > HALF:
+        names["save"](fed(PACKETS[:saved_after]), "walk-0002.jsonl", saved_after - HALF)
+    else:
+        names["save"](fed(PACKETS[:saved_after]), "walk-0001.jsonl", saved_after)
     saved = Path("session.json")
     text = saved.read_text()
     if damage == "torn":
         saved.write_text(text[: len(text) // 2])
     elif damage == "changed":
         changed = json.loads(text)
-        changed["state"]["now"] += 1.0
+        changed["session"]["state"]["now"] += 1.0
         saved.write_text(json.dumps(changed))
+    elif damage == "nested":
+        saved.write_text("[" * 100_000)
+    elif damage == "no session":
+        saved.write_text("{}")
     elif damage == "absent":
         saved.unlink()
-    session = names["resume"]()
-    undisturbed = Session()
-    undisturbed.feed(PACKETS[:HALF])
-    assert session.feed(PACKETS[HALF:]) + session.finish() == undisturbed.feed(PACKETS[HALF:]) + undisturbed.finish()
+    session, undisturbed = names["resume"](), fed(PACKETS[: HALF + 300])
+    assert session.pack() == undisturbed.pack()
+    rest = PACKETS[HALF + 300 :]
+    assert session.feed(rest) + session.finish() == undisturbed.feed(rest) + undisturbed.finish()
+
+
+def test_a_replay_of_two_recordings_restarts_the_clock_between_them(run: Run) -> None:
+    record("walk-0002.jsonl", [evolve(packet, t=packet.t - PACKETS[HALF].t) for packet in PACKETS[HALF:]])
+    resumed, whole = run(CUT, TORN)["session"], fed(PACKETS)
+    position, expected = resumed.position, whole.position
+    assert position is not None and expected is not None
+    assert dist(position.position, expected.position) < 1.0 < expected.position[0]
+    session = run(CUT)["replay"](Session(), "walk-0001.jsonl")
+    first, *rest = read_packets("walk-0002.jsonl")
+    session.restart_clock(first.t)
+    assert not of(PacketRejected, session.feed([first, *rest]))
 
 
 @pytest.fixture
@@ -83,25 +115,34 @@ def full_disk() -> Iterator[Callable[[int | None], None]]:
 def test_on_a_full_disk_the_walk_goes_on_and_its_packets_are_written_when_there_is_space(
     run: Run, full_disk: Callable[[int | None], None], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    names = run(CUT, FULL)
-    events = [event for packet in PACKETS[HALF : HALF + 50] for event in names["received"](packet)]
-    full_disk(Path("next.jsonl").stat().st_size + 700)
+    names = run(CUT, TORN, FULL)
+    received, recording = names["received"], Path(names["recording"])
+    assert recording == Path("walk-0002.jsonl")
+    events = [event for packet in PACKETS[HALF : HALF + 50] for event in received(packet)]
+    full_disk(recording.stat().st_size + 700)
     for packet in PACKETS[HALF + 50 : HALF + 150]:
-        events += names["received"](packet)
-    assert 50 <= len(list(read_packets("next.jsonl"))) < 60
+        events += received(packet)
+    assert 50 <= len(list(read_packets(recording))) < 60
+    with pytest.raises(OSError, match="too large"):
+        names["save"](names["session"], recording.name, 0)
     full_disk(None)
+    assert len(names["waiting"]) > 40
+    names["save"](names["session"], recording.name, names["writer"].count + len(names["waiting"]))
+    timeless = evolve(PACKETS[HALF + 150], t=float("nan"))
+    assert [event.reason for event in received(timeless)] == [Rejection.NOT_FINITE]
     for packet in PACKETS[HALF + 150 :]:
-        events += names["received"](packet)
-    assert tuple(read_packets("next.jsonl")) == PACKETS[HALF:]
-    undisturbed = Session()
-    undisturbed.feed(PACKETS[:HALF])
-    assert events == undisturbed.feed(PACKETS[HALF:])
+        events += received(packet)
+    assert tuple(read_packets(recording)) == PACKETS[HALF:]
+    assert events == fed(PACKETS[:HALF]).feed(PACKETS[HALF:])
+    assert names["resume"]().pack() == names["session"].pack()
     assert "safe" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("shift", [-1e5, -3.0, 1e5], ids=["after a reboot", "set back by 3 s", "set forward"])
 def test_after_a_reboot_no_packet_is_lost_and_the_track_continues(run: Run, shift: float) -> None:
-    position = run(CUT, TORN)["session"].position
+    names = run(CUT, TORN)
+    position = names["session"].position
+    names["save"](names["session"], "walk-0001.jsonl", HALF)
     names = run(CUT, TORN, REBOOTED)
     session = names["session"]
     assert {event.site for event in of(ClockReset, names["events"])} == {packet.site for packet in PACKETS}

@@ -63,7 +63,7 @@ class Decoder:
     """Arrival of the newest packet of a channel that must not fall silent, s."""
     stale: bool = False
     """True from StreamStale until StreamResumed."""
-    used: bool = field(default=False, init=False, metadata=NOT_SAVED)
+    used: bool = field(default=False, init=False, eq=False, metadata=NOT_SAVED)
     """Flag: the packet of the last `feed` was used, though it may report an earlier one that was rejected."""
 
     def feed(self, packet: Packet, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:

@@ -179,6 +179,8 @@ class Session:
         memo.update({id(one): one for one in (self._plan, self._state.wearer.settings)})
         copied = type(self).__new__(type(self))
         copied._kinds, copied._plan, copied._state = self._kinds, self._plan, deepcopy(self._state, memo)
+        if type(self) is not Session:
+            vars(copied).update(deepcopy(vars(self), memo))
         return copied
 
     def __copy__(self) -> Session:
@@ -187,6 +189,8 @@ class Session:
     def __reduce__(self) -> tuple[Any, ...]:
         from .snapshot import own_classes
 
+        if type(self) is not Session:
+            raise TypeError(f"how a {type(self).__name__} is pickled is for its own __reduce__ to say")
         if self._kinds.drivers:
             text = "a session with devices of the app is not pickled"
             raise TypeError(f"{text}: use snapshot(), and restore(profiles=...)")
