@@ -180,10 +180,10 @@ def test_a_frame_in_fragments_that_is_rejected_changes_nothing_but_its_fragments
 def test_a_fragment_that_reports_the_loss_of_an_earlier_frame_is_used_itself() -> None:
     session = Session()
     first, _, *_ = fragment_packets(0, 0)
-    begins, *rest = fragment_packets(1, 1)
+    start, *rest = fragment_packets(1, 1)
     session.feed(first)
-    [rejected] = session.feed(begins)
-    assert isinstance(rejected, PacketRejected) and session.now == begins.t > first.t
+    [rejected] = session.feed(start)
+    assert isinstance(rejected, PacketRejected) and session.now == start.t > first.t
     assert not of(PacketRejected, session.feed(rest))
 
 

@@ -36,15 +36,14 @@ class Session:
 
     `recipe` holds the parts. `calibration` describes the wearer, shoes and insoles. `poses` also emits FootMoved, the
     live position at every sample, and WearerMoved after every stride. `pressures` emits FootPressed, the loads of an
-    insole's cells. `devices` gives the address of the device at a site (`Packet.device`, in upper or lower case); a
-    site without an address is bound to the first device that sends. `profiles` are the app's own devices. `floorplan`
-    can be an IndexedPlan that many sessions share. `start` is the wearer's first place on the plan. Raises ValueError
-    for impossible values of these arguments.
+    insole's cells. `devices` gives the address of the device at a site (`Packet.device`, in any case); a site without
+    one is bound to the first device that sends. `profiles` are the app's own devices. `floorplan` can be an IndexedPlan
+    that many sessions share. `start` is the wearer's first place on the plan. Raises ValueError for impossible values.
 
     `feed`, `advance` and `finish` return events in the order in which they became known. `feed` accepts any bytes: they
     give events, never an exception, unless the app's own reader or part raises one. It raises TypeError for an item
-    that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy): for one of several,
-    ItemError, with the events of those before it. It raises ValueError after `finish`.
+    that is neither packet nor sample, or has values of wrong types (numbers may be those of numpy; for one of several,
+    ItemError, with the events before it), and ValueError after `finish`.
 
     Latency: zero velocity and live position are known with the sample; heel-strike and toe-off with the next one
     (before a first push-off, swing after 0.15 s, or 0.4 s right after a heel-strike); foot-flat and the stride that it
@@ -110,7 +109,7 @@ class Session:
         return [] if self._state.finished else self._state.restart_clock(check_now(now))
 
     def finish(self) -> list[Event]:
-        """Return the events that were held back; the session can still be read, but no longer fed."""
+        """Return the events that were held back; the session can still be read, but not fed."""
         return [] if self._state.finished else self._state.finish()
 
     def bind(self, site: Site, device: str) -> None:
@@ -197,7 +196,7 @@ class Session:
         return _resume, (self.snapshot(), own_classes(self._state), self._plan)
 
     def snapshot(self) -> dict[str, Json]:
-        """Return the whole state as plain data for JSON; this takes some milliseconds."""
+        """Return the whole state as plain data for JSON, in some milliseconds."""
         from .snapshot import take_snapshot
 
         return take_snapshot(self._state)
