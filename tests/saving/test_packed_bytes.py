@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tracemalloc
+import zlib
 from functools import cache
 from typing import Any
 
@@ -16,7 +18,7 @@ from solepath import Foot, Session, SnapshotError
 from solepath.saving.codec import no_class
 from solepath.saving.packed import Streams, read
 from solepath.saving.schema import record_of
-from solepath.saving.streams import from_bytes, to_bytes
+from solepath.saving.streams import LARGEST_BODY, from_bytes, to_bytes
 from solepath.session.packed import HEADER
 
 FEW = settings(max_examples=40)
@@ -87,9 +89,19 @@ def test_damage_behind_a_right_checksum_is_always_rejected(data: st.DataObject, 
 
 @pytest.mark.parametrize("counts", [(2**32 - 1,) * 4, (2**31, 0, 0, 0), (0, 2**31, 0, 0), (0, 0, 2**31, 0), (0,) * 4])
 def test_counts_of_what_is_not_there_take_no_memory(counts: tuple[int, ...]) -> None:
-    body = b"".join([count.to_bytes(4, "little") for count in counts]) + bytes(16)
+    body = zlib.compress(b"".join([count.to_bytes(4, "little") for count in counts]) + bytes(16))
     with pytest.raises(SnapshotError):
         Session.unpack(signed(packed()[: HEADER.size] + body))
+
+
+def test_bytes_that_inflate_to_a_gigabyte_are_rejected_before_that() -> None:
+    deflater = zlib.compressobj()
+    body = b"".join([deflater.compress(bytes(1_000_000)) for _ in range(1000)]) + deflater.flush()
+    tracemalloc.start()
+    with pytest.raises(SnapshotError, match="no state has more than"):
+        Session.unpack(signed(packed()[: HEADER.size] + body))
+    assert tracemalloc.get_traced_memory()[1] < 4 * LARGEST_BODY
+    tracemalloc.stop()
 
 
 def test_other_versions_forms_and_schemas_are_rejected_by_name() -> None:
@@ -99,7 +111,7 @@ def test_other_versions_forms_and_schemas_are_rejected_by_name() -> None:
     for header, what in (
         ((form, 0, made_with), "version 0"),
         ((form, 9999, made_with), "version 9999"),
-        ((form + 1, version, made_with), "form 3"),
+        ((form + 1, version, made_with), "form 4"),
         ((form, version, made_with ^ 1), "its schema is another"),
         ((form, 1, made_with), "version 1"),
     ):
@@ -111,7 +123,7 @@ def test_what_is_left_over_in_any_of_the_streams_is_rejected() -> None:
     floats, ints, flags, data = from_bytes(memoryview(packed())[HEADER.size :])
     for more in ([[], [], [], []], [[0.5], [], [], []], [[], [0], [], []], [[], [], [False], []], [[], [], [], [b"x"]]):
         streams: Any = [floats + more[0], ints + more[1], flags + more[2], [data, *more[3]]]
-        saved = signed(packed()[: HEADER.size] + to_bytes(*streams, (0.0, 0.0)))
+        saved = signed(packed()[: HEADER.size] + to_bytes(*streams))
         if any(more):
             with pytest.raises(SnapshotError, match="more is packed than a session holds"):
                 Session.unpack(saved)
@@ -139,10 +151,6 @@ class Worded:
 
 _FLOATS = st.one_of(
     st.floats(allow_nan=False, allow_infinity=False),
-    st.floats(allow_nan=False, allow_infinity=False, width=32),
-    st.integers(-40_000, 40_000).map(float),
-    st.integers(-40_000, 40_000).map(lambda k: k / 1e4),
-    st.integers(-5000, 5000).map(lambda k: k * 0.05000000074505806),
     st.sampled_from([0.0, -0.0, 5e-324, 1.7976931348623157e308, 3.4028235677973366e38, 2.0**53]),
 )
 
@@ -152,13 +160,17 @@ _FLOATS = st.one_of(
     st.lists(st.one_of(st.integers(), st.integers(-300, 300), st.integers(-(2**70), 2**70))),
     st.lists(st.booleans()),
     st.lists(st.binary()),
-    st.tuples(_FLOATS, st.sampled_from([0.0, 1.0, 0.05000000074505806])),
 )
-@example([1.5, 1.5, 0.1, 0.1, 0.1, -0.0, 0.1], [-(2**63), 2**63, 2**53, -(2**53)], [], [], (0.0, 0.0))
-@example([], [2**53 - 1, 2**53 + 1, -(2**53) - 1], [], [], (0.0, 0.0))
+@example([1.5, 1.5, 0.1, -0.0, 0.1], [-(2**63), 2**63, 2**63 - 1, 1 - 2**63], [], [])
 @settings(max_examples=100)
 def test_every_number_comes_back_to_the_bit(
-    floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: tuple[float, float]
+    floats: list[float], ints: list[int], flags: list[bool], data: list[bytes]
 ) -> None:
-    found = from_bytes(memoryview(to_bytes(floats, ints, flags, data, units)))
+    found = from_bytes(to_bytes(floats, ints, flags, data))
     assert repr(found) == repr((floats, ints, flags, b"".join(data)))
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), -float("inf")])
+def test_a_number_that_is_not_finite_is_not_packed(number: float) -> None:
+    with pytest.raises(ValueError, match="not finite"):
+        to_bytes([0.0, number], [], [], [])

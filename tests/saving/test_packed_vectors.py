@@ -94,7 +94,7 @@ def used() -> Wardrobe:
 def body_of(one: Wardrobe, made: bool) -> bytes:
     lists: Lists = ([], [], [], [])
     write(record_of(Wardrobe, made), one, lists)
-    return to_bytes(*lists, (0.0, 0.0))
+    return to_bytes(*lists)
 
 
 @pytest.mark.parametrize("made", [False, True], ids=["whole", "state"])
@@ -135,7 +135,8 @@ def test_a_state_of_the_file_is_read_by_the_schema_beside_it(state: dict[str, An
 
 def test_the_first_state_of_the_file_is_what_is_packed_today() -> None:
     (state,) = FILE["states"]
-    assert state["hex"] == body_of(used(), made=True).hex()
+    # another zlib may compress in another way
+    assert zlib.decompress(bytes.fromhex(state["hex"])) == zlib.decompress(body_of(used(), made=True))
     assert state["schema"] == describe(record_of(Wardrobe, made=True))
 
 
@@ -160,7 +161,7 @@ def test_every_session_is_read_by_the_printed_schema_alone() -> None:
     for session in sessions():
         data = session.pack()
         magic, form, version, made_with, check = HEADER.unpack_from(data)
-        assert (magic, form, version) == (b"sole", 2, documented["version"])
+        assert (magic, form, version) == (b"sole", 3, documented["version"])
         assert made_with == zlib.crc32(json.dumps(documented["session"], separators=(",", ":")).encode())
         assert check == zlib.crc32(data[:12] + bytes(4) + data[16:])
         tree = Tree(documented["session"], documented["parts"], data[16:])
@@ -199,8 +200,8 @@ def test_a_body_holds_the_documented_values(body: dict[str, Any]) -> None:
             found = {"floats": floats, "ints": ints, "flags": [bool(flag) for flag in flags], "bytes": rest}
             assert repr(found) == repr(expected)
         return
-    with pytest.raises(ValueError, match="too|not|no double"):
+    with pytest.raises(ValueError, match="too|not"):
         streams(data)
     # nothing but these, which unpacking turns into SnapshotError
-    with pytest.raises((ValueError, IndexError, StopIteration)):
+    with pytest.raises((ValueError, struct.error, zlib.error)):
         from_bytes(memoryview(data))

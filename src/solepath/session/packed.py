@@ -20,7 +20,7 @@ from ..saving.codec import Classes, SnapshotError
 from ..saving.limits import MAX_SIZE, shorten
 from ..saving.packed import Lists, Streams, read, write
 from ..saving.schema import describe, record_of, schema_checksum
-from ..saving.streams import Units, from_bytes, to_bytes
+from ..saving.streams import from_bytes, to_bytes
 from ..types import Foot, shared
 from ..types.attrs import define
 from .snapshot import check_names, make_class_lookup
@@ -28,7 +28,7 @@ from .state import VERSION, SessionState
 from .wearer import WearerParts, WearerSettings
 
 MAGIC = b"sole"
-FORM = 2
+FORM = 3
 HEADER = Struct("<4sHHII")
 
 MAX_TEMPLATES = 16
@@ -76,21 +76,13 @@ def pack(state: SessionState) -> bytes:
     try:
         write(HEAD, head, lists)
         write(STATE, state, lists)
-        body = to_bytes(*lists, _units(wearer))
+        body = to_bytes(*lists)
     except (ValueError, KeyError, OverflowError) as error:
         raise SnapshotError(f"a packed session cannot hold this: {error}") from error
     if HEADER.size + len(body) > MAX_SIZE:
         raise SnapshotError(f"a packed session cannot have more than {MAX_SIZE} bytes")
     start = HEADER.pack(MAGIC, FORM, VERSION, _schema_check(), 0)
     return HEADER.pack(MAGIC, FORM, VERSION, _schema_check(), crc32(body, crc32(start))) + body
-
-
-def _units(wearer: WearerParts) -> Units:
-    """Return the load of one count of a cell, N, for the left and the right foot; 0 when unknown."""
-    feet = [wearer.feet.get(foot) for foot in Foot]
-    layouts = [None if foot is None else foot.sole.insole.layout for foot in feet]
-    left, right = [0.0 if layout is None or layout.scale is None else layout.scale for layout in layouts]
-    return left, right
 
 
 def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionState:

@@ -4,65 +4,46 @@ from __future__ import annotations
 
 import base64
 import struct
+import zlib
 from math import isfinite
 from typing import Any
 
 
-def bits(data: bytes, width: int, count: int) -> list[int]:
-    whole_numbers = int.from_bytes(data, "little")
-    return [whole_numbers >> width * k & (1 << width) - 1 for k in range(count)]
-
-
 def streams(body: bytes) -> tuple[list[float], list[int], list[int], bytes]:
     """Return the body's floats, ints, flags and remaining bytes; ValueError when it is malformed."""
+    inflater = zlib.decompressobj()
+    try:
+        content = inflater.decompress(body)
+    except zlib.error as error:
+        raise ValueError("not of zlib") from error
+    if not inflater.eof or inflater.unused_data:
+        raise ValueError("too short, or too long")
     position = 0
 
     def take(length: int) -> bytes:
         nonlocal position
-        if position + length > len(body):
+        if position + length > len(content):
             raise ValueError("too short")
         position += length
-        return body[position - length : position]
+        return content[position - length : position]
 
-    floats, ints, flags, large_words, left, right = struct.unpack("<4I2d", take(32))
-    classes = bits(take(-(-(floats + ints) // 8) * 3), 3, floats + ints)
-
-    def numbers(code: str, members: tuple[int, ...]) -> Any:
-        count = sum([k in members for k in classes])
-        return iter(struct.unpack(f"<{count}{code}", take(count * struct.calcsize("<" + code))))
-
-    counts, singles, doubles = numbers("h", (4, 5, 6, 7)), numbers("f", (1,)), numbers("d", (2,))
-    numbers_found: list[float] = []
-    last_double: float | None = None
-    for k in classes:
-        if k == 0:
-            numbers_found.append(0.0)
-        elif k == 1:
-            numbers_found.append(next(singles))
-        elif k in (2, 3):
-            last_double = next(doubles) if k == 2 else last_double
-            if last_double is None:
-                raise ValueError("no double before")
-            numbers_found.append(last_double)
-        else:
-            count = float(next(counts))
-            numbers_found.append({4: count, 5: count / 10_000, 6: count * left, 7: count * right}[k])
-    if not all([isfinite(number) for number in numbers_found]) or any(
-        [number % 1.0 for number in numbers_found[floats:]]
-    ):
-        raise ValueError("not finite, or not whole")
-    whole_numbers = [int(number) for number in numbers_found[floats:]]
-    flag_values = bits(take(-(-flags // 8)), 1, flags)
-    large_ints = [int(word) for word in take(large_words).split()]
+    floats, ints, flags, large_words = struct.unpack("<4I", take(16))
+    if floats + ints + flags > 1_048_576:
+        raise ValueError("too many")
+    numbers = list(struct.unpack(f"<{floats}d", take(8 * floats)))
+    if not all([isfinite(number) for number in numbers]):
+        raise ValueError("not finite")
+    whole_numbers = list(struct.unpack(f"<{ints}q", take(8 * ints)))
+    flag_values = list(take(flags))
+    if not {*flag_values} <= {0, 1}:
+        raise ValueError("not a flag")
+    large_ints = [int(word) for word in take(large_words).split(b" ")] if large_words else []
     if whole_numbers.count(-(2**63)) != len(large_ints):
         raise ValueError("too many large ints, or too few")
+    if max([len(str(abs(n))) for n in large_ints], default=0) > 309:
+        raise ValueError("too many digits")
     large_ints.reverse()
-    return (
-        numbers_found[:floats],
-        [large_ints.pop() if n == -(2**63) else n for n in whole_numbers],
-        flag_values,
-        body[position:],
-    )
+    return numbers, [large_ints.pop() if n == -(2**63) else n for n in whole_numbers], flag_values, content[position:]
 
 
 class Tree:
