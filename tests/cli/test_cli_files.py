@@ -61,6 +61,9 @@ def test_other_commands_write_over_nothing_that_they_read(recording: Path, tmp_p
     scores.write_text("{}\n")
     known = tmp_path / "me.json"
     write_calibration(known, Calibration())
+    (tmp_path / "openshoe_loops").mkdir()
+    truth = tmp_path / "openshoe_loops" / "dataset.json"
+    truth.write_text('{"recordings": {}}')
     before = written(tmp_path)
     for arguments in (
         ("convert", walk, walk, "--force"),
@@ -68,6 +71,7 @@ def test_other_commands_write_over_nothing_that_they_read(recording: Path, tmp_p
         ("calibrate", "modes", walk, gauge, "--out", gauge),
         ("evaluate", tmp_path, "--compare", scores, "--json", scores, "--force"),
         ("evaluate", tmp_path, "--calibration", known, "--json", known, "--force"),
+        ("evaluate", tmp_path, "--json", truth, "--force"),
         ("live", "--via", "tcp:127.0.0.1:1", "--calibration", known, "--record", known, "--force"),
     ):
         assert run_failing(*arguments).endswith(f": {READ}\n"), arguments

@@ -10,17 +10,21 @@ import sys
 from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from importlib.resources import files
+from time import monotonic
 
 import pytest
 from aiohttp import ClientSession, TCPConnector
 from served import TOKEN, Connection, check_watching, close_code, handshake, rejection_status, scene_of, served
 
+from solepath.show.page.server import server
 from solepath.show.page.server.open_connections import ACCEPTED_AT_ONCE, MAX_CONNECTIONS, OpenConnections, peer_of
 from solepath.show.page.server.server import MAX_WATCHERS, Page
 
 OWNER = "127.0.0.1"
 PEERS = ("127.0.0.2", "127.0.0.3", "127.0.0.4", "127.0.0.5")
 IDLE, RECONNECTIONS = 200, 1000
+RATE = 400
+"""Number of new connections a second."""
 GET = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 SENT = {
     "nothing": b"",
@@ -95,8 +99,38 @@ async def test_idle_connections_and_reconnections_keep_nobody_out(peers: tuple[s
 
 
 @several_addresses
-async def test_a_thousand_connections_at_once_do_not_close_the_one_that_sends_its_request() -> None:
+async def test_a_slow_browser_is_answered_beside_400_connections_a_second_from_its_own_address() -> None:
+    """Its request comes 0.25 s after its connection, as through a slow mobile network."""
+    async with served() as (page, _, _), AsyncExitStack() as closing:
+
+        async def storm() -> None:
+            start, opened = monotonic(), 0
+            while True:
+                while opened < RATE * (monotonic() - start):
+                    opened += 1
+                    if (one := await knock(page, OWNER, b"")) is not None:
+                        closing.callback(one[1].close)
+                await asyncio.sleep(0.01)
+
+        storming = asyncio.create_task(storm())
+        closing.callback(storming.cancel)
+        while len(page._open) < MAX_CONNECTIONS:
+            await asyncio.sleep(0.01)
+        for _ in range(5):
+            connection = await knock(page, OWNER, b"")
+            assert connection is not None
+            await asyncio.sleep(0.25)
+            connection[1].write(GET)
+            assert await connection[0].read(15) == b"HTTP/1.1 200 OK"
+            connection[1].close()
+
+
+@several_addresses
+async def test_a_thousand_connections_at_once_do_not_close_the_one_that_sends_its_request(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """All are waiting when the page accepts them, the owner's among the first."""
+    monkeypatch.setattr(server, "MAX_CONNECTIONS", 64)
     async with served() as (page, _, _), AsyncExitStack() as closing:
 
         def connect(sent: bytes) -> socket.socket:
@@ -110,7 +144,7 @@ async def test_a_thousand_connections_at_once_do_not_close_the_one_that_sends_it
             first.setblocking(False)
             async with asyncio.timeout(5.0):
                 assert await asyncio.get_running_loop().sock_recv(first, 15) == b"HTTP/1.1 200 OK"
-            assert len(others) > MAX_CONNECTIONS > 5 * ACCEPTED_AT_ONCE
+            assert len(others) > 64 > 5 * ACCEPTED_AT_ONCE
 
 
 async def test_watchers_without_the_token_make_room_for_one_who_has_it() -> None:

@@ -92,7 +92,8 @@ def run(options: argparse.Namespace) -> int:
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
     if options.json is not None:
-        inputs = [options.compare, options.calibration]
+        data_sets = folder.glob("*/") if folder is not None else ()
+        inputs = [options.compare, options.calibration, *data_sets]
         check_outputs([OutputFile(options.json, SCORES)], inputs, force=options.force)
         check_writable(options.json)
     all_recipes = [by_name(name) for name in NAMES]

@@ -13,9 +13,10 @@ from stat import S_ISREG
 from typing import Any
 
 from ..types import Packet
+from .bad_rows import LONGEST_LINE
 from .errors import RecordingError, os_error_text
 from .lock import take_lock
-from .packets import FORMAT, LONGEST_LINE, VERSION, header_fault
+from .packets import FORMAT, VERSION, header_fault
 
 MAX_TRIES = 100
 """Number of times that a file which another program removes meanwhile is opened again."""
