@@ -146,7 +146,7 @@ class FinalEvents:
         elif event.final and hasattr(event, "foot"):
             key = (type(event), event.foot)
             newest = self.newest.get(key)
-            if newest is not None and event.t <= newest.t:
+            if newest is not None and (event.t < newest.t or event == newest):  # phases of no duration have one time
                 raise Broken(f"{event} after {newest}")
             self.newest[key] = event
             if hasattr(event, "number"):
