@@ -15,7 +15,7 @@ from time import sleep
 TAKEN = frozenset((EACCES, EAGAIN, EDEADLK))
 """Errors with which a system reports that another program has the lock."""
 LOCKED = "another program is recording into it"
-"""What an error says of a file that another program has locked."""
+"""Text of the error for a file that another program has locked."""
 RETRY_INTERVAL, MAX_TRIES = 0.01, 50
 """Time between two tries to lock a file that is replaced, s, and their number; chosen by hand.
 
