@@ -61,6 +61,9 @@ def test_other_commands_write_over_nothing_that_they_read(recording: Path, tmp_p
     scores.write_text("{}\n")
     known = tmp_path / "me.json"
     write_calibration(known, Calibration())
+    (tmp_path / "openshoe_loops").mkdir()
+    truth = tmp_path / "openshoe_loops" / "dataset.json"
+    truth.write_text('{"recordings": {}}')
     before = written(tmp_path)
     for arguments in (
         ("convert", walk, walk, "--force"),
@@ -68,6 +71,7 @@ def test_other_commands_write_over_nothing_that_they_read(recording: Path, tmp_p
         ("calibrate", "modes", walk, gauge, "--out", gauge),
         ("evaluate", tmp_path, "--compare", scores, "--json", scores, "--force"),
         ("evaluate", tmp_path, "--calibration", known, "--json", known, "--force"),
+        ("evaluate", tmp_path, "--json", truth, "--force"),
         ("live", "--via", "tcp:127.0.0.1:1", "--calibration", known, "--record", known, "--force"),
     ):
         assert run_failing(*arguments).endswith(f": {READ}\n"), arguments
@@ -116,8 +120,25 @@ def test_the_json_of_each_command_is_known_again(tmp_path: Path) -> None:
     fleet = {"wearers": 3, "seconds": 4.0}
     kinds = {files.SCORES: scores, files.EXPERIMENT: experiment, files.FLEET_FIGURES: fleet}
     for own, document in kinds.items():
-        files.write_json(path, document)
+        files.write_json(files.OutputFile(path, own), document)
         assert [kind for kind in kinds if kind.is_own(path)] == [own]
+
+
+@pytest.mark.parametrize(
+    ("kind", "content"),
+    [
+        (files.TRACK_KINDS["events.jsonl"], '{"event": "login", "user": "ann"}\n'),
+        (files.TRACK_KINDS["events.jsonl"], '{"event": "Login", "t": 12, "user": "ann"}\n'),
+        (files.FIGURE, '<svg inkscape:export-filename="/home/ann/solepath/poster.png"/>\n'),
+        (files.FIGURE, "%!PS-Adobe-3.0\n%%Title: solepath\n%%Creator: poster\n"),
+        (files.FIGURE, "/Creator (solepath.odp) /Producer (an office)"),
+    ],
+)
+def test_a_file_that_looks_like_one_of_solepath_is_of_another_program(
+    kind: files.Kind, content: str, tmp_path: Path
+) -> None:
+    (tmp_path / "x").write_text(content)
+    assert not kind.is_own(tmp_path / "x")
 
 
 def test_a_figure_is_known_again(tmp_path: Path) -> None:
@@ -125,7 +146,7 @@ def test_a_figure_is_known_again(tmp_path: Path) -> None:
     from solepath.lab.reproduce.tables import Reproduction
     from solepath.lab.tables.figures import draw
 
-    for extension in ("png", "svg", "pdf", "eps"):
+    for extension in ("png", "svg", "pdf", "eps", "ps"):
         path = tmp_path / f"figure.{extension}"
         draw(Reproduction("x", "a paper", "", "m", ()), path, extension)
         assert files.FIGURE.is_own(path), extension
@@ -166,6 +187,10 @@ def test_a_report_may_be_in_the_directory_that_is_made(recording: Path, tmp_path
     out = tmp_path / "new" / "walk"
     assert run("track", recording, "--out", out, "--report", out / "r.html").returncode == 0
     assert {"r.html", "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"} == {f.name for f in out.iterdir()}
+    assert (
+        run("track", recording, "--out", tmp_path / "up" / "walk", "--report", tmp_path / "up" / "r.html").returncode
+        == 0
+    )
     nowhere = tmp_path / "nowhere" / "r.html"
     assert f"{nowhere}: No such file" in run_failing("track", recording, "--out", tmp_path / "x", "--report", nowhere)
 
@@ -214,3 +239,10 @@ def test_the_shell_may_make_the_pipe(recording: Path, tmp_path: Path) -> None:
         line = f'"{sys.executable}" -m solepath {command}'
         done = subprocess.run([shell, "-c", line], capture_output=True, text=True, timeout=60)
         assert (done.returncode, done.stderr) == (0, ""), done.stderr
+
+
+def test_a_pipe_that_becomes_no_recording_gets_the_reason(recording: Path, tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    sentence = run_failing("convert", pipe, tmp_path / "x.jsonl")
+    assert sentence == (f"solepath: {pipe}: is a pipe or a device; it is read more than once, so it has to be a file\n")

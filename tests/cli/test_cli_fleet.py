@@ -190,7 +190,7 @@ def test_kills_that_cost_nothing_are_not_counted_as_tests() -> None:
 
 def test_ctrl_c_leaves_no_files(tmp_path: Path) -> None:
     out = tmp_path / "out"
-    command = [sys.executable, "-m", "solepath", "fleet-demo", *SMALL, "--out", str(out)]
+    command = [sys.executable, "-m", "solepath", "fleet-demo", *SMALL, "--out", str(out), "--json", str(out / "f.json")]
     running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     while not (out / "runs" / "sessions" / "log").exists():
         assert running.poll() is None

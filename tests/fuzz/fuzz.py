@@ -6,9 +6,10 @@
 
 Targets: notifications (packets of all devices, with fields changed under a right checksum), samples, files, states and
 messages (of a page). It checks that nothing raises an exception that is not documented, that events are finite and
-states bounded, that a rejected input changes nothing, that a restored session continues as one that never stopped, and
-that what was final is not revised. It prints a line for each target, and exits with 1 if a promise was broken. Memory
-is limited to 2 GB for each process, and a round to two minutes.
+states bounded, that a rejected input changes nothing (a rejected fragment only the frame that it belongs to), that a
+restored session continues as one that never stopped, that what was final comes once and is not revised, and that a
+process does not grow from round to round (memory.py). It prints a line for each target, and exits with 1 if a promise
+was broken. Memory is limited to 2 GB for each process, and a round to two minutes.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ from itertools import count
 from pathlib import Path
 from time import monotonic
 
+from memory import MOST_GROWTH_OF_FILES, Memory
+
 HELPERS = Path(__file__).resolve().parents[1] / "helpers"
 sys.path[:0] = [str(path) for path in (HELPERS, *HELPERS.iterdir()) if path.is_dir()]
 
@@ -35,6 +38,8 @@ MEMORY = 2 << 30
 """Most memory of a process, bytes: a reader that fills it raises MemoryError, which is a failure."""
 LONGEST_ROUND = 120
 """Time after which a round hangs, s; the longest take one."""
+memories = {target: Memory() for target in TARGETS} | {"files": Memory(MOST_GROWTH_OF_FILES)}
+"""Memory of this process, by the target of its rounds."""
 
 
 def limit_process() -> None:
@@ -51,7 +56,9 @@ def run_round(target: str, seed: int) -> tuple[int, int, str]:
     """Return the number of mutated inputs of a round, its second number, and the text of what was broken or ""."""
     signal.alarm(LONGEST_ROUND)
     try:
-        return *import_module(target).run(seed), ""
+        inputs, second = import_module(target).run(seed)
+        memories[target].check_growth()
+        return inputs, second, ""
     except Exception:
         return 0, 0, f"python tests/fuzz/fuzz.py {target} --seed {seed} --count 1\n{traceback.format_exc()}"
     finally:

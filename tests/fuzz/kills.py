@@ -4,39 +4,53 @@
     --workers N     how many at once (default: 3)
     --seed N        of the moments
 
-An emulated wearer with two insoles walks in another program, over a true link. `record` must have left a recording in
-which nothing is missing that came earlier than 200 ms before the kill. `live` must have left such a recording too, and
-files of which each line but the last is whole; its events are the first ones of those of the recording. It prints one
-line, and exits with 1 at the first promise that is broken. `solepath fleet-demo --kills N` does the same for a fleet.
+An emulated wearer with two insoles walks in another program, over a true link that loses nothing. `record` must have
+left a recording in which nothing is missing that came earlier than 200 ms before the kill: the numbers of the frames
+are without a gap. `live` must have left such a recording too, and files of which each line but the last is whole: its
+events, and the rows of its tables, are the first ones of those of the recording, in their order, with none left out. It
+prints one line, and exits with 1 at the first promise that is broken. `solepath fleet-demo --kills N` does the same for
+a fleet.
 """
 
 from __future__ import annotations
 
 import argparse
+import csv
 import json
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 from time import monotonic, sleep, time
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from solepath import Packet, Session
+from solepath import FootMoved, GaitCycleMeasured, Packet, Session, Site, StrideTaken
+from solepath.events import LiveEvent
 from solepath.recording import read_header, read_packets
 from solepath.recording.packets import read_start_time
+from solepath.wire.insole import parse_frame
 
 LONGEST_LOSS = 0.2
 """Age of packets that may be missing, s."""
 LONGEST_START = 30.0
 """Time in which a program must have its first packets, s."""
-LONGEST_WALK = 2.0
-"""Largest time from the first packets to a kill, s."""
+LONGEST_WALK = {"record": 2.0, "live": 12.0}
+"""Largest time from the first packets to a kill, s: strides come after 5 s, and their files are buffered."""
+SEQUENCE_MODULUS = 1 << 16
+"""Number after which those of the frames start with 0 again (protocol/insole.md)."""
+TABLES: dict[str, tuple[type, dict[str, str]]] = {
+    "track.csv": (FootMoved, {"t_s": "t", "foot": "foot"}),
+    "strides.csv": (StrideTaken, {"foot": "foot", "t_start_s": "t_start", "t_end_s": "t_end"}),
+    "gait_cycles.csv": (GaitCycleMeasured, {"foot": "foot", "number": "number", "t_start_s": "t_start"}),
+}
+"""Events of the rows of each table, and the fields of its columns that are compared."""
 START_SHARE = 0.1
 """Share of the kills that come before the first packet."""
 
@@ -57,26 +71,25 @@ class Found(NamedTuple):
 
 
 @contextmanager
-def emulator() -> Iterator[str]:
-    """Run emulated insoles; yield their HOST:PORT."""
+def emulator() -> Iterator[list[str]]:
+    """Run emulated insoles; yield the options that reach them, with their addresses, so that nobody has to search."""
     command = [sys.executable, "-m", "solepath", "emulate", "--listen", "127.0.0.1:0", "--duration", "36000"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     try:
         assert process.stdout is not None
-        for line in process.stdout:
-            if "tcp:" in line:
-                yield line.split("tcp:")[1].split()[0].rstrip(".,;")
-                return
-        raise Broken("the emulator has not started")
+        served, left, right = [process.stdout.readline().split() for _ in range(3)]
+        if not right:
+            raise Broken("the emulator has not started")
+        yield ["--via", served[-1], "--left", left[0], "--right", right[0]]
     finally:
         process.kill()
         process.wait()
 
 
-def kill_one(kind: str, address: str, folder: Path, random: Random) -> Found:
+def kill_one(kind: str, reach: list[str], folder: Path, random: Random) -> Found:
     """Start a program, kill it, and check its files."""
     recording, out = folder / "walk.jsonl", folder / "out"
-    command = [sys.executable, "-m", "solepath", kind, "--via", f"tcp:{address}", "--duration", "600"]
+    command = [sys.executable, "-m", "solepath", kind, *reach, "--duration", "600"]
     command += ["--out", str(recording)] if kind == "record" else ["--record", str(recording), "--out", str(out)]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     try:
@@ -88,13 +101,14 @@ def kill_one(kind: str, address: str, folder: Path, random: Random) -> Found:
                 if process.poll() is not None or monotonic() - started > LONGEST_START:
                     raise Broken(f"{kind} has written nothing: {(process.stderr and process.stderr.read1()) or b''!r}")
                 sleep(0.02)
-            sleep(random.uniform(0.0, LONGEST_WALK))
+            sleep(random.uniform(0.0, LONGEST_WALK[kind]))
         killed_at = time()
         os.kill(process.pid, signal.SIGKILL)
     finally:
         process.kill()
         process.wait()
     packets = read_recording(recording)
+    check_numbers(packets)
     lines = check_files(out, packets) if out.exists() else 0
     age = age_of_newest(recording, packets, killed_at)
     if age > LONGEST_LOSS:
@@ -123,31 +137,47 @@ def age_of_newest(path: Path, packets: list[Packet], killed_at: float) -> float:
     return killed_at - (moment[0].timestamp() + packets[-1].t - moment[1])
 
 
+def check_numbers(packets: list[Packet]) -> None:
+    """Check that no frame is missing between the first and the last of an insole."""
+    newest: dict[Site, int] = {}
+    for packet in packets:
+        if packet.channel == "insole/frame":
+            number, before = parse_frame(packet.data).sequence, newest.get(packet.site)
+            if before is not None and number != (before + 1) % SEQUENCE_MODULUS:
+                raise Broken(f"frame {number} of {packet.site.value} follows frame {before}")
+            newest[packet.site] = number
+
+
 def check_files(folder: Path, packets: list[Packet]) -> int:
     """Check that the files of `live` are those of its recording, as far as they were written; return their lines."""
     count = 0
-    computed = [event.to_dict() for event in Session(poses=True).feed(packets)]
-    expected = [json.dumps(event) for event in computed if event["event"] != "FootMoved"]
+    events = Session(poses=True).feed(packets)
     for path in folder.iterdir():
-        lines = path.read_bytes().split(b"\n")
-        count += len(lines) - 1
+        lines = path.read_text("utf-8").split("\n")[:-1]
+        count += len(lines)
         if path.suffix == ".jsonl":
-            written = [json.dumps(json.loads(line)) for line in lines[:-1]]
-            if [line for line in written if line not in set(expected)]:
-                raise Broken(f"{path.name} has events that the recording does not give")
-        elif len({line.count(b",") for line in lines[:-1]}) > 1:
-            raise Broken(f"{path.name} has lines of different lengths")
+            written: list[Any] = [json.loads(line) for line in lines]
+            expected: Iterable[Any] = (event.to_dict() for event in events if not isinstance(event, LiveEvent))
+        else:
+            cls, columns = TABLES[path.name]
+            written = [[row[column] for column in columns] for row in csv.DictReader(lines)]
+            fields = [event.to_dict() for event in events if isinstance(event, cls)]
+            expected = ([str(one[name]) for name in columns.values()] for one in fields)
+            if len({line.count(",") for line in lines}) > 1:
+                raise Broken(f"{path.name} has lines of different lengths")
+        if written != list(islice(expected, len(written))):
+            raise Broken(f"{path.name} does not have the first events that the recording gives")
     return count
 
 
 def run_worker(kind: str, count: int, seed: int) -> list[Found]:
     """Kill a program `count` times beside one emulator."""
     random, results = Random(seed), []
-    with emulator() as address, TemporaryDirectory() as name:
+    with emulator() as reach, TemporaryDirectory() as name:
         for number in range(count):
             folder = Path(name, str(number))
             folder.mkdir()
-            results.append(kill_one(kind, address, folder, random))
+            results.append(kill_one(kind, reach, folder, random))
     return results
 
 

@@ -10,7 +10,7 @@ import pytest
 from recordings import PACKETS, recorded
 
 from solepath.recording import RecordingError, read_packets, read_samples
-from solepath.recording.packets import MAX_SKIPPED
+from solepath.recording.bad_rows import MAX_SKIPPED
 from solepath.types import Packet, Sample
 
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
@@ -96,9 +96,35 @@ def test_a_recording_with_more_damaged_lines_than_whole_ones_is_rejected(tmp_pat
 
 def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path) -> None:
     path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + "?\n" * 5000)
-    with pytest.raises(RecordingError, match="1001 of 1001 lines cannot be used"):
+    path.write_text(HEADER + "?\n" * 200_000)
+    with pytest.raises(RecordingError, match="100001 of 100001 lines cannot be used"):
         packets_of(path)
+
+
+def test_junk_at_the_start_costs_nothing_of_the_good_rows_behind_it(tmp_path: Path) -> None:
+    recording, table = tmp_path / "walk.jsonl", tmp_path / "walk.csv"
+    recording.write_text(HEADER + "?\n" * 2000 + line_of() * 2500)
+    table.write_text(COLUMNS + "?\n" * 2000 + "".join(f"{k / 100},0,0,9.8\n" for k in range(2500)))
+    assert len(packets_of(recording)[0]) == len(samples_of(table)[0]) == 2500
+
+
+@pytest.mark.parametrize("end", ["\n", "0.05,0,0,9.8\n", "\n0.05,0,0,9.8\n", ""])
+@pytest.mark.parametrize("size", [65_537, 70_000, 1_000_000])
+def test_a_row_that_is_too_long_costs_only_itself(tmp_path: Path, size: int, end: str) -> None:
+    path = tmp_path / "walk.csv"
+    path.write_text(COLUMNS + "".join(f"{k / 100},0,0,9.8\n" for k in range(5)) + "\0" * size + end)
+    samples, reports = samples_of(path)
+    assert len(samples) == 5 + end.startswith("\n0")
+    assert reports == ["line 7: is longer than 65536 characters; this row is left out"]
+
+
+def test_a_row_without_end_ends_the_table_there(tmp_path: Path) -> None:
+    path = tmp_path / "walk.csv"
+    path.write_text(COLUMNS + "".join(f"{k / 100},0,0,9.8\n" for k in range(5)))
+    with path.open("ab") as file:
+        file.truncate(path.stat().st_size + 3 * MAX_SKIPPED)
+    samples, reports = samples_of(path)
+    assert len(samples) == 5 and len(reports) == 1
 
 
 def test_a_line_without_end_ends_the_file_there(tmp_path: Path) -> None:

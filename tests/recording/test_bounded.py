@@ -51,29 +51,42 @@ def array_header(shape: tuple[int, ...], descr: str = "<f8") -> bytes:
     return stream.getvalue()
 
 
-def inflating(path: Path, claimed: int, actual: int) -> Path:
-    """Write an archive whose `acc` claims so many rows and inflates to `actual` bytes of zeros."""
+def inflating(path: Path, claimed: tuple[int, ...], actual: int, descr: str = "<f8") -> Path:
+    """Write an archive whose `acc` claims this shape and type, and inflates to `actual` bytes of zeros."""
     np.savez(path, **{key: value for key, value in still().items() if key != "acc"})
     with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive, archive.open("acc.npy", "w") as file:
-        file.write(array_header((claimed, 3)))
+        file.write(array_header(claimed, descr))
         for _ in range(actual // 10_000_000):
             file.write(bytes(10_000_000))
     return path
 
 
 def test_an_archive_that_inflates_to_a_gigabyte_is_rejected_before_that(tmp_path: Path) -> None:
-    path = inflating(tmp_path / "walk.npz", 40_000_000, 960_000_000)
+    path = inflating(tmp_path / "walk.npz", (40_000_000, 3), 960_000_000)
     assert path.stat().st_size < 2_000_000
     assert "walk.npz: holds more than 100,000,000 numbers" in complaint("track", path)
 
 
 def test_an_array_that_claims_more_than_its_file_holds_is_rejected_before_memory_is_taken(tmp_path: Path) -> None:
-    path = inflating(tmp_path / "walk.npz", 10**12, 10_000_000)
+    path = inflating(tmp_path / "walk.npz", (10**12, 3), 10_000_000)
     assert "acc: cannot be read (its header claims 3000000000000 values" in complaint("track", path)
 
 
+@pytest.mark.parametrize("descr", ["<U375000000", "|V1500000000", "|S1500000000"])
+def test_one_value_of_a_gigabyte_is_rejected_before_it_is_unpacked(tmp_path: Path, descr: str) -> None:
+    path = inflating(tmp_path / "walk.npz", (1,), 1_500_000_000, descr)
+    assert f"acc: holds {descr}, not numbers" in complaint("track", path)
+
+
+def test_numbers_that_are_longer_than_others_count_as_several(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(npz, "MAX_VALUES", 1000)
+    np.savez(tmp_path / "walk.npz", t=np.arange(300) / 100.0, acc=np.ones((300, 2), dtype=np.longdouble))
+    with pytest.raises(RecordingError, match="holds more than 1,000 numbers"):
+        list(read_samples(tmp_path / "walk.npz"))
+
+
 def test_a_central_directory_that_lies_about_a_size_inflates_no_more_than_that(tmp_path: Path) -> None:
-    path = inflating(tmp_path / "walk.npz", 200, 1_000_000_000)
+    path = inflating(tmp_path / "walk.npz", (200, 3), 1_000_000_000)
     size = path.read_bytes().rfind((1_000_000_128).to_bytes(4, "little"))
     data = bytearray(path.read_bytes())
     data[size : size + 4] = (128 + 4800).to_bytes(4, "little")
@@ -177,7 +190,7 @@ def test_the_list_of_a_data_set_that_is_too_large_is_not_read(tmp_path: Path) ->
 
 
 def test_a_truth_that_inflates_to_a_gigabyte_is_rejected_before_that(tmp_path: Path) -> None:
-    path = inflating(tmp_path / "walk.npz", 40_000_000, 960_000_000)
+    path = inflating(tmp_path / "walk.npz", (40_000_000, 3), 960_000_000)
     with pytest.raises(RecordingError, match=r"holds more than 100,000,000 numbers"):
         read_arrays(path, lambda key: key in ("t", "acc"))
 

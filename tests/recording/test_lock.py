@@ -82,6 +82,42 @@ def test_a_new_file_without_packets_has_a_header_or_is_removed(tmp_path: Path) -
     assert read_header(tmp_path / "walk.jsonl")["note"] == "x"
 
 
+def test_a_new_recording_has_its_header_before_the_first_packet(tmp_path: Path) -> None:
+    """Other programs replace an empty file."""
+    with PacketWriter(tmp_path / "walk.jsonl", {"note": "x"}) as writer:
+        assert read_header(tmp_path / "walk.jsonl")["note"] == "x"
+        assert list(read_packets(tmp_path / "walk.jsonl", report=pytest.fail)) == []
+        writer.write(PACKETS[0])
+    assert list(read_packets(tmp_path / "walk.jsonl")) == PACKETS[:1]
+
+
+def test_an_empty_file_is_empty_again_when_its_recording_is_discarded(tmp_path: Path) -> None:
+    path = tmp_path / "walk.jsonl"
+    path.touch()
+    PacketWriter(path).discard()
+    assert path.read_bytes() == b""
+
+
+@pytest.mark.parametrize("how", ["appended", "replaced"])
+def test_what_another_program_wrote_is_not_discarded(how: str, tmp_path: Path) -> None:
+    path, other = tmp_path / "walk.jsonl", tmp_path / "other"
+    writer = PacketWriter(path)
+    if how == "appended":
+        path.write_bytes(path.read_bytes() + b"notes")
+    else:
+        other.write_bytes(b"notes")
+        other.replace(path)
+    writer.discard()
+    assert path.read_bytes().endswith(b"notes")
+
+
+def test_a_recording_whose_header_cannot_be_written_is_an_error_at_once() -> None:
+    if not Path("/dev/full").is_char_device():
+        pytest.skip("no /dev/full on this system")
+    with pytest.raises(RecordingError, match=r"/dev/full: no space left on device"):
+        PacketWriter("/dev/full")
+
+
 def test_a_file_that_its_writer_removes_while_another_opens_it_is_opened_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -102,7 +138,7 @@ def test_a_file_that_its_writer_removes_while_another_opens_it_is_opened_again(
 def test_a_file_that_cannot_be_locked_is_written_all_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Some network drives have no locks."""
     fcntl = pytest.importorskip("fcntl")
-    from solepath.recording import lock
+    from solepath.saving import lock
 
     def unsupported(descriptor: int, operation: int) -> None:
         raise OSError(os.strerror(95))

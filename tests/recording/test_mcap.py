@@ -214,7 +214,21 @@ def test_a_file_with_content_is_replaced_only_on_request(tmp_path):
         McapWriter(path)
     assert path.read_bytes() == b"of another program"
     McapWriter(path, replace=True).close()
-    assert b"of another program" not in path.read_bytes()
+    assert path.read_bytes() == b"of another program", "no packet came"
+    with McapWriter(path, replace=True) as writer:
+        assert path.read_bytes() == b"of another program"
+        writer.write(walks.insoles().packets[0])
+    assert b"of another program" not in path.read_bytes() and messages(path)
+
+
+def test_of_two_writers_of_one_file_the_second_is_rejected(tmp_path):
+    path = tmp_path / "walk.mcap"
+    with McapWriter(path) as writer:
+        for replace in (False, True):
+            with pytest.raises(RecordingError, match=r"walk\.mcap: another program is recording into it"):
+                McapWriter(path, replace=replace)
+        writer.write(walks.insoles().packets[0])
+    assert messages(path)
 
 
 def test_what_cannot_be_written_is_one_clear_error(tmp_path):

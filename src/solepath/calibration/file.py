@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from ..saving.codec import SnapshotError, load, save
-from ..saving.files import FileTooLarge, read_bounded, write_whole
+from ..saving.files import BeforeMove, FileTooLarge, accept_any, read_bounded, write_whole
 from .limits import find_fault
 from .records import Calibration, CalibrationError
 
@@ -16,10 +16,12 @@ MAX_FILE_SIZE = 8_000_000
 """Largest accepted size of a file, bytes: a hundred times that of two insoles of a thousand cells."""
 
 
-def write_calibration(path: Path | str, calibration: Calibration) -> None:
-    """Write the calibration to a file. Raise OSError when that fails; the file then has its earlier content."""
+def write_calibration(path: Path | str, calibration: Calibration, before_move: BeforeMove = accept_any) -> None:
+    """Write the calibration to a file. Raise OSError when that fails; the file then has its earlier content.
+
+    `before_move` is called before the new file replaces the earlier one, which then stays if it raises an error."""
     document = {"format": FORMAT, "version": VERSION, "calibration": save(calibration)}
-    write_whole(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
+    write_whole(path, json.dumps(document, indent=1, allow_nan=False) + "\n", before_move)
 
 
 def read_calibration(path: Path | str) -> Calibration:

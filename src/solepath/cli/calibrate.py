@@ -9,6 +9,7 @@ from typing import Any
 
 from ..calibration import Calibration, InsoleCalibration, merged
 from ..recording import printable
+from ..saving.files import identity
 from ..show.tables.table import number, table
 from ..types import Foot
 from .common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
@@ -36,23 +37,49 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Make the calibration and write it; return the exit status."""
-    from ..calibration.file import read_calibration, write_calibration
-    from ..calibration.limits import find_fault
-
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # a folder gets an OSError
         raise Failure(f"{options.out}: is no regular file")
     inputs = [*getattr(options, "files", []), getattr(options, "file", None), getattr(options, "marks", None)]
     check_outputs([OutputFile(options.out, CALIBRATION)], inputs, force=False)
     check_writable(options.out)
-    known = read_calibration(options.out) if options.out.exists() else Calibration()
-    learnt, lines = options.learn(options, known)
-    whole = merged(known, learnt)
+    learnt, lines = options.learn(options, _read(options.out))
+    while not _is_completed(options.out, learnt):
+        pass
+    print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
+    return 0
+
+
+def _read(path: Path) -> Calibration:
+    """Return the calibration in a file, which may be empty or missing."""
+    from ..calibration.file import read_calibration
+
+    return read_calibration(path) if path.exists() and path.stat().st_size else Calibration()
+
+
+class _FileChanged(Exception):
+    """Error for a calibration file that another program wrote after it was read."""
+
+
+def _is_completed(path: Path, learnt: Calibration) -> bool:
+    """Add what was learnt to what the file holds; return False if another `calibrate` wrote it meanwhile."""
+    from ..calibration.file import write_calibration
+    from ..calibration.limits import find_fault
+
+    found = identity(path)
+    whole = merged(_read(path), learnt)
     problem = find_fault(whole)  # a reason, or None
     if problem is not None:
         raise Failure(f"nothing is written, for this cannot be: {problem}")
-    write_calibration(options.out, whole)
-    print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
-    return 0
+
+    def check_again(path: Path) -> None:
+        if identity(path) != found:
+            raise _FileChanged
+
+    try:
+        write_calibration(path, whole, check_again)
+    except _FileChanged:
+        return False
+    return True
 
 
 LearntCalibration = tuple[Calibration, list[str]]

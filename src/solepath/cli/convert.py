@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..recording import PacketWriter, RecordingError, os_error_text, printable
 from ..recording.packets import open_packets
-from ..saving.files import FileReplacements
 from ..types import Packet, Site
 from .common.failure import Failure, note
 from .common.files import RECORDING as RECORDING_KIND
-from .common.files import OutputFile, add_force, check_outputs
+from .common.files import OutputFile, add_force, check_outputs, replacements
 
 if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
@@ -89,11 +88,13 @@ _Value = TypeVar("_Value")
 def run(options: argparse.Namespace) -> int:
     """Convert the file; return the exit status."""
     from ..recording.btsnoop import is_btsnoop
+    from ..recording.btsnoop.records import reject_pipe
     from ..show.tables.progress import progress_bar
 
     source, out = options.source, options.out
     open_writer = _writer_class(out)
-    check_outputs([OutputFile(out, RECORDING_KIND)], [source], force=options.force)
+    output = OutputFile(out, RECORDING_KIND)
+    check_outputs([output], [source], force=options.force)
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
     total = source.stat().st_size if source.is_file() else 0
@@ -104,11 +105,12 @@ def run(options: argparse.Namespace) -> int:
         elif options.sites or options.handles:
             raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
         elif out.suffix.lower() == RECORDING:
+            reject_pipe(source)
             raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
         else:
             opened = open_packets(source, report=note, progress=show)
             packets, header = opened.packets, opened.header
-        count, damage = _write(packets, header, open_writer, out)
+        count, damage = _write(packets, header, open_writer, output)
     for device in [] if log is None else log.devices.values():
         if device.site is not None and device.count:
             kind = "" if device.profile is None else f", {device.profile.name}"
@@ -168,13 +170,13 @@ def _writer_class(out: Path) -> OpenWriter:
 
 
 def _write(
-    packets: Iterable[Packet], header: Mapping[str, Any], open_writer: OpenWriter, out: Path
+    packets: Iterable[Packet], header: Mapping[str, Any], open_writer: OpenWriter, output: OutputFile
 ) -> tuple[int, RecordingError | None]:
-    """Write the packets to `out`; return their number and, if the source is damaged, the error that ended them.
+    """Write the packets to `output`; return their number and, if the source is damaged, the error that ended them.
 
-    If the source is damaged before its first packet, or a packet cannot be written, `out` stays as it was."""
+    If the source is damaged before its first packet, or a packet cannot be written, it stays as it was."""
     damage: RecordingError | None = None
-    with _replacement(out) as path:
+    with _replacement(output) as path:
         try:
             writer = open_writer(path, header)
             try:
@@ -188,7 +190,7 @@ def _write(
         except RecordingError as error:
             cause = error.__cause__
             raise Failure(
-                f"{printable(str(out))}: {os_error_text(cause) if isinstance(cause, OSError) else error.what}"
+                f"{printable(str(output.path))}: {os_error_text(cause) if isinstance(cause, OSError) else error.what}"
             ) from None
         if damage is not None and not writer.count:
             raise damage
@@ -204,13 +206,13 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError
 
 
 @contextmanager
-def _replacement(out: Path) -> Iterator[Path]:
-    """Yield the path of a temporary file, which replaces `out` at the end, or is removed after an exception."""
-    files = FileReplacements()
+def _replacement(output: OutputFile) -> Iterator[Path]:
+    """Yield the path of a temporary file, which replaces `output` at the end, or is removed after an exception."""
+    files = replacements([output])
     try:
-        yield files.temporary_path(out, read_only=True)
+        yield files.temporary_path(output.path, read_only=True)
         files.move_to_targets()
     except OSError as error:
-        raise Failure(f"{printable(str(out))}: {os_error_text(error)}") from None
+        raise Failure(f"{printable(str(output.path))}: {os_error_text(error)}") from None
     finally:
         files.discard()

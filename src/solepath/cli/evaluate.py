@@ -91,9 +91,10 @@ def run(options: argparse.Namespace) -> int:
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
         raise Failure("--walks must be 1 or more, and --seed not negative")
-    if options.json is not None:
-        inputs = [options.compare, options.calibration]
-        check_outputs([OutputFile(options.json, SCORES)], inputs, force=options.force)
+    scores = None if options.json is None else OutputFile(options.json, SCORES)
+    if scores is not None:
+        data_sets = folder.glob("*/") if folder is not None else ()
+        check_outputs([scores], [options.compare, options.calibration, *data_sets], force=options.force)
         check_writable(options.json)
     all_recipes = [by_name(name) for name in NAMES]
     chosen = [recipe_named(name) for name in options.recipe]
@@ -133,6 +134,6 @@ def run(options: argparse.Namespace) -> int:
             note(f"not scored: {failure}")
     if old_scores is not None:
         print(comparison_tables(old_scores, as_json(results)))
-    if options.json:
-        write_json(options.json, as_json(results))
+    if scores is not None:
+        write_json(scores, as_json(results))
     return 0

@@ -73,7 +73,8 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the demo; return the exit status."""
-    _check(options)
+    result_file = None if options.json is None else OutputFile(options.json, FLEET_FIGURES)
+    _check(options, result_file)
     from ..fleet.demo.compare import UnreadableEvents
     from ..fleet.demo.run import RunFailed
     from ..fleet.demo.stage import DemoStage
@@ -90,8 +91,8 @@ def run(options: argparse.Namespace) -> int:
         except (RunFailed, UnreadableEvents) as error:
             raise Failure(str(error)) from None
         print(f"\n{result_table(stage)}")
-        if options.json is not None:
-            write_json(options.json, {**figures(stage), "differences": differences})
+        if result_file is not None:
+            write_json(result_file, {**figures(stage), "differences": differences})
         if options.out is not None:
             _copy_events(stage, options.out)
         return verdict(differences, [outcome.differences for outcome in stage.outcomes])
@@ -140,7 +141,7 @@ def verdict(without_engine: list[str], killed: list[list[str]]) -> int:
     return DIFFERENCE_STATUS if lines else 0
 
 
-def _check(options: argparse.Namespace) -> None:
+def _check(options: argparse.Namespace, result_file: OutputFile | None) -> None:
     """Raise Failure for options that would otherwise fail only later."""
     recipe_named(options.recipe)
     if options.seconds is not None and options.seconds > MAX_WALK_TIME:
@@ -154,9 +155,9 @@ def _check(options: argparse.Namespace) -> None:
         raise Failure(f"the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'{where}")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
         raise Failure(f"{options.out} is there already, and not an empty directory")
-    if options.json is not None:
-        check_outputs([OutputFile(options.json, FLEET_FIGURES)], [], force=options.force)
-        check_writable(options.json)
+    if result_file is not None:
+        check_outputs([result_file], [], force=options.force)
+        check_writable(result_file.path, made=options.out)
 
 
 @contextmanager

@@ -54,8 +54,9 @@ def run(options: argparse.Namespace) -> int:
     if options.name not in NAMES:
         raise Failure(f"there is no experiment {options.name!r}; there are: {', '.join(NAMES)}")
     figure = _figure(options)
-    kinds = ((options.json, EXPERIMENT), (figure, FIGURE))
-    outputs = [OutputFile(path, kind) for path, kind in kinds if path is not None]
+    table = None if options.json is None else OutputFile(options.json, EXPERIMENT)
+    picture = None if figure is None else OutputFile(figure, FIGURE)
+    outputs = [output for output in (table, picture) if output is not None]
     check_outputs(outputs, [], force=options.force)
     for output in outputs:
         check_writable(output.path)
@@ -72,13 +73,16 @@ def run(options: argparse.Namespace) -> int:
         module = import_module(f"solepath.lab.reproduce.{options.name.replace('-', '_')}")
         experiment = module.reproduce(options.walks, options.seed, processes=options.processes, progress=percent)
     print(comparison_with_paper(experiment))
-    if options.json is not None:
-        write_json(options.json, as_json(experiment))
-    if figure is not None:
+    if table is not None:
+        write_json(table, as_json(experiment))
+    if picture is not None:
         from ..lab.tables.figures import draw
 
-        replace_whole(figure, lambda path: draw(experiment, path, figure.suffix[1:].lower()))
-        print(f"figure drawn in {printable(str(figure))}")
+        file = picture.path
+        replace_whole(
+            file, lambda path: draw(experiment, path, file.suffix[1:].lower()), lambda _: picture.check_again()
+        )
+        print(f"figure drawn in {printable(str(file))}")
     return 0
 
 

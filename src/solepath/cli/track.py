@@ -83,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
     from .common.results import Results
 
     recipe = recipe_named(options.recipe)
-    _check_outputs(options)
+    outputs = _check_outputs(options)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     address = page_address_of(options)
@@ -108,6 +108,7 @@ def run(options: argparse.Namespace) -> int:
         plan=None if plan is None else plan.plan,
         recipe=recipe.name,
         when=_start_text(source),
+        outputs=outputs,
     )
     seconds, shown = 0.0, False
     with stop_signals_raise(), results:
@@ -126,8 +127,8 @@ def run(options: argparse.Namespace) -> int:
     raise recording.failure
 
 
-def _check_outputs(options: argparse.Namespace) -> None:
-    """Raise Failure or OSError when a file of --out or --report is one that must not, or cannot, be written."""
+def _check_outputs(options: argparse.Namespace) -> list[OutputFile]:
+    """Return the files of --out and --report; raise Failure or OSError when one must not, or cannot, be written."""
     has_plan = options.floorplan is not None
     outputs = files_of_track(options.out, places=has_plan, plan=has_plan)
     if options.report is not None:
@@ -135,6 +136,7 @@ def _check_outputs(options: argparse.Namespace) -> None:
     check_outputs(outputs, [options.file, options.calibration, options.floorplan], force=options.force)
     if options.report is not None:
         check_writable(options.report, made=options.out)
+    return outputs
 
 
 def _start_text(source: Source) -> str:

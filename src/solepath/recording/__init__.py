@@ -1,9 +1,10 @@
 """Recordings: packets are read and written, samples and btsnoop logs are read, MCAP files are written."""
 
+from .bad_rows import LONGEST_LINE
 from .clock_offset import shift_clock
 from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
 from .packet_writer import PacketWriter
-from .packets import FORMAT, LONGEST_LINE, VERSION, read_header, read_packets, read_start_time
+from .packets import FORMAT, VERSION, read_header, read_packets, read_start_time
 from .source import Source, open_source, read_samples
 
 __all__ = [

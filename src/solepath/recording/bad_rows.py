@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import IO, AnyStr
 
 from attrs import define, field
 
@@ -10,8 +11,22 @@ from .errors import RecordingError, Report, printable
 
 MAX_NAMED = 3
 """Largest number of rows of a file that are named; of more, only the number is reported."""
-MAX_EXCESS = 1000
-"""Number of bad rows, beyond that of the good ones, at which the reading ends."""
+MAX_EXCESS = 100_000
+"""Number of bad rows, beyond that of the good ones, at which the reading ends; it takes about a second to read them."""
+LONGEST_LINE = 65_536
+"""Largest size of a line, bytes or characters (protocol/recording.md); 4,000 pressure cells of two feet take less."""
+MAX_SKIPPED = 16_000_000
+"""Largest part of a damaged line that is skipped, bytes: a power failure may leave some megabytes of zeros."""
+
+
+def skip_line(file: IO[AnyStr], end: AnyStr) -> tuple[int, bool]:
+    """Skip the rest of a line, up to MAX_SKIPPED; return the size skipped, and whether the line has an end."""
+    skipped = 0
+    while skipped < MAX_SKIPPED and (part := file.readline(LONGEST_LINE)):
+        skipped += len(part)
+        if part.endswith(end):
+            return skipped, True
+    return skipped, False
 
 
 @define

@@ -22,6 +22,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from datetime import UTC, datetime, timedelta
 from importlib.metadata import version
+from io import BufferedWriter
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -36,6 +37,7 @@ from ..session.state import SessionState
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
 from ..types.attrs import define, field
 from .errors import RecordingError, os_error_text
+from .packet_writer import open_locked
 from .packets import FORMAT, VERSION, read_start_time
 
 CHUNK_SIZE = 8192
@@ -105,8 +107,9 @@ class McapWriter:
             for packet in read_packets("walk.jsonl"):
                 writer.write(packet)
 
-    A file with content is not replaced unless `replace` is true: RecordingError is raised at once. `header`: header of
-    the recording that the packets come from. `profiles`: drivers of an app's own devices, as for Session. `count`:
+    A file with content is not replaced: RecordingError is raised at once. With `replace=True` it is replaced when the
+    first packet is written. From the start to `close` the file is locked, as by PacketWriter. `header`: header of the
+    recording that the packets come from. `profiles`: drivers of an app's own devices, as for Session. `count`:
     number of packets written. `outside`: number of timestamps that were outside the range of log times, and replaced by
     the nearest log time. RecordingError when the file cannot be written, ValueError for a packet whose time is not
     finite. `close` writes the session's last results, and the index; a file that was never closed has complete chunks
@@ -130,18 +133,25 @@ class McapWriter:
         self._zero_time: int | None = None
         """Time since 1970 at `t` = 0, ns; None until the first packet."""
         try:
-            has_content = self.path.is_file() and self.path.stat().st_size > 0
-            if has_content and not replace:
-                raise RecordingError(self.path, "exists, and is not replaced")
-            self._file = self.path.open("wb")  # noqa: SIM115 - this class is the context manager
+            file, self._had_content = open_locked(self.path)
         except OSError as error:
             raise RecordingError(self.path, os_error_text(error)) from error
+        self._file = BufferedWriter(file)
+        if self._had_content and not replace:
+            self._file.close()
+            raise RecordingError(self.path, "exists, and is not replaced")
         self._writer = Writer(self._file, chunk_size=CHUNK_SIZE, compression=CompressionType.ZSTD)
-        with self._as_recording_error():
-            self._writer.start(profile="", library=f"solepath {version('solepath')}")
-            metadata = {"format": FORMAT, "version": VERSION, **self._header}
-            texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in metadata.items()}
-            self._writer.add_metadata("solepath", {_valid_utf8(key): _valid_utf8(text) for key, text in texts.items()})
+        if not self._had_content:
+            with self._as_recording_error():
+                self._start()
+
+    def _start(self) -> None:
+        """Write the start of the file, and the header of the recording."""
+        self._writer.start(profile="", library=f"solepath {version('solepath')}")
+        metadata = {"format": FORMAT, "version": VERSION, **self._header}
+        texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in metadata.items()}
+        self._writer.add_metadata("solepath", {_valid_utf8(key): _valid_utf8(text) for key, text in texts.items()})
+        self._file.flush()
 
     def write(self, packet: Packet) -> None:
         """Write the packet, its samples and its events."""
@@ -154,6 +164,10 @@ class McapWriter:
         if packet.device:
             data["device"] = packet.device
         with self._as_recording_error():
+            if self._had_content:
+                self._file.truncate(0)
+                self._had_content = False
+                self._start()
             topic = f"/{site}/packets/{_valid_utf8(packet.channel)}"
             if topic not in self._channels and len(self._channels) >= MAX_TOPICS:
                 topic = f"/{site}/packets"  # the number of channels in a damaged recording is not limited
@@ -163,8 +177,11 @@ class McapWriter:
             self._write_results(self._session.feed(packet))
 
     def close(self) -> None:
-        """Write the session's last results, and the index."""
+        """Write the session's last results, and the index; an earlier file that no packet replaced stays."""
         if self._file.closed:
+            return
+        if self._had_content:
+            self._file.close()
             return
         try:
             with self._as_recording_error():

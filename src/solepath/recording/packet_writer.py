@@ -12,10 +12,11 @@ from pathlib import Path
 from stat import S_ISREG
 from typing import Any
 
+from ..saving.lock import LOCKED, take_lock
 from ..types import Packet
+from .bad_rows import LONGEST_LINE
 from .errors import RecordingError, os_error_text
-from .lock import take_lock
-from .packets import FORMAT, LONGEST_LINE, VERSION, header_fault
+from .packets import FORMAT, VERSION, header_fault
 
 MAX_TRIES = 100
 """Number of times that a file which another program removes meanwhile is opened again."""
@@ -28,8 +29,8 @@ class PacketWriter:
             writer.write(packet)
 
     A file with content is not replaced: RecordingError is raised at once. With `replace=True` it is replaced when the
-    first packet is written, so that it stays as it was if none comes. From the start to `close` the file is locked: a
-    second writer of the same file raises RecordingError and changes nothing. A new file without packets has a header.
+    first packet is written, so that it stays as it was if none comes. A new or empty file gets its header at once. From
+    the start to `close` the file is locked: a second writer of the same file raises RecordingError and changes nothing.
 
     `count`: number of packets in the file. If the process is killed, written packets are safe, and the lock is free.
     RecordingError when the file cannot be opened or written, for example on a full disk. Then the file ends with its
@@ -57,12 +58,18 @@ class PacketWriter:
         """True when an incomplete line is in the file and could not be removed."""
         self._is_new = not self._path.exists()
         try:
-            self._file, self._had_content = _open_locked(self._path)
+            self._file, self._had_content = open_locked(self._path)
         except OSError as error:
             raise RecordingError(self._path, os_error_text(error)) from error
         if self._had_content and not replace:
             self._file.close()
             raise RecordingError(self._path, "exists, and is not replaced")
+        if not self._had_content:
+            try:
+                self._write_header()
+            except BaseException:
+                self.discard()
+                raise
 
     @property
     def replaces(self) -> bool:
@@ -138,16 +145,20 @@ class PacketWriter:
                 ) from error
 
     def discard(self) -> None:
-        """Close the file and leave what was there: a file that was made for this recording, and is empty, is removed.
+        """Close the file and leave what was there: the header is removed again, and so is a file that was made for it.
 
-        After the first packet it is as `close`."""
-        if self._header is None or self._file.closed:
+        After the first packet it is as `close`, and also when another program has changed the file or its name."""
+        if self._file.closed:
+            return
+        if self.count or self._had_content:
             self.close()
             return
-        if self._is_new:
-            with suppress(OSError):  # Windows removes no open file: an empty one is left, which anybody may replace
-                self._path.unlink()
-        self._file.close()
+        with suppress(OSError), self._file:  # a pipe cannot be truncated
+            status = os.fstat(self._file.fileno())
+            if S_ISREG(status.st_mode) and status.st_size == self._size:
+                self._file.truncate(0)
+                if self._is_new and os.path.samestat(status, self._path.stat()):
+                    self._path.unlink()  # Windows removes no open file: an empty one is left, which anybody may replace
 
     def __enter__(self) -> PacketWriter:
         return self
@@ -163,7 +174,7 @@ def _format_line(fields: dict[str, Any]) -> bytes:
     return encoded
 
 
-def _open_locked(path: Path) -> tuple[io.FileIO, bool]:
+def open_locked(path: Path) -> tuple[io.FileIO, bool]:
     """Return the file, open for writing and locked, and whether it has content; a pipe or device is not locked.
 
     OSError when it cannot be opened, RecordingError when another program has locked it."""
@@ -175,7 +186,7 @@ def _open_locked(path: Path) -> tuple[io.FileIO, bool]:
             if not S_ISREG(status.st_mode):
                 return file, False
             if not take_lock(file.fileno()):
-                raise RecordingError(path, "another program is recording into it")
+                raise RecordingError(path, LOCKED)
             size = os.fstat(file.fileno()).st_size  # of now, since the other program may have written until the lock
             with suppress(FileNotFoundError):
                 # a program that recorded nothing removes its file; a lock of that file would protect nothing

@@ -16,18 +16,14 @@ from typing import Any, BinaryIO
 from attrs import frozen
 
 from ..types import Packet, Site
-from .bad_rows import BadRows
+from .bad_rows import LONGEST_LINE, MAX_SKIPPED, BadRows, skip_line
 from .errors import RecordingError, Report, open_file, printable, warn
 
 FORMAT = "solepath-packets"
 """Value of the key "format" in the header."""
 VERSION = 1
 """Version of the format that this release reads and writes."""
-LONGEST_LINE = 65_536
-"""Largest size of a line, bytes (protocol/recording.md)."""
 SAMPLES_HINT = "samples have names that end in .npz or .csv"
-MAX_SKIPPED = 16_000_000
-"""Largest part of a damaged line that is skipped, bytes: a power failure may leave some megabytes of zeros."""
 
 
 def read_header(path: Path | str) -> dict[str, Any]:
@@ -158,13 +154,10 @@ def _read_lines(file: BinaryIO, progress: Callable[[int], None] | None = None) -
     bytes_read = number = 0
     while data := file.readline(LONGEST_LINE + 1):
         number, bytes_read = number + 1, bytes_read + len(data)
-        is_whole, skipped, part = data.endswith(b"\n"), 0, data
-        if len(data) > LONGEST_LINE:
-            while part and not part.endswith(b"\n") and skipped < MAX_SKIPPED:
-                part = file.readline(LONGEST_LINE)
-                skipped += len(part)
+        is_whole, skipped = data.endswith(b"\n"), 0
+        if len(data) > LONGEST_LINE and not is_whole:
+            skipped, is_whole = skip_line(file, b"\n")
             bytes_read += skipped
-            is_whole = part.endswith(b"\n")
         if progress is not None:
             progress(bytes_read)
         if data.strip():

@@ -6,11 +6,13 @@ import os
 from collections.abc import Callable
 from contextlib import suppress
 from errno import EISDIR
+from functools import partial
 from itertools import count
 from pathlib import Path
 from stat import S_IMODE, S_IWUSR
 
 from ..types.attrs import define, field
+from .lock import locked
 
 _numbers = count()
 
@@ -28,16 +30,34 @@ def read_bounded(path: Path, max_size: int) -> bytes:
     return data
 
 
-def write_whole(path: Path | str, text: str) -> None:
+BeforeMove = Callable[[Path], object]
+"""A last check of a file that is replaced next, which raises what stops that; the file is locked meanwhile."""
+
+
+def accept_any(path: Path) -> None:
+    """Replace the file, whatever it is now."""
+
+
+def identity(path: Path) -> tuple[int, ...] | None:
+    """Return what differs when another program writes or replaces a file; None if there is none."""
+    try:
+        status = path.stat()
+    except FileNotFoundError:
+        return None
+    return status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns
+
+
+def write_whole(path: Path | str, text: str, before_move: BeforeMove = accept_any) -> None:
     """Write a text as the whole content of a file, in UTF-8; raise OSError, naming the file, when that fails.
 
-    Whatever ends the program, and if the disk is full, the file has its earlier content or the whole text."""
-    replace_whole(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8", newline="\n"))
+    Whatever ends the program, and if the disk is full, the file has its earlier content or the whole text. A file that
+    another program records into is not replaced."""
+    replace_whole(Path(path), partial(Path.write_text, data=text, encoding="utf-8", newline="\n"), before_move)
 
 
-def replace_whole(path: Path, write: Callable[[Path], object]) -> None:
+def replace_whole(path: Path, write: Callable[[Path], object], before_move: BeforeMove = accept_any) -> None:
     """Replace a file by the one that `write` writes to the path that it is given, if it raises nothing."""
-    files = FileReplacements()
+    files = FileReplacements(before_move)
     try:
         temporary = files.temporary_path(path)
         try:
@@ -56,10 +76,12 @@ class FileReplacements:
     `temporary_path` returns a file to write instead of the target. `move_to_targets` moves all temporary files to their
     targets, once the disk has them; `discard` removes them. A temporary file is in the directory of its target, so that
     a target is unchanged or complete, whatever ends the program, and after a power failure too. A path that is no
-    regular file, such as a pipe, is written directly."""
+    regular file, such as a pipe, is written directly. A target that another program has locked, because it records
+    into it, is not replaced, nor is one that `before_move` raises an error for."""
 
+    before_move: BeforeMove = accept_any
     _targets: dict[Path, Path] = field(factory=dict, init=False)
-    """Path of the file that each temporary path replaces."""
+    """Path that each temporary path was made for."""
 
     def temporary_path(self, path: Path, *, read_only: bool = False) -> Path:
         """Make an empty file in the directory of `path` and return it; raise OSError, naming `path`, when that fails.
@@ -75,7 +97,7 @@ class FileReplacements:
             target.open("ab").close()
         while True:
             temporary = target.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
-            self._targets[temporary] = target  # before it exists: Ctrl-C may come between any two lines
+            self._targets[temporary] = path  # before it exists: Ctrl-C may come between any two lines
             try:
                 temporary.open("xb").close()
                 break
@@ -92,17 +114,35 @@ class FileReplacements:
         return temporary
 
     def move_to_targets(self) -> None:
-        """Move all temporary files to their targets; raise OSError, naming the target, when one cannot be moved."""
-        for temporary, target in list(self._targets.items()):
+        """Move all temporary files to their targets; raise OSError, naming the path, when one cannot be moved."""
+        for temporary, path in list(self._targets.items()):
             try:
                 with temporary.open("r+b") as file:
                     os.fsync(file.fileno())  # otherwise a power failure may leave the new name with no content
-                if target.exists():
-                    _copy_mode(target, temporary)
-                os.replace(temporary, target)
+                while not self._is_moved(temporary, path):
+                    pass
             except OSError as error:
-                raise OSError(error.errno, error.strerror, str(target)) from None
+                raise OSError(error.errno, error.strerror, str(path)) from None
             del self._targets[temporary]
+
+    def _is_moved(self, temporary: Path, path: Path) -> bool:
+        """Move a temporary file; return False if the file at `path` appeared just now, so that it is checked again."""
+        target = Path(os.path.realpath(path))
+        with locked(target) as exists:
+            self.before_move(path)
+            if exists:
+                _copy_mode(target, temporary)
+                os.replace(temporary, target)
+                return True
+        try:
+            os.link(temporary, target)  # unlike os.replace, this replaces nothing
+        except FileExistsError:
+            return False
+        except (OSError, AttributeError):  # a file system, or a system, without hard links
+            os.replace(temporary, target)
+        else:
+            temporary.unlink()
+        return True
 
     def discard(self) -> None:
         """Remove all temporary files."""

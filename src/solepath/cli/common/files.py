@@ -2,7 +2,8 @@
 
 Three rules hold for every command. A file that the command reads is never written, whatever its name (links). A file
 that such a command wrote is replaced, and so is an empty one. Any other file, and every recording, is replaced with
---force only. Pipes and devices are written as they are."""
+--force only, and none that is being recorded. Pipes and devices are written as they are. Before a file is replaced at
+the end, it is checked again: --force is for the file that was there at the start."""
 
 from __future__ import annotations
 
@@ -10,16 +11,17 @@ import argparse
 import json
 import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from errno import EEXIST
 from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-from attrs import frozen
+from attrs import field, frozen
 
 from ...recording import printable
-from ...saving.files import write_whole
+from ...saving.files import FileReplacements, identity, write_whole
+from ...saving.lock import LOCKED, locked
 from ...show.output import (
     CYCLE_COLUMNS,
     EVENTS_FILE,
@@ -73,12 +75,19 @@ SCORES = Kind(re.compile(rb'\{\}\n|\{\n "[^"\n]*": \{\n  "[^"\n]*": \{\n   "reco
 """JSON of `evaluate`."""
 FLEET_FIGURES = Kind(re.compile(rb'\{\n "wearers": \d+,\n "seconds": '))
 """JSON of `fleet-demo`."""
-FIGURE = Kind(re.compile(rb"solepath"), is_elsewhere=True)
-"""A figure of `reproduce`, whose metadata name the program."""
+FIGURE = Kind(
+    re.compile(
+        rb"\A\x89PNG.{0,60}tEXtSoftware\0solepath|\A%!PS-Adobe[^\n]*\n(?:%%[^\n]*\n)*%%Creator: solepath\n"
+        rb"|/Creator \(solepath\) /Producer \(Matplotlib |<dc:creator>\s*<cc:Agent>\s*<dc:title>solepath</dc:title>",
+        re.DOTALL,
+    ),
+    is_elsewhere=True,
+)
+"""A figure of `reproduce` (.png, .eps, .ps, .pdf, .svg), whose metadata name the program that drew it."""
 CALIBRATION = Kind(re.compile(rb""))
 """A calibration, which is read, checked and completed: what is none stays as it is."""
 TRACK_KINDS = {
-    EVENTS_FILE: Kind(re.compile(rb'\{"event": "')),
+    EVENTS_FILE: Kind(re.compile(rb'\{"event": "[A-Z]\w*", "t": [^\s,"]+, "known_at": ')),
     TRACK_FILE: _table(TRACK_COLUMNS),
     STRIDES_FILE: _table(STRIDE_COLUMNS),
     GAIT_CYCLES_FILE: _table(CYCLE_COLUMNS),
@@ -89,10 +98,26 @@ PLAN_KINDS = {PLAN_FILE: Kind(re.compile(rb"""<\?xml [^\n]*\n<svg [^\n>]*id="sol
 
 @frozen
 class OutputFile:
-    """A file that a command will write."""
+    """A file that a command will write; created before the command starts, it knows the file that is there then."""
 
     path: Path
     kind: Kind
+    _found: tuple[int, ...] | None = field(init=False)
+
+    @_found.default
+    def _identity(self) -> tuple[int, ...] | None:
+        return identity(self.path)
+
+    def check_again(self) -> None:
+        """Raise Failure when another program has written the file since then, unless it is of the same kind."""
+        if identity(self.path) != self._found and self.path.is_file() and not self.kind.is_own(self.path):
+            raise Failure(f"{printable(str(self.path))}: another program wrote it meanwhile, so that it stays")
+
+
+def replacements(outputs: Iterable[OutputFile]) -> FileReplacements:
+    """Return what replaces these files at the end, each after another check."""
+    by_path: Mapping[Path, OutputFile] = {output.path: output for output in outputs}
+    return FileReplacements(lambda path: by_path[path].check_again())
 
 
 def add_force(command: argparse.ArgumentParser) -> None:
@@ -115,7 +140,7 @@ def files_of_track(out: Path | None, *, places: bool, plan: bool = False) -> lis
 
 
 def check_outputs(outputs: Sequence[OutputFile], inputs: Iterable[Path | None], *, force: bool) -> None:
-    """Check that no output is an input, another output, or a file that is replaced with `force` only.
+    """Check that no output is an input, another output, being recorded, or replaced with `force` only.
 
     A directory among `inputs` stands for the files in it. No file is changed. Raise Failure, with one sentence."""
     read = [path for given in inputs if given is not None for path in _files_in(given)]
@@ -125,10 +150,22 @@ def check_outputs(outputs: Sequence[OutputFile], inputs: Iterable[Path | None], 
     for one, other in combinations(outputs, 2):
         if _is_same(one.path, other.path):
             raise Failure(f"{printable(str(other.path))}: two outputs cannot be one file")
+    for output in outputs:
+        _check_unlocked(output.path)
     for output in () if force else outputs:
         if output.path.is_file() and not output.kind.is_own(output.path):
             why = "exists" if output.kind.start is None else "exists and is no such file that solepath wrote"
             raise Failure(f"{printable(str(output.path))}: {why}; --force replaces it")
+
+
+def _check_unlocked(path: Path) -> None:
+    """Raise Failure when another program records into a file."""
+    if path.is_file():
+        try:
+            with locked(path):
+                pass
+        except BlockingIOError:
+            raise Failure(f"{printable(str(path))}: {LOCKED}") from None
 
 
 def _files_in(path: Path) -> list[Path]:
@@ -145,8 +182,8 @@ def _is_same(one: Path, other: Path) -> bool:
 def check_writable(path: Path, made: Path | None = None) -> None:
     """Check that a file can be written, without changing its contents; raise OSError when it cannot.
 
-    `made` is a directory that will be made before the file is written."""
-    if made is not None and not path.parent.exists() and _real(path.parent) == _real(made):
+    `made` is a directory that will be made, with those above it, before the file is written."""
+    if made is not None and not path.parent.exists() and Path(_real(made)).is_relative_to(_real(path.parent)):
         return
     if not path.exists():
         try:
@@ -164,6 +201,7 @@ def _real(path: Path) -> str:
     return os.path.realpath(path)
 
 
-def write_json(path: Path, value: Any) -> None:
-    """Write a value as indented JSON, whole or not at all; raise OSError when it cannot be written."""
-    write_whole(path, json.dumps(value, indent=1, allow_nan=False) + "\n")
+def write_json(output: OutputFile, value: Any) -> None:
+    """Write a value as indented JSON, whole or not at all; raise OSError or Failure when it cannot be written."""
+    text = json.dumps(value, indent=1, allow_nan=False) + "\n"
+    write_whole(output.path, text, lambda _: output.check_again())

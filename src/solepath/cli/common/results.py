@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
+from .files import OutputFile, replacements
 
 
 @define
@@ -34,17 +36,20 @@ class Results:
     recipe: str = ""
     when: str = ""
     """Start of the recording, as text."""
+    outputs: Sequence[OutputFile] = ()
+    """All files of `out`, and `report`, as they were before the run."""
     observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
     _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
-    _file_replacements: FileReplacements = field(factory=FileReplacements, init=False)
-    _report_replacement: FileReplacements = field(factory=FileReplacements, init=False)
+    _file_replacements: FileReplacements = field(init=False)
+    _report_replacement: FileReplacements = field(init=False)
     _picture_path: Path | None = field(default=None, init=False)
     _report_path: Path | None = field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
+        self._file_replacements, self._report_replacement = replacements(self.outputs), replacements(self.outputs)
         self._picture = None if self.plan is None else PlanPicture(self.plan)
         self._report = None
         if self.report is not None:

@@ -24,6 +24,10 @@ MAX_PIPED = 256_000_000
 """Largest size of an archive that comes through a pipe, bytes; which is kept whole, as its list is at its end."""
 HEADER_READERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
 """Functions of numpy that read the header of an array, by version; version 3 is for names of columns."""
+NUMBER_KINDS = "biuf"
+"""Kinds of numpy types that are numbers: a text or a record may be of any size."""
+FLOAT_SIZE = np.dtype(np.float64).itemsize
+"""Size of a number in memory, bytes; a longer one counts as several."""
 
 ARCHIVE_ERRORS = (
     ValueError,  # pickled objects, a header that does not fit its array
@@ -129,7 +133,10 @@ class _Archive:
             if info.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
                 raise ValueError("numpy packs in another way")
             with self._zip_file.open(info) as file:
-                self._values += _claimed_values(file, info.file_size)
+                count, dtype = _read_claim(file, info.file_size)
+            if dtype.kind not in NUMBER_KINDS:
+                raise RecordingError(self._path, f"holds {printable(str(dtype), 40)}, not numbers", key)
+            self._values += count * max(1, dtype.itemsize // FLOAT_SIZE)
             if self._values > MAX_VALUES:
                 raise RecordingError(self._path, f"holds more than {MAX_VALUES:,} numbers")
             with self._zip_file.open(info) as file:
@@ -139,8 +146,10 @@ class _Archive:
         return array
 
 
-def _claimed_values(file: IO[bytes], size: int) -> int:
-    """Return the number of values that the header of an array claims; ValueError when the file is not as large."""
+def _read_claim(file: IO[bytes], size: int) -> tuple[int, np.dtype[Any]]:
+    """Return the number of values that the header of an array claims, and their type, before any is unpacked.
+
+    ValueError when the file is not as large."""
     version = np.lib.format.read_magic(file)
     if version not in HEADER_READERS:
         raise ValueError("its header has another version")
@@ -148,7 +157,7 @@ def _claimed_values(file: IO[bytes], size: int) -> int:
     count = prod(shape)
     if not dtype.hasobject and count * dtype.itemsize > size:
         raise ValueError(f"its header claims {count} values, which do not fit into it")
-    return count
+    return count, dtype
 
 
 def _describe_error(error: BaseException) -> str:

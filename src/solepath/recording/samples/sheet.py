@@ -20,12 +20,10 @@ import numpy as np
 from attrs import define, field
 
 from ...types import Foot
-from ..bad_rows import BadRows
+from ..bad_rows import LONGEST_LINE, MAX_SKIPPED, BadRows, skip_line
 from ..errors import RecordingError, open_file, printable
 from .table import MAX_VALUES, QUANTITIES, FootTable
 
-MAX_LINE_LENGTH = 65_536
-"""Largest number of characters of a line; 4,000 pressure cells of two feet have less."""
 MAX_LENGTH = 4_000_000_000
 """Largest number of characters of a file: 40 for each of MAX_VALUES. A device without end is read up to it."""
 
@@ -81,7 +79,7 @@ def read_csv(path: Path, one_foot: Foot, bad_rows: BadRows) -> list[FootTable]:
             try:
                 parsed = _parse_row(_split_cells(line), header, orders)
             except ValueError as error:
-                if line.endswith("\n"):
+                if line.endswith("\n") or len(line) > LONGEST_LINE:
                     bad_rows.add(f"line {number}", str(error))
                     continue
                 text = f"line {number}: cut off in the middle; everything before it is used"
@@ -99,19 +97,26 @@ def read_csv(path: Path, one_foot: Foot, bad_rows: BadRows) -> list[FootTable]:
 
 
 def _read_lines(path: Path, file: TextIO) -> Iterator[tuple[int, str]]:
-    """Yield each line with its number; RecordingError at a line or a file that is too long for a table."""
+    """Yield each line with its number; RecordingError for a file that is too long for a table.
+
+    Of a line that is too long only the start is yielded; after MAX_SKIPPED characters of it the file ends there."""
     number = size = 0
-    while line := file.readline(MAX_LINE_LENGTH + 1):
-        number, size = number + 1, size + len(line)
-        if len(line) > MAX_LINE_LENGTH:
-            raise RecordingError(path, f"is longer than {MAX_LINE_LENGTH} characters", f"line {number}")
+    while line := file.readline(LONGEST_LINE + 1):
+        number, size, skipped = number + 1, size + len(line), 0
+        if len(line) > LONGEST_LINE and not line.endswith("\n"):
+            skipped, _ = skip_line(file, "\n")
+        size += skipped
         if size > MAX_LENGTH:
             raise RecordingError(path, f"is longer than {MAX_LENGTH:,} characters")
         yield number, line
+        if skipped >= MAX_SKIPPED:
+            return
 
 
 def _split_cells(line: str) -> list[str]:
     """Return the cells of one line; each line is parsed alone, so that an open quote affects no other line."""
+    if len(line) > LONGEST_LINE:
+        raise ValueError(f"is longer than {LONGEST_LINE} characters")
     try:
         return next(csv.reader([line]))
     except csv.Error as error:

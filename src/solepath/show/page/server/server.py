@@ -45,7 +45,7 @@ class Page:
 
     A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MAX_WATCHERS.
     A watcher without the token makes room for one who has it, and an idle connection for a new one: nobody without the
-    token can keep its owner out.
+    token can keep its owner out, except by hundreds of connections a second from the owner's own address.
 
     Entering the context raises OSError when the page cannot listen at `host` and `port`. Before that, `port` and `url`
     raise RuntimeError. Page and `scene` are for one event loop. When `scene` is replaced, as after a seek, watchers get
