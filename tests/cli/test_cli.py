@@ -28,6 +28,24 @@ def test_no_command_prints_the_help_and_version_prints_the_version():
     assert solepath("--version").stdout.startswith("solepath 0.")
 
 
+WITHOUT_NUMPY = "import sys; sys.modules['numpy'] = None; from solepath.cli import main; sys.exit(main(sys.argv[1:]))"
+
+
+def without_numpy(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-c", WITHOUT_NUMPY, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_packets_need_no_numpy_and_the_commands_that_do_give_the_line_that_installs_it(demo, folder):
+    done = without_numpy("track", folder / "demo.jsonl", "--out", folder / "bare", "--report", folder / "bare.html")
+    assert done.returncode == 0 and "strides" in done.stdout, done.stderr
+    solepath("track", folder / "demo.jsonl", "--out", folder / "whole")
+    assert (folder / "bare" / "events.jsonl").read_bytes() == (folder / "whole" / "events.jsonl").read_bytes()
+    for arguments in (["demo"], ["reproduce", "kupt-dfpc"], ["track", folder / "walk.csv"]):
+        done = without_numpy(*arguments)
+        assert (done.returncode, done.stderr) == (2, "solepath: this needs numpy: pip install 'solepath[arrays]'\n")
+
+
 @pytest.fixture(scope="module")
 def demo(folder: Path) -> subprocess.CompletedProcess[str]:
     return solepath("demo", "--seed", "5", "--record", folder / "demo.jsonl")

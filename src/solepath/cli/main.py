@@ -96,6 +96,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return status
     except (Failure, RecordingError, CalibrationError) as error:
         note(str(error))
+    except ModuleNotFoundError as error:
+        if error.name != "numpy":
+            raise
+        note("this needs numpy: pip install 'solepath[arrays]'")
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
