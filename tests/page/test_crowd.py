@@ -24,7 +24,6 @@ from walks import insoles
 from solepath import Session
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import connection, server, watcher
-from solepath.show.page.server.open_connections import MAX_CONNECTIONS
 from solepath.show.page.server.server import MAX_WATCHERS, Page
 
 
@@ -37,17 +36,22 @@ async def test_the_number_of_watchers_is_limited() -> None:
         await check_watching(client, url)
 
 
+LIMIT = 32
+"""Number of connections to which a page is limited here."""
+
+
 async def test_idle_connections_are_limited_and_closed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.5)
+    monkeypatch.setattr(server, "IDLE_TIMEOUT", 2.0)
+    monkeypatch.setattr(server, "MAX_CONNECTIONS", LIMIT)
     async with served() as (page, client, url):
-        idle = [await open_raw(page) for _ in range(3 * MAX_CONNECTIONS)]
+        idle = [await open_raw(page) for _ in range(3 * LIMIT)]
         for _, writer in idle:
             writer.write(b"GET / HTTP/1.1\r\nHost: loc")
-        while len(page._open) < MAX_CONNECTIONS:
+        while len(page._open) < LIMIT:
             await asyncio.sleep(0.01)
         async with client.get(url) as answer:
             assert answer.status == 200, "there is room for a new one"
-        assert len(page._open) <= MAX_CONNECTIONS
+        assert len(page._open) <= LIMIT
         for reader, writer in idle:
             with suppress(ConnectionError):
                 assert await reader.read() == b""
