@@ -38,10 +38,8 @@ def without_numpy(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 def test_packets_need_no_numpy_and_the_commands_that_do_give_the_line_that_installs_it(demo, folder):
     done = without_numpy("track", folder / "demo.jsonl", "--out", folder / "bare", "--report", folder / "bare.html")
-    assert done.returncode == 0 and "strides" in done.stdout, done.stderr
-    solepath("track", folder / "demo.jsonl", "--out", folder / "whole")
-    assert (folder / "bare" / "events.jsonl").read_bytes() == (folder / "whole" / "events.jsonl").read_bytes()
-    for arguments in (["demo"], ["reproduce", "kupt-dfpc"], ["track", folder / "walk.csv"]):
+    assert done.returncode == 0 and "strides" in done.stdout and (folder / "bare.html").exists(), done.stderr
+    for arguments in (["demo"], ["track", folder / "walk.csv"]):
         done = without_numpy(*arguments)
         assert (done.returncode, done.stderr) == (2, "solepath: this needs numpy: pip install 'solepath[arrays]'\n")
 

@@ -91,7 +91,7 @@ def test_its_table_of_speed_is_the_long_one_in_short():
 
 @pytest.mark.parametrize(
     ("mark", "ends"),
-    [("try", ["'.[view]'", "solepath demo"]), ("test", ["pytest -n auto --dist loadfile --no-loadscope-reorder"])],
+    [("try", ["'.[demo]'", "solepath demo"]), ("test", ["pytest -n auto --dist loadfile --no-loadscope-reorder"])],
 )
 def test_nothing_but_python_is_needed_to_try_and_to_test_it(mark, ends):
     lines = below(mark)

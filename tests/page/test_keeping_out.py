@@ -27,7 +27,7 @@ SENT = {
     "nothing": b"",
     "half a head": b"GET / HTTP/1.1\r\nHost: loc",
     "a request": GET,
-    "many requests": GET * 50,
+    "many requests": GET * 20,
     "no token": handshake(),
     "a wrong token": handshake().replace(b"/ws", b"/ws?token=wrong"),
 }
@@ -68,8 +68,14 @@ async def knock(page: Page, peer: str, sent: bytes) -> Connection | None:
 
 
 @several_addresses
-@pytest.mark.parametrize("sent", SENT.values(), ids=SENT)
-@pytest.mark.parametrize("peers", [PEERS[:1], PEERS, (OWNER,)], ids=["one peer", "several peers", "the owner's own"])
+@pytest.mark.parametrize(
+    ("peers", "sent"),
+    [
+        *[pytest.param(PEERS[:1], sent, id=f"one peer, {name}") for name, sent in SENT.items()],
+        *[pytest.param(PEERS, SENT[name], id=f"several peers, {name}") for name in ("nothing", "many requests")],
+        *[pytest.param((OWNER,), SENT[name], id=f"the owner's own, {name}") for name in ("nothing", "a request")],
+    ],
+)
 async def test_idle_connections_and_reconnections_keep_nobody_out(peers: tuple[str, ...], sent: bytes) -> None:
     host = "0.0.0.0" if peers is PEERS else "127.0.0.1"
     async with served(host=host) as (page, _, _):

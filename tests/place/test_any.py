@@ -107,7 +107,7 @@ def test_any_events_and_any_track_give_sound_events_and_no_exception(method, sta
 def packed_size(part: object) -> int:
     lists: Lists = ([], [], [], [])
     write(record_of(type(part)), part, lists)
-    return len(to_bytes(*lists, (0.0, 0.0)))
+    return len(to_bytes(*lists))
 
 
 def test_the_state_is_small_and_does_not_grow(part: Method) -> None:
