@@ -7,7 +7,7 @@ import pickle
 from collections.abc import Callable
 from copy import copy, deepcopy
 from decimal import Decimal
-from enum import IntEnum
+from enum import Enum, IntEnum
 from fractions import Fraction
 from typing import Any
 
@@ -162,9 +162,11 @@ def test_cells_that_cancel_each_other_are_absurd_in_every_python(pressure: tuple
 
 def test_texts_and_flags_of_numpy_can_be_saved() -> None:
     address = np.str_("C0:FF:EE:00:00:01")
-    packets = [evolve(one, device=address, channel=np.str_(one.channel)) for one in insoles().packets[:50]]
+    channels = sorted({one.channel for one in insoles().packets})
+    channel = Enum("Channels", [(f"CHANNEL_{index}", name) for index, name in enumerate(channels)], type=str)
+    packets = [evolve(one, device=address, channel=channel(one.channel)) for one in insoles().packets[:50]]
     session = Session(poses=np.bool_(True), pressures=np.bool_(False), devices={LEFT: address})
-    session.feed([packet for packet in packets if packet.site is LEFT])
+    assert not of(PacketRejected, session.feed([packet for packet in packets if packet.site is LEFT]))
     session.feed(evolve(packets[-1], site=LEFT, t=packets[-1].t + 1.0, data=memoryview(np.zeros((4, 2), np.uint8))))
     assert Session.restore(json.loads(json.dumps(session.snapshot()))).pack() == session.pack()
     for wrong in ("yes", 2, None):

@@ -123,8 +123,8 @@ def test_restarting_the_clock_again_without_data_adds_no_uncertainty() -> None:
     session.feed([packet for packet in insoles().packets if packet.t < 5.0])
     session.restart_clock(4.0)
     once = session.position
-    for now in (1.0, 2.0, 3.0):
-        session.restart_clock(now)
+    for t in (1.0, 2.0, 3.0):
+        session.restart_clock(t)
     assert session.position == once
 
 

@@ -43,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     check_outputs([OutputFile(options.out, CALIBRATION)], inputs, force=False)
     check_writable(options.out)
     learnt, lines = options.learn(options, _read(options.out))
-    while not _is_completed(options.out, learnt):
+    while not _try_to_complete(options.out, learnt):
         pass
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
     return 0
@@ -60,8 +60,8 @@ class _FileChanged(Exception):
     """Error for a calibration file that another program wrote after it was read."""
 
 
-def _is_completed(path: Path, learnt: Calibration) -> bool:
-    """Add what was learnt to what the file holds; return False if another `calibrate` wrote it meanwhile."""
+def _try_to_complete(path: Path, learnt: Calibration) -> bool:
+    """Add what was learnt to what the file holds; return False when another `calibrate` wrote it just now."""
     from ..calibration.file import write_calibration
     from ..calibration.limits import find_fault
 

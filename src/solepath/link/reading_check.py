@@ -14,7 +14,7 @@ from .driver import MAX_COUNTER, Measured, Reading
 MAX_VALUE = 1e8
 """Largest magnitude of a sensor value, SI units; the largest of a known device is 24 bits of Pa, which are 1.7e7."""
 MOST_KNOWN, LONGEST_NAME = 64, 80
-"""Largest number of known numbers of a device, and length of their names, characters; a driver here has three."""
+"""Largest number of known numbers of a device, and length of their names, characters, both chosen by hand."""
 MIN_RATE, MAX_RATE = 0.1, 10_000.0
 """Smallest and largest rate that a reading may have, samples a second."""
 

@@ -119,13 +119,13 @@ class FileReplacements:
             try:
                 with temporary.open("r+b") as file:
                     os.fsync(file.fileno())  # otherwise a power failure may leave the new name with no content
-                while not self._is_moved(temporary, path):
+                while not self._try_to_move(temporary, path):
                     pass
             except OSError as error:
                 raise OSError(error.errno, error.strerror, str(path)) from None
             del self._targets[temporary]
 
-    def _is_moved(self, temporary: Path, path: Path) -> bool:
+    def _try_to_move(self, temporary: Path, path: Path) -> bool:
         """Move a temporary file; return False if the file at `path` appeared just now, so that it is checked again."""
         target = Path(os.path.realpath(path))
         with locked(target) as exists:

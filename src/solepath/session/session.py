@@ -19,7 +19,7 @@ from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
-from ..types.plain import flag
+from ..types.plain import flag, text
 from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
 from .state import SessionState
 from .wearer import WearerParts, WearerSettings, sort_by_key
@@ -116,7 +116,7 @@ class Session:
         """Bind `site` to another device, "" for the next that sends, and forget the old layout, ranges and clock."""
         if not isinstance(site, Site) or not isinstance(device, str):
             raise TypeError("a Site is bound to the address of a device, a str")
-        device = str(device)  # text of numpy cannot be saved
+        device = text(device)
         if not is_address(device):
             raise ValueError(f"{device!r:.80} is no address of a device")
         state = self._state
@@ -191,8 +191,8 @@ class Session:
         if type(self) is not Session:
             raise TypeError(f"how a {type(self).__name__} is pickled is for its own __reduce__ to say")
         if self._kinds.drivers:
-            text = "a session with devices of the app is not pickled"
-            raise TypeError(f"{text}: use snapshot(), and restore(profiles=...)")
+            reason = "a session with devices of the app is not pickled"
+            raise TypeError(f"{reason}: use snapshot(), and restore(profiles=...)")
         return _resume, (self.snapshot(), own_classes(self._state), self._plan)
 
     def snapshot(self) -> dict[str, Json]:

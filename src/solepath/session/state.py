@@ -9,7 +9,7 @@ from ..link.decoder import Decoder
 from ..link.kinds import DeviceKinds
 from ..types import Packet, Sample, Site
 from ..types.attrs import define, evolve, field
-from ..types.plain import has_floats, number, with_floats
+from ..types.plain import has_floats, number, text, with_floats
 from .wearer import WearerParts, sort_by_key
 
 VERSION = 3
@@ -46,7 +46,7 @@ class SessionState:
             raise TypeError("a packet holds a time, a Site, a channel's name, bytes and a device's address")
         texts_plain = packet.device.__class__ is packet.channel.__class__ is str
         if not (texts_plain and packet.t.__class__ is float and data.__class__ is bytes):
-            t, channel, device = number("t of a packet", packet.t), str(packet.channel), str(packet.device)
+            t, channel, device = number("t of a packet", packet.t), text(packet.channel), text(packet.device)
             packet = evolve(packet, t=t, channel=channel, data=bytes(data), device=device)
         decoder = self.decoders.get(site) or Decoder(site)
         items = decoder.feed(packet, kinds)

@@ -16,7 +16,8 @@ from .records import Sample
 
 _Value = TypeVar("_Value")
 
-FLOAT = frozenset((float,))
+ONLY_FLOATS = frozenset((float,))
+"""Type of the numbers of an attitude that are not converted."""
 PLAIN_NUMBERS = frozenset((float, int))
 """Types of the numbers of pressure cells that are not converted; counts are whole numbers."""
 
@@ -42,7 +43,9 @@ def has_floats(sample: Sample) -> bool:
     if pressure is not None and (pressure.__class__ is not tuple or not PLAIN_NUMBERS.issuperset(map(type, pressure))):
         return False
     quat = sample.quat
-    if quat is not None and (quat.__class__ is not tuple or len(quat) != 4 or not FLOAT.issuperset(map(type, quat))):
+    if quat is not None and (
+        quat.__class__ is not tuple or len(quat) != 4 or not ONLY_FLOATS.issuperset(map(type, quat))
+    ):
         return False
     if sample.air_pressure is not None and sample.air_pressure.__class__ is not float:
         return False
@@ -101,6 +104,11 @@ def _cells(values: Any) -> tuple[float, ...] | None:
         raise TypeError(f"pressure of a sample is a number for each cell, not {values!r:.80}")
     cells: Any = [None if value is None else number("pressure of a sample", value) for value in values]
     return tuple(cells)
+
+
+def text(value: str) -> str:
+    """Return a text of numpy, of an enum or of another class of texts as a plain one, with the same characters."""
+    return str.__str__(value)
 
 
 def flag(what: str, value: Any) -> bool:

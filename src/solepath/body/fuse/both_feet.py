@@ -47,7 +47,7 @@ TURN_ERROR = 0.12
 MIN_LENGTH, MAX_TURN, MAX_DIRECTION_DEVIATION = 0.5, 0.8, 0.6
 """Limits for a stride that is compared: length, m; turn, rad; deviation from the foot's usual direction, rad."""
 GATE_LIMIT, NO_GATE = 16.0, 1e12
-"""Largest squared innovation, divided by its variance, of a measurement that is used, and one that uses any."""
+"""Largest squared innovation, divided by its variance, of a measurement that is used; `NO_GATE`: always."""
 MAX_STRIDE_LENGTH = 2.5
 """Longest plausible stride, m; the excess of a longer stride inflates the covariance."""
 ALIGNMENT_DISTANCE = 5.0
@@ -111,12 +111,12 @@ class BothFeet(MeanOfFeet):
 
     def reset(self, site: Site) -> None:
         """Reset a foot as `MeanOfFeet` does, and discard its newest stride; if both are, the wearer may have moved."""
-        unknown = self.left.t is self.right.t is None
+        both_unknown = self.left.t is self.right.t is None
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
             self.strides[0 if site.foot is Foot.LEFT else 1] = None
             self.corridor.reset()
-            if self.started and not unknown and self.left.t is self.right.t is None:
+            if self.started and not both_unknown and self.left.t is self.right.t is None:
                 self.errors.inflate_both()
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
@@ -269,12 +269,12 @@ class BothFeet(MeanOfFeet):
     def _follow_corridor(self, index: int, event: StrideTaken, start: Vec3, end: Vec3) -> None:
         """Correct the heading by the result of the corridor filter."""
         correction = self.corridor.add_stride(index, event.t_end, start, end, event.heading_change)
-        if correction is None:
-            return
-        errors = [0.0] * (WIDTH + 1)
-        errors[HEADING] = errors[STATES_PER_FOOT + HEADING] = correction[0]
-        self._correct(errors)
-        self.errors.correct_mean_rate(correction[1], self.corridor.drift[2])
+        if correction is not None:
+            yaw, rate = correction
+            errors = [0.0] * (WIDTH + 1)
+            errors[HEADING] = errors[STATES_PER_FOOT + HEADING] = yaw
+            self._correct(errors)
+            self.errors.correct_mean_rate(rate, self.corridor.drift[2])
 
     def _shift_foot(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""

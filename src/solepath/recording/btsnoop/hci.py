@@ -45,7 +45,7 @@ CONTINUING_FRAGMENT = 1
 ATT_CHANNEL = 4
 """L2CAP channel of the attribute protocol."""
 MOST_CONNECTIONS = 100
-"""Largest number of connections at once; a controller has some ten. A damaged log may claim any number."""
+"""Largest number of connections at once, chosen by hand; a damaged log may claim any number."""
 FIRST_DYNAMIC_CHANNEL = 0x40
 """First of the L2CAP channels that are opened on request, for example for the enhanced attribute protocol (EATT)."""
 

@@ -25,7 +25,7 @@ from .records import reject_pipe
 from .values import LoggedValue, ValueListener
 
 MOST_ATTRIBUTES = 10_000
-"""Largest number of attributes of a log, of all devices, whose values are examined; a phone reads some ten of each."""
+"""Largest number of attributes of a log, of all devices, whose values are examined: twenty of each, chosen by hand."""
 
 
 @define

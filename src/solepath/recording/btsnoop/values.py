@@ -14,7 +14,7 @@ from .hci import ConnectionChange, Controller, HciConnection, Pdu
 from .records import read_records
 
 MOST_DEVICES = 500
-"""Largest number of devices of a log that are examined; a phone that sees other people's devices connects to few."""
+"""Largest number of devices of a log that are examined, chosen by hand; they are those that the host connected to."""
 
 
 @frozen
