@@ -160,6 +160,7 @@ def spoilt(sample: Sample, last: Sample) -> dict[str, tuple[Sample, Rejection]]:
         "known nan": (evolve(sample, known_at=nan), Rejection.NOT_FINITE),
         "known absurd": (evolve(sample, known_at=1e300), Rejection.ABSURD),
         "the same time again": (evolve(sample, t=last.t), Rejection.DUPLICATE),
+        "a tenth of a microsecond later": (evolve(sample, t=last.t + 1e-7), Rejection.DUPLICATE),
         "earlier": (evolve(sample, t=last.t - 0.5), Rejection.TIME_BACKWARDS),
         "much earlier": (evolve(sample, t=-1e9), Rejection.TIME_BACKWARDS),
     }

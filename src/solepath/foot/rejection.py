@@ -18,6 +18,10 @@ ABSURD_PRESSURE = 1e7
 """Limit of the root of the sum of squares over all cells, and so of each cell, N or counts; no insole measures more."""
 ABSURD_TIME = 1e11
 """Limit of a time, s, positive or negative."""
+SHORTEST_STEP = 1e-6
+"""Shortest time from one sample to the next, s: no sensor of a foot sends a million a second.
+
+The filters divide by powers of the step, which have no value as a float if it is much shorter."""
 
 LEAST_TIME = -ABSURD_TIME
 """Lower limit of a time, s."""
@@ -49,7 +53,7 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
     if (
         not LEAST_TIME <= t <= ABSURD_TIME
         or not LEAST_TIME <= known_at <= ABSURD_TIME
-        or (newest is not None and t <= newest)
+        or (newest is not None and t - newest < SHORTEST_STEP)
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
     acc, gyro = sample.acc, sample.gyro
@@ -81,7 +85,7 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
 
 
 def _wrong_order(t: float, newest: float) -> RejectionReason:
-    if t == newest:
+    if 0.0 <= t - newest < SHORTEST_STEP:
         return RejectionReason(Rejection.DUPLICATE, f"a second sample for {t:.6g} s")
     return RejectionReason(Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before")
 
