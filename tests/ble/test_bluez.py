@@ -202,7 +202,7 @@ def test_a_device_that_must_be_paired_is_reported_and_is_paired_on_request(on_a_
                 return rejected, await until(devices, frames(10))
 
     rejected, received = on_a_bus(main)
-    assert troubles(rejected) == ["the device must be paired first: pair=True, or --pair"]
+    assert troubles(rejected) == ["insole/info cannot be read: the device must be paired first: pair=True, or --pair"]
     assert not troubles(received)
 
 

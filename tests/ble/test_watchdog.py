@@ -5,7 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.ble.watchdog import MAX_TRIES, Remedy, Watchdog
+from solepath.link.setup.watchdog import MAX_TRIES, Remedy, Watchdog
 
 STREAMS = ("acc", "gyro")
 PATIENCE = 2.0

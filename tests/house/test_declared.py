@@ -13,7 +13,7 @@ from here import ROOT
 SRC = ROOT / "src" / "solepath"
 FIELD_PLACES = (
     "events", "types", "calibration", "body/part.py", "link/driver.py", "link/profile.py", "session", "recipes.py",
-    "ble/config.py", "recording", "emulate",
+    "link/setup/config.py", "recording", "emulate",
 )  # fmt: skip
 """Folders and modules whose public fields have docstrings."""
 NUMERIC = re.compile(r"\b(?:float|int|Vec3|Quat)\b")

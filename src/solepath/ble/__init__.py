@@ -1,10 +1,11 @@
 """Connections to Bluetooth devices through bleak: search, connect, set up, and receive packets."""
 
-from .config import DeviceConfig
+from ..link.setup.candidates import Advertisement
+from ..link.setup.config import DeviceConfig
 from .connection import Connection, ConnectionState
 from .devices import Devices
 from .record import record
-from .scanning import NATIVE, Advertisement, Backend, scan
+from .scanning import NATIVE, Backend, scan
 from .trouble import BluetoothError
 
 __all__ = [

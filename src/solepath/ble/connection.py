@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
 from contextlib import suppress
 from enum import Enum
 
@@ -12,14 +11,15 @@ from bleak import BleakClient
 from bleak.exc import BleakDeviceNotFoundError
 from bleak_retry_connector import establish_connection
 
+from ..link.setup.candidates import PRESENCE_TIME, Advertisement, Candidates
+from ..link.setup.config import DeviceConfig
+from ..link.setup.device_setup import DeviceSetup
+from ..link.setup.roster import Member, Roster
 from ..types import Site
-from ..wire.receiver import MAX_NAME_SIZE, ConnectionFrame, build_connected
-from .config import DeviceConfig
-from .inbox import Emitter, shorten
-from .listening import Listening
-from .scanning import WEAKEST_SIGNAL, Advertisement, Backend, Scanner
-from .search import PRESENCE_TIME, Search
-from .setup import INFO_CHANNEL, WrongDevice, find_missing_stream, parse_site, read_info
+from .client import Client, list_characteristics
+from .inbox import Emitter
+from .scanning import WEAKEST_SIGNAL, Backend, Scanner
+from .search import find_device
 from .trouble import FAILURES, NO_ANSWER, bleak_call, describe_error
 
 MAX_ATTEMPTS = 2
@@ -36,8 +36,6 @@ STABLE_TIME = 1.0
 """Time of listening after which a lost device is searched for again without delay, s."""
 DISCONNECT_TIMEOUT = 5.0
 """Time limit of a disconnection, s."""
-RECHECK_TIME = 60.0
-"""Time after which a wrong device is tried again, s: its owner may have corrected it."""
 
 
 class ConnectionState(Enum):
@@ -60,122 +58,117 @@ class Connection:
     `run` raises no Bluetooth failure: each becomes a packet, which the session turns into LinkTrouble.
 
     Every connection runs in its own task, so no device waits for another. It reports through `emitter`. `pair` requests
-    pairing when connected. `patience` is the time until a device that does not advertise is reported, s. `siblings` are
-    all connections of the Devices, this one included; no two of them use the same device or the same site."""
+    pairing when connected. `patience` is the time until a device that does not advertise is reported, s. `roster` holds
+    all devices of the Devices, of which `member` is this one."""
 
-    config: DeviceConfig
+    roster: Roster
+    member: Member
     backend: Backend
     scanner: Scanner
     emitter: Emitter
-    siblings: Sequence[Connection]
     pair: bool
     patience: float
     state: ConnectionState = field(default=ConnectionState.SEEKING, init=False)
-    name: str = field(default="", init=False)
     signal: int | None = field(default=None, init=False)
     """Signal strength of the last advertisement, dBm; None when unknown."""
-    _current_address: str = field(default="", init=False)
-    """Address of the device that is in use now; "" for none."""
     _listening_since: float = field(default=0.0, init=False)
     """Start of listening, s."""
     _no_stream_since: float = field(default=0.0, init=False)
     """Start of the time without any stream data, over all attempts, s."""
-    _streamed: bool = field(default=False, init=False)
+    _has_streamed: bool = field(default=False, init=False)
     """True if the current or last connection brought stream data."""
-    _wrong_since: dict[str, float] = field(factory=dict, init=False)
-    """Time at which each wrong device was detected, s, by its address."""
+
+    @property
+    def config(self) -> DeviceConfig:
+        """The device to connect to."""
+        return self.member.config
 
     @property
     def site(self) -> Site:
         """Site of the packets; provisional until a device that reports its own site was read."""
-        return self.emitter.site
+        return self.member.site
 
     @property
     def address(self) -> str:
         """Address of the device, "" until it is known; from then on no other device is accepted."""
-        return self.emitter.address
+        return self.member.address
+
+    @property
+    def name(self) -> str:
+        """Advertised name of the device, "" until it is known."""
+        return self.member.name
 
     async def run(self) -> None:
         """Keep the device connected; never returns."""
         pause, self._no_stream_since = SEARCH_DELAY, _now()
         while True:
-            silent_since, report_trouble = self._no_stream_since, self.emitter.report_trouble
-            search = Search(
-                self.scanner, self.config, self.address, self._is_excluded, self.patience, silent_since, report_trouble
-            )
-            found = await search.run()
-            self._current_address, self.signal = found.address, found.signal if found.signal > WEAKEST_SIGNAL else None
-            self._streamed = False
+            found = await find_device(self.scanner, self._make_candidates(), self.emitter.report_trouble)
+            self.member.current_address = found.address
+            self.signal = found.signal if found.signal > WEAKEST_SIGNAL else None
+            self._has_streamed = False
             try:
                 await self._use(found)
-            except WrongDevice as error:
-                self._wrong_since[found.address] = _now()
-                self.emitter.report_trouble(str(error))
             except FAILURES as error:
                 self.emitter.report_trouble(describe_error(error))
             finally:
                 stable = (
-                    self._streamed
+                    self._has_streamed
                     and self.state is ConnectionState.LISTENING
                     and _now() - self._listening_since >= STABLE_TIME
                 )
-                self._current_address, self.state = "", ConnectionState.SEEKING
-            if self._streamed:
+                self.member.current_address, self.state = "", ConnectionState.SEEKING
+            if self._has_streamed:
                 pause, self._no_stream_since = SEARCH_DELAY, _now()
             if not stable:
                 await asyncio.sleep(pause)
-            if not self._streamed:
+            if not self._has_streamed:
                 pause = min(2.0 * pause, MAX_SEARCH_DELAY)
 
-    def _is_excluded(self, found: Advertisement) -> bool:
-        """Return whether the device belongs to another connection or is known to be wrong."""
-        self._wrong_since = {address: t for address, t in self._wrong_since.items() if _now() - t < RECHECK_TIME}
-        other_connections = (connection for connection in self.siblings if connection is not self)
-        return found.address in self._wrong_since or any(connection._claims(found) for connection in other_connections)
+    def _make_candidates(self) -> Candidates:
+        def is_excluded(found: Advertisement) -> bool:
+            return self.roster.is_excluded(self.member, found.address, found.name, _now())
 
-    def _claims(self, found: Advertisement) -> bool:
-        if self.address or self._current_address:
-            return found.address in (self.address, self._current_address)
-        return self.config.is_named(found.address, found.name)
+        return Candidates(self.config, self.address, is_excluded, self._report_at())
+
+    def _report_at(self) -> float:
+        """Return the time at which a device that is not found or does not answer is reported, s."""
+        return max(self._no_stream_since + self.patience, _now() + min(PRESENCE_TIME, self.patience))
 
     async def _use(self, found: Advertisement) -> None:
-        """Connect and listen until the connection is lost. Raises WrongDevice and FAILURES."""
+        """Connect and listen until the connection is lost. Raises FAILURES."""
         profile = self.config.profile or found.profile
         name = found.name or found.address
         if profile is None:
-            raise WrongDevice(f"{name} is of no kind that is known here: say its profile")
+            self.member.wrong_since[found.address] = _now()
+            self.emitter.report_trouble(f"{name} is of no kind that is known here: say its profile")
+            return
         self.state = ConnectionState.CONNECTING
         disconnected = asyncio.Event()
-        client = await self._connect(found, name, disconnected)
+        bleak_client = await self._connect(found, name, disconnected)
         try:
             self.state = ConnectionState.SETTING_UP
-            if missing := find_missing_stream(client, profile):
-                raise WrongDevice(f"{name} is no {profile.name}: it has no {missing}")
-            info = await read_info(client, profile)
-            self._assign(None if info is None else parse_site(info, name), found, name)
-            listening = Listening(
-                client, profile, self.emitter, disconnected, {} if info is None else {INFO_CHANNEL: info}
+            characteristics = list_characteristics(bleak_client)
+            setup = DeviceSetup(
+                self.roster, self.member, profile, characteristics, found.address, found.name, self.signal
             )
-            self.emitter.emit(
-                "receiver/connected", build_connected(ConnectionFrame(shorten(name, MAX_NAME_SIZE), self.signal))
-            )
+            client = Client(bleak_client, setup, self.emitter, disconnected)
             try:
-                await listening.set_up()
-                self.state, self._listening_since = ConnectionState.LISTENING, _now()
-                await listening.run()
+                await client.set_up()
+                if setup.is_listening:
+                    self.state, self._listening_since = ConnectionState.LISTENING, _now()
+                    await client.listen()
             finally:
-                listening.closed, self._streamed = True, listening.streamed
-                self.emitter.emit("receiver/disconnected")
+                client.closed, self._has_streamed = True, setup.has_streamed
+                self.emitter.emit(setup.disconnect())
         finally:
             with suppress(*FAILURES):
                 async with bleak_call(DISCONNECT_TIMEOUT):
-                    await client.disconnect()
+                    await bleak_client.disconnect()
 
     async def _connect(self, found: Advertisement, name: str, disconnected: asyncio.Event) -> BleakClient:
         """Connect to the device; `disconnected` is set when the connection is lost. Raises FAILURES."""
         loop = asyncio.get_running_loop()
-        report_at = max(self._no_stream_since + self.patience, _now() + min(PRESENCE_TIME, self.patience))
-        timer = loop.call_at(report_at, self.emitter.report_trouble, NO_ANSWER)
+        timer = loop.call_at(self._report_at(), self.emitter.report_trouble, NO_ANSWER)
         try:
             async with bleak_call(CONNECT_TIMEOUT):
                 client = await establish_connection(
@@ -195,24 +188,6 @@ class Connection:
             disconnected.clear()  # an earlier attempt may have set it: it was connected for a moment
         return client
 
-    def _assign(self, reported: Site | None, found: Advertisement, name: str) -> None:
-        """Assign this device to the site that it reports; raise WrongDevice when another site is configured."""
-        site, requested = reported or self.config.site, self.config.site
-        if site is None:
-            raise WrongDevice(f"{name} does not say where it is worn: name a site")
-        if requested is not None and site is not requested:
-            raise WrongDevice(f"{name} is a {_describe(site)} one: expected at the {_describe(requested)}")
-        same_site = [other for other in self.siblings if other is not self and other.site is site]
-        if any(other.address or other.config.site is not None for other in same_site):
-            raise WrongDevice(f"{name} is one more for the {_describe(site)}")
-        for other in same_site:  # both sites are provisional, so they can be exchanged
-            other.emitter.site = self.site
-        self.emitter.site, self.emitter.address, self.name = site, found.address, found.name
-
 
 def _now() -> float:
     return asyncio.get_running_loop().time()
-
-
-def _describe(site: Site) -> str:
-    return site.value.replace("_", " ")

@@ -9,8 +9,9 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Iterable
 
-from ..types import Packet, Site
-from .config import DeviceConfig, check_configs
+from ..link.setup.config import DeviceConfig, check_configs
+from ..link.setup.roster import Roster
+from ..types import Packet
 from .connection import Connection, ConnectionState
 from .inbox import Emitter, Inbox
 from .scanning import NATIVE, Backend, Scanner, make_scanner
@@ -64,13 +65,10 @@ class Devices:
         self._in_use = False
         """True from the start of `async with` to its end."""
         self._fault: asyncio.Task[None] | None = None
-        # an insole without a configured site has a provisional one until it reports its own
-        free_sites = [site for site in Site if site not in {config.site for config in configs}]
-        for config in configs:
-            emitter = Emitter(self._inbox, free_sites.pop(0) if config.site is None else config.site)
-            self._connections.append(
-                Connection(config, backend, self._scanner, emitter, self._connections, pair, patience)
-            )
+        roster = Roster()
+        for member in roster.add(configs):
+            emitter = Emitter(self._inbox, member)
+            self._connections.append(Connection(roster, member, backend, self._scanner, emitter, pair, patience))
         self._inbox.on_arrival = self._wake
 
     @property

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from attrs import define, field
 
+from ..link.setup.device_setup import MAX_TEXT_SIZE, TROUBLE, Value, shorten
+from ..link.setup.roster import Member
 from ..types import Packet, Site
 from ..wire.fields import build_text
 from ..wire.receiver import build_dropped, parse_dropped
@@ -15,8 +17,6 @@ from ..wire.receiver import build_dropped, parse_dropped
 DROPPED = "receiver/dropped"
 REPORT_INTERVAL = 60.0
 """Shortest interval between two reports of the same trouble, s."""
-MAX_TEXT_BYTES = 500
-"""Longest text of a trouble, bytes."""
 
 
 @define
@@ -95,12 +95,11 @@ class Inbox:
 
 @define(eq=False)
 class Emitter:
-    """Puts packets of the device `address` ("" if unknown) at `site` into `inbox`, with the event loop's time, s."""
+    """Puts packets of a device, at its site in the roster, into `inbox`, with the event loop's time, s."""
 
     inbox: Inbox
-    site: Site
-    address: str = ""
-    _reported: dict[str, float] = field(factory=dict, init=False)
+    member: Member
+    _reported: dict[bytes, float] = field(factory=dict, init=False)
     """Time of the last report of each trouble, s, by its text."""
 
     def emit_notification(self, channel: str, data: bytes) -> float:
@@ -109,24 +108,24 @@ class Emitter:
         self.inbox.put(packet, True)
         return packet.t
 
-    def emit(self, channel: str, data: bytes = b"") -> Packet:
-        """Emit a value that was read or written, or a report of the receiver; notifications do not displace it."""
-        packet = self._make_packet(channel, data)
-        self.inbox.put(packet, False)
-        return packet
+    def emit(self, values: Iterable[Value]) -> None:
+        """Emit values that were read or written, and reports of the receiver; notifications do not displace them.
+
+        A trouble is left out if the same text was emitted less than `REPORT_INTERVAL` ago."""
+        for channel, data in values:
+            if channel != TROUBLE or self._is_new(data):
+                self.inbox.put(self._make_packet(channel, data), False)
 
     def report_trouble(self, text: str) -> None:
-        """Emit a packet receiver/trouble, unless the same text was emitted less than `REPORT_INTERVAL` ago."""
+        """Emit a packet receiver/trouble."""
+        self.emit([(TROUBLE, build_text(shorten(text, MAX_TEXT_SIZE)))])
+
+    def _is_new(self, trouble: bytes) -> bool:
         now = asyncio.get_running_loop().time()
-        if now - self._reported.get(text, -REPORT_INTERVAL) >= REPORT_INTERVAL:
-            self._reported = {reported: t for reported, t in self._reported.items() if now - t < REPORT_INTERVAL}
-            self._reported[text] = now
-            self.emit("receiver/trouble", build_text(shorten(text, MAX_TEXT_BYTES)))
+        self._reported = {reported: t for reported, t in self._reported.items() if now - t < REPORT_INTERVAL}
+        is_new = trouble not in self._reported
+        self._reported.setdefault(trouble, now)
+        return is_new
 
     def _make_packet(self, channel: str, data: bytes) -> Packet:
-        return Packet(asyncio.get_running_loop().time(), self.site, channel, data, self.address)
-
-
-def shorten(text: str, size: int) -> str:
-    """Return the start of the text that fits into `size` bytes of UTF-8."""
-    return text.encode("utf-8")[:size].decode("utf-8", "ignore")
+        return Packet(asyncio.get_running_loop().time(), self.member.site, channel, data, self.member.address)

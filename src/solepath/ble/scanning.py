@@ -12,8 +12,7 @@ from bleak.backends.client import BaseBleakClient
 from bleak.backends.device import BLEDevice
 from bleak.backends.scanner import AdvertisementData, BaseBleakScanner
 
-from ..link.profile import Profile
-from .config import identify
+from ..link.setup.candidates import Advertisement
 from .trouble import FAILURES, BluetoothError, describe_error
 
 
@@ -38,30 +37,6 @@ WEAKEST_SIGNAL, STRONGEST_SIGNAL = -127, 20
 """Range of the signal strength that a controller may report, dBm (Bluetooth Core, vol 4 part E, 7.7.65.2).
 
 Any other value means that it is unknown, which is reported as WEAKEST_SIGNAL."""
-
-
-@frozen
-class Advertisement:
-    """The last advertisement of a device.
-
-    `services` holds the UUIDs that the device advertises. `signal` is the signal strength, dBm, -127 when unknown. `t`
-    is the time of the advertisement, s, event loop's clock."""
-
-    device: BLEDevice
-    name: str
-    services: tuple[str, ...]
-    signal: int
-    t: float
-
-    @property
-    def address(self) -> str:
-        """Address from the system; on macOS an identifier that is valid on this machine only."""
-        return self.device.address
-
-    @property
-    def profile(self) -> Profile | None:
-        """Profile of the device; None for an unknown device."""
-        return identify(self.name, self.services)
 
 
 OnAdvertisement = Callable[[Advertisement], None]
@@ -125,7 +100,8 @@ def make_scanner(backend: Backend, on_advertisement: OnAdvertisement) -> BleakSc
     def on_detection(device: BLEDevice, advertisement: AdvertisementData) -> None:
         name = (advertisement.local_name or device.name or "").encode("utf-8", "replace").decode("utf-8")
         signal = advertisement.rssi if WEAKEST_SIGNAL <= advertisement.rssi <= STRONGEST_SIGNAL else WEAKEST_SIGNAL
-        on_advertisement(Advertisement(device, name, tuple(advertisement.service_uuids), signal, loop.time()))
+        services = tuple(advertisement.service_uuids)
+        on_advertisement(Advertisement(device.address, name, services, signal, loop.time(), device))
 
     return BleakScanner(on_detection, backend=backend.scanner)
 

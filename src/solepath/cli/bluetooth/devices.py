@@ -58,8 +58,8 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
 def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
     """Return the devices that the options name; raise Failure for a site or profile that does not exist."""
     from ...ble import DeviceConfig
-    from ...ble.config import check_configs
     from ...link.catalogue import BY_NAME
+    from ...link.setup.config import check_configs
 
     named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
     sites = {site.value: site for site in Site}

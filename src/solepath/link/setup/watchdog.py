@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from attrs import define, field
+from ...types.attrs import define, field
 
 
 class Remedy(Enum):

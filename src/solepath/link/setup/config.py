@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
-from attrs import frozen
-
-from ..link.catalogue import PROFILES
-from ..link.profile import Profile
-from ..types import SITE_OF_FOOT, Site
+from ...types import SITE_OF_FOOT, Site
+from ...types.attrs import frozen
+from ..catalogue import PROFILES
+from ..profile import Profile
 
 
 @frozen
@@ -51,9 +50,13 @@ class DeviceConfig:
         return self.which.upper() == address.upper()
 
 
+INFO_CHANNEL = "insole/info"
+"""Channel of the record that holds the site of a device."""
+
+
 def reports_site(profile: Profile | None) -> bool:
     """Return whether a device of this profile can report where it is worn."""
-    return profile is not None and "insole/info" in profile.reads
+    return profile is not None and INFO_CHANNEL in profile.reads
 
 
 def check_configs(configs: Sequence[DeviceConfig]) -> None:
@@ -84,3 +87,29 @@ def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:
 def identify(name: str, services: Sequence[str]) -> Profile | None:
     """Return the profile of the device that sends this advertisement; None for an unknown device."""
     return next((profile for profile in PROFILES if advertises(profile, name, services)), None)
+
+
+@frozen
+class ScanFilter:
+    """One condition of a scan, of which a device meets at least one; a condition that is "" is none."""
+
+    name: str = ""
+    prefix: str = ""
+    """Start of the name."""
+    service: str = ""
+    """UUID of a service that is advertised."""
+
+
+def scan_filters(profiles: Iterable[Profile]) -> tuple[ScanFilter, ...]:
+    """Return the conditions under which a scan or the chooser of a browser shows the devices of these profiles."""
+    conditions: dict[ScanFilter, None] = {}
+    for profile in profiles:
+        conditions |= dict.fromkeys(ScanFilter(service=service) for service in profile.services)
+        conditions |= dict.fromkeys(ScanFilter(name=name) for name in profile.names)
+        conditions |= dict.fromkeys(ScanFilter(prefix=prefix) for prefix in profile.prefixes)
+    return tuple(conditions)
+
+
+def used_services(profiles: Iterable[Profile]) -> tuple[str, ...]:
+    """Return the UUIDs of all services that devices of these profiles are used by, which a browser must know first."""
+    return tuple(dict.fromkeys(channel.service for profile in profiles for channel in profile.channels))

@@ -1,0 +1,243 @@
+"""Setup of a device without Bluetooth: the requests, one at a time, done by emulated devices or answered at will."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from attrs import evolve
+from benches import LEFT, RIGHT, ROUTE
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath import Connected, LayoutKnown, LinkTrouble, PacketRejected, Session, StrideTaken
+from solepath.emulate.devices.attributes import AttError
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.devices.peripheral import Peripheral
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.events import Event
+from solepath.link.catalogue import PROFILES
+from solepath.link.devices.cc2650 import PROFILE as TAG
+from solepath.link.devices.insole import PROFILE as INSOLE
+from solepath.link.profile import Access, Profile, Write
+from solepath.link.setup.config import DeviceConfig, scan_filters, used_services
+from solepath.link.setup.device_setup import GattCharacteristic, DeviceSetup, Operation, Request, Value
+from solepath.link.setup.roster import Roster
+from solepath.types import Packet, Site
+
+Done = list[tuple[Request, bytes | str]]
+"""Requests with what was read, or the reason of the rejection."""
+
+
+def characteristics(device: Peripheral) -> frozenset[GattCharacteristic]:
+    return frozenset(
+        GattCharacteristic(service.uuid, one.uuid, "notify" in one.properties)
+        for service in device.services
+        for one in service.characteristics
+    )
+
+
+def all_characteristics(profile: Profile) -> frozenset[GattCharacteristic]:
+    return frozenset(
+        GattCharacteristic(one.service, one.characteristic, one.access is Access.NOTIFY) for one in profile.channels
+    )
+
+
+def setup_of(
+    device: Peripheral, profile: Profile, site: Site | None = None, roster: Roster | None = None
+) -> DeviceSetup:
+    roster = roster or Roster()
+    [member] = roster.add([DeviceConfig(site, device.address, profile)])
+    return DeviceSetup(roster, member, profile, characteristics(device), device.address, device.name, -60)
+
+
+def do(device: Peripheral, request: Request, now: float) -> bytes:
+    channel = request.channel.name
+    match request.operation:
+        case Operation.READ:
+            return device.read(channel, now) or b""
+        case Operation.SUBSCRIBE:
+            device.subscribe(channel, True, now)
+        case Operation.WRITE:
+            device.write(channel, request.value, now)
+    return b""
+
+
+def perform(setup: DeviceSetup, device: Peripheral, now: float, values: list[Value]) -> tuple[list[Value], Done]:
+    """Do all requests with an emulated device; return the values, after `values`, and what was done."""
+    values, done = [*values], []
+    while (request := setup.request) is not None:
+        try:
+            value = do(device, request, now)
+            values += setup.answer(now, value)
+            done.append((request, value))
+        except AttError as error:
+            values += setup.reject(now, str(error))
+            done.append((request, str(error)))
+    return values, done
+
+
+def connect(setup: DeviceSetup, device: Peripheral, now: float = 0.0) -> tuple[list[Value], Done]:
+    device.connected(now, device.mtu)
+    return perform(setup, device, now, setup.start(now))
+
+
+def feed(session: Session, setup: DeviceSetup, t: float, values: list[Value]) -> Iterator[Event]:
+    for channel, data in values:
+        yield from session.feed(Packet(t, setup.member.site, channel, data, setup.address))
+
+
+def operations(done: Done) -> list[tuple[Operation, str]]:
+    return [(request.operation, request.channel.name) for request, _ in done]
+
+
+@pytest.mark.parametrize(
+    "device, profile",
+    [(Insole(), INSOLE), (CC2650(), TAG), (CC2541(), PROFILES[2])],
+    ids=["insole", "cc2650", "cc2541"],
+)
+def test_a_device_that_is_set_up_walks_through_a_session(device: Insole | CC2650 | CC2541, profile: Profile) -> None:
+    emulated = Bench(ROUTE, devices={LEFT: device}, seed=3)[LEFT]
+    setup = setup_of(emulated, profile, LEFT)
+    values, done = connect(setup, emulated)
+    assert setup.is_listening and setup.end is None
+    order = [Operation.READ, Operation.SUBSCRIBE, Operation.WRITE]
+    kinds = [operation for operation, _ in operations(done)]
+    before_writes = kinds[: kinds.index(Operation.WRITE)]
+    assert before_writes == sorted(before_writes, key=order.index)
+    assert [channel for kind, channel in operations(done) if kind is Operation.WRITE] == [
+        write.channel for write in profile.setup
+    ]
+    session = Session()
+    events = list(feed(session, setup, 0.0, values))
+    while (due := emulated.next_due()) is not None and due < 20.0:
+        for outgoing in emulated.poll(due):
+            setup.add_notification(outgoing.channel, due)
+            events += feed(session, setup, due, [(outgoing.channel, outgoing.value)])
+        assert setup.check(due) == []
+    assert setup.has_streamed
+    assert not [event for event in events if isinstance(event, PacketRejected | LinkTrouble)]
+    assert [event.name for event in events if isinstance(event, Connected)] == [emulated.name]
+    assert any(isinstance(event, StrideTaken) for event in events)
+
+
+def test_two_insoles_report_their_feet_and_another_right_one_ends_in_words() -> None:
+    bench, roster = Bench(ROUTE, seed=3), Roster()
+    members = roster.add([DeviceConfig(None, profile=INSOLE)] * 2)
+    for member, site in zip(members, (RIGHT, LEFT), strict=True):
+        device = bench[site]
+        setup = DeviceSetup(roster, member, INSOLE, characteristics(device), device.address, device.name)
+        values, _ = connect(setup, device)
+        assert member.site is site and [channel for channel, _ in values][0] == "receiver/connected"
+    other = Bench(ROUTE, devices={LEFT: Insole()}, seed=4)[LEFT]
+    members[1].address = ""
+    setup = DeviceSetup(roster, members[1], INSOLE, characteristics(bench[RIGHT]), other.address, "solepath X")
+    values, _ = connect(setup, bench[RIGHT])
+    assert setup.end == "solepath X is one more for the right foot"
+    assert values == [("receiver/trouble", setup.end.encode())]
+    assert setup.disconnect() == []
+    assert roster.is_excluded(members[1], other.address, "solepath X", 59.0)
+    assert not roster.is_excluded(members[1], other.address, "solepath X", 61.0)
+
+
+def test_an_insole_of_the_other_foot_and_a_device_of_another_kind_end_in_words() -> None:
+    right = Bench(ROUTE, devices={RIGHT: Insole()})[RIGHT]
+    setup = setup_of(right, INSOLE, LEFT)
+    connect(setup, right)
+    assert setup.end == f"{right.name} is a right foot one: expected at the left foot"
+    setup = setup_of(right, TAG, LEFT)
+    connect(setup, right)
+    assert setup.end == f"{right.name} is no cc2650: it has no cc2650/movement"
+
+
+@pytest.mark.parametrize(
+    "faults, ends, words",
+    [
+        ("0 left_foot refuse insole/info", True, "insole/info cannot be read"),
+        ("0 left_foot refuse device/firmware", False, "device/firmware cannot be read"),
+        ("0 left_foot refuse insole/control", False, "insole/control was not set to 01"),
+    ],
+)
+def test_a_rejection_ends_the_setup_only_if_nothing_can_be_received_without(
+    faults: str, ends: bool, words: str
+) -> None:
+    device = Bench(ROUTE, devices={LEFT: Insole()}, faults=parse_faults(faults))[LEFT]
+    setup = setup_of(device, INSOLE)
+    values, done = connect(setup, device)
+    assert (setup.end is not None, setup.is_listening) == (ends, not ends)
+    rejected = [answer for _, answer in done if isinstance(answer, str)]
+    assert [data.decode() for channel, data in values if channel == "receiver/trouble"] == [f"{words}: {rejected[0]}"]
+
+
+def test_a_frozen_stream_is_set_up_again_twice_and_then_the_connection_ends() -> None:
+    device = Bench(ROUTE, devices={LEFT: CC2650()}, seed=3)[LEFT]
+    setup = setup_of(device, TAG, LEFT)
+    connect(setup, device)
+    restarts = []
+    while setup.end is None:
+        now = setup.next_check_at()
+        assert now is not None
+        values, done = perform(setup, device, now, setup.check(now))
+        restarts.append([channel for channel, _ in values])
+    assert restarts == [["receiver/restarted", *(write.channel for write in TAG.setup)]] * 2 + [["receiver/restarted"]]
+    assert setup.end == "cc2650/movement is frozen"
+
+
+@pytest.mark.parametrize("config, checked", [("7f02", True), ("ff02", False)], ids=["always on", "wake on motion"])
+def test_a_device_that_waits_for_motion_is_not_checked(config: str, checked: bool) -> None:
+    device = Bench(ROUTE, devices={LEFT: CC2650()}, seed=3)[LEFT]
+    setup = setup_of(device, evolve(TAG, setup=(Write("cc2650/movement-config", bytes.fromhex(config)),)), LEFT)
+    connect(setup, device, 5.0)
+    assert setup.next_check_at() == (5.0 + TAG.stale_after if checked else None)
+
+
+@given(profile=st.sampled_from(PROFILES), data=st.data())
+def test_any_answers_lead_to_listening_or_to_an_end(profile: Profile, data: st.DataObject) -> None:
+    roster = Roster()
+    [member] = roster.add([DeviceConfig(LEFT, "A", profile)])
+    present = data.draw(st.sets(st.sampled_from(sorted(all_characteristics(profile), key=repr))))
+    setup = DeviceSetup(roster, member, profile, frozenset(present), "A", "a" * 300)
+    session, requests, now = Session(), 0, 0.0
+    values = setup.start(now)
+    for _ in range(200):
+        if setup.request is None:
+            break
+        requests += 1
+        now += 0.1
+        if data.draw(st.booleans()):
+            values += setup.answer(now, data.draw(st.binary(max_size=40)))
+        else:
+            values += setup.reject(now, data.draw(st.text(max_size=600)) or "?")
+    assert setup.request is None and (setup.end is None) is setup.is_listening
+    assert requests <= 1 + len(profile.channels) + sum(1 + len(write.then_read) for write in profile.setup)
+    values += setup.disconnect()
+    events = list(feed(session, setup, now, values))
+    assert not [
+        event for event in events if isinstance(event, PacketRejected) and event.channel.startswith("receiver/")
+    ]
+    with pytest.raises(ValueError, match="no request"):
+        setup.answer(now)
+
+
+def test_the_filters_of_a_chooser_find_each_emulated_device_and_know_its_services() -> None:
+    filters, services = scan_filters(PROFILES), used_services(PROFILES)
+    benches = [Bench(ROUTE, devices={LEFT: device}) for device in (Insole(), CC2650(), CC2541())]
+    for device in [bench[LEFT] for bench in benches]:
+        assert any(
+            device.name == one.name
+            or (one.prefix != "" and device.name.startswith(one.prefix))
+            or one.service in device.advertised
+            for one in filters
+        )
+        assert {service.uuid for service in device.services} & {*services}
+
+
+def test_layouts_come_from_the_record_that_was_read_for_the_site() -> None:
+    device = Bench(ROUTE, devices={RIGHT: Insole()})[RIGHT]
+    setup = setup_of(device, INSOLE)
+    values, done = connect(setup, device)
+    assert [channel for kind, channel in operations(done) if channel == "insole/info"] == ["insole/info"]  # read once
+    assert [channel for channel, _ in values][:2] == ["receiver/connected", "insole/info"]
+    assert [event.site for event in feed(Session(), setup, 0.0, values) if isinstance(event, LayoutKnown)] == [RIGHT]
