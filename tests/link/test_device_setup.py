@@ -23,7 +23,7 @@ from solepath.link.devices.cc2650 import PROFILE as TAG
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Access, Profile, Write
 from solepath.link.setup.config import DeviceConfig, scan_filters, used_services
-from solepath.link.setup.device_setup import GattCharacteristic, DeviceSetup, Operation, Request, Value
+from solepath.link.setup.device_setup import DeviceSetup, GattCharacteristic, Operation, Request, Value
 from solepath.link.setup.roster import Roster
 from solepath.types import Packet, Site
 

@@ -12,7 +12,7 @@ from bleak.backends.characteristic import BleakGATTCharacteristic
 from bleak.exc import BleakDBusError, BleakError, BleakGATTProtocolError
 
 from ..link.profile import Channel
-from ..link.setup.device_setup import ANSWER_TIMEOUT, GattCharacteristic, DeviceSetup, Operation, Request
+from ..link.setup.device_setup import ANSWER_TIMEOUT, DeviceSetup, GattCharacteristic, Operation, Request
 from .inbox import Emitter
 from .trouble import bleak_call, describe_error
 
