@@ -8,15 +8,12 @@ from collections.abc import Callable, Iterable
 
 from attrs import define, field
 
-from ..link.setup.device_setup import MAX_TEXT_SIZE, TROUBLE, Value, shorten
 from ..link.setup.roster import Member
+from ..link.setup.troubles import RecentTroubles, Value, trouble
 from ..types import Packet, Site
-from ..wire.fields import build_text
 from ..wire.receiver import build_dropped, parse_dropped
 
 DROPPED = "receiver/dropped"
-REPORT_INTERVAL = 60.0
-"""Shortest interval between two reports of the same trouble, s."""
 
 
 @define
@@ -99,8 +96,7 @@ class Emitter:
 
     inbox: Inbox
     member: Member
-    _reported: dict[bytes, float] = field(factory=dict, init=False)
-    """Time of the last report of each trouble, s, by its text."""
+    _recent: RecentTroubles = field(factory=RecentTroubles, init=False)
 
     def emit_notification(self, channel: str, data: bytes) -> float:
         """Emit a notification and return its arrival time, s."""
@@ -111,21 +107,13 @@ class Emitter:
     def emit(self, values: Iterable[Value]) -> None:
         """Emit values that were read or written, and reports of the receiver; notifications do not displace them.
 
-        A trouble is left out if the same text was emitted less than `REPORT_INTERVAL` ago."""
-        for channel, data in values:
-            if channel != TROUBLE or self._is_new(data):
-                self.inbox.put(self._make_packet(channel, data), False)
+        A trouble is left out if it was emitted shortly before."""
+        for channel, data in self._recent.leave_out([*values], asyncio.get_running_loop().time()):
+            self.inbox.put(self._make_packet(channel, data), False)
 
     def report_trouble(self, text: str) -> None:
         """Emit a packet receiver/trouble."""
-        self.emit([(TROUBLE, build_text(shorten(text, MAX_TEXT_SIZE)))])
-
-    def _is_new(self, trouble: bytes) -> bool:
-        now = asyncio.get_running_loop().time()
-        self._reported = {reported: t for reported, t in self._reported.items() if now - t < REPORT_INTERVAL}
-        is_new = trouble not in self._reported
-        self._reported.setdefault(trouble, now)
-        return is_new
+        self.emit([trouble(text)])
 
     def _make_packet(self, channel: str, data: bytes) -> Packet:
         return Packet(asyncio.get_running_loop().time(), self.member.site, channel, data, self.member.address)

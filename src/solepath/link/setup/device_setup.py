@@ -27,21 +27,16 @@ from ...wire.error import WireError
 from ...wire.fields import build_text
 from ...wire.insole_info import parse_info
 from ...wire.receiver import MAX_NAME_SIZE, ConnectionFrame, build_connected
+from ..catalogue import PROFILES
 from ..decoder import Decoder
 from ..profile import Access, Channel, Profile
 from .config import INFO_CHANNEL, reports_site
 from .roster import Member, Roster, WrongDevice
+from .troubles import Value, shorten, trouble
 from .watchdog import Remedy, Watchdog
 
 ANSWER_TIMEOUT = 5.0
 """Time limit for the answer of a device to a request, s, chosen by hand; then the connection is made again."""
-TROUBLE = "receiver/trouble"
-"""Channel of a sentence on what could not be done."""
-MAX_TEXT_SIZE = 500
-"""Longest text of a trouble, bytes, chosen by hand."""
-
-Value = tuple[str, bytes]
-"""Channel and data of a packet."""
 
 
 @frozen
@@ -240,7 +235,7 @@ class DeviceSetup:
         return values
 
     def _report(self, sentence: str) -> None:
-        self._values.append((TROUBLE, build_text(shorten(sentence, MAX_TEXT_SIZE))))
+        self._values.append(trouble(sentence))
 
     def _end_wrong(self, now: float, sentence: str) -> None:
         """End because this is not the configured device; it is excluded for a while."""
@@ -275,6 +270,14 @@ def may_be_silent(site: Site, written: Sequence[Value]) -> bool:
     return decoder.link is not None and decoder.link.may_be_silent
 
 
-def shorten(text: str, size: int) -> str:
-    """Return the start of the text that fits into `size` bytes of UTF-8."""
-    return text.encode("utf-8")[:size].decode("utf-8", "ignore")
+def find_profile(name: str, characteristics: Iterable[GattCharacteristic]) -> Profile | None:
+    """Return the profile of a connected device that advertises `name` ("" when unknown); None for an unknown device.
+
+    It is one whose streams the device can send, and of several the one whose name the device has."""
+    notifying = {(one.service, one.uuid) for one in characteristics if one.can_notify}
+    fitting = [
+        profile
+        for profile in PROFILES
+        if notifying.issuperset([(one.service, one.characteristic) for one in map(profile.channel, profile.streams)])
+    ]
+    return next((profile for profile in fitting if profile.matches_name(name)), fitting[0] if fitting else None)

@@ -1,0 +1,177 @@
+"""A session and the setups of its devices, for a program that does Bluetooth itself: a page in a browser, an app.
+
+    host = Host(Session(), observe)
+    host.add("C0:FF:EE:00:00:01", None)             # None: an insole, which reports its site
+    commands = host.connect("C0:FF:EE:00:00:01", name, characteristics, now)
+    commands = host.answer("C0:FF:EE:00:00:01", now, value)
+    host.notify("C0:FF:EE:00:00:01", "insole/frame", now, value)
+    commands = host.advance(now)                    # at least five times a second
+
+The program does what the commands say, one request of a device at a time, and reports the outcome. All times are of one
+clock that never goes back, s. `json_host.py` has the same calls as JSON messages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from ..events import Event
+from ..link.profile import Profile
+from ..link.setup.config import DeviceConfig
+from ..link.setup.device_setup import DeviceSetup, GattCharacteristic, Request, find_profile
+from ..link.setup.roster import Member, Roster
+from ..link.setup.troubles import RecentTroubles, Value, trouble
+from ..types import Packet, Site
+from ..types.attrs import define, field, frozen
+from .session import Session
+
+TICK = "receiver/tick"
+"""Channel of a packet that only says that time has passed (protocol/receiver.md)."""
+
+Observe = Callable[[Packet | None, list[Event]], object]
+"""Function that gets each packet, and the events that followed; None for events without a packet."""
+
+
+@frozen
+class HostCommand:
+    """Order to do `request` with a device, or without one to disconnect it for the `reason`."""
+
+    device: str
+    request: Request | None = None
+    reason: str = ""
+    is_wrong: bool = False
+    """True for a device that is not the configured one: it must not be connected again for a minute."""
+
+
+@define(eq=False)
+class HostDevice:
+    """A device that a host uses; `setup` is None while it is not connected."""
+
+    member: Member
+    setup: DeviceSetup | None = None
+    recent: RecentTroubles = field(factory=RecentTroubles)
+
+
+class Host:
+    """A session that is fed by devices, each named by the address or identifier that the system has for it.
+
+    `observe` gets every packet that the session was fed, so that a program can record it, and its events. A call with a
+    device that was not added raises ValueError."""
+
+    def __init__(self, session: Session, observe: Observe) -> None:
+        self.session, self.observe, self.roster = session, observe, Roster()
+        self._devices: dict[str, HostDevice] = {}
+
+    def add(self, device: str, site: Site | None, profile: Profile | None = None) -> None:
+        """Add a device that is worn at `site`; None for an insole, which reports its site.
+
+        Without a profile, the connected device shows of which kind it is. Nothing happens if it was added before.
+        Raises ValueError when it was added at another site, another device is there, or both feet have one."""
+        known = self._devices.get(device)
+        if known is None:
+            [member] = self.roster.add([DeviceConfig(site, device, profile)])
+            self._devices[device] = HostDevice(member)
+        elif known.member.config.site is not site:
+            raise ValueError(f"{device!r:.80} is at the {known.member.site.words}: remove it first")
+
+    def check(self, device: str) -> None:
+        """Raise ValueError when the device was not added."""
+        self._get(device)
+
+    def remove(self, device: str) -> None:
+        """Remove a device that is not connected; its site becomes free."""
+        if self._get(device).setup is not None:
+            raise ValueError(f"{device!r:.80} is connected")
+        self.roster.remove(self._devices.pop(device).member)
+
+    def connect(
+        self,
+        device: str,
+        name: str,
+        characteristics: Iterable[GattCharacteristic],
+        now: float,
+        signal: int | None = None,
+    ) -> list[HostCommand]:
+        """Start the setup of a device that was connected at `now`.
+
+        `name` is the name that it advertises, "" when unknown, and `signal` the signal strength, dBm. Of several
+        characteristics with one UUID in a service, the first counts."""
+        one = self._get(device)
+        found = frozenset(characteristics)
+        profile = one.member.config.profile or find_profile(name, found)
+        if profile is None:
+            sentence = f"{name or device} is of no kind that is known here: say its profile"
+            self._feed(one, now, [trouble(sentence)])
+            return [HostCommand(device, None, sentence, True)]
+        one.setup = DeviceSetup(self.roster, one.member, profile, found, device, name, signal)
+        return self._use(device, now, one.setup.start(now))
+
+    def answer(self, device: str, now: float, value: bytes = b"") -> list[HostCommand]:
+        """Note that the device has done the request; `value` is what was read."""
+        return self._use(device, now, self._setup(device).answer(now, value))
+
+    def reject(self, device: str, now: float, reason: str) -> list[HostCommand]:
+        """Note that the device has rejected the request while the connection stands."""
+        return self._use(device, now, self._setup(device).reject(now, reason))
+
+    def notify(self, device: str, channel: str, now: float, data: bytes) -> None:
+        """Feed a notification that came at `now`; one of a device that is not connected is left out."""
+        one = self._get(device)
+        if one.setup is not None and one.setup.end is None:
+            one.setup.add_notification(channel, now)
+            packet = Packet(now, one.member.site, channel, data, one.member.address)
+            self.observe(packet, self.session.feed(packet))
+
+    def report(self, device: str, now: float, sentence: str) -> None:
+        """Feed a sentence on what failed: a connection or a request without an answer, for instance."""
+        self._feed(self._get(device), now, [trouble(sentence)])
+
+    def disconnect(self, device: str, now: float) -> None:
+        """Note that the connection was lost or given up."""
+        one = self._get(device)
+        if one.setup is not None:
+            values, one.setup = one.setup.disconnect(), None
+            self._feed(one, now, values)
+
+    def advance(self, now: float) -> list[HostCommand]:
+        """Let time pass until `now`, and check the streams of all devices."""
+        commands: list[HostCommand] = []
+        for device, one in self._devices.items():
+            due = None if one.setup is None else one.setup.next_check_at()
+            if one.setup is not None and due is not None and now >= due:
+                commands += self._use(device, now, one.setup.check(now))
+        site = next((one.member.site for one in self._devices.values()), Site.LEFT_FOOT)
+        packet = Packet(now, site, TICK, b"")
+        self.observe(packet, self.session.feed(packet))
+        return commands
+
+    def restart_clock(self, now: float) -> None:
+        """Go on at `now` after the clock restarted or was set, for instance because the phone did."""
+        self.observe(None, self.session.restart_clock(now))
+
+    def finish(self) -> None:
+        """End the session."""
+        self.observe(None, self.session.finish())
+
+    def _use(self, device: str, now: float, values: list[Value]) -> list[HostCommand]:
+        """Feed the values of a setup and return what it requests next."""
+        one, setup = self._devices[device], self._setup(device)
+        self._feed(one, now, values)
+        if setup.end is not None:
+            return [HostCommand(device, None, setup.end, device in one.member.wrong_since)]
+        return [] if setup.request is None else [HostCommand(device, setup.request)]
+
+    def _feed(self, one: HostDevice, now: float, values: list[Value]) -> None:
+        for channel, data in one.recent.leave_out(values, now):
+            packet = Packet(now, one.member.site, channel, data, one.member.address)
+            self.observe(packet, self.session.feed(packet))
+
+    def _get(self, device: str) -> HostDevice:
+        if device not in self._devices:
+            raise ValueError(f"{device!r:.80} was not added")
+        return self._devices[device]
+
+    def _setup(self, device: str) -> DeviceSetup:
+        setup = self._get(device).setup
+        if setup is None:
+            raise ValueError(f"{device!r:.80} is not connected")
+        return setup

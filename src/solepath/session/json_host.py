@@ -1,0 +1,206 @@
+"""A host whose calls and results are JSON texts, for programs in other languages (protocol/host.md).
+
+host = JsonHost()
+for message in json.loads(host.receive(text)): ..."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+from ..events import Event
+from ..link.catalogue import BY_NAME, PROFILES
+from ..link.decoder import MAX_ARRIVAL_TIME, is_address
+from ..link.setup.config import scan_filters, used_services
+from ..link.setup.device_setup import GattCharacteristic
+from ..types import Packet, Site
+from .host import Host, HostCommand, Observe
+from .session import Session
+
+Message = dict[str, Any]
+T = TypeVar("T")
+
+MAX_NAME_LENGTH = 248
+"""Longest name of a device, characters (Bluetooth Core, vol 3 part C, 12.1: 248 bytes)."""
+MAX_CHARACTERISTICS = 1000
+"""Largest number of characteristics of a device, chosen by hand."""
+
+
+class JsonHost:
+    """A host that receives and returns messages as JSON texts.
+
+    `session` is a new one with the defaults unless one is given, for instance a restored one. With `packets`, every
+    packet is returned as a message too, with the keys of a line of a recording. `observe` replaces the messages of
+    packets and events by calls of a function."""
+
+    def __init__(
+        self, session: Session | None = None, *, packets: bool = False, observe: Observe | None = None
+    ) -> None:
+        self._messages: list[Message] = []
+        self._packets = packets
+        self.host = Host(session or Session(), observe or self._observe)
+
+    def receive(self, text: str) -> str:
+        """Return the messages that follow from a message, or from a list of messages, as a JSON list.
+
+        A message that cannot be understood changes nothing and is answered by a message "error"."""
+        try:
+            received = json.loads(text, parse_constant=_reject_constant)
+        except (ValueError, RecursionError) as error:
+            received, self._messages = [], [_error(f"no JSON: {error}")]
+        for message in received if isinstance(received, list) else [received]:
+            self._use(message)
+        messages, self._messages = self._messages, []
+        return json.dumps(messages, allow_nan=False, separators=(",", ":"))
+
+    def _use(self, message: Any) -> None:
+        try:
+            if not isinstance(message, dict) or message.get("type") not in HANDLERS:
+                raise ValueError("a message is an object with a known type")
+            HANDLERS[message["type"]](self, message)
+        except KeyError as error:
+            self._messages.append(_error(f"{message['type']}: {error.args[0]} is absent"))
+        except ValueError as error:
+            self._messages.append(_error(str(error)))
+
+    def _observe(self, packet: Packet | None, events: list[Event]) -> None:
+        if packet is not None and self._packets:
+            line = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
+            self._messages.append({"type": "packet", **line, **({"device": packet.device} if packet.device else {})})
+        self._messages += [{"type": "event", **event.to_dict()} for event in events]
+
+    def _command(self, commands: list[HostCommand]) -> None:
+        for one in commands:
+            request = one.request
+            if request is None:
+                self._messages.append(
+                    {"type": "disconnect", "device": one.device, "reason": one.reason, "wrong": one.is_wrong}
+                )
+                continue
+            self._messages.append(
+                {
+                    "type": request.operation.value,
+                    "device": one.device,
+                    "channel": request.channel.name,
+                    "service": request.channel.service,
+                    "characteristic": request.channel.characteristic,
+                    "value": request.value.hex(),
+                }
+            )
+
+    def _scan(self, message: Message) -> None:
+        filters = [{"name": one.name, "prefix": one.prefix, "service": one.service} for one in scan_filters(PROFILES)]
+        self._messages.append({"type": "filters", "filters": filters, "services": [*used_services(PROFILES)]})
+
+    def _add(self, message: Message) -> None:
+        sites = {site.value: site for site in Site}
+        self.host.add(_device(message), _choose(message, "site", sites), _choose(message, "profile", BY_NAME))
+
+    def _connected(self, message: Message) -> None:
+        characteristics, name, signal = message["characteristics"], message.get("name") or "", message.get("signal")
+        if not isinstance(characteristics, list) or len(characteristics) > MAX_CHARACTERISTICS:
+            raise ValueError("connected: characteristics are a list")
+        if not isinstance(name, str) or len(name) > MAX_NAME_LENGTH:
+            raise ValueError("connected: name is no name of a device")
+        if signal is not None and (type(signal) is not int or not -127 <= signal <= 20):
+            raise ValueError("connected: signal is a whole number of dBm")
+        found: dict[tuple[str, str], GattCharacteristic] = {}
+        for one in characteristics:
+            match one:
+                case [str(service), str(uuid), bool(can_notify)]:
+                    key = service.lower(), uuid.lower()
+                    found.setdefault(key, GattCharacteristic(*key, can_notify))
+                case _:
+                    raise ValueError("connected: a characteristic is [service, UUID, can notify]")
+        self._command(self.host.connect(_device(message), name, found.values(), _time(message), signal))
+
+    def _done(self, message: Message) -> None:
+        self._command(self.host.answer(_device(message), _time(message), _bytes(message.get("value", ""))))
+
+    def _rejected(self, message: Message) -> None:
+        self._command(self.host.reject(_device(message), _time(message), _reason(message)))
+
+    def _failed(self, message: Message) -> None:
+        self.host.report(_device(message), _time(message), _reason(message))
+
+    def _values(self, message: Message) -> None:
+        values = []
+        for one in message["values"] if isinstance(message["values"], list) else [None]:
+            match one:
+                case [float() | int() as t, str(device), str(channel), data]:
+                    values.append((device, channel, _time({"type": "values", "t": t}), _bytes(data)))
+                case _:
+                    raise ValueError("values: each is [t, device, channel, value]")
+        for device in {device for device, _, _, _ in values}:
+            self.host.check(device)
+        for device, channel, arrival, value in values:
+            self.host.notify(device, channel, arrival, value)
+
+    def _save(self, message: Message) -> None:
+        self._messages.append({"type": "saved", "state": b64encode(self.host.session.pack()).decode()})
+
+
+def _reject_constant(text: str) -> None:
+    raise ValueError(f"{text} is no number")
+
+
+def _error(reason: str) -> Message:
+    return {"type": "error", "reason": reason}
+
+
+def _device(message: Message) -> str:
+    device = message["device"]
+    if not isinstance(device, str) or not device or not is_address(device):
+        raise ValueError(f"{message['type']}: device is no address of a device")
+    return device
+
+
+def _choose(message: Message, key: str, known: Mapping[str, T]) -> T | None:
+    """Return what the text below `key` names; None when it is absent or null."""
+    name = message.get(key)
+    if name is not None and (not isinstance(name, str) or name not in known):
+        raise ValueError(f"{message['type']}: there is no {key} {name!r:.40}")
+    return None if name is None else known[name]
+
+
+def _time(message: Message) -> float:
+    t = message["t"]
+    if type(t) not in (int, float) or not -MAX_ARRIVAL_TIME <= t <= MAX_ARRIVAL_TIME:
+        raise ValueError(f"{message['type']}: t is a time in s")
+    return float(t)
+
+
+def _reason(message: Message) -> str:
+    reason = message["reason"]
+    if not isinstance(reason, str) or not reason:
+        raise ValueError(f"{message['type']}: reason is a sentence")
+    return reason
+
+
+def _bytes(text: Any) -> bytes:
+    if not isinstance(text, str):
+        raise ValueError("a value is a text of hexadecimal digits")
+    try:
+        return bytes.fromhex(text)
+    except ValueError:
+        raise ValueError("a value is a text of hexadecimal digits") from None
+
+
+HANDLERS: dict[str, Callable[[JsonHost, Message], None]] = {
+    "scan": JsonHost._scan,
+    "add": JsonHost._add,
+    "remove": lambda json_host, message: json_host.host.remove(_device(message)),
+    "connected": JsonHost._connected,
+    "done": JsonHost._done,
+    "rejected": JsonHost._rejected,
+    "failed": JsonHost._failed,
+    "values": JsonHost._values,
+    "disconnected": lambda json_host, message: json_host.host.disconnect(_device(message), _time(message)),
+    "time": lambda json_host, message: json_host._command(json_host.host.advance(_time(message))),
+    "restart": lambda json_host, message: json_host.host.restart_clock(_time(message)),
+    "save": JsonHost._save,
+    "finish": lambda json_host, message: json_host.host.finish(),
+}
+"""Method for each type of message that is received."""

@@ -1,0 +1,183 @@
+"""A session behind JSON texts, as an app in another language uses it (protocol/host.md)."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64decode
+from math import dist
+from typing import Any
+
+import pytest
+from benches import LEFT, RIGHT, ROUTE
+from here import PROTOCOL
+from hypothesis import given
+from hypothesis import strategies as st
+from shell import Shell, shell
+
+from solepath import Packet, Session, Site
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.devices.faults import parse_faults
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2650
+from solepath.session.json_host import HANDLERS, JsonHost
+
+WALK = 20.0
+"""Duration of a walk, s."""
+
+
+def walked(faults: str = "", until: float = WALK) -> Shell:
+    """Return a shell after a walk with two insoles, which report their feet."""
+    one = shell(JsonHost(packets=True).receive, Bench(ROUTE, seed=3, faults=parse_faults(faults)).peripherals)
+    one.use(None, None)
+    one.run(until)
+    return one
+
+
+def replayed(messages: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return the events of a new session that is fed the packets of the messages."""
+    session, events = Session(), []
+    for one in messages:
+        if one["type"] == "packet":
+            site, data = Site(one["site"]), bytes.fromhex(one["data"])
+            events += session.feed(Packet(one["t"], site, one["channel"], data, one.get("device", "")))
+    return [event.to_dict() for event in events]
+
+
+def test_two_insoles_walk_through_texts_alone_and_the_packets_replay_the_same_events() -> None:
+    one = walked()
+    assert not [message for message in one.messages if message["type"] == "error"]
+    assert {event["site"] for event in one.events("Connected")} == {"left_foot", "right_foot"}
+    strides = one.events("StrideTaken")
+    assert {event["foot"] for event in strides} == {"left", "right"} and len(strides) >= 8
+    events = [message for message in one.messages if message["type"] == "event"]
+    assert [{key: event[key] for key in event if key != "type"} for event in events] == replayed(one.messages)
+
+
+def test_a_lost_insole_comes_back_at_its_foot() -> None:
+    one = walked("5 left_foot disconnect")
+    left = [event["event"] for event in one.events("Connected", "Disconnected") if event["site"] == "left_foot"]
+    assert left == ["Connected", "Disconnected", "Connected"]
+    assert [event["t"] for event in one.events("StrideTaken") if event["foot"] == "left"][-1] > 8.0
+
+
+def test_a_sensortag_is_worn_where_it_was_added() -> None:
+    bench = Bench(ROUTE, devices={RIGHT: CC2650()}, seed=3)
+    one = shell(JsonHost().receive, bench.peripherals)
+    one.use("right_foot")
+    one.run(WALK)
+    assert {event["foot"] for event in one.events("StrideTaken")} == {"right"}
+
+
+def test_a_second_left_insole_is_disconnected_with_a_reason() -> None:
+    benches = [Bench(ROUTE, devices={LEFT: Insole()}, seed=seed) for seed in (3, 4)]
+    first, second = benches[0][LEFT], benches[1][LEFT]
+    one = Shell(JsonHost().receive, {"A": first, "B": second})
+    one.use(None, None)
+    one.run(3.0)
+    [ended] = [message for message in one.messages if message["type"] == "disconnect"]
+    assert ended == {
+        "type": "disconnect",
+        "device": "B",
+        "reason": f"{second.name} is one more for the left foot",
+        "wrong": True,
+    }
+    assert [event["what"] for event in one.events("LinkTrouble")] == [ended["reason"]]
+
+
+def test_a_saved_state_goes_on_in_another_host() -> None:
+    bench = Bench(ROUTE, seed=3)
+    one = shell(JsonHost(packets=True).receive, bench.peripherals)
+    one.use(None, None)
+    one.run(5.0)
+    one.send({"type": "save"})
+    assert one.messages[-1]["type"] == "saved"
+    other = JsonHost(Session.unpack(b64decode(one.messages[-1]["state"])), packets=True)
+    assert other.host.session.pack() == b64decode(one.messages[-1]["state"])
+    for device in bench.peripherals:
+        device.disconnected(one.now)
+    again = Shell(other.receive, one.devices, one.now)
+    again.use(None, None)
+    again.run(WALK)
+    at_save, at_end = one.events("StrideTaken")[-1]["position"], again.events("StrideTaken")[-1]["position"]
+    whole = walked().events("StrideTaken")[-1]["position"]
+    assert at_end[0] > at_save[0] + 3.0
+    assert dist(at_end[:2], whole[:2]) < 1.0  # no sample was received while the insoles connected again
+
+
+BAD: list[Any] = [
+    None,
+    7,
+    "scan",
+    [],
+    {},
+    {"type": "no such"},
+    {"type": "add"},
+    {"type": "add", "device": "", "site": None},
+    {"type": "add", "device": "A", "site": "nose"},
+    {"type": "add", "device": "A", "site": "pelvis", "profile": "toaster"},
+    {"type": "remove", "device": "B"},
+    {"type": "connected", "device": "A", "t": 0.0, "characteristics": [["a", "b"]]},
+    {"type": "connected", "device": "A", "t": 1e300, "characteristics": []},
+    {"type": "done", "device": "A", "t": 0.0},
+    {"type": "done", "device": "A", "t": 0.0, "value": "0g"},
+    {"type": "rejected", "device": "A", "t": 0.0, "reason": ""},
+    {"type": "failed", "device": "A", "t": True, "reason": "x"},
+    {"type": "values", "values": [[0.0, "A", "insole/frame"]]},
+    {"type": "values", "values": 5},
+    {"type": "disconnected", "device": "A", "t": 0.0},
+    {"type": "time", "t": None},
+]
+
+
+@pytest.mark.parametrize("message", BAD, ids=lambda message: json.dumps(message)[:40])
+def test_a_message_that_cannot_be_understood_is_an_error_and_changes_nothing(message: Any) -> None:
+    host = JsonHost()
+    before = host.host.session.pack()
+    answers = json.loads(host.receive(json.dumps(message)))
+    assert all(answer["type"] == "error" and answer["reason"] for answer in answers)
+    assert answers or message == []
+    assert host.host.session.pack() == before
+
+
+def test_texts_that_are_no_json_are_an_error() -> None:
+    for text in ("", "{", '{"type": "time", "t": NaN}', "\x00", "[" * 100_000):
+        [answer] = json.loads(JsonHost().receive(text))
+        assert answer["type"] == "error"
+
+
+VALUES = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.sampled_from(["A", "B", "", "00", "é"]),
+    lambda inner: st.lists(inner, max_size=4),
+    max_leaves=6,
+)
+KEYS = ["device", "t", "site", "profile", "name", "signal", "characteristics", "value", "reason", "values"]
+
+
+@given(
+    st.lists(
+        st.fixed_dictionaries({"type": st.sampled_from([*HANDLERS])}, optional={key: VALUES for key in KEYS}),
+        max_size=12,
+    )
+)
+def test_any_messages_give_messages(messages: list[dict[str, Any]]) -> None:
+    host = JsonHost(packets=True)
+    host.receive(json.dumps({"type": "add", "device": "A", "site": None}))
+    for message in messages:
+        for answer in json.loads(host.receive(json.dumps(message))):
+            assert answer["type"] in ("error", "event", "packet", "filters", "saved", "disconnect")
+
+
+def test_the_document_names_every_message_of_both_directions() -> None:
+    from_app, to_app = (PROTOCOL / "host.md").read_text("utf-8").split("## To the app")
+    assert table(from_app) == {*HANDLERS}
+    one = walked("5 left_foot freeze", 12.0)
+    one.send({"type": "scan"}, {"type": "save"}, {"type": "no such"})
+    assert {message["type"] for message in one.messages} | {"disconnect"} == table(to_app)
+
+
+def table(text: str) -> set[str]:
+    """Return the words in the first column of the tables of a document."""
+    return {line.split("`")[1] for line in text.splitlines() if line.startswith("| `")}
