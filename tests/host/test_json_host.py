@@ -68,6 +68,20 @@ def test_a_sensortag_is_worn_where_it_was_added() -> None:
     assert {event["foot"] for event in one.events("StrideTaken")} == {"right"}
 
 
+def test_another_insole_at_the_same_foot_continues_the_walk_if_packets_name_no_device() -> None:
+    host = JsonHost(packets=True)
+    for device, seed, now in (("A", 3, 0.0), ("B", 4, 10.0)):
+        emulated = Bench(ROUTE, devices={LEFT: Insole()}, seed=seed, started_at=now)[LEFT]
+        one = Shell(host.receive, {device: emulated}, now)
+        one.send({"type": "add", "device": device, "site": None, "address": ""})
+        one.use(None)
+        one.run(now + 9.0)
+        one.lose(device)
+        one.send({"type": "remove", "device": device})
+        assert one.events("StrideTaken") and not one.events("PacketRejected")
+        assert not [message for message in one.messages if message["type"] == "packet" and "device" in message]
+
+
 def test_a_second_left_insole_is_disconnected_with_a_reason() -> None:
     benches = [Bench(ROUTE, devices={LEFT: Insole()}, seed=seed) for seed in (3, 4)]
     first, second = benches[0][LEFT], benches[1][LEFT]
@@ -114,6 +128,7 @@ BAD: list[Any] = [
     {"type": "add"},
     {"type": "add", "device": "", "site": None},
     {"type": "add", "device": "A", "site": "nose"},
+    {"type": "add", "device": "A", "site": None, "address": 5},
     {"type": "add", "device": "A", "site": "pelvis", "profile": "toaster"},
     {"type": "remove", "device": "B"},
     {"type": "connected", "device": "A", "t": 0.0, "characteristics": [["a", "b"]]},

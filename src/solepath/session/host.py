@@ -44,9 +44,10 @@ class HostCommand:
 
 @define(eq=False)
 class HostDevice:
-    """A device that a host uses; `setup` is None while it is not connected."""
+    """A device that a host uses; its packets name `address`. `setup` is None while it is not connected."""
 
     member: Member
+    address: str
     setup: DeviceSetup | None = None
     recent: RecentTroubles = field(factory=RecentTroubles)
 
@@ -61,15 +62,17 @@ class Host:
         self.session, self.observe, self.roster = session, observe, Roster()
         self._devices: dict[str, HostDevice] = {}
 
-    def add(self, device: str, site: Site | None, profile: Profile | None = None) -> None:
+    def add(self, device: str, site: Site | None, profile: Profile | None = None, address: str | None = None) -> None:
         """Add a device that is worn at `site`; None for an insole, which reports its site.
 
-        Without a profile, the connected device shows of which kind it is. Nothing happens if it was added before.
-        Raises ValueError when it was added at another site, another device is there, or both feet have one."""
+        Without a profile, the connected device shows of which kind it is. Its packets name `address`, by default
+        `device`; "" where a system gives a device another identifier each time an app starts. Nothing happens if it was
+        added before. Raises ValueError when it was added at another site, another device is there, or both feet have
+        one."""
         known = self._devices.get(device)
         if known is None:
             [member] = self.roster.add([DeviceConfig(site, device, profile)])
-            self._devices[device] = HostDevice(member)
+            self._devices[device] = HostDevice(member, device if address is None else address)
         elif known.member.config.site is not site:
             raise ValueError(f"{device!r:.80} is at the {known.member.site.words}: remove it first")
 
@@ -118,8 +121,7 @@ class Host:
         one = self._get(device)
         if one.setup is not None and one.setup.end is None:
             one.setup.add_notification(channel, now)
-            packet = Packet(now, one.member.site, channel, data, one.member.address)
-            self.observe(packet, self.session.feed(packet))
+            self._feed_packet(Packet(now, one.member.site, channel, data, one.address))
 
     def report(self, device: str, now: float, sentence: str) -> None:
         """Feed a sentence on what failed: a connection or a request without an answer, for instance."""
@@ -140,8 +142,7 @@ class Host:
             if one.setup is not None and due is not None and now >= due:
                 commands += self._use(device, now, one.setup.check(now))
         site = next((one.member.site for one in self._devices.values()), Site.LEFT_FOOT)
-        packet = Packet(now, site, TICK, b"")
-        self.observe(packet, self.session.feed(packet))
+        self._feed_packet(Packet(now, site, TICK, b""))
         return commands
 
     def restart_clock(self, now: float) -> None:
@@ -162,8 +163,10 @@ class Host:
 
     def _feed(self, one: HostDevice, now: float, values: list[Value]) -> None:
         for channel, data in one.recent.leave_out(values, now):
-            packet = Packet(now, one.member.site, channel, data, one.member.address)
-            self.observe(packet, self.session.feed(packet))
+            self._feed_packet(Packet(now, one.member.site, channel, data, one.address))
+
+    def _feed_packet(self, packet: Packet) -> None:
+        self.observe(packet, self.session.feed(packet))
 
     def _get(self, device: str) -> HostDevice:
         if device not in self._devices:

@@ -96,7 +96,11 @@ class JsonHost:
 
     def _add(self, message: Message) -> None:
         sites = {site.value: site for site in Site}
-        self.host.add(_device(message), _choose(message, "site", sites), _choose(message, "profile", BY_NAME))
+        address = message.get("address")
+        if address is not None and (not isinstance(address, str) or not is_address(address)):
+            raise ValueError("add: address is no address of a device")
+        site, profile = _choose(message, "site", sites), _choose(message, "profile", BY_NAME)
+        self.host.add(_device(message), site, profile, address)
 
     def _connected(self, message: Message) -> None:
         characteristics, name, signal = message["characteristics"], message.get("name") or "", message.get("signal")
