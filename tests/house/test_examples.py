@@ -13,7 +13,7 @@ from recordings import recorded
 from solepath.emulate import Radio, Route, Walker, emulate
 from solepath.types import Foot
 
-APPS = ("edge_box", "thread_and_queue", "toga_app")
+APPS = ("edge_box", "thread_and_queue")
 """Whole apps; the others are short programs."""
 ROUTE = Route().stand(2.0).walk(6.0, speed=1.3).stop(1.5)
 
@@ -27,7 +27,7 @@ def run(name: str, *arguments: object) -> str:
 
 
 def test_every_example_is_run_here_and_is_short():
-    others = ("house/test_toga_app.py", "fleet/test_spark_job.py", "life/test_edge_box.py")
+    others = ("fleet/test_spark_job.py", "life/test_edge_box.py")
     here = "".join(path.read_text() for path in (Path(__file__), *map(TESTS.joinpath, others)))
     for path in EXAMPLES.glob("*.py"):
         assert f'run("{path.stem}"' in here or f'EXAMPLES / "{path.name}"' in here, path.name

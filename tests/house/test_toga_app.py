@@ -1,16 +1,20 @@
-"""The example app on Toga's test backend: its labels and canvases after an emulated walk."""
+"""The example app on Toga's test backend: its labels and canvases after a walk; and what Briefcase packs it with."""
 
 from __future__ import annotations
 
 import asyncio
 import importlib.util
+import re
 import sys
+import tomllib
 from collections.abc import AsyncIterator, Iterator
+from pathlib import Path
 from typing import Any
 
+import bleak
 import pytest
 from attrs import evolve
-from here import EXAMPLES
+from here import EXAMPLES, ROOT
 
 from solepath import Foot, Packet
 from solepath.emulate import Route, emulate
@@ -19,16 +23,16 @@ pytest.importorskip("toga", reason="toga-core is not installed (extra: test)")
 pytest.importorskip("toga_dummy", reason="toga-dummy is not installed (extra: test)")
 
 WALK = emulate(Route().stand(2).walk(10, speed=1.3).stop(2), seed=1)
-PATH = EXAMPLES / "toga_app.py"
+PATH = EXAMPLES / "toga" / "gait_app" / "__main__.py"
 
 
 @pytest.fixture
 def example(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     monkeypatch.setenv("TOGA_BACKEND", "toga_dummy")
-    spec = importlib.util.spec_from_file_location("toga_app", PATH)
+    spec = importlib.util.spec_from_file_location("gait_app", PATH)
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    monkeypatch.setitem(sys.modules, "toga_app", module)  # Toga looks there for the app's own files
+    monkeypatch.setitem(sys.modules, "gait_app", module)  # Toga looks there for the app's own files
     spec.loader.exec_module(module)
     yield module
 
@@ -104,3 +108,28 @@ async def test_the_emulated_wearer_can_be_stopped_and_the_reason_why_sensors_sto
     await asyncio.wait([app.listening])
     assert app.status.text == "Bluetooth is off: switch it on"
     assert app.strides == 0 and app.start.text == "Insoles"
+
+
+BRIEFCASE = tomllib.loads((PATH.parents[1] / "pyproject.toml").read_text())["tool"]["briefcase"]["app"]["gait_app"]
+
+
+def test_briefcase_packs_the_app_the_library_and_all_that_bluetooth_needs() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert BRIEFCASE["requires"] == project["dependencies"] + project["optional-dependencies"]["ble"]
+    sources = [(PATH.parents[1] / source).resolve() for source in BRIEFCASE["sources"]]
+    assert sources == [PATH.parent, ROOT / "src" / "solepath"]
+    (toga,) = BRIEFCASE["android"]["requires"]
+    assert toga.replace("android", "core") in project["optional-dependencies"]["test"]
+
+
+def test_briefcase_declares_what_bleaks_android_backend_needs() -> None:
+    backend = Path(bleak.__file__).parent / "backends" / "android"
+    proxies = {path.stem for path in backend.glob("*.py") if "(static_proxy(" in path.read_text()}
+    assert proxies and proxies == set(
+        re.findall(r"'bleak\.backends\.android\.(\w+)'", BRIEFCASE["android"]["build_gradle_extra_content"])
+    )
+    # Briefcase makes of it BLUETOOTH_CONNECT, and BLUETOOTH_SCAN with neverForLocation where no location is declared
+    assert BRIEFCASE["permission"].keys() == {"bluetooth"}
+    assert {name.removeprefix("android.permission.") for name in BRIEFCASE["android"]["permission"]} == {
+        "WAKE_LOCK", "FOREGROUND_SERVICE", "FOREGROUND_SERVICE_CONNECTED_DEVICE", "POST_NOTIFICATIONS"
+    }  # fmt: skip

@@ -1,10 +1,10 @@
 """An app for a phone or a desktop with BeeWare Toga: live activity, strides, gait, both soles and the track.
 
     pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
-    python examples/toga_app.py             one button for two insoles nearby, one for an emulated wearer
+    python examples/toga/gait_app/__main__.py   one button for two insoles nearby, one for an emulated wearer
 
-`solepath.ble.Devices` runs in Toga's asyncio loop. Briefcase packs the app for a phone (not tried yet), without numpy
-(`--no-deps`) and with the permission to use Bluetooth. On iOS a queue replaces bleak (thread_and_queue.py)."""
+`solepath.ble.Devices` runs in Toga's asyncio loop. examples/toga/pyproject.toml declares what Briefcase needs to pack
+it for Android, where nobody has tried it. On iOS a queue replaces bleak (thread_and_queue.py)."""
 
 import asyncio
 from collections import deque
