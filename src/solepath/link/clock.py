@@ -48,8 +48,8 @@ SETTLED_ERROR, SETTLING_TIME = 0.005, 5.0
 JUMP_DELAY, STOPPED_DELAY, STOPPED_DURATION = 30.0, 1.0, 20.0
 """Delay that shows that the clock jumped, and delay and duration that show that the clock stood still, s.
 
-No device holds packets back for JUMP_DELAY. The clock stood still when every packet of STOPPED_DURATION seconds came
-later than STOPPED_DELAY."""
+No device holds packets back for JUMP_DELAY; a phone whose app is in the background does. The clock stood still when
+every packet of STOPPED_DURATION seconds came later than STOPPED_DELAY."""
 
 
 @define
@@ -96,15 +96,17 @@ class Clock:
         x = (ticks - self.first_tick) / self.rate
         return self.origin + self.offset + x * (1.0 + self.drift)
 
-    def contradicts(self, ticks: float, arrival: float) -> bool:
-        """Return whether a packet measured at `ticks` that arrived at `arrival` (s) belongs to another clock."""
+    def contradicts(self, ticks: float, arrival: float, held_back: bool = False) -> bool:
+        """Return whether a packet measured at `ticks` that arrived at `arrival` (s) belongs to another clock.
+
+        `held_back`: the device's counters go on without a break, so the receiver may have held the packet back."""
         if not self.window_times:
             return False
         x = (ticks - self.first_tick) / self.rate
         delay = arrival - (self.origin + self.offset + x * (1.0 + self.drift))
         if delay < 0.0:
             return delay < -(MAX_EARLY_ARRIVAL + EARLY_ARRIVAL_GROWTH * max(0.0, x - self.window_times[-1]))
-        if delay > JUMP_DELAY:
+        if delay > JUMP_DELAY and not held_back:
             return True
         return (
             delay > STOPPED_DELAY and self.behind_since is not None and arrival - self.behind_since > STOPPED_DURATION

@@ -115,7 +115,9 @@ class PacketRun:
             if ticks <= 0 or packets <= 0:
                 self._reject_repeated(clock, position, arrival)
             last = self.ticks + ticks + packet_ticks - position.interval
-            if ticks <= 0 or packets <= 0 or new_fit or clock.rate != rate or clock.contradicts(last, arrival):
+            held_back = self._is_same_run(position) and not self.after_reconnection
+            other_clock = clock.rate != rate or clock.contradicts(last, arrival, held_back)
+            if ticks <= 0 or packets <= 0 or new_fit or other_clock:
                 restarted = not 1 <= position.sequence_difference <= REMEMBERED_PACKETS
                 clock = self._start_clock(position.ticks, rate, clock.last_t + self.interval / clock.rate)
             else:
@@ -140,10 +142,14 @@ class PacketRun:
         self.ticks, self.accepted_bits = ticks, 1
         return self.clock
 
+    def _is_same_run(self, position: PacketPosition) -> bool:
+        """Return whether sequence and ticks agree on how far the packet is from the newest one."""
+        return abs(position.packets_after * self.packet_ticks - position.ticks_after) <= 2 * self.packet_ticks
+
     def _reject_repeated(self, clock: Clock, position: PacketPosition, arrival: float) -> None:
         """Raise WireError if a packet that is not newer is a duplicate or late; return if the device restarted."""
         packets, ticks = position.packets_after, position.ticks_after
-        is_same_run = abs(packets * self.packet_ticks - ticks) <= 2 * self.packet_ticks
+        is_same_run = self._is_same_run(position)
         was_accepted = is_same_run and -REMEMBERED_PACKETS < packets <= 0 and bool(self.accepted_bits >> -packets & 1)
         if position.retransmitted and ticks < 0:
             if was_accepted:

@@ -49,6 +49,7 @@ class SessionState:
             t, channel, device = number("t of a packet", packet.t), text(packet.channel), text(packet.device)
             packet = evolve(packet, t=t, channel=channel, data=bytes(data), device=device)
         decoder = self.decoders.get(site) or Decoder(site)
+        newest_arrival = decoder.newest_arrival
         items = decoder.feed(packet, kinds)
         if not decoder.used:
             # a rejected packet changes nothing, so time does not pass with it either
@@ -61,7 +62,8 @@ class SessionState:
         for other_site, other_decoder in self.decoders.items():
             if other_site is not site and (other_items := other_decoder.advance(packet.t, kinds)):
                 self.use_items(other_site, other_items, events)
-        if self.now is None or packet.t > self.now:
+        is_set_back = newest_arrival is not None and packet.t < newest_arrival
+        if self.now is None or packet.t > self.now or is_set_back:
             self.now = packet.t
         if decoder.link is not None:
             until = decoder.link.unsettled_until
