@@ -5,7 +5,7 @@ full disk: from no byte to one less than its largest file. Each must end with st
 an earlier run must be as they were, and a recording must hold whole lines up to the error. It prints a line for each
 program, and exits with 1 at the first promise that is broken. A limit of the size is idealised: a disk that is full
 also allows no new file. Left out are `record` and `live` (the recording of an app is written by the same class, and
-tests/recording/test_recovery.py fills their disk), and `reproduce` and `evaluate`, which compute for many seconds
+tests/life/test_recovery.py fills their disk), and `reproduce` and `evaluate`, which compute for many seconds
 before they write a file as a snapshot is written here.
 """
 

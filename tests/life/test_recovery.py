@@ -1,4 +1,4 @@
-"""docs/recovery.md: after each accident, its very lines continue the walk, and nothing that was recorded is lost."""
+"""docs/app_life.md: after each accident, its very lines continue the walk, and nothing that was recorded is lost."""
 
 from __future__ import annotations
 
@@ -12,39 +12,17 @@ from typing import Any
 import pytest
 from attrs import evolve
 from quoted import PAGES, blocks
+from recordings import recorded
 from walks import insoles, of
 
 from solepath import ClockReset, Packet, PacketRejected, Rejection, Session, StrideTaken
-from solepath.recording import PacketWriter, RecordingWarning, read_packets
+from solepath.recording import RecordingWarning, read_packets
 
-CUT, TORN, FULL, REBOOTED = blocks(PAGES["docs/recovery.md"], "python")
+CUT, TORN, FULL, _, REBOOTED, *_ = blocks(PAGES["docs/app_life.md"], "python")
 """The programs of the page, in their order."""
 PACKETS = insoles().packets
 HALF = len(PACKETS) // 2
-
 Run = Callable[..., dict[str, Any]]
-"""Function that runs programs of the page one after the other, and returns their names."""
-
-
-@pytest.fixture
-def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
-    """Return a function that runs programs of the page in a folder with the recording of half a walk."""
-    monkeypatch.chdir(tmp_path)
-    record("walk-0001.jsonl", PACKETS[:HALF])
-
-    def run_programs(*programs: str) -> dict[str, Any]:
-        names: dict[str, Any] = {"__name__": "page"}
-        for program in programs:
-            exec(compile(program, "docs/recovery.md", "exec"), names)
-        return names
-
-    return run_programs
-
-
-def record(name: str, packets: Sequence[Packet]) -> None:
-    with PacketWriter(name) as writer:
-        for packet in packets:
-            writer.write(packet)
 
 
 def fed(packets: Sequence[Packet]) -> Session:
@@ -66,7 +44,7 @@ def test_a_recording_that_was_cut_gives_the_session_up_to_its_last_whole_line(ru
 @pytest.mark.parametrize("damage", ["torn", "changed", "nested", "no session", "absent", "none"])
 @pytest.mark.parametrize("saved_after", [HALF // 3, HALF, HALF + 200])
 def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run, damage: str, saved_after: int) -> None:
-    record("walk-0002.jsonl", PACKETS[HALF : HALF + 300])
+    recorded(Path("walk-0002.jsonl"), PACKETS[HALF : HALF + 300])
     names = run(CUT, TORN)
     if saved_after > HALF:
         names["save"](fed(PACKETS[:saved_after]), "walk-0002.jsonl", saved_after - HALF)
@@ -93,7 +71,7 @@ def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run,
 
 
 def test_a_replay_of_two_recordings_restarts_the_clock_between_them(run: Run) -> None:
-    record("walk-0002.jsonl", [evolve(packet, t=packet.t - PACKETS[HALF].t) for packet in PACKETS[HALF:]])
+    recorded(Path("walk-0002.jsonl"), [evolve(packet, t=packet.t - PACKETS[HALF].t) for packet in PACKETS[HALF:]])
     resumed, whole = run(CUT, TORN)["session"], fed(PACKETS)
     position, expected = resumed.position, whole.position
     assert position is not None and expected is not None

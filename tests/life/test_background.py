@@ -1,0 +1,110 @@
+"""An app in the background: notifications come late, all at once, or never, and the phone's clock may stand still."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import pytest
+from attrs import evolve
+from quoted import PAGES, blocks
+from walks import CLEAN, LEFT, RIGHT, of
+
+from solepath import (
+    ClockReset,
+    Packet,
+    PacketRejected,
+    PacketsLost,
+    SampleGap,
+    Session,
+    Site,
+    StreamResumed,
+    StreamStale,
+    StrideTaken,
+)
+from solepath.emulate import CC2650, Insole, Route, emulate
+
+CUT, TORN, FULL, BACKGROUND, *_ = blocks(PAGES["docs/app_life.md"], "python")
+AWAY = 10.0
+"""Time at which the app goes to the background, s."""
+
+
+@cache
+def walk(kind: type[Any] = Insole) -> tuple[Packet, ...]:
+    """Return the packets of a walk of a minute."""
+    route = Route().stand(2.0).walk(70.0, 1.3).stop(2.0)
+    return emulate(route, devices={LEFT: kind(), RIGHT: kind()}, radio=CLEAN, seed=1).packets
+
+
+@cache
+def strides(kind: type[Any] = Insole) -> list[StrideTaken]:
+    return of(StrideTaken, Session().feed(walk(kind)))
+
+
+def live(away: float, packets: tuple[Packet, ...]) -> list[Any]:
+    """Return the events of an app that is in the background for `away` s and then gets all notifications at once."""
+    session, now, back = Session(), 0.0, AWAY + away
+    events: list[Any] = []
+    for second in range(int(back) + 1):
+        events += session.feed([packet for packet in packets if second <= packet.t < min(second + 1.0, AWAY)])
+        events += session.advance(float(second + 1))
+    for packet in packets:
+        if packet.t >= AWAY:
+            now = max(now + 1e-4, back, packet.t)  # 100 us to take one
+            events += session.feed(evolve(packet, t=now))
+    return events
+
+
+@pytest.mark.parametrize("away", [3.0, 10.0, 29.0, 40.0])
+def test_a_walk_that_a_phone_held_back_has_all_its_strides_when_it_comes(away: float) -> None:
+    events = live(away, walk())
+    assert {event.site for event in of(StreamStale, events)} == {event.site for event in of(StreamResumed, events)}
+    assert len(of(StreamStale, events)) == 2
+    assert not [event for event in events if isinstance(event, PacketsLost | SampleGap | ClockReset | PacketRejected)]
+    found = of(StrideTaken, events)
+    assert len(found) == len(strides())
+    for stride, undisturbed in zip(found, strides(), strict=True):
+        assert stride.foot is undisturbed.foot and not stride.degraded
+        assert stride.t_end == pytest.approx(undisturbed.t_end, abs=0.02)
+        assert stride.length == pytest.approx(undisturbed.length, abs=0.03)
+
+
+def test_a_walk_of_sensors_without_counters_lacks_the_strides_that_came_at_once_and_says_so() -> None:
+    events = live(10.0, walk(CC2650))
+    assert of(PacketsLost, events) and of(SampleGap, events)
+    found, all_strides = of(StrideTaken, events), strides(CC2650)
+    assert len(all_strides) - 30 < len(found) < len(all_strides) - 10
+    assert found[-1].t_end == pytest.approx(all_strides[-1].t_end, abs=0.2)
+
+
+def test_where_nothing_is_delivered_the_strides_before_and_after_are_found_and_the_one_between_is_degraded() -> None:
+    packets = tuple(packet for packet in walk() if not AWAY <= packet.t < AWAY + 15.0)
+    events = live(15.0, packets)
+    for site in (LEFT, RIGHT):
+        (gap,) = [event for event in of(SampleGap, events) if event.site is site]
+        assert gap.duration == pytest.approx(15.0, abs=0.05)
+        (across,) = [
+            one for one in of(StrideTaken, events) if one.foot is site.foot and one.t_start < gap.t < one.t_end
+        ]
+        assert across.degraded
+    assert len(of(StrideTaken, events)) == pytest.approx(len(strides()) - 2 * 14, abs=4)
+
+
+def test_a_phone_whose_clock_stood_still_while_it_slept_sees_that_the_sensors_did_not() -> None:
+    slept = 30.0
+    packets = [packet for packet in walk() if packet.t < AWAY]
+    packets += [evolve(packet, t=packet.t - slept + 1.0) for packet in walk() if packet.t >= AWAY + slept]
+    events = Session().feed(packets)
+    assert {event.site for event in of(ClockReset, events)} == {LEFT, RIGHT}
+    assert not of(PacketRejected, events)
+    assert all(0.5 < stride.t_end - stride.t_start < 2.0 for stride in of(StrideTaken, events)[2:])
+
+
+def test_the_lines_of_the_page_stamp_what_comes_and_let_time_pass(run: Callable[..., dict[str, Any]]) -> None:
+    names = run(CUT, TORN, FULL, BACKGROUND)
+    session = names["session"]
+    session.restart_clock(0.0)
+    names["notified"](Site.LEFT_FOOT, "device/battery", bytearray(b"\x63"))
+    names["writer"].close()
+    assert session.now > 0.0 and names["every_second"]() is not None
