@@ -19,7 +19,7 @@ from contextlib import AsyncExitStack, suppress
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from solepath import Event, Packet, Session, Site
+from solepath import Event, Packet, Session, Site, SnapshotError
 from solepath.ble import NATIVE, DeviceConfig, Devices
 from solepath.recording import PacketWriter, RecordingError, read_header, read_packets, read_start_time
 from solepath.saving.files import write_whole
@@ -37,8 +37,9 @@ class Box:
         self.boot, self.rebooted, self.writer = "", False, None
         with suppress(FileNotFoundError):
             saved = json.loads((folder / "state.json").read_text())
-            self.session, self.boot = Session.restore(saved["session"]), saved["boot"]
-            self.number, self.recording = saved["number"], saved["recording"]
+            self.number, self.recording, self.boot = saved["number"], saved["recording"], saved["boot"]
+            with suppress(SnapshotError):  # another version of solepath saved it: the track starts again
+                self.session = Session.restore(saved["session"])
         self.written = max([self.number, *map(newest_number, folder.glob("rows-*.jsonl"))])
         for path in sorted(folder.glob("packets-*.jsonl")):
             if path.name > self.path().name:

@@ -70,7 +70,7 @@ def test_a_walk_that_a_phone_held_back_has_all_its_strides_when_it_comes(away: f
         assert stride.length == pytest.approx(undisturbed.length, abs=0.03)
 
 
-def test_a_walk_of_sensors_without_counters_lacks_the_strides_that_came_at_once_and_says_so() -> None:
+def test_a_walk_of_sensors_without_counters_lacks_the_strides_that_came_at_once_and_reports_the_losses() -> None:
     events = live(10.0, walk(CC2650))
     assert of(PacketsLost, events) and of(SampleGap, events)
     found, all_strides = of(StrideTaken, events), strides(CC2650)

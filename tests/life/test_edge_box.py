@@ -145,6 +145,24 @@ def test_the_recordings_before_a_save_are_deleted_and_a_row_that_was_torn_is_cut
     assert again.session.pack() == box.session.pack()
 
 
+def test_after_an_update_of_solepath_the_rows_go_on_with_a_new_track(tmp_path: Path) -> None:
+    box_module = example()
+    box = box_module.Box(tmp_path)
+    for packet in PACKETS[:HALF]:
+        box.receive(packet)
+    box.save()
+    box.writer.close()
+    before, state = rows(tmp_path), json.loads((tmp_path / "state.json").read_text())
+    state["session"]["solepath"] -= 1
+    (tmp_path / "state.json").write_text(json.dumps(state))
+    again = box_module.Box(tmp_path)
+    for packet in PACKETS[HALF:]:
+        again.receive(packet)
+    found = rows(tmp_path)
+    assert found[: len(before)] == before and [row["row"] for row in found] == list(range(1, len(found) + 1))
+    assert sum(row["event"] == "StrideTaken" for row in found[len(before) :]) >= 2
+
+
 def test_after_a_reboot_the_clock_restarts_and_after_a_kill_it_does_not(tmp_path: Path) -> None:
     box_module = example()
     resets = []
