@@ -83,6 +83,8 @@ class Modes(TrackPart):
     """Foot and time, s, of a touchdown at which the chain is not known yet; None without one."""
     heights_t: float | None = field(default=None, init=False)
     """Instant of the heights from the chain, s."""
+    newest_t: dict[Foot, float] = field(factory=dict, init=False)
+    """Time of the newest touchdown of each foot, s; one that an older sample of the other foot shows is not earlier."""
     touchdowns: int = field(default=0, init=False)
     """Number of touchdowns so far."""
     limitation_reported: bool = field(default=False, init=False)
@@ -120,6 +122,7 @@ class Modes(TrackPart):
         self.limb_sensors.reset(site)
         if site.foot is not None:
             self.recognition.reset(site.foot)
+            self.newest_t.clear()
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add a sample of a foot; update the reference foot, touchdowns and walking mode."""
@@ -247,6 +250,7 @@ class Modes(TrackPart):
             if self.settings.compensation is not None:
                 compensation = epsilon_p(self.settings.compensation, foot, mode, side.direction)
         places.set_down(foot, displace(place, compensation), chained, t)
+        t = self.newest_t[foot] = max(t, self.newest_t.get(foot, t))
         self.touchdowns += 1
         events: list[Event] = []
         if not (chained or self.limitation_reported or chain.is_current(t)):
@@ -256,7 +260,13 @@ class Modes(TrackPart):
             events.append(Limitation(t=t, known_at=known_at, site=None, what=what))
         final = places.heading_settled or not (chained or chain.may_recover())
         touchdown = TouchedDown(
-            t=t, known_at=known_at, final=final, foot=foot, position=side.place, mode=mode, compensation=compensation
+            t=t,
+            known_at=max(t, known_at),
+            final=final,
+            foot=foot,
+            position=side.place,
+            mode=mode,
+            compensation=compensation,
         )
         return [*events, touchdown]
 
