@@ -31,7 +31,7 @@ SENT = {
     "no token": handshake(),
     "a wrong token": handshake().replace(b"/ws", b"/ws?token=wrong"),
 }
-NAMES = sorted(one.name for one in (files("solepath.show.page.server") / "static").iterdir())
+NAMES = sorted(one.name for one in (files("solepath.show.page") / "static").iterdir())
 
 several_addresses = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only 127.0.0.1 is this machine")
 

@@ -85,7 +85,7 @@ async def test_another_scene_is_sent_whole_as_after_a_seek() -> None:
 
 
 async def test_the_page_is_made_of_the_files_that_are_installed() -> None:
-    names = {one.name for one in (files("solepath.show.page.server") / "static").iterdir()}
+    names = {one.name for one in (files("solepath.show.page") / "static").iterdir()}
     assert "index.html" in names
     async with served() as (_, client, url):
         for name in ("", *names):
@@ -101,7 +101,7 @@ async def test_the_page_is_made_of_the_files_that_are_installed() -> None:
                     assert head.headers["Content-Length"] == answer.headers["Content-Length"]
                 kind = answer.headers["Content-Type"].partition(";")[0]
                 assert kind == server.CONTENT_TYPES[f".{(name or 'index.html').rpartition('.')[2]}"]
-        text = "".join((files("solepath.show.page.server") / "static" / name).read_text() for name in names)
+        text = "".join((files("solepath.show.page") / "static" / name).read_text() for name in names)
         for elsewhere in ("https:", "//cdn"):
             assert elsewhere not in text.replace('"https:"', "").replace("'https:'", "")
 

@@ -78,7 +78,7 @@ def test_a_summary_counts_the_events_of_each_foot():
     observer.take(None, [gap, strike, evolve(strike, final=False), STRIDE])
     left, link = observer.feet[Foot.LEFT], observer.links[Site.LEFT_FOOT]
     assert (link.samples, link.gaps, link.gap_time, link.rate) == (11, 1, 1.75, 4.0)
-    assert (left.events[HeelStrike], left.strides, left.degraded, left.distance) == (1, 1, 1, 1.25)
+    assert (left.events["heel-strike"], left.strides, left.degraded, left.distance) == (1, 1, 1, 1.25)
     text = summary(observer, title="walk.npz", seconds=2.0)
     assert text.splitlines()[0] == "walk.npz: 4.0 s"
     assert "left: 1 of 1 strides degraded" in text and "2 times as fast as walked" in text

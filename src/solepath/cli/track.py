@@ -26,17 +26,7 @@ from .common.inputs import (
     source_of,
     undo_clocks,
 )
-from .common.view import (
-    PageAddress,
-    add_speed,
-    add_view,
-    compute_rest,
-    need_page,
-    newtons_of,
-    page_address_of,
-    play,
-    speed_of,
-)
+from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -196,6 +186,7 @@ def _run_on_page(
     that were not played at the end."""
     from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
+    from ..show.page.scene.scales import newtons_of
     from ..show.page.scene.scene import Scene
 
     items = PackedItems(recording)

@@ -1,8 +1,9 @@
 """Saving and restoring as JSON: a record becomes an object of its fields (schema.py defines the types of fields).
 
 Tuples, lists and deques become lists; a deque with a maxlen becomes {"maxlen": n, "is": list}, an open record {"kind":
-name of the class, "is": fields}, an enum member its value, and bytes a base64 string. Loaded values are checked against
-the annotations. A saver turns a value into JSON, a loader turns JSON into a value; a codec is the pair of both."""
+name of the class, "is": fields}, an enum member its value, bytes a base64 string, and a dict whose keys are neither
+strings nor enum members a list of pairs. Loaded values are checked against the annotations. A saver turns a value into
+JSON, a loader turns JSON into a value; a codec is the pair of both."""
 
 from __future__ import annotations
 
@@ -91,8 +92,9 @@ def _codec(node: Node) -> tuple[_Saver, _Loader]:
             return partial(_save_floats, None), partial(_load_floats, kind, None)
         case SequenceNode(kind, of):
             return _deque_codec(*_codec(of)) if kind is deque else _sequence_codec(kind, *_codec(of))
-        case DictNode(key, of):
-            return _dict_codec(*_codec(key), *_codec(of))
+        case DictNode(key, of, kind):
+            codecs = (*_codec(key), *_codec(of))
+            return _dict_codec(kind, *codecs) if node.has_text_keys else _pairs_codec(kind, *codecs)
         case OpenNode():
             return _open_codec(node)
         case RecordNode():
@@ -209,10 +211,23 @@ def _deque_codec(save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader
     return save_deque, load_deque
 
 
-def _dict_codec(save_key: Any, load_key: _Loader, save_item: _Saver, load_item: _Loader) -> tuple[_Saver, _Loader]:
+def _dict_codec(
+    kind: type, save_key: Any, load_key: _Loader, save_item: _Saver, load_item: _Loader
+) -> tuple[_Saver, _Loader]:
     return (
         lambda value: {save_key(key): save_item(item) for key, item in value.items()},
-        lambda value, classes: {load_key(key, classes): load_item(item, classes) for key, item in value.items()},
+        lambda value, classes: kind({load_key(key, classes): load_item(item, classes) for key, item in value.items()}),
+    )
+
+
+def _pairs_codec(
+    kind: type, save_key: _Saver, load_key: _Loader, save_item: _Saver, load_item: _Loader
+) -> tuple[_Saver, _Loader]:
+    """Return a codec that saves a dict as a list of pairs, since the keys of an object of JSON are strings."""
+    load_pairs = _sequence_codec(list, *_tuple_codec([(save_key, load_key), (save_item, load_item)]))[1]
+    return (
+        lambda value: [[save_key(key), save_item(item)] for key, item in value.items()],
+        lambda value, classes: kind(dict(load_pairs(value, classes))),
     )
 
 

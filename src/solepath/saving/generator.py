@@ -21,7 +21,7 @@ by its name."""
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable
 from typing import Any
 
@@ -37,7 +37,7 @@ class CodeGenerator:
 
     def __init__(self, functions: dict[str, Callable[..., Any]], open_codec: Callable[[OpenNode], Any]) -> None:
         self.namespace: dict[str, Any] = {
-            "new": object.__new__, "put": object.__setattr__, "deque": deque, **functions
+            "new": object.__new__, "put": object.__setattr__, "deque": deque, "Counter": Counter, **functions
         }  # fmt: skip
         self.open_codec = open_codec
         self.source: list[str] = []
@@ -176,9 +176,10 @@ class CodeGenerator:
                     + "".join([self.read_expression(item, f"{t}[{k}]") + ", " for k, item in enumerate(items)])
                     + ")"
                 )
-            case DictNode(key, of):
+            case DictNode(key, of, kind):
                 inner = self.read_expression(of, f"{t}[k]")
-                return f"{{(k := {self.read_expression(key, t)}): {inner} for _ in check_count(n())}}"
+                items = f"{{(k := {self.read_expression(key, t)}): {inner} for _ in check_count(n())}}"
+                return f"Counter({items})" if kind is Counter else items
             case SequenceNode(kind, of):
                 most = "(n() if m() else None)" if kind is deque else ""
                 each = f"check_parts(n(), {t})" if _is_made(of) else "check_count(n())"

@@ -46,10 +46,16 @@ class SequenceNode:
 
 @frozen(eq=False)
 class DictNode:
-    """A dict; keys have the node `key`, values the node `of`."""
+    """A dict or Counter (`kind`); keys have the node `key`, values the node `of`."""
 
     key: Node
     of: Node
+    kind: type = dict
+
+    @property
+    def has_text_keys(self) -> bool:
+        """True if the keys become strings, so that the dict becomes an object of JSON."""
+        return isinstance(self.key, EnumNode) or (isinstance(self.key, ScalarNode) and self.key.kind is str)
 
 
 @frozen(eq=False)

@@ -1,9 +1,9 @@
 """Schema of a record, from the type annotations of its class.
 
 A record is an attrs class, or a plain class with annotations in its body (a `ClassVar` is no field). A field may be a
-float, int, bool, string, bytes, enum member, another record, an optional of one of these, or a tuple, list, deque or
-dict (with strings or enum members as keys) of these. Nothing else can be saved: generators, closures, rebound methods
-and arrays cannot.
+float, int, bool, string, bytes, enum member, another record, an optional of one of these, or a tuple, list, deque, dict
+or Counter of these. A record may be generic. Nothing else can be saved: generators, closures, rebound methods and arrays
+cannot.
 
 An annotation that is a Protocol is *open*: the value is a record of any class. It is saved with the name of its class,
 and the caller of `load` passes a function that returns the class. A union of records is open too, but has only its own
@@ -26,7 +26,7 @@ import json
 import types
 import typing
 from binascii import crc32
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterator
 from enum import Enum
 from typing import Any
@@ -37,7 +37,7 @@ from ..types.attrs import MADE_AGAIN, NOT_SAVED
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 
 SCALARS = (float, int, bool, str, bytes)
-_RECORDS: dict[tuple[type, bool], RecordNode] = {}
+_RECORDS: dict[tuple[Any, bool], RecordNode] = {}
 
 
 def record_of(cls: type, made: bool = False) -> RecordNode:
@@ -55,7 +55,8 @@ def record_in(node: OpenNode, cls: type) -> RecordNode:
 
 def is_record(cls: Any) -> bool:
     """Return whether `cls` is a record: a class whose annotations declare its fields."""
-    if not isinstance(cls, type) or issubclass(cls, Enum | tuple):
+    cls = typing.get_origin(cls) or cls
+    if not isinstance(cls, type) or issubclass(cls, Enum | tuple | list | dict | deque):
         return False
     return attrs.has(cls) or bool(typing.get_type_hints(cls))
 
@@ -76,9 +77,9 @@ def has_state(hint: Any) -> bool:
     return any([has_state(argument) for argument in typing.get_args(hint)])
 
 
-def is_frozen(cls: type) -> bool:
+def is_frozen(cls: Any) -> bool:
     """Return whether attrs forbids changes of the class's fields."""
-    setter: Any = cls.__setattr__
+    setter: Any = (typing.get_origin(cls) or cls).__setattr__
     return setter is _Frozen.__setattr__
 
 
@@ -103,7 +104,8 @@ class _DeclaredField:
     mark: str | None
 
 
-def _declared_fields(cls: type) -> Iterator[_DeclaredField]:
+def _declared_fields(record: Any) -> Iterator[_DeclaredField]:
+    cls = typing.get_origin(record) or record
     hints = typing.get_type_hints(cls)
     if attrs.has(cls):
         for field in attrs.fields(cls):
@@ -121,12 +123,13 @@ class _SchemaBuilder:
     def __init__(self) -> None:
         self.enclosing_classes: list[type] = []
 
-    def record(self, cls: type, made: bool) -> RecordNode:
-        cached = _RECORDS.get((cls, made))
+    def record(self, hint: Any, made: bool) -> RecordNode:
+        cached = _RECORDS.get((hint, made))
         if cached is not None:
             return cached
-        if not is_record(cls):
-            raise TypeError(f"a record is an attrs class, and {cls!r} is none")
+        if not is_record(hint):
+            raise TypeError(f"a record is an attrs class, and {hint!r} is none")
+        cls, arguments = typing.get_origin(hint) or hint, _type_arguments(hint)
         if cls in self.enclosing_classes:
             raise TypeError(f"a {cls.__name__} in a {cls.__name__} cannot be saved")
         self.enclosing_classes.append(cls)
@@ -134,6 +137,7 @@ class _SchemaBuilder:
         defaults: dict[str, Any] = {}
         for declared in _declared_fields(cls):
             try:
+                declared = attrs.evolve(declared, hint=_substituted(declared.hint, arguments))
                 node = None if declared.mark == NOT_SAVED["saving"] else self.field(declared, made)
             except TypeError as error:
                 raise TypeError(locate_error(error, cls, declared.name)) from error
@@ -142,7 +146,7 @@ class _SchemaBuilder:
             else:
                 fields[declared.name] = node
         self.enclosing_classes.pop()
-        return _RECORDS.setdefault((cls, made), RecordNode(cls, made, fields, defaults))
+        return _RECORDS.setdefault((hint, made), RecordNode(cls, made, fields, defaults))
 
     def field(self, declared: _DeclaredField, made: bool) -> Node | None:
         """Return the node of a field; None for a setting without parts of a record that is made again."""
@@ -173,6 +177,8 @@ class _SchemaBuilder:
             return SequenceNode(origin, self.node(arguments[0], made))
         if origin is dict:
             return DictNode(self.node(arguments[0], made), self.node(arguments[1], made))
+        if origin is Counter:
+            return DictNode(self.node(arguments[0], made), ScalarNode(int), Counter)
         if hint in (tuple, list, deque, dict):
             what = "dict[str, float]" if hint is dict else f"{hint.__name__}[float]"
             raise TypeError(f"its type does not say what is in it; write {what}, or whatever it is")
@@ -189,6 +195,24 @@ class _SchemaBuilder:
         else:
             raise TypeError(f"it could not tell apart {hint!r}")
         return MaybeNode(node) if len(kinds) < len(alternatives(hint)) else node
+
+
+def _type_arguments(hint: Any) -> dict[Any, Any]:
+    """Return what stands for each type variable in a generic record, and in the records that it derives from."""
+    cls = typing.get_origin(hint) or hint
+    arguments = dict(zip(getattr(cls, "__parameters__", ()), typing.get_args(hint), strict=False))
+    for base in getattr(cls, "__orig_bases__", ()):
+        if typing.get_origin(base) is not typing.Generic and is_record(base):
+            arguments |= _type_arguments(_substituted(base, arguments))
+    return arguments
+
+
+def _substituted(hint: Any, arguments: dict[Any, Any]) -> Any:
+    """Return an annotation with its type variables replaced."""
+    if isinstance(hint, typing.TypeVar):
+        return arguments.get(hint, hint)
+    parameters = getattr(hint, "__parameters__", ()) if typing.get_origin(hint) is not None else ()
+    return hint[tuple([arguments.get(one, one) for one in parameters])] if parameters else hint
 
 
 def alternatives(hint: Any) -> tuple[Any, ...]:

@@ -81,8 +81,8 @@ class FootCounts:
     """Number of final strides that are degraded."""
     distance: float = 0.0
     """Sum of the stride lengths, m."""
-    events: Counter[type[Event]] = field(factory=Counter)
-    """Number of final events of each kind in GAIT_EVENTS."""
+    events: Counter[str] = field(factory=Counter)
+    """Number of final events of each kind, by its name in GAIT_EVENTS."""
     phase: Phase | None = None
     position: Vec3 | None = None
     """Live position, world frame, m."""
@@ -120,8 +120,8 @@ class Observer:
     elevator_rides: Counter[bool] = field(factory=Counter)
     """Number of elevator rides upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
-    latencies: dict[type[Event], Counter[int]] = field(factory=lambda: {kind: Counter() for kind in GAIT_EVENTS})
-    """For each gait event, how often each latency occurred; latencies are in units of 0.1 ms."""
+    latencies: dict[str, Counter[int]] = field(factory=lambda: {name: Counter() for name in GAIT_EVENTS.values()})
+    """For each gait event, by its name in GAIT_EVENTS, how often each latency occurred; latencies are in units of 0.1 ms."""
     limitations: list[str] = field(factory=list)
     """Different sentences on limitations of the session."""
     defects: list[str] = field(factory=list)
@@ -211,8 +211,9 @@ class Observer:
 
     def _count_gait_event(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
         if event.final:
-            self.foot(event.foot).events[type(event)] += 1
-            self.latencies[type(event)][round(1e4 * (event.known_at - event.t))] += 1
+            name = GAIT_EVENTS[type(event)]
+            self.foot(event.foot).events[name] += 1
+            self.latencies[name][round(1e4 * (event.known_at - event.t))] += 1
 
     def _count_event(self, event: Event) -> None:
         match event:

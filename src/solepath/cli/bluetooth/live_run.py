@@ -19,12 +19,13 @@ from ...recipes import Recipe
 from ...recording import printable
 from ...session import Session
 from ...show.observer import Observer
+from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet
 from ..common.failure import Failure, is_installed, note
 from ..common.loop import unless_stopped
-from ..common.view import PageAddress, newtons_of, serve_page
+from ..common.view import PageAddress, serve_page
 from .backend import backend_of, packets_until
 from .devices import SCAN_TIME, choose_devices, listening_time, named_devices
 from .live_files import LiveFiles

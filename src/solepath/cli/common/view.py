@@ -12,9 +12,7 @@ from typing import TYPE_CHECKING
 
 from attrs import frozen
 
-from ...calibration import Calibration
 from ...recording import printable
-from ...types import Foot
 from .failure import Failure, address_error_text, has_terminal, host_and_port, note, parse_positive, require
 
 if TYPE_CHECKING:
@@ -89,11 +87,6 @@ def speed_of(options: argparse.Namespace, default: float) -> float:
     if not MIN_SPEED <= options.speed <= MAX_SPEED:
         raise Failure(f"--speed {options.speed:g}: on the page it is from {MIN_SPEED:g} to {MAX_SPEED:g}")
     return float(options.speed)
-
-
-def newtons_of(calibration: Calibration | None) -> tuple[Foot, ...]:
-    """Return the feet whose calibration turns an insole's counts into N."""
-    return tuple(foot for foot in Foot if calibration is not None and calibration.insole(foot).newtons is not None)
 
 
 @asynccontextmanager

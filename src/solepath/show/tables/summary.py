@@ -46,7 +46,7 @@ def _foot_table(observer: Observer) -> list[str]:
         counts = observer.feet.get(foot, FootCounts())
         link = observer.links.get(SITE_OF_FOOT[foot], LinkLedger())
         row = [f"{foot}", str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
-        rows.append([*row, *[str(counts.events[kind]) for kind in GAIT_EVENTS]])
+        rows.append([*row, *[str(counts.events[name]) for name in GAIT_EVENTS.values()]])
         if link.gaps:
             missing.append(f"{foot}: {counted(link.gaps, 'gap')} in the samples, {link.gap_time:.2f} s in all")
         if counts.degraded:
@@ -118,7 +118,7 @@ def link_health(observer: Observer) -> list[str]:
 
 def latency(observer: Observer) -> list[str]:
     """Return a line with the median latency of each gait event, radio included; none without events."""
-    medians = {GAIT_EVENTS[kind]: median(counts.elements()) for kind, counts in observer.latencies.items() if counts}
+    medians = {name: median(counts.elements()) for name, counts in observer.latencies.items() if counts}
     texts = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
     return [f"known after it happened, median: {', '.join(texts)}"] if texts else []
 

@@ -12,6 +12,7 @@ from attrs import define, field
 
 from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
+from ....types.attrs import NOT_SAVED
 from ...observer import FootCounts
 from ..messages import rounded, rounded_all
 from .lists import RecentItems, WalkedTrack
@@ -45,7 +46,9 @@ class FootScene:
     centre: tuple[float, float] | None = field(default=None, init=False)
     peak: float = field(default=0.0, init=False)
     """Value of the brightest colour, in the unit of the cells: the highest so far, at least MIN_PEAK_SHARE."""
-    _encoded_cells: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
+    _encoded_cells: tuple[tuple[float, ...] | None, float, str | None] = field(
+        default=(None, 0.0, None), init=False, metadata=NOT_SAVED
+    )
     """The cells and the peak that were encoded last, and their text."""
 
     def add_position(self, event: FootMoved) -> None:

@@ -11,6 +11,7 @@ from attrs import asdict, define, field
 from ....body.gait.means import GaitMeans, GaitParameters
 from ....events import GaitCycleMeasured
 from ....types import Activity, Foot
+from ....types.attrs import NOT_SAVED
 from ...tables.gait import MIN_STRIDES, GaitRow, gait_rows, strides_of
 from ..messages import rounded
 
@@ -77,8 +78,8 @@ def activity_frame(since: float, activity: Activity, silent_since: float | None)
 class SceneGaitMeans:
     """The means that a page shows: those of running if the newest stride was one of running, else those of walking."""
 
-    _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = (None, None)
-    _frame: dict[str, Any] | None = None
+    _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = field(default=(None, None), metadata=NOT_SAVED)
+    _frame: dict[str, Any] | None = field(default=None, metadata=NOT_SAVED)
 
     def frame(self, means: GaitMeans) -> dict[str, Any] | None:
         """Return the member "gait" of a frame; None before any steady stride."""

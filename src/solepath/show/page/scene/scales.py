@@ -12,6 +12,7 @@ from typing import Any
 
 from attrs import define, field
 
+from ....calibration import Calibration
 from ....types import Foot, Layout
 from ..messages import rounded
 
@@ -96,3 +97,8 @@ def scale_end(value: float) -> float:
     """Return the least end of a scale that is at or above `value`; `value` is above zero."""
     power: float = 10.0 ** floor(log10(value))
     return next((multiple * power for multiple in END_MULTIPLES if multiple * power >= value), 10.0 * power)
+
+
+def newtons_of(calibration: Calibration | None) -> tuple[Foot, ...]:
+    """Return the feet whose calibration turns an insole's counts into N."""
+    return tuple(foot for foot in Foot if calibration is not None and calibration.insole(foot).newtons is not None)

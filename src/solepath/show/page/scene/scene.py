@@ -29,6 +29,7 @@ from ....events import (
 from ....floorplan.plan import FloorPlan
 from ....foot.phase import EVENT_OF_PHASE, SUPPORT
 from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
+from ....types.attrs import NOT_SAVED
 from ...observer import REJECTIONS, FootCounts, Observer
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
@@ -70,8 +71,8 @@ class Scene:
     title: str
     recipe: str
     source: str = "live"
-    plan: FloorPlan | None = None
-    playback: Playback | None = None
+    plan: FloorPlan | None = field(default=None, metadata=NOT_SAVED)
+    playback: Playback | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
     observer: Observer = field(factory=Observer)
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
@@ -82,7 +83,7 @@ class Scene:
     log: SceneLog = field(factory=SceneLog, init=False)
     layout_count: int = field(default=0, init=False)
     """Number of layouts that became known; a watcher that was sent fewer needs the whole scene again."""
-    drawing: EncodedOnce | None = field(init=False)
+    drawing: EncodedOnce | None = field(default=None, init=False, metadata=NOT_SAVED)
     """Drawing of the plan, made once; None without a plan."""
 
     def __attrs_post_init__(self) -> None:

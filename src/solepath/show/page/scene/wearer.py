@@ -7,6 +7,7 @@ from typing import Any
 from attrs import define, field
 
 from ....events import Candidate, Placed, WearerMoved
+from ....types.attrs import NOT_SAVED
 from ..messages import rounded, rounded_all
 from .lists import ThinnedTrack, WalkedTrack
 
@@ -27,7 +28,7 @@ class WearerScene:
     places: ThinnedTrack[PlacePoint] = field(factory=ThinnedTrack)
     level: str | None = None
     """The last level that all candidates shared."""
-    _place_frame: tuple[Placed | None, dict[str, Any] | None] = (None, None)
+    _place_frame: tuple[Placed | None, dict[str, Any] | None] = field(default=(None, None), metadata=NOT_SAVED)
 
     def add_position(self, event: WearerMoved) -> None:
         """Add the position of the wearer after a stride."""

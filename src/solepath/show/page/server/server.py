@@ -66,7 +66,7 @@ class Page:
         self._host = host.removeprefix("[").removesuffix("]")
         self._port = port
         self._access = PageAccess(self._host, secrets.token_urlsafe(16) if token is None else token)
-        self._files = _files(files(__package__) / "static")
+        self._files = _files(files("solepath.show.page") / "static")
         self._watchers: dict[Watcher, None] = {}
         """Watchers, in the order in which they came."""
         self._open = OpenConnections(MAX_CONNECTIONS)

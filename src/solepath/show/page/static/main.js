@@ -6,7 +6,7 @@
 import { ActivityPanel } from "./activity.js";
 import { Announcer } from "./announce.js";
 import { keepClear } from "./clearance.js";
-import { Connection } from "./connection.js";
+import { Connection, WORDS } from "./connection.js";
 import { Gait } from "./gait.js";
 import { Height } from "./height.js";
 import { Links } from "./links.js";
@@ -109,18 +109,15 @@ const connection = new Connection(
       const at = performance.now() + 1000 * wait;
       const show = () => {
         element("connection").dataset.state = how;
-        write(
-          element("connection-word"),
-          { open: "connected", connecting: "connecting", closed: "not connected", ended: "ended" }[how],
-        );
+        write(element("connection-word"), WORDS[how]);
         // while the first connection is tried, no alarm is needed
         element("offline").hidden = how === "open" || (how === "connecting" && was === "");
         const left = Math.ceil((at - performance.now()) / 1000);
         const next = how === "connecting" || left < 1 ? "Trying now" : `Trying again in ${left} s`;
         const ended = how === "ended" || (how === "connecting" && was === "ended");
         const why = ended
-          ? `solepath has ended${state.known ? "; what you see is the last of it" : ""}.`
-          : `solepath cannot be reached${state.known ? "; what you see is old" : ""}.`;
+          ? `${WORDS.whyEnded}${state.known ? "; what you see is the last of it" : ""}.`
+          : `${WORDS.whyClosed}${state.known ? "; what you see is old" : ""}.`;
         write(element("offline-words"), how === "ended" ? why : `${why} ${next}.`);
         element("offline").dataset.why = ended ? "ended" : "closed";
       };
@@ -128,12 +125,12 @@ const connection = new Connection(
       if (how === "closed" || how === "ended") {
         timer = setInterval(show, 1000);
         if (was !== how) {
-          announcer.announce(how === "ended" ? "solepath has ended" : "The connection to solepath is lost");
+          announcer.announce(how === "ended" ? WORDS.whyEnded : WORDS.lost);
         }
         was = how;
       }
       if (how === "open") {
-        if (was === "closed" || was === "ended") announcer.announce("Connected again");
+        if (was === "closed" || was === "ended") announcer.announce(WORDS.again);
         was = "open";
       }
       document.body.classList.toggle("old", how !== "open" && state.known);
@@ -141,6 +138,7 @@ const connection = new Connection(
   })(),
 );
 
+write(element("retry"), WORDS.retry);
 element("retry").addEventListener("click", () => connection.retry());
 document.addEventListener("visibilitychange", () => {
   frameRequested = false; // a frame that was requested before may never have come

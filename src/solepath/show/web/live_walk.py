@@ -1,0 +1,90 @@
+"""Holds a walk that is measured now: its session, its scene, and both of them saved."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from attrs import define, field
+
+from ...calibration import Calibration
+from ...events import Event
+from ...floorplan.index import IndexedPlan
+from ...saving.codec import SnapshotError
+from ...session import Session
+from ...types import Packet, Site
+from ..page.scene.saved_scene import restore_scene, save_scene
+from ..page.scene.scales import newtons_of
+from ..page.scene.scene import Scene
+
+Row = Sequence[Any]
+"""A packet as the page sends it: time of arrival (s), site, channel, bytes, device."""
+SITES = {site.value: site for site in Site}
+
+
+@define
+class LiveWalk:
+    """A session, and the scene that shows it; times are in s from the start of the walk."""
+
+    session: Session
+    scene: Scene
+    plan: IndexedPlan | None = None
+    count: int = field(default=0, init=False)
+    """Number of packets that the session was fed since this walk was started or restored."""
+    finished: bool = field(default=False, init=False)
+
+    @classmethod
+    def start(cls, title: str, calibration: Calibration | None, plan: IndexedPlan | None) -> LiveWalk:
+        """Return a walk of which nothing was received yet."""
+        session = Session(poses=True, pressures=True, calibration=calibration, floorplan=plan)
+        drawn = None if plan is None else plan.plan
+        scene = Scene(title, session.recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
+        return cls(session, scene, plan)
+
+    @classmethod
+    def restore(cls, text: str, plan: IndexedPlan | None) -> LiveWalk:
+        """Return the walk that `save` returned; raise SnapshotError for any other text, or with another floor plan."""
+        try:
+            saved = json.loads(text)
+            session_state, scene_state = saved["session"], saved["scene"]
+        except (ValueError, TypeError, KeyError, RecursionError):
+            raise SnapshotError("not a saved walk") from None
+        session = Session.restore(session_state, floorplan=plan)
+        return cls(session, restore_scene(scene_state, None if plan is None else plan.plan), plan)
+
+    def save(self) -> str | None:
+        """Return session and scene as JSON, from which `restore` continues; None before anything was received."""
+        if self.session.now is None or self.scene.observer.item_count == 0:
+            return None
+        return json.dumps({"session": self.session.snapshot(), "scene": save_scene(self.scene)})
+
+    def feed(self, packets: Iterable[Packet]) -> list[Event]:
+        """Feed the session packets in the order of their arrival; return its events."""
+        events: list[Event] = []
+        for packet in packets:
+            new = self.session.feed(packet)
+            self.scene.take(packet, new)
+            self.count += 1
+            events += new
+        return events
+
+    def advance(self, now: float) -> None:
+        """Let time pass until `now`, s; on a clock that was set back the session continues from there."""
+        previous = self.session.now
+        if previous is None or self.finished:
+            return
+        events = self.session.restart_clock(now) if now < previous - 1.0 else self.session.advance(max(now, previous))
+        self.scene.take(None, events)
+        self.scene.tick(now)
+
+    def finish(self) -> None:
+        """End the session; its last events are shown."""
+        self.scene.take(None, self.session.finish())
+        self.finished = True
+
+
+def packet_of(row: Row) -> Packet:
+    """Return the packet of a row from the page; raise KeyError for an unknown site."""
+    t, site, channel, data, device = row
+    return Packet(float(t), SITES[site], channel, bytes(data), device)

@@ -1,0 +1,106 @@
+"""Reads the files that a person opens on the page: recordings, floor plans and calibrations, with errors in words."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Generator
+from pathlib import Path
+
+from attrs import frozen
+
+from ...calibration import Calibration
+from ...calibration.file import FORMAT as CALIBRATION_FORMAT
+from ...calibration.file import read_calibration
+from ...floorplan.checks import find_warnings
+from ...floorplan.importers.reading import read_floorplan
+from ...floorplan.index import IndexedPlan
+from ...recording import RecordingError, read_packets, read_start_time
+from ...recording.packets import FORMAT as RECORDING_FORMAT
+from ...recording.packets import read_header
+from ...recording.source import SAMPLE_SUFFIXES
+from ..page.player.packed_items import PackedItems
+
+MAX_START = 4096
+"""Number of bytes from which the kind of a file is recognised."""
+PACKETS_PER_STEP = 256
+"""Number of packets that are read before the worker may do something else."""
+NOTE_COUNT = 5
+"""Largest number of sentences about the flaws of a file that are shown; chosen by hand."""
+
+
+@frozen
+class OpenedRecording:
+    """A recording in memory."""
+
+    items: PackedItems
+    title: str
+    when: str
+    """Date and time at which it started, as text; "" if they are not known."""
+    notes: tuple[str, ...]
+    """Sentences on lines that were left out."""
+
+
+@frozen
+class OpenedPlan:
+    """A floor plan, with sentences on what is strange in it."""
+
+    plan: IndexedPlan
+    notes: tuple[str, ...]
+
+
+def kind_of(path: Path) -> str:
+    """Return "recording", "plan" or "calibration" for a file; raise RecordingError for samples, which need numpy."""
+    if path.suffix.lower() in SAMPLE_SUFFIXES:
+        raise RecordingError(path, "holds samples; this page opens recordings of packets (.jsonl), not samples")
+    with path.open("rb") as file:
+        start = file.read(MAX_START)
+    if path.suffix.lower() == ".jsonl" or f'"{RECORDING_FORMAT}"'.encode() in start:
+        return "recording"
+    if f'"{CALIBRATION_FORMAT}"'.encode() in start:
+        return "calibration"
+    if start.startswith((b"PK", b"<")) or _is_json(start):
+        return "plan"
+    raise RecordingError(path, "is neither a recording of packets, nor a floor plan, nor a calibration")
+
+
+def _is_json(start: bytes) -> bool:
+    return start.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"{"
+
+
+def open_recording(path: Path) -> Generator[float, None, OpenedRecording]:
+    """Read a recording of packets; yield the share that was read, 0 to 1, and return the recording.
+
+    RecordingError is raised for a file without any packet that can be used. A flaw behind good packets is a note."""
+    header = read_header(path)
+    moment = read_start_time(header)
+    size, done, notes = max(1, path.stat().st_size), [0], list[str]()
+    items = PackedItems()
+    try:
+        for packet in read_packets(path, report=notes.append, progress=lambda count: done.__setitem__(0, count)):
+            items.append(packet)
+            if len(items) % PACKETS_PER_STEP == 0:
+                yield done[0] / size
+    except RecordingError as error:
+        if not len(items):
+            raise
+        notes.append(str(error))
+    if not len(items):
+        raise RecordingError(path, "holds no packets")
+    when = "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
+    return OpenedRecording(items, path.name, when, tuple(notes[:NOTE_COUNT]))
+
+
+def open_plan(path: Path) -> OpenedPlan:
+    """Return the floor plan in a file; raise FloorPlanError when it cannot be used."""
+    plan = read_floorplan(path)
+    return OpenedPlan(IndexedPlan(plan), tuple(f"{path.name}: {words}" for words in find_warnings(plan))[:NOTE_COUNT])
+
+
+def open_calibration(path: Path) -> Calibration:
+    """Return the calibration in a file; raise CalibrationError when it cannot be used."""
+    return read_calibration(path)
+
+
+def words_of_json(value: object) -> str:
+    """Return a value as JSON for the page."""
+    return json.dumps(value, allow_nan=False, separators=(",", ":"))

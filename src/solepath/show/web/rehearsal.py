@@ -1,0 +1,81 @@
+"""Uses once what the worker of the site can do, so that the build finds the modules that it needs."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import traceback
+from importlib import import_module
+from itertools import islice
+from pathlib import Path
+from pkgutil import walk_packages
+from types import ModuleType
+from typing import Any
+
+from ... import body, calibration, events, floorplan, foot, link, saving, session, types, wire
+from ...recording import PacketWriter, read_packets
+from .. import page, report
+from .worker import Worker
+
+ROOMS = (types, events, saving, calibration, floorplan, wire, link, foot, body, session, page, report)
+"""Rooms of which every module goes to the site: a device or a file may need any of them."""
+LEFT_OUT = ("solepath.show.page.server", "solepath.show.page.player.player_loop")
+"""Modules that serve the page, for which the site has no use."""
+PACKETS = 1500
+"""Number of packets of the demonstration that are used: some strides."""
+ENCODINGS = ("utf_8", "ascii", "latin_1", "cp437", "utf_16", "cp1252", "iso8859_15")
+"""Encodings of texts in files of other programs."""
+
+
+def rehearse(demo: str, _: Any = None) -> list[str]:
+    """Use the worker with the first packets of a recording; return the files of the modules that are loaded then."""
+    for room in ROOMS:
+        _import_all(room)
+    for name in ENCODINGS:
+        import_module(f"encodings.{name}")
+    os.makedirs("/files", exist_ok=True)
+    os.chdir("/files")
+    packets = [*islice(read_packets(demo), PACKETS)]
+    with PacketWriter(Path("walk.jsonl")) as writer:
+        for packet in packets:
+            writer.write(packet)
+    worker = Worker("0")
+    worker.start_walk("a walk")
+    rows = [[packet.t, packet.site.value, packet.channel, packet.data, packet.device] for packet in packets]
+    worker.feed(rows[:1000])
+    worker.message()
+    saved = worker.save()
+    _run(worker, "resume_walk", "a walk", saved, "walk.jsonl", packets[-1].t + 5.0)
+    worker.finish_walk()
+    _run(worker, "open", "walk.jsonl")
+    worker.play(0.1, 0.1)
+    worker.command('{"do": "seek", "value": 5.0}')
+    worker.play(0.1, 1.0)
+    worker.heartbeat()
+    _run(worker, "report", "", "a walk")
+    for name, text in (("bad.jsonl", "{"), ("bad.csv", ""), ("plan.geojson", "{}"), ("plan.osm", "<osm/>"), ("a", "-")):
+        Path(name).write_text(text)
+        _run(worker, "open", name)
+    traceback.format_exc()
+    return sorted(_files())
+
+
+def _run(worker: Worker, name: str, *arguments: Any) -> Any:
+    worker.start(name, arguments)
+    while "share" in (answer := json.loads(worker.step(1.0))):
+        pass
+    return answer
+
+
+def _import_all(room: ModuleType) -> None:
+    for found in walk_packages(room.__path__, f"{room.__name__}."):
+        if not found.name.startswith(LEFT_OUT):
+            import_module(found.name)
+
+
+def _files() -> set[str]:
+    """Return the files of the loaded modules that are not built into Python."""
+    specs = [getattr(module, "__spec__", None) for module in [*sys.modules.values()]]
+    origins = {spec.origin for spec in specs if spec is not None and spec.origin}
+    return {origin for origin in origins if origin.endswith(".py") and not origin.endswith(Path(__file__).name)}

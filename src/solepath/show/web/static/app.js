@@ -1,0 +1,114 @@
+// The site's own controls: demonstration, files, walks on this device, report; what the page cannot do, in words.
+
+import { bluetoothWords } from "./abilities.js";
+import { computer } from "./computer.js";
+import { offer } from "./sharing.js";
+import { keepAwake } from "./wake.js";
+import { child, show, write } from "./words.js";
+
+const element = (id) => document.getElementById(id);
+const words = (text) => write(element("site-words"), text);
+let shown = ""; // name of what is played
+let walks = [];
+
+async function act(what) {
+  words("");
+  for (const button of element("site").querySelectorAll("button")) button.disabled = true;
+  try {
+    await what();
+  } catch (error) {
+    words(error.message);
+  } finally {
+    for (const button of element("site").querySelectorAll("button")) button.disabled = false;
+  }
+}
+
+const on = (id, what) => element(id).addEventListener("click", () => act(what));
+
+on("demo", async () => {
+  await computer.call("demo", "A demonstration: an emulated walk");
+  played("demonstration");
+});
+element("open").addEventListener("click", () => element("file").click());
+element("file").addEventListener("change", () =>
+  act(async () => {
+    const sentences = [];
+    for (const file of element("file").files) {
+      const { kind, notes } = await computer.call("open", file);
+      if (kind === "recording") played(file.name);
+      else sentences.push(`${file.name}: this ${kind === "plan" ? "floor plan" : "calibration"} is used from now on.`);
+      sentences.push(...notes);
+    }
+    element("file").value = "";
+    words(sentences.join(" "));
+  }),
+);
+on("end", async () => {
+  const name = await computer.call("end");
+  words(name ? "The walk is on this device." : "");
+});
+on("report", () => report("", shown));
+
+function played(name) {
+  shown = name;
+  show(element("report"), true);
+  show(element("report-file"), false);
+}
+
+async function report(name, title) {
+  const text = await computer.call("report", name, title);
+  const file = new File([text], `${title.replace(/\.jsonl(\.gz)?$/, "")}.html`, { type: "text/html" });
+  const link = element("report-link");
+  URL.revokeObjectURL(link.href);
+  link.href = URL.createObjectURL(file);
+  element("report-save").onclick = () => act(() => offer(file));
+  show(element("report-file"), true);
+}
+
+computer.on("walk", (walk) => {
+  show(element("end"), walk !== null);
+  keepAwake("walk", walk !== null);
+  if (walk !== null) show(element("report"), false);
+});
+computer.on("walks", (list) => {
+  walks = list;
+  element("walks").replaceChildren();
+  for (const { name, size } of walks) row(name, size);
+  show(element("walks-part"), walks.length > 0);
+});
+computer.on("words", words);
+computer.on("progress", (share) => {
+  show(element("progress"), share < 1);
+  element("progress").value = share;
+});
+computer.on("state", (state) => {
+  if (state === "ready") element("site").dataset.ready = "true";
+  for (const button of element("site").querySelectorAll("button")) button.disabled = state !== "ready";
+});
+
+function row(name, size) {
+  const item = child(element("walks"), "li");
+  write(child(item, "span", "walk-name"), `${name.replace(/\.jsonl$/, "")}, ${(size / 1_000_000).toFixed(1)} MB`);
+  const button = (label, what) => {
+    const one = child(item, "button");
+    one.type = "button";
+    write(one, label);
+    one.setAttribute("aria-label", `${label} ${name}`);
+    one.addEventListener("click", () => act(what));
+  };
+  button("Play", async () => {
+    await computer.call("open", await computer.call("get", name));
+    played(name);
+  });
+  button("Report", () => report(name, name));
+  button("Share", async () => offer(await computer.call("get", name)));
+  button("Delete", async () => {
+    if (confirm(`Delete ${name} from this device for ever?`)) await computer.call("remove", name);
+  });
+}
+
+write(element("bluetooth-words"), bluetoothWords());
+show(element("bluetooth-words"), bluetoothWords() !== "");
+if ("serviceWorker" in navigator) {
+  navigator.serviceWorker.register("sw.js").catch((error) => words(`The page cannot be used offline: ${error.message}`));
+}

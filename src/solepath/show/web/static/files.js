@@ -1,0 +1,101 @@
+// Files in the worker: those that a person opens, and the recordings of walks on this device.
+
+import { Problem } from "./python.js";
+import { walksFolder } from "./recording.js";
+import { unpacked } from "./unpack.js";
+
+const DEMO = "demo.jsonl";
+const MAX_SIZE = 400_000_000; // bytes of a file that is opened; an hour of two insoles takes 240 MB
+
+export class Files {
+  #python;
+  #post;
+  #used = {}; // floor plan and calibration in use: {plan: {name, bytes}, calibration: {name, bytes}}
+
+  constructor(python, post) {
+    this.#python = python;
+    this.#post = post;
+  }
+
+  get used() {
+    return this.#used;
+  }
+
+  async demo(title) {
+    const answer = await fetch(new URL(`${DEMO}.gz`, import.meta.url));
+    this.#python.write(DEMO, await unpacked(await answer.blob()));
+    try {
+      await this.#run("open_demo", [DEMO, title]);
+    } finally {
+      this.#python.remove(DEMO);
+    }
+  }
+
+  // Opens a file that a person chose: {kind, notes}.
+  async open(file) {
+    const name = nameOf(file.name);
+    if (file.size > MAX_SIZE) throw new Problem(`${name}: is larger than ${MAX_SIZE / 1_000_000} MB`);
+    let bytes;
+    try {
+      bytes = await unpacked(file);
+    } catch {
+      throw new Problem(`${name}: cannot be read`);
+    }
+    const inner = name.replace(/\.gz$/, "");
+    this.#python.write(inner, bytes);
+    try {
+      const result = await this.#run("open", [inner]);
+      if (result.kind !== "recording") this.#used = { ...this.#used, [result.kind]: { name: inner, bytes } };
+      return result;
+    } finally {
+      this.#python.remove(inner);
+    }
+  }
+
+  // Uses the floor plan and the calibration of a saved walk again.
+  async reopen(files) {
+    for (const { name, bytes } of Object.values(files ?? {})) await this.open(new File([bytes], name));
+  }
+
+  // Returns the report, as HTML, of a walk on this device, or of what is played.
+  async report(name, title) {
+    if (name) this.#python.write(name, await unpacked(await this.get(name)));
+    try {
+      return await this.#run("report", [name, title]);
+    } finally {
+      if (name) this.#python.remove(name);
+    }
+  }
+
+  async get(name) {
+    const folder = await walksFolder();
+    return (await folder.getFileHandle(name)).getFile();
+  }
+
+  async remove(name) {
+    await (await walksFolder()).removeEntry(name);
+    await this.list();
+  }
+
+  // Tells the page which walks are on this device, the newest first.
+  async list() {
+    const walks = [];
+    try {
+      for await (const [name, handle] of (await walksFolder()).entries()) {
+        const { size } = await handle.getFile();
+        walks.push({ name, size });
+      }
+    } catch {
+      // storage may be forbidden: there are none
+    }
+    walks.sort((one, other) => (one.name < other.name ? 1 : -1));
+    this.#post({ walks });
+  }
+
+  #run(name, values) {
+    return this.#python.run(name, values, (share) => this.#post({ progress: share })).finally(() => this.#post({ progress: 1 }));
+  }
+}
+
+// The last part of a path, without characters that a file name cannot have.
+const nameOf = (path) => path.replace(/^.*[/\\]/, "").replace(/[\p{Cc}/\\]/gu, "_") || "file";

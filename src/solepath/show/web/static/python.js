@@ -1,0 +1,63 @@
+// Python in the worker: Pyodide with solepath, and its calls that may take long.
+
+import { loadPyodide } from "./pyodide.mjs";
+import { unpacked } from "./unpack.js";
+
+const SLICE = 0.05; // s for which Python computes before the worker may do something else
+const here = (name) => new URL(name, import.meta.url).href;
+
+// A fault that a person can understand.
+export class Problem extends Error {}
+
+export class Python {
+  static async load() {
+    const site = fetch(here("site.json")).then((answer) => answer.json());
+    const library = await unpacked(await (await fetch(here("python.zip.gz"))).blob());
+    const stdLibURL = URL.createObjectURL(new Blob([library], { type: "application/zip" }));
+    const runtime = await loadPyodide({ indexURL: here("./"), stdLibURL });
+    URL.revokeObjectURL(stdLibURL);
+    runtime.FS.mkdirTree("/files");
+    runtime.FS.chdir("/files");
+    const worker = runtime.pyimport("solepath.show.web.worker").Worker((await site).solepath);
+    const gc = runtime.pyimport("gc");
+    gc.collect();
+    gc.freeze();
+    return new Python(runtime, worker);
+  }
+
+  constructor(runtime, worker) {
+    this.runtime = runtime;
+    for (const name of ["message", "heartbeat", "advance", "command", "play", "start", "step", "save"])
+      this[name] = worker[name];
+    this.feedRows = worker.feed;
+  }
+
+  feed(rows) {
+    const list = this.runtime.toPy(rows);
+    this.feedRows(list);
+    list.destroy();
+  }
+
+  // Runs a method of worker.py; progress(share) is called meanwhile. Throws Problem.
+  async run(name, values, progress = () => {}) {
+    const list = this.runtime.toPy(values);
+    this.start(name, list);
+    for (;;) {
+      const answer = JSON.parse(this.step(SLICE));
+      if ("problem" in answer) throw new Problem(answer.problem);
+      if ("value" in answer) return answer.value;
+      progress(answer.share);
+      await pause();
+    }
+  }
+
+  write(name, bytes) {
+    this.runtime.FS.writeFile(`/files/${name}`, bytes);
+  }
+
+  remove(name) {
+    this.runtime.FS.unlink(`/files/${name}`);
+  }
+}
+
+const pause = () => new Promise((resolve) => setTimeout(resolve, 0));

@@ -1,0 +1,126 @@
+// A recording of packets in the origin's private file system, in the form of protocol/recording.md.
+
+const FOLDER = "walks";
+const MAX_WAITING = 20_000_000; // bytes that wait in memory while nothing can be written
+const HEX = Array.from({ length: 256 }, (_, byte) => byte.toString(16).padStart(2, "0"));
+const LINE_FEED = 10;
+
+export async function walksFolder() {
+  const root = await navigator.storage.getDirectory();
+  return root.getDirectoryHandle(FOLDER, { create: true });
+}
+
+// Opens a new recording, or one that a killed tab left: a torn last line is removed.
+export async function openRecording(name, header) {
+  const folder = await walksFolder();
+  const file = await folder.getFileHandle(name, { create: true });
+  return new Recording(await file.createSyncAccessHandle(), header);
+}
+
+// Words for an error of the storage.
+export function storageWords(error, what) {
+  const why =
+    {
+      QuotaExceededError: "the storage of this device is full",
+      NoModificationAllowedError: "another tab of this page records",
+      SecurityError: "this browser lets the page store nothing",
+      NotAllowedError: "this browser lets the page store nothing",
+    }[error?.name] ?? `the storage does not work (${error?.message ?? error})`;
+  return `${what}: ${why}.`;
+}
+
+class Recording {
+  count = 0; // packets that were added
+  size = 0; // bytes of whole lines in the file
+  #handle;
+  #header;
+  #waiting = [];
+  #waitingSize = 0;
+  #broken = false;
+  #encoder = new TextEncoder();
+
+  constructor(handle, header) {
+    this.#handle = handle;
+    this.#header = this.#line({ format: "solepath-packets", version: 1, ...header });
+    this.size = this.#wholeLines();
+    if (this.size === 0) this.#wait(this.#header);
+    else this.count = 1;
+    handle.truncate(this.size);
+  }
+
+  add(rows) {
+    for (const [t, site, channel, data, device] of rows) {
+      let hex = "";
+      for (const byte of data) hex += HEX[byte];
+      this.#wait(this.#line(device ? { t, site, channel, data: hex, device } : { t, site, channel, data: hex }));
+      this.count += 1;
+    }
+  }
+
+  // Writes what waits; returns words when that begins to fail, and "" else.
+  flush() {
+    while (this.#waiting.length > 0) {
+      const part = this.#waiting.length === 1 ? this.#waiting[0] : joined(this.#waiting);
+      try {
+        if (this.#handle.write(part, { at: this.size }) !== part.length) throw new DOMException("", "QuotaExceededError");
+      } catch (error) {
+        this.#handle.truncate(this.size); // the file ends with a whole line
+        const words = this.#broken ? "" : storageWords(error, "The recording stops here, and is tried again");
+        this.#broken = true;
+        return words;
+      }
+      this.size += part.length;
+      this.#waiting = [];
+      this.#waitingSize = 0;
+    }
+    this.#broken = false;
+    return "";
+  }
+
+  // Lets the system write to its disk what a power failure would take.
+  sync() {
+    this.#handle.flush();
+  }
+
+  // Returns the header and all lines from this place in the file on.
+  from(place) {
+    const start = Math.max(place, this.#header.length);
+    const lines = new Uint8Array(Math.max(0, this.size - start));
+    this.#handle.read(lines, { at: start });
+    return joined([this.#header, lines]);
+  }
+
+  close() {
+    this.flush();
+    this.sync();
+    this.#handle.close();
+  }
+
+  #line(fields) {
+    return this.#encoder.encode(`${JSON.stringify(fields)}\n`);
+  }
+
+  #wait(line) {
+    if (this.#waitingSize + line.length > MAX_WAITING) return;
+    this.#waiting.push(line);
+    this.#waitingSize += line.length;
+  }
+
+  // bytes up to the last line feed
+  #wholeLines() {
+    const size = this.#handle.getSize();
+    const end = new Uint8Array(Math.min(size, 65_536));
+    this.#handle.read(end, { at: size - end.length });
+    return size - end.length + end.lastIndexOf(LINE_FEED) + 1;
+  }
+}
+
+function joined(parts) {
+  const all = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
+  let at = 0;
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
+  }
+  return all;
+}

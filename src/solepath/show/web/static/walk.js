@@ -1,0 +1,136 @@
+// The walk that is measured now: packets go to Python and to the recording, and all of it is saved again and again.
+
+import { Problem } from "./python.js";
+import { openRecording, storageWords } from "./recording.js";
+import { store } from "./store.js";
+
+const SAVE_INTERVAL = 60; // s
+const TICK = 200; // ms between two looks at the clock, which show that a sensor is silent
+const now = () => (performance.timeOrigin + performance.now()) / 1000; // s since 1970, never falling within a worker
+
+export class Walk {
+  #python;
+  #files;
+  #post;
+  #recording = null;
+  #record = null; // what the store has of this walk
+  #savedAt = 0;
+
+  constructor(python, files, post) {
+    this.#python = python;
+    this.#files = files;
+    this.#post = post;
+    setInterval(() => this.#tick(), TICK);
+  }
+
+  get running() {
+    return this.#record !== null;
+  }
+
+  // Starts a walk; returns when it began, s since 1970.
+  async start(title) {
+    if (this.running) await this.end();
+    await this.#python.run("start_walk", [title]);
+    const began = now();
+    const name = `walk-${new Date(1000 * began).toISOString().slice(0, 19).replace(/[T:]/g, "-")}.jsonl`;
+    this.#record = { name, title, began, size: 0, saved: undefined, files: this.#files.used };
+    await this.#openRecording(name, began);
+    await this.#keep();
+    this.#announce();
+    return began;
+  }
+
+  // Ends the walk; its recording stays.
+  async end() {
+    if (!this.running) return "";
+    const { name } = this.#record;
+    await this.#python.run("finish_walk", []);
+    const recorded = this.#recording !== null && this.#recording.count > 0;
+    this.#recording?.close();
+    this.#recording = this.#record = null;
+    await store.remove("walk").catch(() => {});
+    this.#announce();
+    await this.#files.list();
+    return recorded ? name : "";
+  }
+
+  // rows: [t, site, channel, bytes, device], t in s since the start of the walk
+  feed(rows) {
+    if (!this.running) return;
+    this.#python.feed(rows);
+    if (this.#recording === null) return;
+    this.#recording.add(rows);
+    this.#flush();
+  }
+
+  // Continues the walk that a tab left when it was closed or killed.
+  async resume() {
+    const record = await store.get("walk").catch(() => undefined);
+    if (record === undefined) return;
+    await this.#files.reopen(record.files);
+    this.#record = record;
+    await this.#openRecording(record.name, record.began);
+    const elapsed = () => now() - record.began;
+    try {
+      await this.#continue(record.saved, record.size, elapsed());
+    } catch (error) {
+      if (!(error instanceof Problem)) throw error;
+      this.#post({ words: `The saved state cannot be used (${error.message}); the recording is computed again.` });
+      await this.#continue(undefined, 0, elapsed());
+    }
+    this.#savedAt = now();
+    this.#announce();
+  }
+
+  async #continue(saved, size, elapsed) {
+    const tail = this.#recording?.from(saved === undefined ? 0 : size);
+    if (tail) this.#python.write("tail.jsonl", tail);
+    await this.#python.run("resume_walk", [this.#record.title, saved, tail ? "tail.jsonl" : "", elapsed]);
+    if (tail) this.#python.remove("tail.jsonl");
+  }
+
+  // Saves session, scene and how much of the recording they have.
+  async save() {
+    if (!this.running) return;
+    this.#savedAt = now();
+    this.#flush();
+    this.#recording?.sync();
+    const saved = this.#python.save();
+    if (saved === undefined) return;
+    Object.assign(this.#record, { saved, size: this.#recording?.size ?? 0 });
+    await this.#keep();
+  }
+
+  async #keep() {
+    try {
+      await store.put("walk", this.#record);
+    } catch (error) {
+      this.#post({ words: storageWords(error, "This walk cannot be saved for a restart") });
+    }
+  }
+
+  async #openRecording(name, began) {
+    try {
+      this.#recording = await openRecording(name, { began: new Date(1000 * began).toISOString(), began_t: 0 });
+    } catch (error) {
+      this.#recording = null;
+      this.#post({ words: storageWords(error, "This walk is shown, but not recorded") });
+    }
+  }
+
+  #flush() {
+    const words = this.#recording?.flush();
+    if (words) this.#post({ words });
+  }
+
+  #tick() {
+    if (!this.running) return;
+    this.#python.advance(now() - this.#record.began);
+    if (now() - this.#savedAt > SAVE_INTERVAL) this.save();
+  }
+
+  #announce() {
+    const { began, title, name } = this.#record ?? {};
+    this.#post({ walk: this.running ? { began, title, name, recorded: this.#recording !== null } : null });
+  }
+}

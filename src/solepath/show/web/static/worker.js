@@ -1,0 +1,77 @@
+// The worker: Python, the walk that is measured, files, and messages for the page while it is seen.
+
+import { Files } from "./files.js";
+import { Problem, Python } from "./python.js";
+import { Walk } from "./walk.js";
+
+const FRAME_INTERVAL = 33; // ms
+const HEARTBEAT_INTERVAL = 1000; // ms
+const BUDGET = 0.02; // s for which a recording is computed at once
+
+let seen = true;
+let sentAt = 0;
+let playedAt = performance.now();
+let calls = Promise.resolve();
+
+const ready = (async () => {
+  const python = await Python.load();
+  const post = (message) => postMessage(message);
+  const files = new Files(python, post);
+  const walk = new Walk(python, files, post);
+  await walk.resume();
+  setInterval(() => guarded(() => frame(python)), FRAME_INTERVAL);
+  postMessage({ ready: true });
+  await files.list();
+  return { python, walk, files };
+})();
+ready.catch(failed);
+
+onmessage = async ({ data }) => {
+  const parts = await ready;
+  if (data.packets) guarded(() => parts.walk.feed(data.packets));
+  else if (data.command) guarded(() => parts.python.command(data.command));
+  else if ("seen" in data) {
+    seen = data.seen;
+    if (!seen) calls = calls.then(() => parts.walk.save()).catch(failed);
+  } else if (data.call) calls = calls.then(() => answer(parts, data)).catch(failed);
+};
+
+async function answer({ walk, files }, { call, values, id }) {
+  try {
+    const target = call in FILE_CALLS ? files : walk;
+    const result = await target[call](...values);
+    postMessage({ answer: { id, result } });
+  } catch (error) {
+    const known = error instanceof Problem || error instanceof DOMException;
+    if (!known) throw error;
+    postMessage({ answer: { id, problem: error.message } });
+  }
+}
+
+const FILE_CALLS = { demo: 1, open: 1, report: 1, get: 1, remove: 1 };
+
+function frame(python) {
+  const now = performance.now();
+  const passed = (now - playedAt) / 1000;
+  playedAt = now;
+  if (!seen) return;
+  python.play(passed, BUDGET);
+  const text = python.message();
+  if (text !== undefined) postMessage({ text });
+  else if (now - sentAt >= HEARTBEAT_INTERVAL) postMessage({ text: python.heartbeat() });
+  else return;
+  sentAt = now;
+}
+
+function guarded(what) {
+  try {
+    what();
+  } catch (error) {
+    failed(error);
+  }
+}
+
+// An error that nobody expected: what Python holds is not to be trusted any more.
+function failed(error) {
+  postMessage({ failed: String(error?.stack ?? error) });
+}

@@ -1,0 +1,238 @@
+"""Runs in a worker of the browser, in Pyodide: packets and files in, messages of protocol/page.md out.
+
+worker.js calls it. Nothing here reads a clock of the day, draws, or asks the network. Numbers without a source were
+chosen by hand and not swept."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Sequence
+from pathlib import Path
+from time import monotonic
+from types import GeneratorType
+from typing import Any
+
+from attrs import define, field
+
+from ...calibration import Calibration, CalibrationError
+from ...floorplan.index import IndexedPlan
+from ...floorplan.plan import FloorPlanError
+from ...recording import RecordingError, read_packets
+from ...saving.codec import SnapshotError
+from ...session import Session
+from ..page.messages import encode, parse_command
+from ..page.player.player import Player
+from ..page.scene.scales import newtons_of
+from ..page.scene.scene import Cursor, Scene
+from ..report import Report
+from .live_walk import LiveWalk, Row, packet_of
+from .opening import OpenedRecording, kind_of, open_calibration, open_plan, open_recording, words_of_json
+
+
+class WalkRunning(Exception):
+    """Error for a recording that is opened while a walk is measured."""
+
+
+PROBLEMS = (RecordingError, CalibrationError, FloorPlanError, SnapshotError, WalkRunning, OSError)
+"""Errors of files, whose texts are sentences for a person."""
+ITEMS_PER_STEP = 64
+"""Number of packets that a long task handles before the worker may do something else."""
+Task = Generator[float, None, Any]
+"""A task that yields the share that is done, 0 to 1, and returns its result."""
+
+
+@define
+class Worker:
+    """The library behind the page: a walk that is measured now, or a recording that is played.
+
+    `version` is that of solepath, for the report."""
+
+    version: str = ""
+    walk: LiveWalk | None = field(default=None, init=False)
+    player: Player | None = field(default=None, init=False)
+    recording: OpenedRecording | None = field(default=None, init=False)
+    calibration: Calibration | None = field(default=None, init=False)
+    plan: IndexedPlan | None = field(default=None, init=False)
+    _idle_scene: Scene = field(factory=lambda: Scene("", "default", "live"), init=False)
+    _sent_scene: Scene | None = field(default=None, init=False)
+    _cursor: Cursor | None = field(default=None, init=False)
+    _task: Task | None = field(default=None, init=False)
+
+    # --- messages for the page
+
+    @property
+    def scene(self) -> Scene:
+        """Scene that the page shows."""
+        if self.player is not None:
+            return self.player.scene
+        return self._idle_scene if self.walk is None else self.walk.scene
+
+    def message(self) -> str | None:
+        """Return the next message for the page: the whole scene at first, then what has changed; None for no change."""
+        scene = self.scene
+        if self._cursor is None or scene is not self._sent_scene:
+            message, self._cursor = scene.whole_message()
+        else:
+            changes, self._cursor = scene.message_since(self._cursor)
+            if changes is None:
+                return None
+            message = changes
+        self._sent_scene = scene
+        if message["type"] == "scene":
+            message["control"] = self.player is not None
+        return encode(message)
+
+    def heartbeat(self) -> str:
+        """Return a message with nothing but the time."""
+        return encode(self.scene.heartbeat_message())
+
+    # --- a walk that is measured now
+
+    def start_walk(self, title: str) -> None:
+        """Start a walk, with the calibration and the floor plan that were opened; any other is forgotten."""
+        self.player = self.recording = None
+        self.walk = LiveWalk.start(title, self.calibration, self.plan)
+
+    def feed(self, rows: Iterable[Row]) -> None:
+        """Feed the walk the packets of the page; without a walk they are ignored."""
+        if self.walk is not None:
+            self.walk.feed(map(packet_of, rows))
+
+    def advance(self, now: float) -> None:
+        """Let time pass for the walk until `now`, s from its start."""
+        if self.walk is not None:
+            self.walk.advance(now)
+
+    def save(self) -> str | None:
+        """Return the walk as JSON; None when there is nothing to save."""
+        return None if self.walk is None else self.walk.save()
+
+    def resume_walk(self, title: str, saved: str | None, tail: str, now: float) -> Task:
+        """Continue a walk from its save, then from the packets of the recording `tail`, up to `now`, s from its start.
+
+        Without a save, or with one that is unusable, `tail` is the whole recording. Returns "" or why it is unusable.
+        """
+        self.player = self.recording = None
+        self.walk = LiveWalk.start(title, self.calibration, self.plan)
+        if saved is not None:
+            self.walk = LiveWalk.restore(saved, self.plan)
+        for packet in read_packets(tail, report=lambda _: None) if tail else ():
+            self.walk.feed([packet])
+            if self.walk.count % ITEMS_PER_STEP == 0:
+                yield 0.0
+        self.walk.advance(now)
+
+    def finish_walk(self) -> None:
+        """End the walk; the page goes on to show the end of it."""
+        if self.walk is not None:
+            self.walk.finish()
+
+    # --- recordings and other files
+
+    def open(self, name: str) -> Task:
+        """Open a file of the working folder: play a recording, or use a plan or calibration from now on.
+
+        Returns {"kind", "notes"}; raises one of PROBLEMS."""
+        path = Path(name)
+        kind = kind_of(path)
+        notes: Sequence[str] = ()
+        if kind == "plan":
+            opened = open_plan(path)
+            self.plan, notes = opened.plan, opened.notes
+        elif kind == "calibration":
+            self.calibration = open_calibration(path)
+        else:
+            self._check_idle()
+            self.recording = yield from open_recording(path)
+            self.walk, notes = None, self.recording.notes
+        if self.recording is not None and self.walk is None:
+            self._play(self.recording, "recording")
+        return {"kind": kind, "notes": list(notes)}
+
+    def open_demo(self, name: str, title: str) -> Task:
+        """Play the recording that comes with the site."""
+        self._check_idle()
+        opened = yield from open_recording(Path(name))
+        self.walk, self.recording = None, OpenedRecording(opened.items, title, "", ())
+        self._play(self.recording, "demo")
+
+    def _check_idle(self) -> None:
+        if self.walk is not None and not self.walk.finished:
+            raise WalkRunning("a walk is measured now: end it first")
+
+    def _play(self, recording: OpenedRecording, source: str) -> None:
+        session = Session(poses=True, pressures=True, calibration=self.calibration, floorplan=self.plan)
+        plan = None if self.plan is None else self.plan.plan
+        scene = Scene(recording.title, session.recipe.name, source, plan=plan, newtons=newtons_of(self.calibration))
+        self.player = Player(recording.items, session, scene, self.plan)
+
+    def command(self, text: str) -> None:
+        """Execute a command of the page (protocol/page.md), if there is something to play."""
+        if self.player is not None:
+            self.player.command(parse_command(text))
+
+    def play(self, seconds: float, budget: float) -> None:
+        """Let wall time pass for the recording, s, and compute what is due, for `budget` s at most."""
+        if self.player is not None:
+            self.player.advance(seconds)
+            end = monotonic() + budget
+            self.player.feed_due(lambda: monotonic() >= end)
+
+    def report(self, name: str, title: str) -> Task:
+        """Return the report of a recording of the working folder, or of what is played if `name` is empty, as HTML."""
+        recording = self.recording
+        if name:
+            recording = yield from open_recording(Path(name))
+        if recording is None:
+            raise RecordingError("report", "there is no walk to report on")
+        session = Session(poses=True, pressures=True, calibration=self.calibration, floorplan=self.plan)
+        report = Report(
+            title,
+            plan=None if self.plan is None else self.plan.plan,
+            recipe=session.recipe.name,
+            when=recording.when,
+            version=self.version,
+        )
+        items = recording.items
+        for number in range(len(items)):
+            item = items[number]
+            report.take(item, session.feed(item))
+            if number % ITEMS_PER_STEP == 0:
+                yield number / len(items)
+        report.take(None, session.finish())
+        return report.text()
+
+    # --- calls that may take long
+
+    def start(self, name: str, arguments: Sequence[Any]) -> None:
+        """Start the method `name`; `step` runs it."""
+        self._task = self._run(name, arguments)
+
+    def step(self, budget: float) -> str:
+        """Run the started method for about `budget` s; return {"share"}, or at the end {"value"} or {"problem"}."""
+        end = monotonic() + budget
+        try:
+            while self._task is not None:
+                share = next(self._task)
+                if monotonic() >= end:
+                    return words_of_json({"share": share})
+        except StopIteration as ended:
+            self._task = None
+            return words_of_json({"value": ended.value})
+        except PROBLEMS as error:
+            self._task = None
+            return words_of_json({"problem": str(error)})
+        return words_of_json({"value": None})
+
+    def _run(self, name: str, arguments: Sequence[Any]) -> Task:
+        if name not in CALLS:
+            raise ValueError(f"the worker has no call {name}")
+        value = getattr(self, name)(*arguments)
+        if isinstance(value, GeneratorType):
+            value = yield from value
+        return value
+
+
+CALLS = (
+    "start_walk", "save", "resume_walk", "finish_walk", "open", "open_demo", "report",
+)  # fmt: skip
+"""Methods that `start` may run."""
