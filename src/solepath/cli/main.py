@@ -14,7 +14,7 @@ from typing import Any
 
 from ..calibration import CalibrationError
 from ..recording import RecordingError
-from . import calibrate, check, convert, demo, evaluate, fleet_demo, reproduce, track
+from . import calibrate, check, convert, demo, evaluate, fleet_demo, reproduce, track, web
 from .bluetooth import emulate, live, scan
 from .common.failure import Failure, note
 
@@ -30,6 +30,7 @@ COMMANDS = (
     evaluate,
     reproduce,
     fleet_demo,
+    web,
 )  # live adds record
 
 

@@ -29,6 +29,21 @@ ROUTE = (
 )
 """A route of about 40 m: a U-shaped path, a halt, a turn on the spot, and a second path."""
 
+SITE_ROUTE = (
+    Route()
+    .stand(2.0)
+    .walk(9.0, speed=1.3)
+    .turn(pi / 2, radius=1.5)
+    .walk(4.0)
+    .turn(pi / 2, radius=1.5)
+    .walk(9.0, speed=1.2)
+    .stop(2.0)
+    .turn(-pi / 2)
+    .walk(6.0, speed=1.3)
+    .stop(2.0)
+)
+"""A route of 36 s for the site of `solepath web`, which holds the packets of this walk."""
+
 BUILDING_WALK_SEED = 8
 """Seed of a walk through the emulated building: down by an elevator, along 130 m of corridors, up the stairs."""
 

@@ -178,8 +178,8 @@ class CodeGenerator:
                 )
             case DictNode(key, of, kind):
                 inner = self.read_expression(of, f"{t}[k]")
-                items = f"{{(k := {self.read_expression(key, t)}): {inner} for _ in check_count(n())}}"
-                return f"Counter({items})" if kind is Counter else items
+                pairs = f"{{(k := {self.read_expression(key, t)}): {inner} for _ in check_count(n())}}"
+                return f"Counter({pairs})" if kind is Counter else pairs
             case SequenceNode(kind, of):
                 most = "(n() if m() else None)" if kind is deque else ""
                 each = f"check_parts(n(), {t})" if _is_made(of) else "check_count(n())"

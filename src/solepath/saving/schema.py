@@ -2,8 +2,8 @@
 
 A record is an attrs class, or a plain class with annotations in its body (a `ClassVar` is no field). A field may be a
 float, int, bool, string, bytes, enum member, another record, an optional of one of these, or a tuple, list, deque, dict
-or Counter of these. A record may be generic. Nothing else can be saved: generators, closures, rebound methods and arrays
-cannot.
+or Counter of these. A record may be generic. Nothing else can be saved: generators, closures, rebound methods and
+arrays cannot.
 
 An annotation that is a Protocol is *open*: the value is a record of any class. It is saved with the name of its class,
 and the caller of `load` passes a function that returns the class. A union of records is open too, but has only its own

@@ -121,7 +121,7 @@ class Observer:
     """Number of elevator rides upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
     latencies: dict[str, Counter[int]] = field(factory=lambda: {name: Counter() for name in GAIT_EVENTS.values()})
-    """For each gait event, by its name in GAIT_EVENTS, how often each latency occurred; latencies are in units of 0.1 ms."""
+    """For each gait event, by its name, how often each latency occurred; latencies are in units of 0.1 ms."""
     limitations: list[str] = field(factory=list)
     """Different sentences on limitations of the session."""
     defects: list[str] = field(factory=list)

@@ -109,8 +109,8 @@ async def serve_page(
         print(f"the page: {page.url}", flush=True)
         if not on_loopback(address.host):
             note("the page can be reached from other machines: whoever has this address with its token sees it")
-        if address.browser and _has_browser():
-            await asyncio.to_thread(_open, page.url)
+        if address.browser:
+            await asyncio.to_thread(open_browser, page.url)
         yield page
 
 
@@ -167,10 +167,11 @@ def _has_browser() -> bool:
     return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"))
 
 
-def _open(url: str) -> None:
+def open_browser(url: str) -> None:
+    """Open a graphical browser, if there is one."""
     import webbrowser
 
-    if not webbrowser.open(url):
+    if _has_browser() and not webbrowser.open(url):
         note("no browser could be opened: open the address yourself")
 
 

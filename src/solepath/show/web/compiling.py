@@ -5,10 +5,10 @@ A compiled module neither depends on the time nor is compared with its source, s
 
 from __future__ import annotations
 
+import py_compile
 import zipfile
 from collections.abc import Iterable
 from pathlib import Path
-from py_compile import PycInvalidationMode, compile
 
 WITHOUT_DOCSTRINGS = 2
 """Level of optimisation: docstrings and assert statements are left out, a fifth of the size."""
@@ -30,11 +30,11 @@ def compile_files(files: Iterable[str], source: str, target: str) -> None:
             inner = path.relative_to(source).as_posix()
         compiled = Path(target, inner).with_suffix(".pyc")
         compiled.parent.mkdir(parents=True, exist_ok=True)
-        compile(
+        py_compile.compile(
             str(path),
             cfile=str(compiled),
             dfile=inner,
             doraise=True,
             optimize=WITHOUT_DOCSTRINGS,
-            invalidation_mode=PycInvalidationMode.UNCHECKED_HASH,
+            invalidation_mode=py_compile.PycInvalidationMode.UNCHECKED_HASH,
         )

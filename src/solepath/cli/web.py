@@ -1,0 +1,105 @@
+"""`solepath web`: writes the page as a static site, in which the library runs in the browser, and shows it."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import sleep
+from typing import Any
+
+from ..recording import printable
+from .common.failure import Failure, address_error_text, note, parse_whole_number
+from .common.loop import stop_flag
+from .common.view import open_browser
+
+DEFAULT_PORT = 8766
+CLOCK_INTERVAL = 0.2
+"""Time between two looks at whether the command was stopped, s."""
+LISTED = 5
+"""Number of the largest files that are named with their sizes."""
+
+
+def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
+    command: argparse.ArgumentParser = commands.add_parser(
+        "web",
+        help="write the page as a site that needs no server",
+        description="Write the page as a folder of static files. Python runs in the browser (Pyodide, fetched once "
+        "from the npm registry and checked), so that any web server with https can serve it, and a phone can use it "
+        "offline.",
+        epilog="example: solepath web site --serve",
+    )
+    command.add_argument(
+        "out", metavar="OUT", type=Path, nargs="?", help="folder of the site; an earlier one is replaced"
+    )
+    command.add_argument("--serve", action="store_true", help="show the site on this machine")
+    command.add_argument(
+        "--port", metavar="N", type=parse_whole_number, help=f"port of --serve (default: {DEFAULT_PORT}; 0: any)"
+    )
+    command.add_argument("--no-browser", action="store_true", help="open no browser: only say where the site is")
+    command.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the site, and show it; return the exit status."""
+    from ..emulate import emulate
+    from ..emulate.demo import SITE_ROUTE
+    from ..show.web.pyodide import BuildError
+    from ..show.web.site import build_site
+
+    if not options.serve and (options.port is not None or options.no_browser):
+        raise Failure("--port and --no-browser are for --serve")
+    if options.out is None and not options.serve:
+        raise Failure("name the folder of the site, or show it with --serve")
+    with ExitStack() as stack:
+        out = options.out or Path(stack.enter_context(TemporaryDirectory()), "site")
+        print("building the site: about half a minute ...", flush=True)
+        try:
+            files = build_site(out, emulate(SITE_ROUTE).packets)
+        except BuildError as error:
+            raise Failure(str(error)) from None
+        print("\n".join(size_lines(files)), flush=True)
+        if options.out is not None:
+            print(f"the site is in {printable(str(out))}")
+        if options.serve:
+            _serve(out, options)
+    return 0
+
+
+def size_lines(files: Mapping[str, bytes]) -> list[str]:
+    """Return a table of the largest files of a site and of all together: raw, and as a server sends them."""
+    from ..show.web.site import compressed_size
+
+    sizes = {name: (len(data), compressed_size(data)) for name, data in files.items()}
+    largest = sorted(sizes, key=lambda name: -sizes[name][1])[:LISTED]
+    rows = [(name, *sizes[name]) for name in largest]
+    rows.append(
+        (f"all {len(sizes)} files", sum(raw for raw, _ in sizes.values()), sum(sent for _, sent in sizes.values()))
+    )
+    return [
+        f"{'file':24}{'MB':>8}{'gzip MB':>10}",
+        *(f"{name:24}{raw / 1e6:8.2f}{sent / 1e6:10.2f}" for name, raw, sent in rows),
+    ]
+
+
+def _serve(folder: Path, options: argparse.Namespace) -> None:
+    from ..show.web.serve import serving
+
+    port = DEFAULT_PORT if options.port is None else options.port
+    with stop_flag() as stop_requested, ExitStack() as stack:
+        try:
+            address = stack.enter_context(serving(folder, port))
+        except (OSError, OverflowError) as error:
+            reason = address_error_text(error) if isinstance(error, OSError) else "there is no such port"
+            raise Failure(f"--port {port}: {reason}") from None
+        print(f"the site: {address}", flush=True)
+        note("only this machine can reach it; a phone needs the files on a server with https (docs/web.md)")
+        if sys.stdout.isatty() and not options.no_browser:
+            open_browser(address)
+        print("Ctrl-C ends it", flush=True)
+        while not stop_requested():
+            sleep(CLOCK_INTERVAL)
