@@ -20,6 +20,10 @@ from ..page.scene.scene import Scene
 
 Row = Sequence[Any]
 """A packet as the page sends it: time of arrival (s), site, channel, bytes, device."""
+CLOCK_TOLERANCE = 1.0
+"""Time by which the clocks of two pages may differ although none was set, s; chosen by hand."""
+TICK = 0.2
+"""Time after which worker.js lets time pass without a packet, s."""
 SITES = {site.value: site for site in Site}
 
 
@@ -70,13 +74,28 @@ class LiveWalk:
         return events
 
     def advance(self, now: float) -> None:
-        """Let time pass until `now`, s; on a clock that was set back the session continues from there."""
-        previous = self.session.now
-        if previous is None or self.finished:
-            return
-        events = self.session.restart_clock(now) if now < previous - 1.0 else self.session.advance(max(now, previous))
-        self.scene.take(None, events)
-        self.scene.tick(now)
+        """Let time pass until `now`, s; a time before the newest packet changes nothing."""
+        if self.session.now is not None and now > self.session.now and not self.finished:
+            self.scene.take(None, self.session.advance(now))
+            self.scene.tick(now)
+
+    def replay(self, packet: Packet) -> None:
+        """Feed a packet of a recording; time without packets passes as it did when the packet was received."""
+        newest = self.session.now
+        if newest is not None and packet.t > newest + TICK:
+            self.advance(packet.t)
+        self.feed([packet])
+
+    def resume(self, now: float) -> float:
+        """Go on at `now`, s, after a time without packets; return the time of the walk from then on, s.
+
+        A clock that was set back meanwhile goes on from the newest packet: how long nothing came is then unknown."""
+        newest = self.session.now
+        if newest is not None and now < newest - CLOCK_TOLERANCE:
+            self.scene.take(None, self.session.restart_clock(newest))
+            return newest
+        self.advance(now)
+        return now
 
     def finish(self) -> None:
         """End the session; its last events are shown."""

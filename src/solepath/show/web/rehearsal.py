@@ -22,7 +22,7 @@ ROOMS = (types, events, saving, calibration, floorplan, wire, link, foot, body, 
 """Rooms of which every module goes to the site: a device or a file may need any of them."""
 LEFT_OUT = ("solepath.show.page.server", "solepath.show.page.player.player_loop")
 """Modules that serve the page, for which the site has no use."""
-PACKETS = 1500
+PACKETS = 1000
 """Number of packets of the demonstration that are used: some strides."""
 ENCODINGS = ("utf_8", "ascii", "latin_1", "cp437", "utf_16", "cp1252", "iso8859_15")
 """Encodings of texts in files of other programs."""
@@ -43,7 +43,7 @@ def rehearse(demo: str, _: Any = None) -> list[str]:
     worker = Worker("0")
     worker.start_walk("a walk")
     rows = [[packet.t, packet.site.value, packet.channel, packet.data, packet.device] for packet in packets]
-    worker.feed(rows[:1000])
+    worker.feed(rows[:700])
     worker.message()
     saved = worker.save()
     _run(worker, "resume_walk", "a walk", saved, "walk.jsonl", packets[-1].t + 5.0)

@@ -2,6 +2,7 @@
 
 import { bluetoothWords } from "./abilities.js";
 import { computer } from "./computer.js";
+import "./live.js"; // it hears of a walk that goes on before anybody connects a sensor
 import { offer } from "./sharing.js";
 import { keepAwake } from "./wake.js";
 import { child, show, write } from "./words.js";

@@ -1,6 +1,6 @@
 // The worker that computes: it is started, called, watched, and started again when somebody asks for it.
 
-const SILENCE_LIMIT = 6; // s without a sign of life of a worker that is ready, while the page is visible
+const SILENCE_LIMIT = 4; // s without a sign of life of a worker that is ready, while the page is visible
 const SOURCE = `import ${JSON.stringify(new URL("worker.js", import.meta.url).href)};`;
 
 class Computer {

@@ -70,22 +70,23 @@ export class Walk {
     await this.#files.reopen(record.files);
     this.#record = record;
     await this.#openRecording(record.name, record.began);
-    const elapsed = () => now() - record.began;
     try {
-      await this.#continue(record.saved, record.size, elapsed());
+      await this.#continue(record.saved, record.size);
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
       this.#post({ words: `The saved state cannot be used (${error.message}); the recording is computed again.` });
-      await this.#continue(undefined, 0, elapsed());
+      await this.#continue(undefined, 0);
     }
-    this.#savedAt = now();
     this.#announce();
+    await this.save(); // what is computed next time starts behind the gap
   }
 
-  async #continue(saved, size, elapsed) {
+  async #continue(saved, size) {
     const tail = this.#recording?.from(saved === undefined ? 0 : size);
     if (tail) this.#python.write("tail.jsonl", tail);
-    await this.#python.run("resume_walk", [this.#record.title, saved, tail ? "tail.jsonl" : "", elapsed]);
+    const elapsed = now() - this.#record.began;
+    const t = await this.#python.run("resume_walk", [this.#record.title, saved, tail ? "tail.jsonl" : "", elapsed]);
+    if (t > elapsed) this.#record.began = now() - t; // the clock of this device was set back
     if (tail) this.#python.remove("tail.jsonl");
   }
 

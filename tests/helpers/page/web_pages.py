@@ -1,0 +1,53 @@
+"""Opens the static site in the browser."""
+
+from __future__ import annotations
+
+import gzip
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from functools import cache
+from pathlib import Path
+
+from browsers import Browser, Window, window
+
+from solepath import Packet, Session
+from solepath.recording import read_packets
+from solepath.show.page.scene.scene import Scene
+
+READY = "document.getElementById('site')?.dataset.ready === 'true' && computer.state === 'ready'"
+PATIENCE = 60.0
+"""Longest wait for Python in the browser, s."""
+WORDS = "document.getElementById('site-words').textContent"
+
+
+@asynccontextmanager
+async def open_site(chromium: Browser, url: str, *, width: int = 360) -> AsyncIterator[Window]:
+    """Yield a window with the site, ready; at the end it must have requested nothing but files of its own origin."""
+    async with window(chromium, url, width=width) as view:
+        await ready(view)
+        yield view
+        foreign = [one for one in view.requests if not one.removeprefix("blob:").startswith(url)]
+        assert not foreign, foreign
+
+
+async def ready(view: Window) -> None:
+    """Wait until Python runs in the page; the module computer.js is then the page's variable `computer`."""
+    await view.tab.evaluate("import('./computer.js').then((m) => { globalThis.computer = m.computer; })")
+    await view.until(READY, patience=PATIENCE)
+
+
+@cache
+def demo_packets(site: Path) -> tuple[Packet, ...]:
+    """Return the packets of the recording that comes with the site."""
+    path = site.parent / "demo.jsonl"
+    path.write_bytes(gzip.decompress((site / "demo.jsonl.gz").read_bytes()))
+    return tuple(read_packets(path))
+
+
+def scene_of(packets: tuple[Packet, ...]) -> Scene:
+    """Return the scene after all these packets and the end of the session."""
+    session, scene = Session(poses=True, pressures=True), Scene("", "default")
+    for packet in packets:
+        scene.take(packet, session.feed(packet))
+    scene.take(None, session.finish())
+    return scene
