@@ -144,9 +144,9 @@ async def test_a_walk_goes_on_after_its_tab_and_its_worker_were_killed(
         async with open_site(chromium, url) as view:
             await view.tab.evaluate("import('./live.js').then((live) => live.startWalk('A walk'))")
             await view.until("!document.getElementById('end').hidden")
-            fed = await walk(view, 4.0)
+            fed = await walk(view, 3.5)
             await view.tab.evaluate("computer.call('save')")
-            fed += await walk(view, 1.5)
+            fed += await walk(view, 1.0)
             before = await settled(view)
             assert min(before["strides"]) >= 2
             with suppress(TimeoutError):  # who is killed does not answer
@@ -156,13 +156,15 @@ async def test_a_walk_goes_on_after_its_tab_and_its_worker_were_killed(
             await ready(view)
             assert await settled(view) == before
             assert await view.text("title") == "A walk"
-            fed += await walk(view, 4.0)
+            fed += await walk(view, 3.0)
             resumed = await settled(view)
             assert all(now > then for now, then in zip(resumed["strides"], before["strides"], strict=True))
             assert resumed["track"][: len(before["track"])] == before["track"]
             assert all(link["gaps"] >= 1 for link in (await view.tab.evaluate("solepath.state.links")).values())
             log = await view.tab.evaluate("solepath.state.log.map(([, , words]) => words)")
             assert any("data come again after" in words for words in log), log
+            await check_another_tab(view, url)
+            await check_full_storage(view, url)
             await view.tab.evaluate("computer.kill()")
             await view.until("document.getElementById('offline').innerText.includes('has stopped')")
             await view.tab.locator("#retry").click()
@@ -177,6 +179,25 @@ async def test_a_walk_goes_on_after_its_tab_and_its_worker_were_killed(
             recorded = tuple(read_packets(path))
             assert len(recorded) == fed
             assert set(recorded_data(recorded)) <= set(recorded_data(demo_packets(site)))
+
+
+async def check_another_tab(view: Window, url: str) -> None:
+    """A second tab neither shows the walk as its own nor starts another one."""
+    first, view.tab = view.tab, await view.tab.context.new_page()
+    await view.tab.goto(url)
+    await ready(view)
+    start = "import('./live.js').then((live) => live.startWalk('B')).then(() => '', (error) => error.message)"
+    assert "another tab" in await view.tab.evaluate(start)
+    await view.tab.close()
+    view.tab = first
+
+
+async def check_full_storage(view: Window, url: str) -> None:
+    devtools = await view.tab.context.new_cdp_session(view.tab)
+    await devtools.send("Storage.overrideQuotaForOrigin", {"origin": url.rstrip("/"), "quotaSize": 1})
+    await walk(view, 0.3)
+    await view.until(f"{WORDS}.includes('storage of this device is full')")
+    await devtools.send("Storage.overrideQuotaForOrigin", {"origin": url.rstrip("/")})
 
 
 async def walk(view: Window, seconds: float) -> int:

@@ -6,6 +6,8 @@ import { store } from "./store.js";
 
 const SAVE_INTERVAL = 60; // s
 const TICK = 200; // ms between two looks at the clock, which show that a sensor is silent
+const LOCK = "solepath walk";
+const LOCK_WAIT = 2000; // ms; a tab that was just killed may hold the lock a moment longer
 const now = () => (performance.timeOrigin + performance.now()) / 1000; // s since 1970, never falling within a worker
 
 export class Walk {
@@ -15,6 +17,7 @@ export class Walk {
   #recording = null;
   #record = null; // what the store has of this walk
   #savedAt = 0;
+  #alone = false; // no other tab measures
 
   constructor(python, files, post) {
     this.#python = python;
@@ -30,6 +33,7 @@ export class Walk {
   // Starts a walk; returns when it began, s since 1970.
   async start(title) {
     if (this.running) await this.end();
+    if (!this.#alone && !(await this.#lock())) throw new Problem("another tab of this page is open: a walk goes on there");
     await this.#python.run("start_walk", [title]);
     const began = now();
     const name = `walk-${new Date(1000 * began).toISOString().slice(0, 19).replace(/[T:]/g, "-")}.jsonl`;
@@ -66,7 +70,7 @@ export class Walk {
   // Continues the walk that a tab left when it was closed or killed.
   async resume() {
     const record = await store.get("walk").catch(() => undefined);
-    if (record === undefined) return;
+    if (record === undefined || !(await this.#lock())) return;
     await this.#files.reopen(record.files);
     this.#record = record;
     await this.#openRecording(record.name, record.began);
@@ -79,6 +83,19 @@ export class Walk {
     }
     this.#announce();
     await this.save(); // what is computed next time starts behind the gap
+  }
+
+  // Makes sure that two tabs do not write one walk; the lock lasts as long as this worker.
+  #lock() {
+    const signal = AbortSignal.timeout(LOCK_WAIT);
+    return new Promise((resolve) => {
+      const hold = () => {
+        this.#alone = true;
+        resolve(true);
+        return new Promise(() => {});
+      };
+      navigator.locks.request(LOCK, { signal }, hold).catch(() => resolve(false));
+    });
   }
 
   async #continue(saved, size) {

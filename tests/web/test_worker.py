@@ -1,0 +1,152 @@
+"""What runs in the site's worker, run here: messages, saving, files with errors in words, the report."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from recordings import recorded
+from shown import square_walk
+from walks import insoles
+
+from solepath import Packet
+from solepath.calibration import Calibration
+from solepath.calibration.file import write_calibration
+from solepath.saving.codec import SnapshotError
+from solepath.show.web.live_walk import LiveWalk
+from solepath.show.web.worker import Worker
+
+PACKETS = tuple(packet for packet, _ in square_walk() if packet.t < 12.0)
+
+
+def rows(packets: tuple[Packet, ...]) -> list[list[Any]]:
+    return [[packet.t, packet.site.value, packet.channel, packet.data, packet.device] for packet in packets]
+
+
+def call(worker: Worker, name: str, *arguments: Any) -> Any:
+    """Return the result of a call, or the words of its error."""
+    worker.start(name, arguments)
+    while "share" in (answer := json.loads(worker.step(0.01))):
+        assert 0.0 <= answer["share"] <= 1.0
+    return answer.get("problem", answer.get("value"))
+
+
+def shown(worker: Worker) -> Any:
+    """Return all that a page shows that is opened now."""
+    return json.loads(json.dumps(worker.scene.whole_message()[0]))
+
+
+@pytest.fixture
+def worker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Worker:
+    monkeypatch.chdir(tmp_path)
+    return Worker("1.2.3")
+
+
+def test_a_walk_that_is_saved_and_continued_shows_what_an_uninterrupted_one_shows(worker: Worker) -> None:
+    half = len(PACKETS) // 2
+    worker.start_walk("a walk")
+    worker.feed(rows(PACKETS[:half]))
+    saved = worker.save()
+    assert saved is not None and len(saved) < 1_000_000
+    recorded(Path("tail.jsonl"), PACKETS[half:])
+    other = Worker()
+    assert call(other, "resume_walk", "a walk", saved, "tail.jsonl", PACKETS[-1].t) == PACKETS[-1].t
+    worker.feed(rows(PACKETS[half:]))
+    worker.advance(PACKETS[-1].t)
+    assert shown(other) == shown(worker)
+    assert shown(worker)["frame"]["feet"]["left"]["strides"] >= 5
+
+
+def test_a_time_without_packets_is_shown_as_a_gap_and_a_clock_that_was_set_back_as_a_reset(worker: Worker) -> None:
+    worker.start_walk("a walk")
+    worker.feed(rows(PACKETS))
+    saved, end = worker.save(), PACKETS[-1].t
+    call(worker, "resume_walk", "a walk", saved, "", end + 60.0)
+    assert any("nothing has come for" in words for _, _, words in shown(worker)["log"])
+    assert call(worker, "resume_walk", "a walk", saved, "", end - 3600.0) == pytest.approx(end, abs=0.1)
+    assert any("clock" in words for _, _, words in shown(worker)["log"])
+
+
+def test_without_a_save_the_whole_recording_is_computed_again(worker: Worker) -> None:
+    recorded(Path("walk.jsonl"), PACKETS)
+    call(worker, "resume_walk", "a walk", None, "walk.jsonl", PACKETS[-1].t)
+    other = Worker()
+    other.start_walk("a walk")
+    other.feed(rows(PACKETS))
+    assert shown(worker) == shown(other)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"session": {}}', '{"session": {}, "scene": {}}'])
+def test_another_text_than_a_saved_walk_is_rejected(text: str) -> None:
+    with pytest.raises(SnapshotError):
+        LiveWalk.restore(text, None)
+
+
+def test_nothing_is_saved_before_anything_was_received(worker: Worker) -> None:
+    assert worker.save() is None
+    worker.start_walk("a walk")
+    assert worker.save() is None
+
+
+def test_messages_are_a_scene_and_then_what_changed(worker: Worker) -> None:
+    kinds = []
+    worker.start_walk("a walk")
+    for start in range(0, 600, 100):
+        worker.feed(rows(PACKETS[start : start + 100]))
+        message = worker.message()
+        assert message is not None
+        kinds.append(json.loads(message)["type"])
+    assert kinds[0] == "scene" and "frame" in kinds
+    assert worker.message() is None
+    assert json.loads(worker.heartbeat())["type"] == "frame"
+
+
+def test_a_recording_is_played_and_may_be_controlled(worker: Worker) -> None:
+    recorded(Path("walk.jsonl"), insoles().packets)
+    assert call(worker, "open", "walk.jsonl") == {"kind": "recording", "notes": []}
+    scene = json.loads(worker.message() or "")
+    assert (scene["title"], scene["source"], scene["control"]) == ("walk.jsonl", "recording", True)
+    worker.play(0.2, 1.0)
+    worker.command('{"do": "pause"}')
+    assert shown(worker)["frame"]["playback"]["state"] == "paused"
+    report = call(worker, "report", "", "a walk")
+    assert "left foot took" in report and "solepath 1.2.3" in report
+    assert report == call(worker, "report", "walk.jsonl", "a walk")
+
+
+def test_a_walk_is_not_replaced_by_a_recording(worker: Worker) -> None:
+    recorded(Path("walk.jsonl"), PACKETS[:50])
+    worker.start_walk("a walk")
+    assert call(worker, "open", "walk.jsonl") == "a walk is measured now: end it first"
+    worker.finish_walk()
+    assert call(worker, "open", "walk.jsonl")["kind"] == "recording"
+
+
+def test_a_recording_that_was_cut_is_played_with_a_note(worker: Worker) -> None:
+    path = Path("walk.jsonl")
+    recorded(path, PACKETS[:50])
+    path.write_bytes(path.read_bytes()[:-20])
+    (note,) = call(worker, "open", "walk.jsonl")["notes"]
+    assert "cut off in the middle" in note
+
+
+def test_a_floor_plan_and_a_calibration_are_used_for_what_is_played(worker: Worker, floorplan: Path) -> None:
+    write_calibration("feet.json", Calibration())
+    recorded(Path("walk.jsonl"), PACKETS[:50])
+    call(worker, "open", "walk.jsonl")
+    Path("plan.geojson").write_bytes(floorplan.read_bytes())
+    assert call(worker, "open", "plan.geojson")["kind"] == "plan"
+    assert call(worker, "open", "feet.json") == {"kind": "calibration", "notes": []}
+    assert shown(worker)["plan"]["levels"]
+
+
+@pytest.fixture
+def floorplan(tmp_path: Path) -> Path:
+    from solepath.emulate.routes.building import BUILDING
+    from solepath.floorplan.importers.geojson import write_floorplan
+
+    path = tmp_path / "building.geojson"
+    write_floorplan(path, BUILDING)
+    return path
