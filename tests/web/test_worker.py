@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from here import PROTOCOL
 from recordings import recorded
 from shown import square_walk
 from walks import insoles
@@ -132,21 +133,11 @@ def test_a_recording_that_was_cut_is_played_with_a_note(worker: Worker) -> None:
     assert "cut off in the middle" in note
 
 
-def test_a_floor_plan_and_a_calibration_are_used_for_what_is_played(worker: Worker, floorplan: Path) -> None:
+def test_a_floor_plan_and_a_calibration_are_used_for_what_is_played(worker: Worker) -> None:
     write_calibration("feet.json", Calibration())
     recorded(Path("walk.jsonl"), PACKETS[:50])
     call(worker, "open", "walk.jsonl")
-    Path("plan.geojson").write_bytes(floorplan.read_bytes())
+    Path("plan.geojson").write_bytes((PROTOCOL / "floorplans" / "house.geojson").read_bytes())
     assert call(worker, "open", "plan.geojson")["kind"] == "plan"
     assert call(worker, "open", "feet.json") == {"kind": "calibration", "notes": []}
     assert shown(worker)["plan"]["levels"]
-
-
-@pytest.fixture
-def floorplan(tmp_path: Path) -> Path:
-    from solepath.emulate.routes.building import BUILDING
-    from solepath.floorplan.importers.geojson import write_floorplan
-
-    path = tmp_path / "building.geojson"
-    write_floorplan(path, BUILDING)
-    return path
