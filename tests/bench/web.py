@@ -5,7 +5,6 @@ start to its end, and a walk is saved. Times depend on the machine; the line abo
 
 from __future__ import annotations
 
-import asyncio
 import os
 import sys
 from contextlib import ExitStack

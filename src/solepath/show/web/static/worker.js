@@ -6,7 +6,7 @@ import { Walk } from "./walk.js";
 
 const FRAME_INTERVAL = 33; // ms
 const HEARTBEAT_INTERVAL = 1000; // ms
-const BUDGET = 0.02; // s for which a recording is computed at once
+const BUDGET = 0.03; // s for which a recording is computed at once
 
 let seen = true;
 let sentAt = 0;
