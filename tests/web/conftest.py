@@ -1,8 +1,10 @@
-"""The site, built once for all tests that open it."""
+"""The site, built once for all tests that open it, in whichever process they run."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+from time import monotonic, sleep
 
 import pytest
 
@@ -10,6 +12,9 @@ from solepath.emulate import emulate
 from solepath.emulate.demo import SITE_ROUTE
 from solepath.show.web.pyodide import BuildError, node_program, package_files
 from solepath.show.web.site import build_site
+
+MAX_BUILD_TIME = 180.0
+"""Longest time for which a process waits for the site that another one builds, s."""
 
 
 @pytest.fixture(scope="session")
@@ -20,6 +25,18 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
         package_files()
     except BuildError as error:
         pytest.skip(str(error))
-    folder = tmp_path_factory.mktemp("web") / "site"
-    build_site(folder, emulate(SITE_ROUTE).packets)
+    shared = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        shared = shared.parent
+    folder, built = shared / "web" / "site", shared / "web" / "built"
+    try:
+        folder.parent.mkdir()
+    except FileExistsError:  # another process builds it
+        end = monotonic() + MAX_BUILD_TIME
+        while not built.exists():
+            assert monotonic() < end, "the site is not built"
+            sleep(0.1)
+    else:
+        build_site(folder, emulate(SITE_ROUTE).packets)
+        built.touch()
     return folder

@@ -6,8 +6,9 @@ import json
 
 import pytest
 from page_events import events_of_all_kinds
-from shown import corridor_walk, square_walk
+from shown import packet_events, walked
 
+from solepath.emulate import Route
 from solepath.emulate.routes.building import BUILDING
 from solepath.saving.codec import SnapshotError
 from solepath.show.page.messages import encode
@@ -25,10 +26,10 @@ def text_of(scene: Scene) -> str:
 
 
 def test_a_restored_scene_gives_the_same_message_and_goes_on_alike() -> None:
-    walk = square_walk()[:3000]
+    walk = packet_events(walked(Route().stand(1.0).walk(8.0, 1.3).stop(1.0), cells=16))
     scene = Scene("a walk", "default")
     for number, (packet, events) in enumerate(walk):
-        if number in (500, 2000):
+        if number in (300, 1000):
             restored = saved_and_restored(scene)
             assert text_of(restored) == text_of(scene)
             assert restored == scene
@@ -45,8 +46,6 @@ def test_events_of_all_kinds_and_a_floor_plan_are_there_again() -> None:
     scene = Scene("a walk", "default", plan=BUILDING)
     for event in events_of_all_kinds():
         scene.take(None, [event])
-    for packet, events in corridor_walk()[:2000]:
-        scene.take(packet, events)
     assert text_of(saved_and_restored(scene)) == text_of(scene)
 
 

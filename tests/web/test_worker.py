@@ -9,17 +9,18 @@ from typing import Any
 import pytest
 from here import PROTOCOL
 from recordings import recorded
-from shown import square_walk
+from shown import walked
 from walks import insoles
 
 from solepath import Packet
 from solepath.calibration import Calibration
 from solepath.calibration.file import write_calibration
+from solepath.emulate import Route
 from solepath.saving.codec import SnapshotError
 from solepath.show.web.live_walk import LiveWalk
 from solepath.show.web.worker import Worker
 
-PACKETS = tuple(packet for packet, _ in square_walk() if packet.t < 12.0)
+PACKETS = walked(Route().stand(1.0).walk(10.0, 1.3).stop(1.0), cells=16)
 
 
 def rows(packets: tuple[Packet, ...]) -> list[list[Any]]:
