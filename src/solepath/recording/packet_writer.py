@@ -78,12 +78,7 @@ class PacketWriter:
 
     def write(self, packet: Packet) -> None:
         """Write one packet."""
-        if not isfinite(packet.t):
-            raise ValueError(f"a packet at {packet.t} s cannot be recorded")
-        fields = {"t": float(packet.t), "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
-        if packet.device:
-            fields["device"] = packet.device
-        line = _format_line(fields)
+        line = format_packet(packet)
         self._write_header()
         self._write_line(line)
         self.count += 1
@@ -165,6 +160,16 @@ class PacketWriter:
 
     def __exit__(self, *error: object) -> None:
         self.close()
+
+
+def format_packet(packet: Packet) -> bytes:
+    """Return the line of a packet; ValueError when it cannot be recorded."""
+    if not isfinite(packet.t):
+        raise ValueError(f"a packet at {packet.t} s cannot be recorded")
+    fields = {"t": float(packet.t), "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
+    if packet.device:
+        fields["device"] = packet.device
+    return _format_line(fields)
 
 
 def _format_line(fields: dict[str, Any]) -> bytes:

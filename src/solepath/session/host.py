@@ -27,6 +27,9 @@ from .session import Session
 TICK = "receiver/tick"
 """Channel of a packet that only says that time has passed (protocol/receiver.md)."""
 
+TICK_INTERVAL = 0.2
+"""Time without any packet after which such a packet is fed, s, chosen by hand."""
+
 Observe = Callable[[Packet | None, list[Event]], object]
 """Function that gets each packet, and the events that followed; None for events without a packet."""
 
@@ -135,14 +138,20 @@ class Host:
             self._feed(one, now, values)
 
     def advance(self, now: float) -> list[HostCommand]:
-        """Let time pass until `now`, and check the streams of all devices."""
+        """Let time pass until `now`, and check the streams of all devices.
+
+        If no packet came for a while, one that only says so is fed; without a device the session advances."""
         commands: list[HostCommand] = []
         for device, one in self._devices.items():
             due = None if one.setup is None else one.setup.next_check_at()
             if one.setup is not None and due is not None and now >= due:
                 commands += self._use(device, now, one.setup.check(now))
-        site = next((one.member.site for one in self._devices.values()), Site.LEFT_FOOT)
-        self._feed_packet(Packet(now, site, TICK, b""))
+        newest = self.session.now
+        if newest is None or now - newest >= TICK_INTERVAL:
+            if self._devices:
+                self._feed_packet(Packet(now, next(iter(self._devices.values())).member.site, TICK, b""))
+            else:
+                self.observe(None, self.session.advance(now))
         return commands
 
     def restart_clock(self, now: float) -> None:

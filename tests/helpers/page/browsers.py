@@ -32,6 +32,7 @@ FLAGS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
+    "--enable-features=WebBluetooth",  # which Chromium has not on Linux by itself
 )
 MAX_TEST_TIME = 120.0
 """Longest time of a test, s."""

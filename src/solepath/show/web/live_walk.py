@@ -3,28 +3,25 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
-from typing import Any
 
 from attrs import define, field
 
 from ...calibration import Calibration
 from ...events import Event
 from ...floorplan.index import IndexedPlan
+from ...recording.packet_writer import format_packet
 from ...saving.codec import SnapshotError
 from ...session import Session
-from ...types import Packet, Site
+from ...session.json_host import JsonHost
+from ...types import Packet
 from ..page.scene.saved_scene import restore_scene, save_scene
 from ..page.scene.scales import newtons_of
 from ..page.scene.scene import Scene
 
-Row = Sequence[Any]
-"""A packet as the page sends it: time of arrival (s), site, channel, bytes, device."""
 CLOCK_TOLERANCE = 1.0
 """Time by which the clocks of two pages may differ although none was set, s; chosen by hand."""
 TICK = 0.2
-"""Time after which worker.js lets time pass without a packet, s."""
-SITES = {site.value: site for site in Site}
+"""Time without a packet after which time passes all the same, s, as in `Host`."""
 
 
 @define
@@ -37,6 +34,13 @@ class LiveWalk:
     count: int = field(default=0, init=False)
     """Number of packets that the session was fed since this walk was started or restored."""
     finished: bool = field(default=False, init=False)
+    host: JsonHost = field(init=False)
+    """The devices that feed the session."""
+    _lines: list[bytes] = field(factory=list, init=False)
+    """Lines of the packets that were fed since `take_lines`."""
+
+    def __attrs_post_init__(self) -> None:
+        self.host = JsonHost(self.session, observe=self._observe)
 
     @classmethod
     def start(cls, title: str, calibration: Calibration | None, plan: IndexedPlan | None) -> LiveWalk:
@@ -63,28 +67,36 @@ class LiveWalk:
             return None
         return json.dumps({"session": self.session.snapshot(), "scene": save_scene(self.scene)})
 
-    def feed(self, packets: Iterable[Packet]) -> list[Event]:
-        """Feed the session packets in the order of their arrival; return its events."""
-        events: list[Event] = []
-        for packet in packets:
-            new = self.session.feed(packet)
-            self.scene.take(packet, new)
+    def receive(self, text: str) -> str:
+        """Return the answers of the host to messages of the page (protocol/host.md)."""
+        return "[]" if self.finished else self.host.receive(text)
+
+    def take_lines(self) -> bytes:
+        """Return the lines of a recording of the packets since the last call."""
+        lines = b"".join(self._lines)
+        self._lines.clear()
+        return lines
+
+    def _observe(self, packet: Packet | None, events: list[Event]) -> None:
+        self.scene.take(packet, events)
+        if packet is not None:
             self.count += 1
-            events += new
-        return events
+            self._lines.append(format_packet(packet))
+        elif self.session.now is not None:
+            self.scene.tick(self.session.now)
 
     def advance(self, now: float) -> None:
         """Let time pass until `now`, s; a time before the newest packet changes nothing."""
-        if self.session.now is not None and now > self.session.now and not self.finished:
-            self.scene.take(None, self.session.advance(now))
-            self.scene.tick(now)
+        if self.session.now is not None and now > self.session.now:
+            self._observe(None, self.session.advance(now))
 
     def replay(self, packet: Packet) -> None:
         """Feed a packet of a recording; time without packets passes as it did when the packet was received."""
         newest = self.session.now
         if newest is not None and packet.t > newest + TICK:
             self.advance(packet.t)
-        self.feed([packet])
+        self.scene.take(packet, self.session.feed(packet))
+        self.count += 1
 
     def resume(self, now: float) -> float:
         """Go on at `now`, s, after a time without packets; return the time of the walk from then on, s.
@@ -92,18 +104,12 @@ class LiveWalk:
         A clock that was set back meanwhile goes on from the newest packet: how long nothing came is then unknown."""
         newest = self.session.now
         if newest is not None and now < newest - CLOCK_TOLERANCE:
-            self.scene.take(None, self.session.restart_clock(newest))
+            self._observe(None, self.session.restart_clock(newest))
             return newest
         self.advance(now)
         return now
 
     def finish(self) -> None:
         """End the session; its last events are shown."""
-        self.scene.take(None, self.session.finish())
+        self._observe(None, self.session.finish())
         self.finished = True
-
-
-def packet_of(row: Row) -> Packet:
-    """Return the packet of a row from the page; raise KeyError for an unknown site."""
-    t, site, channel, data, device = row
-    return Packet(float(t), SITES[site], channel, bytes(data), device)

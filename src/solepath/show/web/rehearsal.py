@@ -14,7 +14,10 @@ from types import ModuleType
 from typing import Any
 
 from ... import body, calibration, events, floorplan, foot, link, saving, session, types, wire
+from ...link.devices.insole import PROFILE as INSOLE
+from ...link.profile import Access
 from ...recording import PacketWriter, read_packets
+from ...types import Packet
 from .. import page, report
 from .worker import Worker
 
@@ -42,8 +45,12 @@ def rehearse(demo: str, _: Any = None) -> list[str]:
             writer.write(packet)
     worker = Worker("0")
     worker.start_walk("a walk")
-    rows = [[packet.t, packet.site.value, packet.channel, packet.data, packet.device] for packet in packets]
-    worker.feed(rows[:700])
+    worker.filters()
+    _connect(worker, packets)
+    frames = [packet for packet in packets if packet.channel in INSOLE.streams]
+    _send(worker, type="values", values=[[one.t, one.site.value, one.channel, one.data.hex()] for one in frames[:700]])
+    _send(worker, type="time", t=packets[-1].t + 3.0)
+    worker.take_lines()
     worker.message()
     saved = worker.save()
     _run(worker, "resume_walk", "a walk", saved, "walk.jsonl", packets[-1].t + 5.0)
@@ -59,6 +66,23 @@ def rehearse(demo: str, _: Any = None) -> list[str]:
         _run(worker, "open", name)
     traceback.format_exc()
     return sorted(_files())
+
+
+def _connect(worker: Worker, packets: list[Packet]) -> None:
+    """Connect two insoles, whose values are those of the packets; their sites are also their addresses."""
+    values = {(packet.site.value, packet.channel): packet.data.hex() for packet in packets}
+    for device in {packet.site.value for packet in packets}:
+        about = {"device": device, "t": packets[0].t}
+        characteristics = [[one.service, one.characteristic, one.access is Access.NOTIFY] for one in INSOLE.channels]
+        _send(worker, type="add", device=device)
+        answers = _send(worker, type="connected", characteristics=characteristics, **about)
+        while answers:
+            value = values.get((device, answers[-1]["channel"]), "")
+            answers = _send(worker, type="done", value=value, **about)
+
+
+def _send(worker: Worker, **message: Any) -> Any:
+    return json.loads(worker.receive(json.dumps(message)))
 
 
 def _run(worker: Worker, name: str, *arguments: Any) -> Any:

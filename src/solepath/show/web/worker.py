@@ -5,7 +5,7 @@ chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Generator, Sequence
 from pathlib import Path
 from time import monotonic
 from types import GeneratorType
@@ -19,12 +19,13 @@ from ...floorplan.plan import FloorPlanError
 from ...recording import RecordingError, read_packets
 from ...saving.codec import SnapshotError
 from ...session import Session
+from ...session.json_host import JsonHost
 from ..page.messages import encode, parse_command
 from ..page.player.player import Player
 from ..page.scene.scales import newtons_of
 from ..page.scene.scene import Cursor, Scene
 from ..report import Report
-from .live_walk import LiveWalk, Row, packet_of
+from .live_walk import LiveWalk
 from .opening import OpenedRecording, kind_of, open_calibration, open_plan, open_recording, words_of_json
 
 
@@ -92,15 +93,17 @@ class Worker:
         self.player = self.recording = None
         self.walk = LiveWalk.start(title, self.calibration, self.plan)
 
-    def feed(self, rows: Iterable[Row]) -> None:
-        """Feed the walk the packets of the page; without a walk they are ignored."""
-        if self.walk is not None:
-            self.walk.feed(map(packet_of, rows))
+    def receive(self, text: str) -> str:
+        """Return the answers to messages of the page on sensors (protocol/host.md); without a walk there are none."""
+        return "[]" if self.walk is None else self.walk.receive(text)
 
-    def advance(self, now: float) -> None:
-        """Let time pass for the walk until `now`, s from its start."""
-        if self.walk is not None:
-            self.walk.advance(now)
+    def take_lines(self) -> bytes:
+        """Return the lines of the recording of the walk since the last call."""
+        return b"" if self.walk is None else self.walk.take_lines()
+
+    def filters(self) -> str:
+        """Return the conditions under which a browser offers a device, as JSON."""
+        return JsonHost().receive('{"type": "scan"}')
 
     def save(self) -> str | None:
         """Return the walk as JSON; None when there is nothing to save."""

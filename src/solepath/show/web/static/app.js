@@ -1,6 +1,7 @@
 // The site's own controls: demonstration, files, walks on this device, report; what the page cannot do, in words.
 
 import { bluetoothWords } from "./abilities.js";
+import { addSensor } from "./bluetooth.js";
 import { computer } from "./computer.js";
 import "./live.js"; // it hears of a walk that goes on before anybody connects a sensor
 import { offer } from "./sharing.js";
@@ -26,6 +27,7 @@ async function act(what) {
 
 const on = (id, what) => element(id).addEventListener("click", () => act(what));
 
+on("connect", () => addSensor(element("worn").value || null));
 on("demo", async () => {
   await computer.call("demo", "A demonstration: an emulated walk");
   played("demonstration");
@@ -68,6 +70,7 @@ async function report(name, title) {
 
 computer.on("walk", (walk) => {
   show(element("end"), walk !== null);
+  if (walk?.resumed) words("The walk goes on: connect the sensors again.");
   keepAwake("walk", walk !== null);
   if (walk !== null) show(element("report"), false);
 });
@@ -108,6 +111,7 @@ function row(name, size) {
   });
 }
 
+show(element("connect-part"), bluetoothWords() === "");
 write(element("bluetooth-words"), bluetoothWords());
 show(element("bluetooth-words"), bluetoothWords() !== "");
 if ("serviceWorker" in navigator) {

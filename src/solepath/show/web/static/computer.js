@@ -5,6 +5,7 @@ const SOURCE = `import ${JSON.stringify(new URL("worker.js", import.meta.url).hr
 
 class Computer {
   state = "none"; // "loading" | "ready" | "dead"
+  filters = null; // message "filters" of protocol/host.md
   #worker = null;
   #listeners = [];
   #calls = new Map();
@@ -16,7 +17,7 @@ class Computer {
     setInterval(() => this.#watch(), 1000);
   }
 
-  // kinds: "text" of a message for the page, "state", "walk", "walks", "words", "progress"
+  // kinds: "text" of a message for the page, "state", "walk", "walks", "words", "progress", "orders"
   on(kind, listener) {
     this.#listeners.push({ kind, listener });
   }
@@ -54,7 +55,10 @@ class Computer {
       this.#calls.delete(value.id);
       if ("problem" in value) reject(new Error(value.problem));
       else resolve(value.result);
-    } else if (kind === "ready") this.#set("ready");
+    } else if (kind === "ready") {
+      this.filters = value;
+      this.#set("ready");
+    }
     else if (kind === "failed") this.#die(value);
     else this.#emit(kind, value);
   }

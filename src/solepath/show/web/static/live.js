@@ -1,16 +1,19 @@
-// Where the packets of sensors come in: bluetooth.js calls packet() for each value that a device sent.
+// The walk that is measured now: messages on its sensors go to the worker (protocol/host.md), in their order.
 
 import { computer } from "./computer.js";
 
 const BATCH_TIME = 8; // ms; what comes within this time goes to the worker together
+const TICK = 200; // ms between two messages that say nothing but the time
 
 const now = () => (performance.timeOrigin + performance.now()) / 1000;
-let walk = null; // {began, title, name, recorded}
+const HEX = Array.from({ length: 256 }, (_, byte) => byte.toString(16).padStart(2, "0"));
+let walk = null; // {began, title, name, resumed, recorded}
 let batch = [];
 let sentAt = 0;
 let timer = 0;
 
 computer.on("walk", (value) => (walk = value));
+setInterval(() => running() && send({ type: "time", t: clock() }), TICK);
 
 export const running = () => walk !== null;
 
@@ -22,19 +25,39 @@ export async function startWalk(title = `Walk of ${new Date().toLocaleString([],
   if (!running()) await computer.call("start", title);
 }
 
-// site as in protocol/recording.md; data: Uint8Array, which nobody changes afterwards; device: its id. The time of
-// arrival is now, unless t says otherwise, s on the clock of the walk.
-export function packet(site, channel, data, device = "", t = clock()) {
-  batch.push([t, site, channel, data, device]);
-  // not by the timer alone: in a page that is hidden it runs once a second
-  if (performance.now() - sentAt >= BATCH_TIME) send();
-  else timer ||= setTimeout(send, BATCH_TIME);
+// Sends a message of an app to its host.
+export function send(message) {
+  batch.push(message);
+  flush();
 }
 
-function send() {
+// Sends what a sensor notified: channel, and a DataView of the bytes.
+export function notified(device, channel, view) {
+  const value = [clock(), device, channel, hex(view)];
+  const newest = batch.at(-1);
+  if (newest?.type === "values") newest.values.push(value);
+  else batch.push({ type: "values", values: [value] });
+  flush();
+}
+
+export function hex(view) {
+  let text = "";
+  for (let at = 0; at < view.byteLength; at += 1) text += HEX[view.getUint8(at)];
+  return text;
+}
+
+export const bytes = (text) => Uint8Array.from(text.match(/../g) ?? [], (two) => parseInt(two, 16));
+
+function flush() {
+  // not by the timer alone: in a page that is hidden it runs once a second
+  if (performance.now() - sentAt >= BATCH_TIME) post();
+  else timer ||= setTimeout(post, BATCH_TIME);
+}
+
+function post() {
   clearTimeout(timer);
   timer = 0;
   sentAt = performance.now();
-  computer.post({ packets: batch });
+  if (batch.length > 0) computer.post({ sensors: batch });
   batch = [];
 }

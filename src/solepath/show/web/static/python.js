@@ -27,15 +27,17 @@ export class Python {
 
   constructor(runtime, worker) {
     this.runtime = runtime;
-    for (const name of ["message", "heartbeat", "advance", "command", "play", "start", "step", "save"])
+    for (const name of ["message", "heartbeat", "receive", "command", "play", "start", "step", "save", "filters"])
       this[name] = worker[name];
-    this.feedRows = worker.feed;
+    this.lines = worker.take_lines;
   }
 
-  feed(rows) {
-    const list = this.runtime.toPy(rows);
-    this.feedRows(list);
-    list.destroy();
+  // Returns the lines of the recording since the last call, as bytes.
+  takeLines() {
+    const lines = this.lines();
+    const bytes = lines.toJs();
+    lines.destroy();
+    return bytes;
   }
 
   // Runs a method of worker.py; progress(share) is called meanwhile. Throws Problem.

@@ -2,7 +2,6 @@
 
 const FOLDER = "walks";
 const MAX_WAITING = 20_000_000; // bytes that wait in memory while nothing can be written
-const HEX = Array.from({ length: 256 }, (_, byte) => byte.toString(16).padStart(2, "0"));
 const LINE_FEED = 10;
 
 export async function walksFolder() {
@@ -30,7 +29,7 @@ export function storageWords(error, what) {
 }
 
 class Recording {
-  count = 0; // packets that were added
+  count = 0; // parts that were added
   size = 0; // bytes of whole lines in the file
   #handle;
   #header;
@@ -48,13 +47,10 @@ class Recording {
     handle.truncate(this.size);
   }
 
-  add(rows) {
-    for (const [t, site, channel, data, device] of rows) {
-      let hex = "";
-      for (const byte of data) hex += HEX[byte];
-      this.#wait(this.#line(device ? { t, site, channel, data: hex, device } : { t, site, channel, data: hex }));
-      this.count += 1;
-    }
+  // lines: bytes of whole lines
+  add(lines) {
+    this.#wait(lines);
+    this.count += 1;
   }
 
   // Writes what waits; returns words when that begins to fail, and "" else.

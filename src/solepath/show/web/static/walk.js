@@ -5,7 +5,7 @@ import { openRecording, storageWords } from "./recording.js";
 import { store } from "./store.js";
 
 const SAVE_INTERVAL = 60; // s
-const TICK = 200; // ms between two looks at the clock, which show that a sensor is silent
+const TICK = 1000; // ms between two looks at the clock
 const LOCK = "solepath walk";
 const LOCK_WAIT = 2000; // ms; a tab that was just killed may hold the lock a moment longer
 const now = () => (performance.timeOrigin + performance.now()) / 1000; // s since 1970, never falling within a worker
@@ -58,13 +58,16 @@ export class Walk {
     return recorded ? name : "";
   }
 
-  // rows: [t, site, channel, bytes, device], t in s since the start of the walk
-  feed(rows) {
-    if (!this.running) return;
-    this.#python.feed(rows);
-    if (this.#recording === null) return;
-    this.#recording.add(rows);
-    this.#flush();
+  // Takes messages of the page on sensors and returns the answers of Python (protocol/host.md).
+  receive(messages) {
+    if (!this.running) return [];
+    const answers = JSON.parse(this.#python.receive(JSON.stringify(messages)));
+    const lines = this.#python.takeLines();
+    if (this.#recording !== null && lines.length > 0) {
+      this.#recording.add(lines);
+      this.#flush();
+    }
+    return answers;
   }
 
   // Continues the walk that a tab left when it was closed or killed.
@@ -81,7 +84,7 @@ export class Walk {
       this.#post({ words: `The saved state cannot be used (${error.message}); the recording is computed again.` });
       await this.#continue(undefined, 0);
     }
-    this.#announce();
+    this.#announce(true);
     await this.save(); // what is computed next time starts behind the gap
   }
 
@@ -143,12 +146,11 @@ export class Walk {
 
   #tick() {
     if (!this.running) return;
-    this.#python.advance(now() - this.#record.began);
     if (now() - this.#savedAt > SAVE_INTERVAL) this.save();
   }
 
-  #announce() {
+  #announce(resumed = false) {
     const { began, title, name } = this.#record ?? {};
-    this.#post({ walk: this.running ? { began, title, name, recorded: this.#recording !== null } : null });
+    this.#post({ walk: this.running ? { began, title, name, resumed, recorded: this.#recording !== null } : null });
   }
 }

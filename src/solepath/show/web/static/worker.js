@@ -20,7 +20,7 @@ const ready = (async () => {
   const walk = new Walk(python, files, post);
   await walk.resume();
   setInterval(() => guarded(() => frame(python)), FRAME_INTERVAL);
-  postMessage({ ready: true });
+  postMessage({ ready: JSON.parse(python.filters())[0] });
   await files.list();
   return { python, walk, files };
 })();
@@ -28,13 +28,18 @@ ready.catch(failed);
 
 onmessage = async ({ data }) => {
   const parts = await ready;
-  if (data.packets) guarded(() => parts.walk.feed(data.packets));
+  if (data.sensors) guarded(() => orders(parts.walk.receive(data.sensors)));
   else if (data.command) guarded(() => parts.python.command(data.command));
   else if ("seen" in data) {
     seen = data.seen;
     if (!seen) calls = calls.then(() => parts.walk.save()).catch(failed);
   } else if (data.call) calls = calls.then(() => answer(parts, data)).catch(failed);
 };
+
+// Passes on what the page has to do with sensors.
+function orders(answers) {
+  if (answers.length > 0) postMessage({ orders: answers });
+}
 
 async function answer({ walk, files }, { call, values, id }) {
   try {

@@ -1,0 +1,161 @@
+// Web Bluetooth: connects sensors, does what the worker orders (protocol/host.md), and passes on what they send.
+
+import { computer } from "./computer.js";
+import { bytes, clock, hex, notified, running, send, startWalk } from "./live.js";
+
+const ANSWER_TIME = 5000; // ms that a sensor has for an answer
+const FIRST_PAUSE = 250; // ms from a lost connection to the next attempt; each further one is twice as long
+const MAX_PAUSE = 8000; // ms
+
+export const sensors = new Map(); // by the id that the browser has for a sensor
+
+computer.on("orders", (orders) => {
+  for (const order of orders) if (order.device) sensors.get(order.device)?.take(order);
+});
+computer.on("walk", (walk) => {
+  if (walk === null) for (const sensor of sensors.values()) sensor.end();
+});
+
+// Lets the person choose a sensor, and connects it; site is null for an insole, which knows its foot.
+export async function addSensor(site) {
+  const { filters, services } = computer.filters;
+  const options = { filters: filters.map(filterOf), optionalServices: services };
+  let device;
+  try {
+    device = await navigator.bluetooth.requestDevice(options);
+  } catch (error) {
+    throw new Error(chooserWords(error));
+  }
+  await startWalk();
+  sensors.get(device.id)?.end();
+  const sensor = new Sensor(device, site);
+  sensors.set(device.id, sensor);
+  sensor.run();
+}
+
+function filterOf({ name, prefix, service }) {
+  if (service) return { services: [service] };
+  return prefix ? { namePrefix: prefix } : { name };
+}
+
+function chooserWords(error) {
+  const words = error.message ?? "";
+  if (error.name === "NotFoundError" && /adapter/i.test(words)) return "Bluetooth is off, or this device has none: turn it on.";
+  if (error.name === "NotFoundError") return "No sensor was chosen. Is it switched on and near?";
+  if (error.name === "SecurityError" || error.name === "NotAllowedError")
+    return "This browser does not let the page use Bluetooth: allow it in the settings of the browser and of the system.";
+  return `No sensor can be chosen: ${words}`;
+}
+
+class Sensor {
+  #device;
+  #site;
+  #characteristics = new Map(); // by "service characteristic"
+  #ended = false;
+  #connected = false; // the worker knows of a connection
+  #requests = Promise.resolve();
+
+  constructor(device, site) {
+    this.#device = device;
+    this.#site = site;
+  }
+
+  get name() {
+    return this.#device.name ?? "";
+  }
+
+  // For tests, which read what they cannot notify.
+  get characteristics() {
+    return this.#characteristics;
+  }
+
+  // Keeps the sensor connected until the walk ends.
+  async run() {
+    send({ type: "add", device: this.#device.id, site: this.#site, address: "" });
+    for (let pause = FIRST_PAUSE; !this.#ended; pause = Math.min(2 * pause, MAX_PAUSE)) {
+      const began = performance.now();
+      try {
+        await this.#use();
+      } catch (error) {
+        if (running() && !this.#ended) this.#send({ type: "failed", reason: `cannot connect: ${error.message}` });
+      }
+      if (performance.now() - began > MAX_PAUSE) pause = FIRST_PAUSE;
+      if (!this.#ended) await new Promise((resolve) => setTimeout(resolve, pause));
+    }
+    if (running()) this.#send({ type: "remove" });
+    if (sensors.get(this.#device.id) === this) sensors.delete(this.#device.id);
+  }
+
+  end() {
+    this.#ended = true;
+    this.#device.gatt.disconnect();
+  }
+
+  take(order) {
+    if (order.type === "disconnect") {
+      if (order.wrong) this.#ended = true;
+      this.#device.gatt.disconnect();
+    } else if (["read", "subscribe", "write"].includes(order.type)) {
+      this.#requests = this.#requests.then(() => this.#do(order));
+    }
+  }
+
+  async #use() {
+    const lost = new Promise((resolve) => this.#device.addEventListener("gattserverdisconnected", resolve, { once: true }));
+    const server = await this.#device.gatt.connect();
+    try {
+      const characteristics = [];
+      this.#characteristics.clear();
+      for (const service of await server.getPrimaryServices())
+        for (const one of await service.getCharacteristics()) {
+          const key = `${service.uuid} ${one.uuid}`;
+          if (this.#characteristics.has(key)) continue;
+          this.#characteristics.set(key, one);
+          characteristics.push([service.uuid, one.uuid, one.properties.notify || one.properties.indicate]);
+        }
+      if (!running()) return;
+      this.#send({ type: "connected", name: this.#device.name ?? "", characteristics });
+      this.#connected = true;
+      if (server.connected) await lost;
+    } finally {
+      this.#device.gatt.disconnect();
+      if (this.#connected && running()) this.#send({ type: "disconnected" });
+      this.#connected = false;
+    }
+  }
+
+  async #do(order) {
+    const characteristic = this.#characteristics.get(`${order.service} ${order.characteristic}`);
+    try {
+      const value = await inTime(this.#perform(order, characteristic));
+      this.#send({ type: "done", value: value ? hex(value) : "" });
+    } catch (error) {
+      if (!this.#device.gatt.connected || !running()) return; // the loss of the connection says it all
+      if (error.name !== "TimeoutError") return this.#send({ type: "rejected", reason: error.message || error.name });
+      this.#send({ type: "failed", reason: "the sensor did not answer in time: it is connected again" });
+      this.#device.gatt.disconnect();
+    }
+  }
+
+  async #perform({ type, channel, value }, characteristic) {
+    if (type === "read") return characteristic.readValue();
+    if (type === "write") {
+      const withResponse = characteristic.properties.write;
+      await (withResponse ? characteristic.writeValueWithResponse(bytes(value)) : characteristic.writeValueWithoutResponse(bytes(value)));
+      return null;
+    }
+    const { id } = this.#device;
+    characteristic.oncharacteristicvaluechanged = () => running() && notified(id, channel, characteristic.value);
+    await characteristic.startNotifications();
+    return null;
+  }
+
+  #send(message) {
+    send({ ...message, device: this.#device.id, t: clock() });
+  }
+}
+
+function inTime(promise) {
+  const late = new DOMException("no answer", "TimeoutError");
+  return Promise.race([promise, new Promise((_, reject) => setTimeout(() => reject(late), ANSWER_TIME))]);
+}

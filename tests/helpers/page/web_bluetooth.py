@@ -1,0 +1,231 @@
+"""Emulated sensors behind Chromium's own Bluetooth stack, by its protocol for tests (domain BluetoothEmulation).
+
+It does chooser, connection, discovery, reads, writes and subscriptions, but no notifications. Reads stand in for them:
+the page reads a subscribed characteristic again and again (`READ_FRAMES`), each answer is the next notification of the
+emulated device, at its time, and fires the same event in the page as a notification does."""
+
+from __future__ import annotations
+
+import asyncio
+from base64 import b64decode, b64encode
+from collections import deque
+from collections.abc import Awaitable, Callable, Iterable
+from typing import Any
+
+from attrs import define, field
+from browsers import Window
+
+from solepath.emulate.devices.attributes import AttError
+from solepath.emulate.devices.peripheral import Peripheral
+
+SUBSCRIPTION = "00002902-0000-1000-8000-00805f9b34fb"
+"""Descriptor of a characteristic that notifies (Bluetooth Core, vol 3 part G, 3.3.3.3)."""
+READ_FRAMES = """async ([name, uuid]) => {
+    const { sensors } = await import('./bluetooth.js');
+    for (const sensor of sensors.values())
+        for (const one of sensor.characteristics.values())
+            if (sensor.name === name && one.uuid === uuid)
+                (async () => { try { for (;;) await one.readValue(); } catch {} })();
+}"""
+"""Reads the frames of an insole until the connection is lost, as fast as they are answered."""
+
+
+@define(eq=False)
+class EmulatedSensor:
+    """An emulated device, with what it has sent and the page has not yet read."""
+
+    device: Peripheral
+    channels: dict[str, str] = field(factory=dict)
+    """Channel by the id that Chromium gives to a characteristic."""
+    unread: deque[bytes] = field(factory=deque)
+    sent: int = 0
+    """Number of frames that were read."""
+    arrived: asyncio.Event = field(factory=asyncio.Event)
+    connected: bool = False
+    is_read: bool = False
+    """True if the page reads the frames."""
+
+
+class WebBluetooth:
+    """Emulated devices that a page in Chromium can choose and connect."""
+
+    def __init__(
+        self, view: Window, devices: Iterable[Peripheral], stream: str = "insole/frame", starts: str = "insole/control"
+    ) -> None:
+        self.view, self.stream, self.starts = view, stream, starts
+        self.sensors = {device.address: EmulatedSensor(device) for device in devices}
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._devtools: Any = None
+
+    async def start(self) -> None:
+        """Switch the emulation on; the devices advertise from now on."""
+        browser = self.view.tab.context.browser
+        assert browser is not None
+        self._devtools = await browser.new_browser_cdp_session()
+        handlers: dict[str, Callable[[Any], Awaitable[None]]] = {
+            "gatt": lambda got: self._gatt(got["address"], got["type"]),
+            "characteristic": lambda got: self._characteristic(
+                got["characteristicId"], got["type"], got.get("data", "")
+            ),
+            "descriptor": lambda got: self._descriptor(got["descriptorId"], got["type"]),
+        }
+        for kind, handle in handlers.items():
+            self._devtools.on(f"BluetoothEmulation.{kind}OperationReceived", self._starter(handle))
+        await self._send("enable", state="powered-on", leSupported=True)
+        for address, one in self.sensors.items():
+            await self._send(
+                "simulatePreconnectedPeripheral",
+                address=address,
+                name=one.device.name,
+                manufacturerData=[],
+                knownServiceUuids=[service.uuid for service in one.device.services],
+            )
+        self._task(self._run())
+
+    async def stop(self) -> None:
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+        await self._send("disable")
+
+    async def choose(self, address: str | None) -> None:
+        """Tap "connect" and choose a device; None cancels the chooser."""
+        devtools = await self.view.tab.context.new_cdp_session(self.view.tab)
+        prompted: asyncio.Future[dict[str, Any]] = asyncio.get_running_loop().create_future()
+
+        def on_prompt(prompt: dict[str, Any]) -> None:
+            offered = {one["id"] for one in prompt["devices"]}
+            if not prompted.done() and (address is None or address in offered):
+                prompted.set_result(prompt)
+
+        devtools.on("DeviceAccess.deviceRequestPrompted", on_prompt)
+        await devtools.send("DeviceAccess.enable")
+        await self.view.tab.locator("#connect").click()
+        prompt = await asyncio.wait_for(prompted, 20.0)
+        if address is None:
+            await devtools.send("DeviceAccess.cancelPrompt", {"id": prompt["id"]})
+        else:
+            await devtools.send("DeviceAccess.selectPrompt", {"id": prompt["id"], "deviceId": address})
+        await devtools.detach()
+
+    async def lose(self, address: str) -> None:
+        """Lose a connection, as by distance."""
+        self._disconnect(self.sensors[address])
+        await self._send("simulateGATTDisconnection", address=address)
+
+    async def _send(self, method: str, **values: Any) -> Any:
+        return await self._devtools.send(f"BluetoothEmulation.{method}", values)
+
+    def _starter(self, handle: Callable[[Any], Awaitable[None]]) -> Callable[[Any], None]:
+        return lambda got: self._task(handle(got))
+
+    def _task(self, work: Any) -> None:
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._ended)
+
+    def _ended(self, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        if not task.cancelled() and task.exception() is not None:
+            self.view.complaints.append(f"emulation: {task.exception()!r}")
+
+    async def _run(self) -> None:
+        """Let the devices send at their times."""
+        while True:
+            now = asyncio.get_running_loop().time()
+            for one in self.sensors.values():
+                if one.connected:
+                    for outgoing in one.device.poll(now):
+                        if outgoing.channel == self.stream:
+                            one.unread.append(outgoing.value)
+                            one.arrived.set()
+            await asyncio.sleep(0.002)
+
+    async def _gatt(self, address: str, kind: str) -> None:
+        one = self.sensors[address]
+        if kind == "connection":
+            now = asyncio.get_running_loop().time()
+            one.device.connected(now, one.device.mtu)
+            one.connected = True
+        elif kind == "discovery":
+            await self._add_services(address, one)
+        await self._send("simulateGATTOperationResponse", address=address, type=kind, code=0)
+        if kind == "disconnection":
+            self._disconnect(one)
+
+    def _disconnect(self, one: EmulatedSensor) -> None:
+        if one.connected:
+            one.connected = one.is_read = False
+            one.device.disconnected(asyncio.get_running_loop().time())
+        one.unread.clear()
+        one.channels.clear()
+        one.arrived.set()
+
+    async def _add_services(self, address: str, one: EmulatedSensor) -> None:
+        for service in one.device.services:
+            added = await self._send("addService", address=address, serviceUuid=service.uuid)
+            for characteristic in service.characteristics:
+                properties = {
+                    "read": "read" in characteristic.properties or characteristic.channel == self.stream,
+                    "write": "write" in characteristic.properties,
+                    "notify": "notify" in characteristic.properties,
+                }
+                made = await self._send(
+                    "addCharacteristic",
+                    serviceId=added["serviceId"],
+                    characteristicUuid=characteristic.uuid,
+                    properties=properties,
+                )
+                one.channels[made["characteristicId"]] = characteristic.channel
+                if properties["notify"]:
+                    await self._send(
+                        "addDescriptor", characteristicId=made["characteristicId"], descriptorUuid=SUBSCRIPTION
+                    )
+
+    async def _characteristic(self, identifier: str, kind: str, data: str) -> None:
+        one = next((one for one in self.sensors.values() if identifier in one.channels), None)
+        if one is None:
+            return
+        channel, now, answer = one.channels[identifier], asyncio.get_running_loop().time(), b""
+        code = 0
+        try:
+            if kind == "read" and channel == self.stream:
+                answer = await self._next_frame(one)
+            elif kind == "read":
+                answer = one.device.read(channel, now) or b""
+            elif kind == "write":
+                one.device.write(channel, b64decode(data), now)
+                if not one.is_read and channel == self.starts:  # a read before that would keep the write waiting
+                    one.is_read = True
+                    uuid = self._uuid(one, self.stream)
+                    self._task(self.view.tab.evaluate(READ_FRAMES, [one.device.name, uuid]))
+            elif kind == "subscribe-to-notifications":
+                one.device.subscribe(channel, True, now)
+            else:
+                one.device.subscribe(channel, False, now)
+        except AttError as error:
+            code = error.code
+        response = {"data": b64encode(answer).decode()} if kind == "read" and code == 0 else {}
+        if not one.connected:
+            return
+        await self._send(
+            "simulateCharacteristicOperationResponse", characteristicId=identifier, type=kind, code=code, **response
+        )
+
+    @staticmethod
+    def _uuid(one: EmulatedSensor, channel: str) -> str:
+        every = (one for service in one.device.services for one in service.characteristics)
+        return next(characteristic.uuid for characteristic in every if characteristic.channel == channel)
+
+    async def _next_frame(self, one: EmulatedSensor) -> bytes:
+        while not one.unread:
+            one.arrived.clear()
+            await one.arrived.wait()
+            if not one.connected:
+                raise AttError(0x0E)
+        one.sent += 1
+        return one.unread.popleft()
+
+    async def _descriptor(self, identifier: str, kind: str) -> None:
+        response = {"data": ""} if kind == "read" else {}
+        await self._send("simulateDescriptorOperationResponse", descriptorId=identifier, type=kind, code=0, **response)
