@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 import asyncio
+import json
+from collections import Counter
 from pathlib import Path
 
 from browsers import Browser, Window
-from web_bluetooth import WebBluetooth
-from web_pages import WORDS, open_site
+from web_bluetooth import web_bluetooth
+from web_pages import PATIENCE, READY, WORDS, open_site, ready
 
-from solepath import Packet, Session, StrideTaken
+from solepath import Connected, Packet, PacketRejected, PacketsLost, SampleGap, Session, StrideTaken
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.routes.route import Route
 from solepath.recording import read_packets
 from solepath.show.web.serve import serving
-from solepath.types import Foot
+from solepath.types import Foot, Site
 
-ROUTE = Route().stand(4.0).walk(30.0).stop(2.0)
+ROUTE = Route().stand(4.0).walk(100.0).stop(2.0)
 STATES = "Object.fromEntries(Object.entries(solepath.state.links).map(([site, link]) => [site, link.state]))"
 STRIDES = "['left', 'right'].map((foot) => solepath.state.feet[foot]?.strides ?? 0)"
+LOG = "solepath.state.log.map(([, , words]) => words)"
+IN_FLIGHT = 40
+"""Largest number of frames that may be on their way when tab and worker are killed: 200 ms of both feet."""
+SHOWN = f"({{ strides: {STRIDES}, track: solepath.state.tracks.left }})"
 
 
 async def recorded(view: Window, folder: Path) -> tuple[Packet, ...]:
@@ -46,28 +52,74 @@ async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
     bench.prepare()
     left, right = (device.address for device in bench.peripherals)
     with serving(site) as url:
-        async with open_site(chromium, url) as view:
-            radio = WebBluetooth(view, bench.peripherals)
-            await radio.start()
-            try:
-                await radio.choose(None)
-                await view.until(f"{WORDS}.includes('No sensor was chosen')")
-                bench.walk_from(asyncio.get_running_loop().time())
-                for address in (left, right):
-                    await radio.choose(address)
-                await view.until(f"{STRIDES}.every((count) => count >= 2)")
-                assert await view.tab.evaluate(STATES) == {"left foot": "ok", "right foot": "ok"}
-                await radio.lose(left)
-                await view.until(f"({STATES})['left foot'] === 'lost'")
-                for _ in range(4):
-                    await asyncio.sleep(1.0)
-                    print(
-                        await view.tab.evaluate("solepath.state.log.map(([, , words]) => words)"),
-                        await view.tab.evaluate("import('./bluetooth.js').then((m) => [...m.sensors.keys()])"),
-                        view.complaints,
-                    )
-                before: list[int] = await view.tab.evaluate(STRIDES)
-                await view.until(f"({STATES})['left foot'] === 'ok' && {STRIDES}[0] > {before[0]}")
-            finally:
-                await radio.stop()
-            print(view.complaints)
+        async with open_site(chromium, url) as view, web_bluetooth(view, bench.peripherals) as radio:
+            await radio.choose(None)
+            await view.until(f"{WORDS}.includes('No sensor was chosen')")
+            bench.walk_from(asyncio.get_running_loop().time())
+            await radio.choose(left)
+            await radio.choose(right)
+            await view.until(f"{STRIDES}.every((count) => count >= 2)")
+            assert await view.tab.evaluate(STATES) == {"left foot": "ok", "right foot": "ok"}
+            await radio.lose(left)
+            await view.until(f"{LOG}.includes('left foot: the connection is lost')")
+            at_loss = await view.tab.evaluate(STRIDES)
+            await view.until(f"({STATES})['left foot'] === 'ok' && {STRIDES}[0] > {at_loss[0]}")
+            await view.tab.evaluate("computer.call('save')")
+            before = await view.tab.evaluate(SHOWN)
+            await radio.kill_tab()
+            view.tab = await view.tab.context.new_page()
+            await view.tab.goto(url)
+            await ready(view)
+            await view.until(f"{WORDS}.includes('connect the sensors again')")
+            await radio.choose(left)
+            await radio.choose(right)
+            more = [count + 2 for count in before["strides"]]
+            await view.until(f"{STRIDES}.every((count, foot) => count >= {more}[foot])")
+            after = await view.tab.evaluate(SHOWN)
+            assert after["track"][: len(before["track"])] == before["track"]
+            assert all(link["gaps"] >= 1 for link in (await view.tab.evaluate("solepath.state.links")).values())
+            assert any("data come again after" in words for words in await view.tab.evaluate(LOG))
+            await check_another_tab(view, url)
+            await check_full_storage(view, url)
+            await radio.stop_reading()
+            await view.tab.evaluate("computer.kill()")
+            await view.until("document.getElementById('offline').innerText.includes('has stopped')")
+            await view.tab.locator("#retry").click()
+            await view.until(READY, patience=PATIENCE)
+            await view.until(f"{LOG}.filter((words) => words.includes('foot: connected to')).length === {4 + 3}")
+            at_restart = await view.tab.evaluate(STRIDES)
+            await view.until(f"{STRIDES}.every((count, foot) => count > {at_restart}[foot])")
+            await radio.stop_reading()
+            await view.tab.locator("#end").click()
+            packets = await recorded(view, tmp_path)
+            same = json.dumps(strides(packets), separators=(",", ":"))
+            await view.until(f"JSON.stringify({STRIDES}) === '{same}'")
+            assert [one for one in view.complaints if "Web Bluetooth is experimental" not in one] == []
+    session = Session()
+    events = [event for packet in packets for event in session.feed(packet)]
+    assert not [event for event in events if isinstance(event, PacketRejected)]
+    connections = [event for event in events if isinstance(event, Connected)]
+    assert Counter(event.site for event in connections) == {Site.LEFT_FOOT: 4, Site.RIGHT_FOOT: 3}
+    for lost in (event for event in events if isinstance(event, PacketsLost)):  # measured without a connection
+        assert any(event.site is lost.site and 0.0 <= lost.known_at - event.t < 1.0 for event in connections)
+    assert {event.site for event in events if isinstance(event, SampleGap)} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
+    frames = sum(packet.channel == "insole/frame" for packet in packets)
+    assert 0 <= radio.frames_read - frames <= IN_FLIGHT
+
+
+async def check_another_tab(view: Window, url: str) -> None:
+    """A second tab neither shows the walk as its own nor starts another one."""
+    first, view.tab = view.tab, await view.tab.context.new_page()
+    await view.tab.goto(url)
+    await ready(view)
+    start = "import('./live.js').then((live) => live.startWalk('B')).then(() => '', (error) => error.message)"
+    assert "another tab" in await view.tab.evaluate(start)
+    await view.tab.close()
+    view.tab = first
+
+
+async def check_full_storage(view: Window, url: str) -> None:
+    devtools = await view.tab.context.new_cdp_session(view.tab)
+    await devtools.send("Storage.overrideQuotaForOrigin", {"origin": url.rstrip("/"), "quotaSize": 1})
+    await view.until(f"{WORDS}.includes('storage of this device is full')")
+    await devtools.send("Storage.overrideQuotaForOrigin", {"origin": url.rstrip("/")})

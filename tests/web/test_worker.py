@@ -18,13 +18,18 @@ from solepath.calibration.file import write_calibration
 from solepath.emulate import Route
 from solepath.saving.codec import SnapshotError
 from solepath.show.web.live_walk import LiveWalk
+from solepath.show.web.rehearsal import connect, send_frames
 from solepath.show.web.worker import Worker
 
+HEADER = b'{"format": "solepath-packets", "version": 1}\n'
 PACKETS = walked(Route().stand(1.0).walk(10.0, 1.3).stop(1.0), cells=16)
 
 
-def rows(packets: tuple[Packet, ...]) -> list[list[Any]]:
-    return [[packet.t, packet.site.value, packet.channel, packet.data, packet.device] for packet in packets]
+def walk(worker: Worker, packets: tuple[Packet, ...]) -> bytes:
+    """Let two insoles connect and send the frames; return the lines of the recording."""
+    connect(worker, packets)
+    send_frames(worker, packets)
+    return worker.take_lines()
 
 
 def call(worker: Worker, name: str, *arguments: Any) -> Any:
@@ -49,21 +54,20 @@ def worker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Worker:
 def test_a_walk_that_is_saved_and_continued_shows_what_an_uninterrupted_one_shows(worker: Worker) -> None:
     half = len(PACKETS) // 2
     worker.start_walk("a walk")
-    worker.feed(rows(PACKETS[:half]))
+    walk(worker, PACKETS[:half])
     saved = worker.save()
     assert saved is not None and len(saved) < 1_000_000
-    recorded(Path("tail.jsonl"), PACKETS[half:])
+    send_frames(worker, PACKETS[half:])
+    Path("tail.jsonl").write_bytes(HEADER + worker.take_lines())
     other = Worker()
     assert call(other, "resume_walk", "a walk", saved, "tail.jsonl", PACKETS[-1].t) == PACKETS[-1].t
-    worker.feed(rows(PACKETS[half:]))
-    worker.advance(PACKETS[-1].t)
     assert shown(other) == shown(worker)
     assert shown(worker)["frame"]["feet"]["left"]["strides"] >= 5
 
 
 def test_a_time_without_packets_is_shown_as_a_gap_and_a_clock_that_was_set_back_as_a_reset(worker: Worker) -> None:
     worker.start_walk("a walk")
-    worker.feed(rows(PACKETS))
+    walk(worker, PACKETS)
     saved, end = worker.save(), PACKETS[-1].t
     call(worker, "resume_walk", "a walk", saved, "", end + 60.0)
     assert any("nothing has come for" in words for _, _, words in shown(worker)["log"])
@@ -72,11 +76,10 @@ def test_a_time_without_packets_is_shown_as_a_gap_and_a_clock_that_was_set_back_
 
 
 def test_without_a_save_the_whole_recording_is_computed_again(worker: Worker) -> None:
-    recorded(Path("walk.jsonl"), PACKETS)
-    call(worker, "resume_walk", "a walk", None, "walk.jsonl", PACKETS[-1].t)
     other = Worker()
     other.start_walk("a walk")
-    other.feed(rows(PACKETS))
+    Path("walk.jsonl").write_bytes(HEADER + walk(other, PACKETS))
+    call(worker, "resume_walk", "a walk", None, "walk.jsonl", PACKETS[-1].t)
     assert shown(worker) == shown(other)
 
 
@@ -95,8 +98,9 @@ def test_nothing_is_saved_before_anything_was_received(worker: Worker) -> None:
 def test_messages_are_a_scene_and_then_what_changed(worker: Worker) -> None:
     kinds = []
     worker.start_walk("a walk")
+    connect(worker, PACKETS)
     for start in range(0, 600, 100):
-        worker.feed(rows(PACKETS[start : start + 100]))
+        send_frames(worker, PACKETS[start : start + 100])
         message = worker.message()
         assert message is not None
         kinds.append(json.loads(message)["type"])

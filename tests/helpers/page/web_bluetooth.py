@@ -9,7 +9,8 @@ from __future__ import annotations
 import asyncio
 from base64 import b64decode, b64encode
 from collections import deque
-from collections.abc import Awaitable, Callable, Iterable
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
+from contextlib import asynccontextmanager, suppress
 from typing import Any
 
 from attrs import define, field
@@ -20,14 +21,22 @@ from solepath.emulate.devices.peripheral import Peripheral
 
 SUBSCRIPTION = "00002902-0000-1000-8000-00805f9b34fb"
 """Descriptor of a characteristic that notifies (Bluetooth Core, vol 3 part G, 3.3.3.3)."""
+UNLIKELY_ERROR = 0x0E
+"""ATT error code of a request that failed (Bluetooth Core, vol 3 part F, 3.4.1.1)."""
 READ_FRAMES = """async ([name, uuid]) => {
     const { sensors } = await import('./bluetooth.js');
     for (const sensor of sensors.values())
         for (const one of sensor.characteristics.values())
             if (sensor.name === name && one.uuid === uuid)
-                (async () => { try { for (;;) await one.readValue(); } catch {} })();
+                {
+                const reading = ((globalThis.reading ??= {})[name] = { on: true });
+                reading.ended = (async () => { try { while (reading.on) await one.readValue(); } catch {} })();
+            }
 }"""
 """Reads the frames of an insole until the connection is lost, as fast as they are answered."""
+
+
+STOP_READING = "name => { const reading = globalThis.reading[name]; reading.on = false; return reading.ended; }"
 
 
 @define(eq=False)
@@ -41,6 +50,7 @@ class EmulatedSensor:
     sent: int = 0
     """Number of frames that were read."""
     arrived: asyncio.Event = field(factory=asyncio.Event)
+    subscribed: set[str] = field(factory=set)
     connected: bool = False
     is_read: bool = False
     """True if the page reads the frames."""
@@ -72,6 +82,10 @@ class WebBluetooth:
         for kind, handle in handlers.items():
             self._devtools.on(f"BluetoothEmulation.{kind}OperationReceived", self._starter(handle))
         await self._send("enable", state="powered-on", leSupported=True)
+        await self._advertise()
+        self._task(self._run())
+
+    async def _advertise(self) -> None:
         for address, one in self.sensors.items():
             await self._send(
                 "simulatePreconnectedPeripheral",
@@ -80,7 +94,6 @@ class WebBluetooth:
                 manufacturerData=[],
                 knownServiceUuids=[service.uuid for service in one.device.services],
             )
-        self._task(self._run())
 
     async def stop(self) -> None:
         for task in self._tasks:
@@ -108,9 +121,37 @@ class WebBluetooth:
             await devtools.send("DeviceAccess.selectPrompt", {"id": prompt["id"], "deviceId": address})
         await devtools.detach()
 
+    @property
+    def frames_read(self) -> int:
+        """Number of frames that the page has read."""
+        return sum(one.sent for one in self.sensors.values())
+
+    async def kill_tab(self) -> None:
+        """Kill the page as a system does that needs its memory; its connections end."""
+        await self.stop_reading()
+        with suppress(TimeoutError):  # who is killed does not answer
+            devtools = await self.view.tab.context.new_cdp_session(self.view.tab)
+            await asyncio.wait_for(devtools.send("Page.crash"), 1.0)
+        for address, one in self.sensors.items():
+            one.channels.clear()
+            await self._send("simulateGATTDisconnection", address=address)
+        await self._advertise()
+
+    async def stop_reading(self) -> None:
+        """End all reads; the devices send no more frames."""
+        for one in self.sensors.values():
+            await self._stop_reading(one)
+
+    async def _stop_reading(self, one: EmulatedSensor) -> None:
+        """End the last read: Chromium answers nothing any more if a connection ends while a request waits."""
+        await self.view.tab.evaluate(STOP_READING, one.device.name)
+        self._disconnect(one)
+
     async def lose(self, address: str) -> None:
         """Lose a connection, as by distance."""
-        self._disconnect(self.sensors[address])
+        one = self.sensors[address]
+        await self._stop_reading(one)
+        one.channels.clear()
         await self._send("simulateGATTDisconnection", address=address)
 
     async def _send(self, method: str, **values: Any) -> Any:
@@ -144,21 +185,24 @@ class WebBluetooth:
     async def _gatt(self, address: str, kind: str) -> None:
         one = self.sensors[address]
         if kind == "connection":
-            now = asyncio.get_running_loop().time()
-            one.device.connected(now, one.device.mtu)
-            one.connected = True
+            one.channels.clear()
+            one.subscribed.clear()
+            self._connect(one)
         elif kind == "discovery":
             await self._add_services(address, one)
         await self._send("simulateGATTOperationResponse", address=address, type=kind, code=0)
         if kind == "disconnection":
             self._disconnect(one)
 
+    def _connect(self, one: EmulatedSensor) -> None:
+        one.connected = True
+        one.device.connected(asyncio.get_running_loop().time(), one.device.mtu)
+
     def _disconnect(self, one: EmulatedSensor) -> None:
         if one.connected:
             one.connected = one.is_read = False
             one.device.disconnected(asyncio.get_running_loop().time())
         one.unread.clear()
-        one.channels.clear()
         one.arrived.set()
 
     async def _add_services(self, address: str, one: EmulatedSensor) -> None:
@@ -186,6 +230,10 @@ class WebBluetooth:
         one = next((one for one in self.sensors.values() if identifier in one.channels), None)
         if one is None:
             return
+        if not one.connected:  # Chromium keeps a connection that the page ends, and does not report the next one
+            self._connect(one)
+            for subscribed in one.subscribed:
+                one.device.subscribe(subscribed, True, asyncio.get_running_loop().time())
         channel, now, answer = one.channels[identifier], asyncio.get_running_loop().time(), b""
         code = 0
         try:
@@ -201,13 +249,12 @@ class WebBluetooth:
                     self._task(self.view.tab.evaluate(READ_FRAMES, [one.device.name, uuid]))
             elif kind == "subscribe-to-notifications":
                 one.device.subscribe(channel, True, now)
+                one.subscribed.add(channel)
             else:
                 one.device.subscribe(channel, False, now)
         except AttError as error:
             code = error.code
         response = {"data": b64encode(answer).decode()} if kind == "read" and code == 0 else {}
-        if not one.connected:
-            return
         await self._send(
             "simulateCharacteristicOperationResponse", characteristicId=identifier, type=kind, code=code, **response
         )
@@ -219,13 +266,24 @@ class WebBluetooth:
 
     async def _next_frame(self, one: EmulatedSensor) -> bytes:
         while not one.unread:
+            if not one.connected:
+                raise AttError(UNLIKELY_ERROR)
             one.arrived.clear()
             await one.arrived.wait()
-            if not one.connected:
-                raise AttError(0x0E)
         one.sent += 1
         return one.unread.popleft()
 
     async def _descriptor(self, identifier: str, kind: str) -> None:
         response = {"data": ""} if kind == "read" else {}
         await self._send("simulateDescriptorOperationResponse", descriptorId=identifier, type=kind, code=0, **response)
+
+
+@asynccontextmanager
+async def web_bluetooth(view: Window, devices: Iterable[Peripheral]) -> AsyncIterator[WebBluetooth]:
+    """Yield emulated devices that advertise to the page."""
+    radio = WebBluetooth(view, devices)
+    await radio.start()
+    try:
+        yield radio
+    finally:
+        await radio.stop()

@@ -6,6 +6,7 @@ import json
 import os
 import sys
 import traceback
+from collections.abc import Sequence
 from importlib import import_module
 from itertools import islice
 from pathlib import Path
@@ -46,9 +47,8 @@ def rehearse(demo: str, _: Any = None) -> list[str]:
     worker = Worker("0")
     worker.start_walk("a walk")
     worker.filters()
-    _connect(worker, packets)
-    frames = [packet for packet in packets if packet.channel in INSOLE.streams]
-    _send(worker, type="values", values=[[one.t, one.site.value, one.channel, one.data.hex()] for one in frames[:700]])
+    connect(worker, packets)
+    send_frames(worker, packets[:700])
     _send(worker, type="time", t=packets[-1].t + 3.0)
     worker.take_lines()
     worker.message()
@@ -68,7 +68,7 @@ def rehearse(demo: str, _: Any = None) -> list[str]:
     return sorted(_files())
 
 
-def _connect(worker: Worker, packets: list[Packet]) -> None:
+def connect(worker: Worker, packets: Sequence[Packet]) -> None:
     """Connect two insoles, whose values are those of the packets; their sites are also their addresses."""
     values = {(packet.site.value, packet.channel): packet.data.hex() for packet in packets}
     for device in {packet.site.value for packet in packets}:
@@ -79,6 +79,12 @@ def _connect(worker: Worker, packets: list[Packet]) -> None:
         while answers:
             value = values.get((device, answers[-1]["channel"]), "")
             answers = _send(worker, type="done", value=value, **about)
+
+
+def send_frames(worker: Worker, packets: Sequence[Packet]) -> None:
+    """Let the insoles send the frames of the packets."""
+    frames = [packet for packet in packets if packet.channel in INSOLE.streams]
+    _send(worker, type="values", values=[[one.t, one.site.value, one.channel, one.data.hex()] for one in frames])
 
 
 def _send(worker: Worker, **message: Any) -> Any:

@@ -1,7 +1,7 @@
 // The site's own controls: demonstration, files, walks on this device, report; what the page cannot do, in words.
 
 import { bluetoothWords } from "./abilities.js";
-import { addSensor } from "./bluetooth.js";
+import { addSensor, sensors } from "./bluetooth.js";
 import { computer } from "./computer.js";
 import "./live.js"; // it hears of a walk that goes on before anybody connects a sensor
 import { offer } from "./sharing.js";
@@ -70,7 +70,7 @@ async function report(name, title) {
 
 computer.on("walk", (walk) => {
   show(element("end"), walk !== null);
-  if (walk?.resumed) words("The walk goes on: connect the sensors again.");
+  if (walk?.resumed && sensors.size === 0) words("The walk goes on: connect the sensors again.");
   keepAwake("walk", walk !== null);
   if (walk !== null) show(element("report"), false);
 });

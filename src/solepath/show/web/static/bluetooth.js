@@ -13,7 +13,10 @@ computer.on("orders", (orders) => {
   for (const order of orders) if (order.device) sensors.get(order.device)?.take(order);
 });
 computer.on("walk", (walk) => {
-  if (walk === null) for (const sensor of sensors.values()) sensor.end();
+  for (const sensor of sensors.values()) {
+    if (walk === null) sensor.end();
+    else if (walk.resumed) sensor.reconnect(); // another worker goes on, which knows of no sensor
+  }
 });
 
 // Lets the person choose a sensor, and connects it; site is null for an insole, which knows its foot.
@@ -71,7 +74,6 @@ class Sensor {
 
   // Keeps the sensor connected until the walk ends.
   async run() {
-    send({ type: "add", device: this.#device.id, site: this.#site, address: "" });
     for (let pause = FIRST_PAUSE; !this.#ended; pause = Math.min(2 * pause, MAX_PAUSE)) {
       const began = performance.now();
       try {
@@ -84,6 +86,10 @@ class Sensor {
     }
     if (running()) this.#send({ type: "remove" });
     if (sensors.get(this.#device.id) === this) sensors.delete(this.#device.id);
+  }
+
+  reconnect() {
+    this.#device.gatt.disconnect();
   }
 
   end() {
@@ -114,6 +120,7 @@ class Sensor {
           characteristics.push([service.uuid, one.uuid, one.properties.notify || one.properties.indicate]);
         }
       if (!running()) return;
+      send({ type: "add", device: this.#device.id, site: this.#site, address: "" });
       this.#send({ type: "connected", name: this.#device.name ?? "", characteristics });
       this.#connected = true;
       if (server.connected) await lost;
