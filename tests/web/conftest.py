@@ -9,10 +9,12 @@ from time import monotonic, sleep
 import pytest
 
 from solepath.emulate import emulate
-from solepath.emulate.demo import SITE_ROUTE
+from solepath.emulate.routes.route import Route
 from solepath.show.web.pyodide import BuildError, node_program, package_files
 from solepath.show.web.site import build_site
 
+DEMO_ROUTE = Route().stand(1.0).walk(12.0).stop(1.0)
+"""Route of the demonstration of the site, shorter than that of `solepath web`."""
 MAX_BUILD_TIME = 180.0
 """Longest time for which a process waits for the site that another one builds, s."""
 
@@ -37,6 +39,6 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
             assert monotonic() < end, "the site is not built"
             sleep(0.1)
     else:
-        build_site(folder, emulate(SITE_ROUTE).packets)
+        build_site(folder, emulate(DEMO_ROUTE).packets)
         built.touch()
     return folder

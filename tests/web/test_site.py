@@ -31,7 +31,7 @@ async def test_the_demonstration_gives_the_strides_that_cpython_gives(chromium: 
             await view.until("solepath.state.playback.state === 'ended'", patience=PATIENCE)
             shown = await view.tab.evaluate("({ feet: solepath.state.feet, tracks: solepath.state.tracks })")
             for foot in ("left", "right"):
-                assert shown["feet"][foot]["strides"] == expected["frame"]["feet"][foot]["strides"] > 15
+                assert shown["feet"][foot]["strides"] == expected["frame"]["feet"][foot]["strides"] >= 4
                 assert shown["feet"][foot]["distance"] == expected["frame"]["feet"][foot]["distance"]
                 assert shown["tracks"][foot] == expected["tracks"][foot]
             await view.tab.locator("#report").click()

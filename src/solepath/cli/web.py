@@ -13,7 +13,6 @@ from typing import Any
 
 from ..recording import printable
 from .common.failure import Failure, address_error_text, note, parse_whole_number
-from .common.loop import stop_flag
 from .common.view import open_browser
 
 DEFAULT_PORT = 8766
@@ -88,6 +87,7 @@ def size_lines(files: Mapping[str, bytes]) -> list[str]:
 
 def _serve(folder: Path, options: argparse.Namespace) -> None:
     from ..show.web.serve import serving
+    from .common.loop import stop_flag
 
     port = DEFAULT_PORT if options.port is None else options.port
     with stop_flag() as stop_requested, ExitStack() as stack:
