@@ -79,6 +79,7 @@ def check(sizes: list[int], stride_counts: list[int]) -> None:
     assert min(stride_counts) >= 0.9 * max(stride_counts) > 30, "the walk did not go on"
 
 
+@pytest.mark.soak
 def test_a_session_of_two_insoles_is_as_large_after_three_minutes_as_after_one() -> None:
     check(*walk_on(Session(poses=True, pressures=True), 3))
 

@@ -87,6 +87,7 @@ def test_contacts_and_strides_are_those_of_the_vendor_of_the_insoles(evaluated: 
     assert found["stride_time_error_median"] <= 0.02
 
 
+@pytest.mark.soak
 def test_contacts_of_both_feet_are_found_in_spite_of_radio_losses(evaluated: Evaluated) -> None:
     _, summary = scores(evaluated, "ipol_10m_uturn")
     for kind in ("heel_strike", "toe_off"):

@@ -124,6 +124,7 @@ def test_the_table_shows_the_share_of_the_feet_with_a_report(outcome: DefectOutc
     assert row.startswith("| gyroscope x mirrored | 2 | 50.0 % |")
 
 
+@pytest.mark.soak
 def test_a_known_defect_of_a_data_set_is_neither_scored_nor_an_alarm(columns: Columns, tmp_path: Path) -> None:
     assert KNOWN["hugadb"] == {Defect.CLIPPED}
     clipped = columns | {"acc": np.clip(columns["acc"], -2.0 * GRAVITY, 2.0 * GRAVITY)}

@@ -288,13 +288,13 @@ async def stays_as_large(
         assert await view.tab.locator("#log > *").count() <= 50
 
 
+@pytest.mark.soak
 async def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(chromium: Browser) -> None:
     await stays_as_large(chromium, repeat_walk(square_walk(), 10.0 * MINUTE), (40.0, 80.0))
 
 
 @pytest.mark.soak
 def test_ten_minutes_in_real_time_leave_the_page_as_large_as_it_was(browser: Browsing) -> None:
-    """The insoles have 96 cells; there are eighteen thousand messages."""
     session = Session(poses=True, pressures=True)
     walk = ((packet, tuple(session.feed(packet))) for packet in walked(squares(15)))
     browser.run(lambda chromium: stays_as_large(chromium, walk), longest=15.0 * MINUTE)

@@ -67,13 +67,20 @@ async def knock(page: Page, peer: str, sent: bytes) -> Connection | None:
     return None
 
 
+QUICK = ("nothing", "a request")
+"""What idle connections have sent in the tests that always run; `-m soak` runs the others."""
+
+
 @several_addresses
 @pytest.mark.parametrize(
     ("peers", "sent"),
     [
-        *[pytest.param(PEERS[:1], sent, id=f"one peer, {name}") for name, sent in SENT.items()],
+        *[
+            pytest.param(PEERS[:1], sent, id=f"one peer, {name}", marks=[] if name in QUICK else [pytest.mark.soak])
+            for name, sent in SENT.items()
+        ],
         *[pytest.param(PEERS, SENT[name], id=f"several peers, {name}") for name in ("nothing", "many requests")],
-        *[pytest.param((OWNER,), SENT[name], id=f"the owner's own, {name}") for name in ("nothing", "a request")],
+        *[pytest.param((OWNER,), SENT[name], id=f"the owner's own, {name}") for name in QUICK],
     ],
 )
 async def test_idle_connections_and_reconnections_keep_nobody_out(peers: tuple[str, ...], sent: bytes) -> None:

@@ -62,8 +62,12 @@ class SessionState:
         for other_site, other_decoder in self.decoders.items():
             if other_site is not site and (other_items := other_decoder.advance(packet.t, kinds)):
                 self.use_items(other_site, other_items, events)
-        is_set_back = newest_arrival is not None and packet.t < newest_arrival
-        if self.now is None or packet.t > self.now or is_set_back:
+        if newest_arrival is not None and packet.t < newest_arrival:
+            self.now = packet.t  # a clock that one site shows to be set back is set back for all
+            for other_site, other in self.decoders.items():
+                if other_site is not site and other.newest_arrival is not None and other.newest_arrival > packet.t:
+                    self.use_items(other_site, other.restart_clock(packet.t), events)
+        if self.now is None or packet.t > self.now:
             self.now = packet.t
         if decoder.link is not None:
             until = decoder.link.unsettled_until

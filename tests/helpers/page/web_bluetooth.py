@@ -64,6 +64,8 @@ class WebBluetooth:
     ) -> None:
         self.view, self.stream, self.starts = view, stream, starts
         self.sensors = {device.address: EmulatedSensor(device) for device in devices}
+        self.reachable = True
+        """False while the devices are too far away for a connection."""
         self._tasks: set[asyncio.Task[None]] = set()
         self._devtools: Any = None
 
@@ -185,6 +187,8 @@ class WebBluetooth:
     async def _gatt(self, address: str, kind: str) -> None:
         one = self.sensors[address]
         if kind == "connection":
+            while not self.reachable:
+                await asyncio.sleep(0.01)
             one.channels.clear()
             one.subscribed.clear()
             self._connect(one)
