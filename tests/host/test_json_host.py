@@ -196,3 +196,23 @@ def test_the_document_names_every_message_of_both_directions() -> None:
 def table(text: str) -> set[str]:
     """Return the words in the first column of the tables of a document."""
     return {line.split("`")[1] for line in text.splitlines() if line.startswith("| `")}
+
+
+def test_a_right_insole_that_fails_at_first_does_not_take_the_place_of_the_left_one() -> None:
+    bench = Bench(ROUTE, seed=3)
+    one = shell(JsonHost().receive, [bench[RIGHT], bench[LEFT]])
+    for device in one.devices:
+        one.send({"type": "add", "device": device})
+    one.send({"type": "failed", "device": bench[RIGHT].address, "t": 0.0, "reason": "cannot connect"})
+    one.use(None, None)
+    one.run(WALK)
+    assert not one.events("PacketRejected")
+    assert {event["foot"] for event in one.events("StrideTaken")} == {"left", "right"}
+
+
+def test_an_error_says_which_message_it_is_about() -> None:
+    host = JsonHost()
+    add = {"type": "add", "device": "A", "site": "left_foot"}
+    [answer] = json.loads(host.receive(json.dumps([add, {**add, "device": "B"}])))
+    assert answer == {"type": "error", "of": "add", "device": "B", "reason": "two devices cannot be at one site"}
+    assert json.loads(host.receive("[[]]"))[0]["of"] is None

@@ -54,6 +54,10 @@ class HostDevice:
     setup: DeviceSetup | None = None
     recent: RecentTroubles = field(factory=RecentTroubles)
 
+    def packet(self, t: float, channel: str, data: bytes) -> Packet:
+        """Return a packet of the device, which names it from when its site is certain: a session binds a site to it."""
+        return Packet(t, self.member.site, channel, data, self.address if self.member.address else "")
+
 
 class Host:
     """A session that is fed by devices, each named by the address or identifier that the system has for it.
@@ -124,7 +128,7 @@ class Host:
         one = self._get(device)
         if one.setup is not None and one.setup.end is None:
             one.setup.add_notification(channel, now)
-            self._feed_packet(Packet(now, one.member.site, channel, data, one.address))
+            self._feed_packet(one.packet(now, channel, data))
 
     def report(self, device: str, now: float, sentence: str) -> None:
         """Feed a sentence on what failed: a connection or a request without an answer, for instance."""
@@ -172,7 +176,7 @@ class Host:
 
     def _feed(self, one: HostDevice, now: float, values: list[Value]) -> None:
         for channel, data in one.recent.leave_out(values, now):
-            self._feed_packet(Packet(now, one.member.site, channel, data, one.address))
+            self._feed_packet(one.packet(now, channel, data))
 
     def _feed_packet(self, packet: Packet) -> None:
         self.observe(packet, self.session.feed(packet))

@@ -56,14 +56,14 @@ class JsonHost:
         return json.dumps(messages, allow_nan=False, separators=(",", ":"))
 
     def _use(self, message: Any) -> None:
+        kind = message.get("type") if isinstance(message, dict) else None
+        if not isinstance(kind, str) or kind not in HANDLERS:
+            self._messages.append(_error("a message is an object with a known type"))
+            return
         try:
-            if not isinstance(message, dict) or message.get("type") not in HANDLERS:
-                raise ValueError("a message is an object with a known type")
-            HANDLERS[message["type"]](self, message)
-        except KeyError as error:
-            self._messages.append(_error(f"{message['type']}: {error.args[0]} is absent"))
+            HANDLERS[kind](self, _Fields(message))
         except ValueError as error:
-            self._messages.append(_error(str(error)))
+            self._messages.append(_error(str(error), kind, message.get("device")))
 
     def _observe(self, packet: Packet | None, events: list[Event]) -> None:
         if packet is not None and self._packets:
@@ -90,26 +90,22 @@ class JsonHost:
                 }
             )
 
-    def _scan(self, message: Message) -> None:
-        filters = [{"name": one.name, "prefix": one.prefix, "service": one.service} for one in scan_filters(PROFILES)]
-        self._messages.append({"type": "filters", "filters": filters, "services": [*used_services(PROFILES)]})
-
     def _add(self, message: Message) -> None:
         sites = {site.value: site for site in Site}
         address = message.get("address")
         if address is not None and (not isinstance(address, str) or not is_address(address)):
-            raise ValueError("add: address is no address of a device")
+            raise ValueError("address is no address of a device")
         site, profile = _choose(message, "site", sites), _choose(message, "profile", BY_NAME)
         self.host.add(_device(message), site, profile, address)
 
     def _connected(self, message: Message) -> None:
         characteristics, name, signal = message["characteristics"], message.get("name") or "", message.get("signal")
         if not isinstance(characteristics, list) or len(characteristics) > MAX_CHARACTERISTICS:
-            raise ValueError("connected: characteristics are a list")
+            raise ValueError("characteristics are a list")
         if not isinstance(name, str) or len(name) > MAX_NAME_LENGTH:
-            raise ValueError("connected: name is no name of a device")
+            raise ValueError("name is no name of a device")
         if signal is not None and (type(signal) is not int or not -127 <= signal <= 20):
-            raise ValueError("connected: signal is a whole number of dBm")
+            raise ValueError("signal is a whole number of dBm")
         found: dict[tuple[str, str], GattCharacteristic] = {}
         for one in characteristics:
             match one:
@@ -117,7 +113,7 @@ class JsonHost:
                     key = service.lower(), uuid.lower()
                     found.setdefault(key, GattCharacteristic(*key, can_notify))
                 case _:
-                    raise ValueError("connected: a characteristic is [service, UUID, can notify]")
+                    raise ValueError("a characteristic is [service, UUID, can notify]")
         self._command(self.host.connect(_device(message), name, found.values(), _time(message), signal))
 
     def _done(self, message: Message) -> None:
@@ -134,9 +130,9 @@ class JsonHost:
         for one in message["values"] if isinstance(message["values"], list) else [None]:
             match one:
                 case [float() | int() as t, str(device), str(channel), data]:
-                    values.append((device, channel, _time({"type": "values", "t": t}), _bytes(data)))
+                    values.append((device, channel, _time({"t": t}), _bytes(data)))
                 case _:
-                    raise ValueError("values: each is [t, device, channel, value]")
+                    raise ValueError("each is [t, device, channel, value]")
         for device in {device for device, _, _, _ in values}:
             self.host.check(device)
         for device, channel, arrival, value in values:
@@ -146,18 +142,32 @@ class JsonHost:
         self._messages.append({"type": "saved", "state": b64encode(self.host.session.pack()).decode()})
 
 
+def filters() -> Message:
+    """Return the message "filters": the conditions of a scan for the built-in devices, and their services."""
+    conditions = [{"name": one.name, "prefix": one.prefix, "service": one.service} for one in scan_filters(PROFILES)]
+    return {"type": "filters", "filters": conditions, "services": [*used_services(PROFILES)]}
+
+
 def _reject_constant(text: str) -> None:
     raise ValueError(f"{text} is no number")
 
 
-def _error(reason: str) -> Message:
-    return {"type": "error", "reason": reason}
+class _Fields(Message):
+    """The fields of a message; ValueError for one that is read and absent."""
+
+    def __missing__(self, key: str) -> Any:
+        raise ValueError(f"{key} is absent")
+
+
+def _error(reason: str, of: str | None = None, device: Any = None) -> Message:
+    about = {"device": device} if isinstance(device, str) else {}
+    return {"type": "error", "of": of, **about, "reason": reason}
 
 
 def _device(message: Message) -> str:
     device = message["device"]
     if not isinstance(device, str) or not device or not is_address(device):
-        raise ValueError(f"{message['type']}: device is no address of a device")
+        raise ValueError("device is no address of a device")
     return device
 
 
@@ -165,21 +175,21 @@ def _choose(message: Message, key: str, known: Mapping[str, T]) -> T | None:
     """Return what the text below `key` names; None when it is absent or null."""
     name = message.get(key)
     if name is not None and (not isinstance(name, str) or name not in known):
-        raise ValueError(f"{message['type']}: there is no {key} {name!r:.40}")
+        raise ValueError(f"there is no {key} {name!r:.40}")
     return None if name is None else known[name]
 
 
 def _time(message: Message) -> float:
     t = message["t"]
     if type(t) not in (int, float) or not -MAX_ARRIVAL_TIME <= t <= MAX_ARRIVAL_TIME:
-        raise ValueError(f"{message['type']}: t is a time in s")
+        raise ValueError("t is a time in s")
     return float(t)
 
 
 def _reason(message: Message) -> str:
     reason = message["reason"]
     if not isinstance(reason, str) or not reason:
-        raise ValueError(f"{message['type']}: reason is a sentence")
+        raise ValueError("reason is a sentence")
     return reason
 
 
@@ -193,7 +203,7 @@ def _bytes(text: Any) -> bytes:
 
 
 HANDLERS: dict[str, Callable[[JsonHost, Message], None]] = {
-    "scan": JsonHost._scan,
+    "scan": lambda json_host, message: json_host._messages.append(filters()),
     "add": JsonHost._add,
     "remove": lambda json_host, message: json_host.host.remove(_device(message)),
     "connected": JsonHost._connected,

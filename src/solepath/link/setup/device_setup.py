@@ -103,6 +103,7 @@ class DeviceSetup:
     """Record from which the site was read, until its turn among the values."""
     _queue: deque[Request] = field(factory=deque, init=False)
     _written: list[Value] = field(factory=list, init=False)
+    """Values that were written until the device was set up, which may let it be silent."""
     _values: list[Value] = field(factory=list, init=False)
     """Values that the running call will return."""
     _watchdog: Watchdog = field(factory=lambda: Watchdog((), 0.0, 0.0), init=False)
@@ -136,7 +137,8 @@ class DeviceSetup:
         elif request.operation is Operation.WRITE:
             written = (request.channel.name, request.value)
             self._values.append(written)
-            self._written.append(written)
+            if not self.is_listening:
+                self._written.append(written)
             self._queue.extendleft(reversed(self._reads(request.then_read)))
         self._advance(now)
         return self._take_values()

@@ -12,6 +12,7 @@ from ...floorplan.index import IndexedPlan
 from ...recording.packet_writer import format_packet
 from ...saving.codec import SnapshotError
 from ...session import Session
+from ...session.host import TICK_INTERVAL
 from ...session.json_host import JsonHost
 from ...types import Packet
 from ..page.scene.saved_scene import restore_scene, save_scene
@@ -20,8 +21,6 @@ from ..page.scene.scene import Scene
 
 CLOCK_TOLERANCE = 1.0
 """Time by which the clocks of two pages may differ although none was set, s; chosen by hand."""
-TICK = 0.2
-"""Time without a packet after which time passes all the same, s, as in `Host`."""
 
 
 @define
@@ -93,7 +92,7 @@ class LiveWalk:
     def replay(self, packet: Packet) -> None:
         """Feed a packet of a recording; time without packets passes as it did when the packet was received."""
         newest = self.session.now
-        if newest is not None and packet.t > newest + TICK:
+        if newest is not None and packet.t > newest + TICK_INTERVAL:
             self.advance(packet.t)
         self.scene.take(packet, self.session.feed(packet))
         self.count += 1

@@ -46,7 +46,7 @@ def rehearse(demo: str, _: Any = None) -> list[str]:
             writer.write(packet)
     worker = Worker("0")
     worker.start_walk("a walk")
-    worker.filters()
+    worker.sensor_filters()
     connect(worker, packets)
     send_frames(worker, packets[:700])
     _send(worker, type="time", t=packets[-1].t + 3.0)

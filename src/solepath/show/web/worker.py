@@ -19,7 +19,7 @@ from ...floorplan.plan import FloorPlanError
 from ...recording import RecordingError, read_packets
 from ...saving.codec import SnapshotError
 from ...session import Session
-from ...session.json_host import JsonHost
+from ...session.json_host import filters
 from ..page.messages import encode, parse_command
 from ..page.player.player import Player
 from ..page.scene.scales import newtons_of
@@ -101,9 +101,9 @@ class Worker:
         """Return the lines of the recording of the walk since the last call."""
         return b"" if self.walk is None else self.walk.take_lines()
 
-    def filters(self) -> str:
+    def sensor_filters(self) -> str:
         """Return the conditions under which a browser offers a device, as JSON."""
-        return JsonHost().receive('{"type": "scan"}')
+        return words_of_json(filters())
 
     def save(self) -> str | None:
         """Return the walk as JSON; None when there is nothing to save."""

@@ -20,7 +20,7 @@ const ready = (async () => {
   const walk = new Walk(python, files, post);
   await walk.resume();
   setInterval(() => guarded(() => frame(python)), FRAME_INTERVAL);
-  postMessage({ ready: JSON.parse(python.filters())[0] });
+  postMessage({ ready: JSON.parse(python.sensor_filters()) });
   await files.list();
   return { python, walk, files };
 })();
