@@ -12,7 +12,7 @@ from solepath.cli.main import main
 from solepath.show.web import pyodide
 from solepath.show.web.pyodide import BuildError, integrity_of, minimal_lock, node_program, package_files, registry
 from solepath.show.web.serve import serving
-from solepath.show.web.site import MARK, build_site
+from solepath.show.web.site import MARK, build_site, write_site
 
 
 @pytest.fixture
@@ -68,7 +68,30 @@ def test_a_folder_with_other_files_is_not_replaced(tmp_path: Path, capsys: pytes
         build_site(tmp_path, ())
     assert main(["web", str(tmp_path)]) == 2
     assert "no site that solepath wrote" in capsys.readouterr().err
-    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"] and MARK
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
+
+
+def test_a_new_build_replaces_its_own_files_and_leaves_those_that_a_person_added(tmp_path: Path) -> None:
+    def site(*names: str) -> dict[str, bytes]:
+        return {MARK: json.dumps({"files": [MARK, *names]}).encode()} | {name: b"new" for name in names}
+
+    write_site(tmp_path, site("a.js", "b.js"))
+    (tmp_path / "CNAME").write_text("gait.example")
+    (tmp_path / "c.js").write_text("mine")
+    with pytest.raises(BuildError, match="c.js: exists, and was not written by solepath"):
+        write_site(tmp_path, site("a.js", "c.js"))
+    assert (tmp_path / "c.js").read_text() == "mine" and (tmp_path / "b.js").exists()
+    write_site(tmp_path, site("a.js"))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["CNAME", "a.js", "c.js", MARK]
+
+
+def test_a_list_of_files_never_reaches_out_of_its_folder(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "mine.txt").write_text("mine")
+    names = [MARK, "", "..", "../mine.txt", str(tmp_path / "mine.txt")]
+    (tmp_path / "out" / MARK).write_text(json.dumps({"files": names}))
+    write_site(tmp_path / "out", {MARK: b"{}"})
+    assert (tmp_path / "mine.txt").exists()
 
 
 @pytest.mark.parametrize("arguments", [["web"], ["web", "out", "--port", "1"], ["web", "out", "--no-browser"]])

@@ -30,7 +30,7 @@ SHOWN = f"({{ strides: {STRIDES}, track: solepath.state.tracks.left }})"
 async def recorded(view: Window, folder: Path) -> tuple[Packet, ...]:
     """Return the packets of the recording of the walk that was ended."""
     await view.until("document.querySelectorAll('#walks li').length === 1")
-    name = (await view.tab.evaluate("document.querySelector('.walk-name').textContent")).partition(",")[0]
+    name = (await view.tab.evaluate("document.querySelector('#walks .row-name').textContent")).partition(",")[0]
     text = await view.tab.evaluate(f"computer.call('get', '{name}.jsonl').then((file) => file.text())")
     path = folder / "walk.jsonl"
     path.write_text(text)

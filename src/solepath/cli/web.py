@@ -33,7 +33,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath web site --serve",
     )
     command.add_argument(
-        "out", metavar="OUT", type=Path, nargs="?", help="folder of the site; an earlier one is replaced"
+        "out", metavar="OUT", type=Path, nargs="?", help="folder of the site; files of an earlier one are replaced"
     )
     command.add_argument("--serve", action="store_true", help="show the site on this machine")
     command.add_argument(

@@ -32,7 +32,7 @@ OWN_PACKAGES = ("solepath", "attr", "attrs", "construct")
 """Packages that go to the site, as far as they are used."""
 LIBRARY, DEMO, WORKER_LIST = "python.zip.gz", "demo.jsonl.gz", "sw.js"
 MARK = "site.json"
-"""File of the site that says what it is; a folder with it is replaced."""
+"""File of the site that says what it is and lists its files, which the next build replaces."""
 EPOCH = (1980, 1, 1, 0, 0, 0)
 """Date of all files in an archive: the earliest that a zip file can have."""
 HEAD, CONTROLS = "</head>", "</header>"
@@ -45,8 +45,7 @@ def build_site(out: Path, demo: Iterable[Packet]) -> dict[str, bytes]:
     """Build the site with a recording to show; return its files by name, after writing them to the folder `out`.
 
     BuildError is raised, with one sentence, when Pyodide or node is missing or fails, or for another folder's files."""
-    if out.exists() and (not out.is_dir() or (any(out.iterdir()) and not (out / MARK).is_file())):
-        raise BuildError(f"{out}: exists and is no site that solepath wrote")
+    earlier_files(out)
     package = package_files()
     with TemporaryDirectory() as directory:
         build = Path(directory)
@@ -60,14 +59,37 @@ def build_site(out: Path, demo: Iterable[Packet]) -> dict[str, bytes]:
     files |= {path.name: path.read_bytes() for folder in (PAGE, HERE / "static") for path in sorted(folder.iterdir())}
     fragments = {name: files.pop(f"{name}.html").decode() for name in ("head", "controls")}
     files["index.html"] = _index(files["index.html"].decode(), **fragments).encode()
-    files[MARK] = json.dumps({"solepath": version("solepath"), "pyodide": VERSION}).encode()
+    mark = {"solepath": version("solepath"), "pyodide": VERSION, "files": sorted([*files, MARK])}
+    files[MARK] = json.dumps(mark).encode()
     files[WORKER_LIST] = _with_list(files)
-    if out.is_dir():
-        shutil.rmtree(out)
-    out.mkdir(parents=True)
+    write_site(out, files)
+    return files
+
+
+def earlier_files(out: Path) -> frozenset[str]:
+    """Return the names of the files that an earlier build wrote to a folder; BuildError if it holds something else."""
+    if not out.exists() or (out.is_dir() and not any(out.iterdir())):
+        return frozenset()
+    try:
+        names = json.loads((out / MARK).read_bytes())["files"]
+        return frozenset(name for name in names if Path(name).name == name and (out / name).is_file())
+    except (OSError, ValueError, KeyError, TypeError):
+        raise BuildError(f"{out}: exists and is no site that solepath wrote") from None
+
+
+def write_site(out: Path, files: Mapping[str, bytes]) -> None:
+    """Write the files of a site; of an earlier one the files are replaced or deleted, and others are left alone.
+
+    BuildError is raised, and nothing is changed, when another file has a name that the site needs."""
+    earlier = earlier_files(out)
+    for name in sorted(files.keys() - earlier):
+        if (out / name).exists():
+            raise BuildError(f"{out / name}: exists, and was not written by solepath")
+    out.mkdir(parents=True, exist_ok=True)
+    for name in earlier - files.keys():
+        (out / name).unlink(missing_ok=True)
     for name, data in files.items():
         (out / name).write_bytes(data)
-    return files
 
 
 def compressed_size(data: bytes) -> int:

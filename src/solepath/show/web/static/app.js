@@ -11,7 +11,6 @@ import { child, show, write } from "./words.js";
 const element = (id) => document.getElementById(id);
 const words = (text) => write(element("site-words"), text);
 let shown = ""; // name of what is played
-let walks = [];
 
 async function act(what) {
   words("");
@@ -74,10 +73,9 @@ computer.on("walk", (walk) => {
   keepAwake("walk", walk !== null);
   if (walk !== null) show(element("report"), false);
 });
-computer.on("walks", (list) => {
-  walks = list;
+computer.on("walks", (walks) => {
   element("walks").replaceChildren();
-  for (const { name, size } of walks) row(name, size);
+  for (const { name, size } of walks) walkRow(name, size);
   show(element("walks-part"), walks.length > 0);
 });
 computer.on("words", words);
@@ -90,25 +88,36 @@ computer.on("state", (state) => {
   for (const button of element("site").querySelectorAll("button")) button.disabled = state !== "ready";
 });
 
-function row(name, size) {
-  const item = child(element("walks"), "li");
-  write(child(item, "span", "walk-name"), `${name.replace(/\.jsonl$/, "")}, ${(size / 1_000_000).toFixed(1)} MB`);
-  const button = (label, what) => {
-    const one = child(item, "button");
-    one.type = "button";
-    write(one, label);
-    one.setAttribute("aria-label", `${label} ${name}`);
-    one.addEventListener("click", () => act(what));
-  };
-  button("Play", async () => {
-    await computer.call("open", await computer.call("get", name));
-    played(name);
+computer.on("sensors", (sensors) => {
+  element("sensors").replaceChildren();
+  for (const sensor of sensors.values()) row("sensors", sensor.name, sensor.name, { Disconnect: () => sensor.end() });
+});
+
+function walkRow(name, size) {
+  row("walks", name, `${name.replace(/\.jsonl$/, "")}, ${(size / 1_000_000).toFixed(1)} MB`, {
+    Play: async () => {
+      await computer.call("open", await computer.call("get", name));
+      played(name);
+    },
+    Report: () => report(name, name),
+    Share: async () => offer(await computer.call("get", name)),
+    Delete: async () => {
+      if (confirm(`Delete ${name} from this device for ever?`)) await computer.call("remove", name);
+    },
   });
-  button("Report", () => report(name, name));
-  button("Share", async () => offer(await computer.call("get", name)));
-  button("Delete", async () => {
-    if (confirm(`Delete ${name} from this device for ever?`)) await computer.call("remove", name);
-  });
+}
+
+// Adds a line to a list, with a button for each action.
+function row(list, name, text, actions) {
+  const item = child(element(list), "li");
+  write(child(item, "span", "row-name"), text);
+  for (const [label, what] of Object.entries(actions)) {
+    const button = child(item, "button");
+    button.type = "button";
+    write(button, label);
+    button.setAttribute("aria-label", `${label} ${name}`);
+    button.addEventListener("click", () => act(what));
+  }
 }
 
 show(element("connect-part"), bluetoothWords() === "");

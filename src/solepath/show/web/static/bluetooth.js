@@ -30,10 +30,9 @@ export async function addSensor(site) {
     throw new Error(chooserWords(error));
   }
   await startWalk();
-  sensors.get(device.id)?.end();
-  const sensor = new Sensor(device, site);
-  sensors.set(device.id, sensor);
-  sensor.run();
+  await sensors.get(device.id)?.end();
+  sensors.set(device.id, new Sensor(device, site));
+  computer.emit("sensors", sensors);
 }
 
 function filterOf({ name, prefix, service }) {
@@ -50,6 +49,7 @@ function chooserWords(error) {
   return `No sensor can be chosen: ${words}`;
 }
 
+// A sensor that is connected again and again until it is ended, or the walk is.
 class Sensor {
   #device;
   #site;
@@ -57,10 +57,13 @@ class Sensor {
   #ended = false;
   #connected = false; // the worker knows of a connection
   #requests = Promise.resolve();
+  #stopPause = () => {};
+  #run;
 
   constructor(device, site) {
     this.#device = device;
     this.#site = site;
+    this.#run = this.#stayConnected();
   }
 
   get name() {
@@ -72,8 +75,34 @@ class Sensor {
     return this.#characteristics;
   }
 
-  // Keeps the sensor connected until the walk ends.
-  async run() {
+  reconnect() {
+    this.#add();
+    this.#device.gatt.disconnect();
+    this.#stopPause();
+  }
+
+  // Returns when the connection has ended and the worker knows of it.
+  end() {
+    this.#ended = true;
+    this.#device.gatt.disconnect();
+    this.#stopPause();
+    return this.#run;
+  }
+
+  take(order) {
+    if (order.type === "disconnect") {
+      if (order.wrong) this.#ended = true;
+      this.#device.gatt.disconnect();
+    } else if (order.type === "error" && order.of === "add") {
+      computer.emit("words", `${this.name} cannot be added: ${order.reason}. Disconnect another one first.`);
+      this.end();
+    } else if (["read", "subscribe", "write"].includes(order.type)) {
+      this.#requests = this.#requests.then(() => this.#do(order));
+    }
+  }
+
+  async #stayConnected() {
+    this.#add();
     for (let pause = FIRST_PAUSE; !this.#ended; pause = Math.min(2 * pause, MAX_PAUSE)) {
       const began = performance.now();
       try {
@@ -82,33 +111,21 @@ class Sensor {
         if (running() && !this.#ended) this.#send({ type: "failed", reason: `cannot connect: ${error.message}` });
       }
       if (performance.now() - began > MAX_PAUSE) pause = FIRST_PAUSE;
-      if (!this.#ended) await new Promise((resolve) => setTimeout(resolve, pause));
+      if (!this.#ended) await new Promise((resolve) => ((this.#stopPause = resolve), setTimeout(resolve, pause)));
     }
     if (running()) this.#send({ type: "remove" });
-    if (sensors.get(this.#device.id) === this) sensors.delete(this.#device.id);
+    sensors.delete(this.#device.id);
+    computer.emit("sensors", sensors);
   }
 
-  reconnect() {
-    this.#device.gatt.disconnect();
-  }
-
-  end() {
-    this.#ended = true;
-    this.#device.gatt.disconnect();
-  }
-
-  take(order) {
-    if (order.type === "disconnect") {
-      if (order.wrong) this.#ended = true;
-      this.#device.gatt.disconnect();
-    } else if (["read", "subscribe", "write"].includes(order.type)) {
-      this.#requests = this.#requests.then(() => this.#do(order));
-    }
+  // Adding twice does nothing.
+  #add() {
+    if (running()) send({ type: "add", device: this.#device.id, site: this.#site, address: "" });
   }
 
   async #use() {
-    const lost = new Promise((resolve) => this.#device.addEventListener("gattserverdisconnected", resolve, { once: true }));
     const server = await this.#device.gatt.connect();
+    const lost = new Promise((resolve) => this.#device.addEventListener("gattserverdisconnected", resolve, { once: true }));
     try {
       const characteristics = [];
       this.#characteristics.clear();
@@ -119,9 +136,8 @@ class Sensor {
           this.#characteristics.set(key, one);
           characteristics.push([service.uuid, one.uuid, one.properties.notify || one.properties.indicate]);
         }
-      if (!running()) return;
-      send({ type: "add", device: this.#device.id, site: this.#site, address: "" });
-      this.#send({ type: "connected", name: this.#device.name ?? "", characteristics });
+      if (!running() || this.#ended) return;
+      this.#send({ type: "connected", name: this.name, characteristics });
       this.#connected = true;
       if (server.connected) await lost;
     } finally {

@@ -17,7 +17,7 @@ class Computer {
     setInterval(() => this.#watch(), 1000);
   }
 
-  // kinds: "text" of a message for the page, "state", "walk", "walks", "words", "progress", "orders"
+  // kinds: "text" of a message for the page, "state", "walk", "walks", "words", "progress", "orders", "sensors"
   on(kind, listener) {
     this.#listeners.push({ kind, listener });
   }
@@ -60,7 +60,7 @@ class Computer {
       this.#set("ready");
     }
     else if (kind === "failed") this.#die(value);
-    else this.#emit(kind, value);
+    else this.emit(kind, value);
   }
 
   #die(reason) {
@@ -74,10 +74,10 @@ class Computer {
   #set(state) {
     this.state = state;
     this.#silence = 0;
-    this.#emit("state", state);
+    this.emit("state", state);
   }
 
-  #emit(kind, value) {
+  emit(kind, value) {
     for (const one of this.#listeners) if (one.kind === kind) one.listener(value);
   }
 
