@@ -210,7 +210,7 @@ def test_a_right_insole_that_fails_at_first_does_not_take_the_place_of_the_left_
     assert {event["foot"] for event in one.events("StrideTaken")} == {"left", "right"}
 
 
-def test_an_error_says_which_message_it_is_about() -> None:
+def test_an_error_names_the_message_and_its_device() -> None:
     host = JsonHost()
     add = {"type": "add", "device": "A", "site": "left_foot"}
     [answer] = json.loads(host.receive(json.dumps([add, {**add, "device": "B"}])))
