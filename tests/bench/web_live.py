@@ -1,9 +1,12 @@
 """Measures a live walk on the site of `solepath web` in Chromium: `python tests/bench/web_live.py`.
 
 Two insoles of 96 cells at 100 Hz come in real time, for a minute or `--minutes N`, into a window of 360 px that is
-drawn all the while. Printed are the delay from the arrival of a frame in the page until its events are computed, the
-processor time of the page's process, and the memory of the page's scripts at the start and at the end. The frames come
-from a script of the page, not over Bluetooth: what the radio and the browser's Bluetooth add is not measured."""
+drawn all the while, and then as long into the page while it is hidden. Printed are the delay from the arrival of a
+frame in the page until its events are computed; the processor time of the worker, which is all that solepath
+computes, and of the page, which is its scripts and drawing; and the memory of both at the start and at the end. The
+frames come from a script of the page, whose time counts as the page's, and not over Bluetooth: what the radio and the
+browser's Bluetooth add is not measured. The page is not hidden, but believes that it is. Times and memory of processes
+are those that Linux has (/proc)."""
 
 from __future__ import annotations
 
@@ -11,13 +14,14 @@ import argparse
 import asyncio
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 sys.path[:0] = [str(Path(__file__).parents[1] / "helpers" / folder) for folder in ("", "page")]
 
-from browsers import Browser, browsing, why_not  # noqa: E402
+from browsers import Browser, Window, browsing, why_not  # noqa: E402
 from web_pages import PATIENCE, open_site  # noqa: E402
 
 from solepath.emulate import Route, emulate  # noqa: E402
@@ -48,15 +52,15 @@ CONNECT = """async (characteristics) => {
 """Lets two insoles connect whose values are those of the demonstration; their sites are also their identifiers."""
 WALK = """async ({ seconds, stream }) => {
     const { clock, notified, bytes } = await import('./live.js');
-    const frames = rows.filter(({ channel }) => channel === stream);
-    const start = clock() - frames[0].t;
-    let next = 0;
-    while (clock() - start < seconds && next < frames.length) {
-        for (; next < frames.length && frames[next].t <= clock() - start; next += 1)
-            notified(frames[next].site, stream, new DataView(bytes(frames[next].data).buffer));
+    globalThis.sent ??= rows.filter(({ channel }) => channel === stream);
+    globalThis.next ??= 0;
+    const began = next, start = clock() - sent[next].t, first = sent[next].t;
+    while (clock() - start < first + seconds && next < sent.length) {
+        for (; next < sent.length && sent[next].t <= clock() - start; next += 1)
+            notified(sent[next].site, stream, new DataView(bytes(sent[next].data).buffer));
         await new Promise((resolve) => setTimeout(resolve, 1));
     }
-    return next;
+    return next - began;
 }"""
 MEASURE = """(began) => {
     const handle = self.onmessage;
@@ -68,41 +72,78 @@ MEASURE = """(began) => {
             if (message.type === 'values') for (const [t] of message.values) self.delays.push(1000 * (now - t));
     };
 }"""
+HIDE = """() => {
+    Object.defineProperty(document, 'hidden', { get: () => true });
+    document.dispatchEvent(new Event('visibilitychange'));
+}"""
+WARM_UP = 5.0
+"""Time of the walk before anything is measured, s: everything is loaded and compiled then."""
 DELAYS = "() => self.delays.sort((one, other) => one - other)"
 
 
-async def processor_time(devtools: Any) -> float:
-    """Return the processor time of all renderers of the browser, s."""
-    processes = (await devtools.send("SystemInfo.getProcessInfo"))["processInfo"]
-    return sum(one["cpuTime"] for one in processes if one["type"] == "renderer")
+def renderers() -> Iterator[Path]:
+    """Yield the folders in /proc of the processes that show pages."""
+    for process in Path("/proc").iterdir():
+        with suppress(OSError):  # a process that has just ended
+            if process.name.isdigit() and b"--type=renderer" in (process / "cmdline").read_bytes():
+                yield process
+
+
+def processor_times() -> dict[str, float]:
+    """Return the processor time of the workers and of all else of the browser's renderers, s."""
+    times = {"worker": 0.0, "page": 0.0}
+    for process in renderers():
+        for thread in (process / "task").iterdir():
+            words = (thread / "stat").read_text().rpartition(")")[2].split()
+            who = "worker" if (thread / "comm").read_text().startswith("DedicatedWorker") else "page"
+            times[who] += sum(map(int, words[11:13])) / os.sysconf("SC_CLK_TCK")  # utime, stime: proc(5)
+    return times
+
+
+async def memory(view: Window) -> str:
+    """Return how much the page's scripts hold after a garbage collection, and its process with the worker in it."""
+    heap, _ = await view.memory()
+    resident = sum(int((process / "statm").read_text().split()[1]) for process in renderers())
+    return (
+        f"scripts of the page {heap / 1e6:.1f} MB, whole process {resident * os.sysconf('SC_PAGE_SIZE') / 1e6:.0f} MB"
+    )
+
+
+async def walk(view: Window, seconds: float) -> None:
+    """Let both insoles send for a time, and print what it cost."""
+    [worker] = view.tab.workers
+    await worker.evaluate("() => { self.delays = []; }")
+    before, frames = processor_times(), await view.tab.evaluate("solepath.frames")
+    fed = await view.tab.evaluate(WALK, {"seconds": seconds, "stream": INSOLE.streams[0]})
+    after, frames = processor_times(), await view.tab.evaluate("solepath.frames") - frames
+    await asyncio.sleep(0.5)
+    delays = await worker.evaluate(DELAYS)
+    print(f"  {fed} frames of sensors in {seconds:.0f} s, {frames / seconds:.0f} pictures a second")
+    print(
+        f"  from arrival to events: median {delays[len(delays) // 2]:.1f} ms, "
+        f"p99 {delays[int(0.99 * len(delays))]:.1f} ms, at most {delays[-1]:.1f} ms"
+    )
+    shares = {who: 100.0 * (after[who] - before[who]) / seconds for who in before}
+    print(f"  processor time: worker {shares['worker']:.0f} %, page {shares['page']:.0f} % of one core")
 
 
 async def measure(chromium: Browser, folder: Path, seconds: float) -> None:
     characteristics = [[one.service, one.characteristic, one.access is Access.NOTIFY] for one in INSOLE.channels]
-    browser = await chromium.new_browser_cdp_session()
     with serving(folder) as url:
         async with open_site(chromium, url) as view:
             await view.tab.evaluate(CONNECT, characteristics)
             await view.until("Object.keys(solepath.state.links).length === 2", patience=PATIENCE)
-            [worker] = view.tab.workers
-            await worker.evaluate(MEASURE, await view.tab.evaluate("began"))
-            await view.tab.evaluate(WALK, {"seconds": 5.0, "stream": INSOLE.streams[0]})  # everything is loaded now
-            await worker.evaluate("() => { self.delays = []; }")
-            heap, _ = await view.memory()
-            used, frames = await processor_time(browser), await view.tab.evaluate("solepath.frames")
-            fed = await view.tab.evaluate(WALK, {"seconds": seconds, "stream": INSOLE.streams[0]})
-            used, frames = await processor_time(browser) - used, await view.tab.evaluate("solepath.frames") - frames
-            await asyncio.sleep(0.5)
-            delays = await worker.evaluate(DELAYS)
-            later, _ = await view.memory()
+            await view.tab.workers[0].evaluate(MEASURE, await view.tab.evaluate("began"))
+            await view.tab.evaluate(WALK, {"seconds": WARM_UP, "stream": INSOLE.streams[0]})
+            print(f"the page is seen:\n  memory at first: {await memory(view)}")
+            await walk(view, seconds)
+            print(f"  memory at the end: {await memory(view)}")
             strides = await view.tab.evaluate("['left', 'right'].map((foot) => solepath.state.feet[foot].strides)")
-    print(f"{fed} frames in {seconds:.0f} s, {frames / seconds:.0f} pictures a second, strides {strides}")
-    print(
-        f"from arrival to events: median {delays[len(delays) // 2]:.1f} ms, "
-        f"p99 {delays[int(0.99 * len(delays))]:.1f} ms, at most {delays[-1]:.1f} ms"
-    )
-    print(f"processor time of the page: {100.0 * used / seconds:.0f} % of one core")
-    print(f"memory of the page's scripts: {heap / 1e6:.1f} MB at first, {later / 1e6:.1f} MB at the end")
+            print(f"  strides {strides}")
+            await view.tab.evaluate(HIDE)
+            print("the page is hidden:")
+            await walk(view, seconds)
+            print(f"  memory at the end: {await memory(view)}")
 
 
 def main() -> int:
@@ -116,8 +157,8 @@ def main() -> int:
     print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}")
     with TemporaryDirectory() as directory, browsing() as browser:
         site = Path(directory, "site")
-        build_site(site, emulate(Route().stand(2.0).walk(SPEED * (seconds + 10.0), SPEED).stop(1.0)).packets)
-        browser.run(lambda chromium: measure(chromium, site, seconds), seconds + 2.0 * MINUTE)
+        build_site(site, emulate(Route().stand(2.0).walk(SPEED * (2.0 * seconds + 10.0), SPEED).stop(1.0)).packets)
+        browser.run(lambda chromium: measure(chromium, site, seconds), 2.0 * (seconds + MINUTE))
     return 0
 
 

@@ -2,7 +2,10 @@
 
 import { computer } from "./computer.js";
 
-const BATCH_TIME = 8; // ms; what comes within this time goes to the worker together
+// What comes within this time goes to the worker together, ms. Each time that the worker wakes up costs as much as some
+// packets (docs/web.md), so nobody pays for quick pictures while nobody looks.
+const BATCH_TIME = 8;
+const HIDDEN_BATCH_TIME = 100;
 const TICK = 200; // ms between two messages that say nothing but the time
 
 const now = () => (performance.timeOrigin + performance.now()) / 1000;
@@ -50,8 +53,9 @@ export const bytes = (text) => Uint8Array.from(text.match(/../g) ?? [], (two) =>
 
 function flush() {
   // not by the timer alone: in a page that is hidden it runs once a second
-  if (performance.now() - sentAt >= BATCH_TIME) post();
-  else timer ||= setTimeout(post, BATCH_TIME);
+  const time = document.hidden ? HIDDEN_BATCH_TIME : BATCH_TIME;
+  if (performance.now() - sentAt >= time) post();
+  else timer ||= setTimeout(post, time);
 }
 
 function post() {

@@ -5,6 +5,7 @@ import { openRecording, storageWords } from "./recording.js";
 import { store } from "./store.js";
 
 const SAVE_INTERVAL = 60; // s
+const WRITE_INTERVAL = 100; // ms between two writes of the recording: each is a message to the browser that is waited for
 const TICK = 1000; // ms between two looks at the clock
 const LOCK = "solepath walk";
 const LOCK_WAIT = 2000; // ms; a tab that was just killed may hold the lock a moment longer
@@ -17,6 +18,7 @@ export class Walk {
   #recording = null;
   #record = null; // what the store has of this walk
   #savedAt = 0;
+  #writtenAt = 0;
   #alone = false; // no other tab measures
 
   constructor(python, files, post) {
@@ -63,10 +65,8 @@ export class Walk {
     if (!this.running) return [];
     const answers = JSON.parse(this.#python.receive(JSON.stringify(messages)));
     const lines = this.#python.takeLines();
-    if (this.#recording !== null && lines.length > 0) {
-      this.#recording.add(lines);
-      this.#flush();
-    }
+    if (lines.length > 0) this.#recording?.add(lines);
+    if (performance.now() - this.#writtenAt >= WRITE_INTERVAL) this.#flush();
     return answers;
   }
 
@@ -140,6 +140,7 @@ export class Walk {
   }
 
   #flush() {
+    this.#writtenAt = performance.now();
     const words = this.#recording?.flush();
     if (words) this.#post({ words });
   }

@@ -5,11 +5,12 @@ import { Problem, Python } from "./python.js";
 import { Walk } from "./walk.js";
 
 const FRAME_INTERVAL = 33; // ms
+const MIN_FRAME_TIME = 0.03; // s between two frames
 const HEARTBEAT_INTERVAL = 1000; // ms
 const BUDGET = 0.03; // s for which a recording is computed at once
 
 let seen = true;
-let sentAt = 0;
+let sentAt = 0; // ms, of the newest message for the page
 let playedAt = performance.now();
 let calls = Promise.resolve();
 
@@ -28,7 +29,7 @@ ready.catch(failed);
 
 onmessage = async ({ data }) => {
   const parts = await ready;
-  if (data.sensors) guarded(() => orders(parts.walk.receive(data.sensors)));
+  if (data.sensors) guarded(() => receive(parts, data.sensors));
   else if (data.command) guarded(() => parts.python.command(data.command));
   else if ("seen" in data) {
     seen = data.seen;
@@ -36,9 +37,11 @@ onmessage = async ({ data }) => {
   } else if (data.call) calls = calls.then(() => answer(parts, data)).catch(failed);
 };
 
-// Passes on what the page has to do with sensors.
-function orders(answers) {
-  if (answers.length > 0) postMessage({ orders: answers });
+// Takes messages on sensors, passes on what the page has to do with them, and draws at once: to wake up costs as much.
+function receive({ python, walk }, messages) {
+  const orders = walk.receive(messages);
+  if (orders.length > 0) postMessage({ orders });
+  frame(python);
 }
 
 async function answer({ walk, files }, { call, values, id }) {
@@ -58,6 +61,7 @@ const FILE_CALLS = { demo: 1, open: 1, report: 1, get: 1, remove: 1 };
 function frame(python) {
   const now = performance.now();
   const passed = (now - playedAt) / 1000;
+  if (passed < MIN_FRAME_TIME) return;
   playedAt = now;
   if (!seen) return;
   python.play(passed, BUDGET);
