@@ -5,7 +5,8 @@ before the first item, its floor plan and its items, with floats in hexadecimal.
 environment with attrs and construct alone, restores the sessions, feeds the items one by one, and prints a hash of the
 events and of the snapshots in the middle and at the end. Pythons are those on PATH, and those that pyenv and uv have
 installed. `--pyodide 0.27.7 0.29.4` adds Pyodide, CPython for WebAssembly, of these versions: npm fetches it, and node
-runs it. It has another C library, so its last bits may differ; then the largest difference of a number is printed."""
+runs it. It has another C library, so its last bits may differ; then the largest difference of a number is printed.
+`--recordings FILE ...` compares sessions with poses on recorded samples (.csv, .npz) instead of emulated walks."""
 
 from __future__ import annotations
 
@@ -125,6 +126,17 @@ def emulated_walks() -> list[dict[str, Any]]:
     return walks
 
 
+def recorded_walks(files: list[Path]) -> list[dict[str, Any]]:
+    """Return sessions of the default recipe on recorded samples as plain data."""
+    from solepath import Session
+    from solepath.recording.samples import load_samples
+
+    state = Session(poses=True).snapshot()
+    return [
+        {"name": str(file), "state": state, "plan": None, "items": write_items(load_samples(file))} for file in files
+    ]
+
+
 def installed_pythons() -> dict[str, str]:
     """Return the programs of the Pythons on this machine, from 3.11 on, by name and version."""
     names = [shutil.which(f"python3.{minor}") for minor in MINORS]
@@ -198,6 +210,7 @@ def main() -> int:
     """Run the command and return its exit status."""
     parser = argparse.ArgumentParser(description="Compares the events of sessions on all Pythons of this machine.")
     parser.add_argument("--pyodide", nargs="+", default=[], metavar="RELEASE", help="releases of Pyodide to add")
+    parser.add_argument("--recordings", nargs="+", default=[], type=Path, metavar="FILE", help="recorded samples")
     parser.add_argument("--run", metavar="WALKS", help=argparse.SUPPRESS)
     parser.add_argument("--results", help=argparse.SUPPRESS)
     chosen = parser.parse_args()
@@ -211,7 +224,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as directory:
         folder = Path(directory)
         walks = folder / "walks.json"
-        walks.write_text(json.dumps(emulated_walks()))
+        walks.write_text(json.dumps(recorded_walks(chosen.recordings) if chosen.recordings else emulated_walks()))
         print(f"{'Python':24}{'platform':14}{'sessions':>9}{'events':>9}  hash of events and snapshots")
         for number, (name, platform, runner, what) in enumerate(runs):
             place, results = folder / str(number), folder / f"results{number}.json"

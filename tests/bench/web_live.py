@@ -22,46 +22,16 @@ from tempfile import TemporaryDirectory
 sys.path[:0] = [str(Path(__file__).parents[1] / "helpers" / folder) for folder in ("", "page")]
 
 from browsers import Browser, Window, browsing, why_not  # noqa: E402
-from web_pages import PATIENCE, open_site  # noqa: E402
+from scripted_insoles import STREAM, WALK, connect  # noqa: E402
+from web_pages import open_site  # noqa: E402
 
 from solepath.emulate import Route, emulate  # noqa: E402
-from solepath.link.devices.insole import PROFILE as INSOLE  # noqa: E402
-from solepath.link.profile import Access  # noqa: E402
 from solepath.show.web.serve import serving  # noqa: E402
 from solepath.show.web.site import build_site  # noqa: E402
 
 MINUTE = 60.0
 SPEED = 1.3
 """Walking speed, m/s."""
-CONNECT = """async (characteristics) => {
-    const live = await import('./live.js'), { unpacked } = await import('./unpack.js');
-    const text = new TextDecoder().decode(await unpacked(await (await fetch('demo.jsonl.gz')).blob()));
-    globalThis.rows = text.trim().split('\\n').slice(1).map(JSON.parse);
-    const value = (device, channel) => rows.find((row) => row.site === device && row.channel === channel)?.data ?? '';
-    computer.on('orders', (orders) => orders.forEach(({ type, device, channel }) => {
-        if (['read', 'subscribe', 'write'].includes(type))
-            live.send({ type: 'done', device, t: live.clock(), value: type === 'read' ? value(device, channel) : '' });
-    }));
-    computer.on('walk', (walk) => (globalThis.began = walk.began));
-    await live.startWalk('A walk');
-    for (const device of ['left_foot', 'right_foot']) {
-        live.send({ type: 'add', device });
-        live.send({ type: 'connected', device, t: live.clock(), name: device, characteristics });
-    }
-}"""
-"""Lets two insoles connect whose values are those of the demonstration; their sites are also their identifiers."""
-WALK = """async ({ seconds, stream }) => {
-    const { clock, notified, bytes } = await import('./live.js');
-    globalThis.sent ??= rows.filter(({ channel }) => channel === stream);
-    globalThis.next ??= 0;
-    const began = next, start = clock() - sent[next].t, first = sent[next].t;
-    while (clock() - start < first + seconds && next < sent.length) {
-        for (; next < sent.length && sent[next].t <= clock() - start; next += 1)
-            notified(sent[next].site, stream, new DataView(bytes(sent[next].data).buffer));
-        await new Promise((resolve) => setTimeout(resolve, 1));
-    }
-    return next - began;
-}"""
 MEASURE = """(began) => {
     const handle = self.onmessage;
     self.delays = [];
@@ -114,7 +84,7 @@ async def walk(view: Window, seconds: float) -> None:
     [worker] = view.tab.workers
     await worker.evaluate("() => { self.delays = []; }")
     before, frames = processor_times(), await view.tab.evaluate("solepath.frames")
-    fed = await view.tab.evaluate(WALK, {"seconds": seconds, "stream": INSOLE.streams[0]})
+    fed = await view.tab.evaluate(WALK, {"seconds": seconds, "stream": STREAM})
     after, frames = processor_times(), await view.tab.evaluate("solepath.frames") - frames
     await asyncio.sleep(0.5)
     delays = await worker.evaluate(DELAYS)
@@ -128,13 +98,11 @@ async def walk(view: Window, seconds: float) -> None:
 
 
 async def measure(chromium: Browser, folder: Path, seconds: float) -> None:
-    characteristics = [[one.service, one.characteristic, one.access is Access.NOTIFY] for one in INSOLE.channels]
     with serving(folder) as url:
         async with open_site(chromium, url) as view:
-            await view.tab.evaluate(CONNECT, characteristics)
-            await view.until("Object.keys(solepath.state.links).length === 2", patience=PATIENCE)
+            await connect(view)
             await view.tab.workers[0].evaluate(MEASURE, await view.tab.evaluate("began"))
-            await view.tab.evaluate(WALK, {"seconds": WARM_UP, "stream": INSOLE.streams[0]})
+            await view.tab.evaluate(WALK, {"seconds": WARM_UP, "stream": STREAM})
             print(f"the page is seen:\n  memory at first: {await memory(view)}")
             await walk(view, seconds)
             print(f"  memory at the end: {await memory(view)}")

@@ -144,14 +144,15 @@ class Window:
 
 @asynccontextmanager
 async def window(
-    browser: Browser, url: str, *, width: int = 1280, height: int = 900, dark: bool = False
+    browser: Browser, url: str, *, width: int = 1280, height: int = 900, dark: bool = False, script: str = ""
 ) -> AsyncIterator[Window]:
-    """Yield the page at `url` in a new window of this size, px."""
+    """Yield the page at `url` in a new window of this size, px; `script` runs in it before any other."""
     context = await browser.new_context(
         viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light", locale="en-GB"
     )
     try:
         context.set_default_timeout(MAX_WAIT * 1000.0)
+        await context.add_init_script(script)
         tab = await context.new_page()
         view = Window(tab, await context.new_cdp_session(tab))
         tab.on("console", lambda message: view.complaints.append(f"{message.type}: {message.text}"))

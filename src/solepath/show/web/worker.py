@@ -112,16 +112,20 @@ class Worker:
     def resume_walk(self, title: str, saved: str | None, tail: str, now: float) -> Task:
         """Continue a walk from its save, then from the packets of the recording `tail`, up to `now`, s from its start.
 
-        Without a save `tail` is the whole recording. Returns the time of the walk from then on, s."""
-        self.player = self.recording = None
-        self.walk = LiveWalk.start(title, self.calibration, self.plan)
-        if saved is not None:
-            self.walk = LiveWalk.restore(saved, self.plan)
+        Without a save `tail` is the whole recording. Returns the time of the walk from then on, s. If it raises, there
+        is no walk."""
+        self.player = self.recording = self.walk = None
+        if saved is None:
+            walk = LiveWalk.start(title, self.calibration, self.plan)
+        else:
+            walk = LiveWalk.restore(saved, self.plan)
         for packet in read_packets(tail, report=lambda _: None) if tail else ():
-            self.walk.replay(packet)
-            if self.walk.count % ITEMS_PER_STEP == 0:
+            walk.replay(packet)
+            if walk.count % ITEMS_PER_STEP == 0:
                 yield 0.0
-        return self.walk.resume(now)
+        now = walk.resume(now)
+        self.walk = walk
+        return now
 
     def finish_walk(self) -> None:
         """End the walk; the page goes on to show the end of it."""

@@ -10,6 +10,7 @@ import { child, show, write } from "./words.js";
 
 const element = (id) => document.getElementById(id);
 const words = (text) => write(element("site-words"), text);
+const addWords = (text) => words(`${element("site-words").textContent} ${text}`.trim());
 let shown = ""; // name of what is played
 
 async function act(what) {
@@ -69,7 +70,7 @@ async function report(name, title) {
 
 computer.on("walk", (walk) => {
   show(element("end"), walk !== null);
-  if (walk?.resumed && sensors.size === 0) words("The walk goes on: connect the sensors again.");
+  if (walk?.resumed && sensors.size === 0) addWords("The walk goes on: connect the sensors again.");
   keepAwake("walk", walk !== null);
   if (walk !== null) show(element("report"), false);
 });
@@ -78,12 +79,13 @@ computer.on("walks", (walks) => {
   for (const { name, size } of walks) walkRow(name, size);
   show(element("walks-part"), walks.length > 0);
 });
-computer.on("words", words);
+computer.on("words", addWords);
 computer.on("progress", (share) => {
   show(element("progress"), share < 1);
   element("progress").value = share;
 });
 computer.on("state", (state) => {
+  if (state === "loading") words("");
   if (state === "ready") element("site").dataset.ready = "true";
   for (const button of element("site").querySelectorAll("button")) button.disabled = state !== "ready";
 });

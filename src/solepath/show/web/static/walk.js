@@ -6,6 +6,7 @@ import { store } from "./store.js";
 
 const SAVE_INTERVAL = 60; // s
 const WRITE_INTERVAL = 100; // ms between two writes of the recording: each is a message to the browser that is waited for
+const MAX_ATTEMPTS = 3; // to continue a walk
 const TICK = 1000; // ms between two looks at the clock
 const LOCK = "solepath walk";
 const LOCK_WAIT = 2000; // ms; a tab that was just killed may hold the lock a moment longer
@@ -52,10 +53,7 @@ export class Walk {
     const { name } = this.#record;
     await this.#python.run("finish_walk", []);
     const recorded = this.#recording !== null && this.#recording.count > 0;
-    this.#recording?.close();
-    this.#recording = this.#record = null;
-    await store.remove("walk").catch(() => {});
-    this.#announce();
+    await this.#forget();
     await this.#files.list();
     return recorded ? name : "";
   }
@@ -70,22 +68,44 @@ export class Walk {
     return answers;
   }
 
-  // Continues the walk that a tab left when it was closed or killed.
+  // Continues the walk that a tab left when it was closed or killed. One that cannot go on is left alone after that, so
+  // that the page can always be used; its recording stays.
   async resume() {
     const record = await store.get("walk").catch(() => undefined);
     if (record === undefined || !(await this.#lock())) return;
-    await this.#files.reopen(record.files);
-    this.#record = record;
-    await this.#openRecording(record.name, record.began);
+    this.#record = { ...record, attempts: (record.attempts ?? 0) + 1 };
+    await this.#keep(); // the tab may be killed meanwhile, perhaps by what it computes
     try {
-      await this.#continue(record.saved, record.size);
+      if (this.#record.attempts > MAX_ATTEMPTS) throw new Problem(`the page ended ${MAX_ATTEMPTS} times before it went on`);
+      await this.#files.reopen(record.files);
+      await this.#openRecording(record.name, record.began);
+      await this.#continueOrCompute();
+    } catch (error) {
+      if (!(error instanceof Problem)) console.error(error);
+      this.#post({ words: `The walk ${record.title} cannot go on: ${error.message}. Its recording is below.` });
+      await this.#forget();
+      return;
+    }
+    this.#record.attempts = 0;
+    this.#announce(true);
+    await this.save(); // what is computed next time starts behind the gap
+  }
+
+  async #continueOrCompute() {
+    try {
+      await this.#continue(this.#record.saved, this.#record.size);
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
       this.#post({ words: `The saved state cannot be used (${error.message}); the recording is computed again.` });
       await this.#continue(undefined, 0);
     }
-    this.#announce(true);
-    await this.save(); // what is computed next time starts behind the gap
+  }
+
+  async #forget() {
+    this.#recording?.close();
+    this.#recording = this.#record = null;
+    await store.remove("walk").catch(() => {});
+    this.#announce();
   }
 
   // Makes sure that two tabs do not write one walk; the lock lasts as long as this worker.

@@ -1,0 +1,114 @@
+"""What a phone may withhold from the site: Bluetooth, a screen that stays on, a save of use, an app to share with."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from browsers import Browser, Window, window
+from scripted_insoles import STREAM, WALK, connect
+from web_pages import PATIENCE, READY, WORDS, open_site
+
+from solepath.recording import read_packets
+from solepath.show.web.serve import serving
+
+IPHONE = "Mozilla/5.0 (iPhone; CPU iPhone OS 18_5 like Mac OS X) AppleWebKit/605.1.15 Version/18.5 Mobile Safari/604.1"
+IPAD = "Mozilla/5.0 (Macintosh; Intel Mac OS X 10_15_7) AppleWebKit/605.1.15 Version/18.5 Safari/605.1.15"
+FIREFOX = "Mozilla/5.0 (Android 15; Mobile; rv:140.0) Gecko/140.0 Firefox/140.0"
+WORDS_FOR = """([userAgent, maxTouchPoints]) => {
+    for (const [name, value] of Object.entries({ userAgent, maxTouchPoints }))
+        Object.defineProperty(navigator, name, { value, configurable: true });
+    return import('./abilities.js').then((abilities) => abilities.bluetoothWords());
+}"""
+SPY = """
+globalThis.held = 0;
+if (navigator.wakeLock) {
+    const request = navigator.wakeLock.request.bind(navigator.wakeLock);
+    navigator.wakeLock.request = async (kind) => {
+        const lock = await request(kind).catch(() => new EventTarget());
+        held += 1;
+        const release = lock.release?.bind(lock);
+        lock.release = async () => { held -= 1; await release?.(); };
+        return lock;
+    };
+}
+"""
+CHANGE_SAVE = """(change) => new Promise((resolve) => {
+    indexedDB.open('solepath').onsuccess = ({ target: { result } }) => {
+        const values = result.transaction('values', 'readwrite').objectStore('values');
+        values.get('walk').onsuccess = ({ target }) => {
+            values.put({ ...target.result, ...change }, 'walk').onsuccess = () => { result.close(); resolve(); };
+        };
+    };
+})"""
+SHARING = """() => {
+    navigator.canShare = ({ files }) => files.length === 1;
+    navigator.share = async ({ files: [file], title }) => {
+        globalThis.shared = [title, file.name, await file.text()];
+    };
+}"""
+
+
+async def test_a_browser_without_bluetooth_says_what_it_can_do(chromium: Browser, site: Path) -> None:
+    with serving(site) as url:
+        async with window(chromium, url, width=360, script="delete Navigator.prototype.bluetooth;") as view:
+            assert await view.tab.locator("#connect").is_hidden() and await view.tab.locator("#demo").is_visible()
+            assert "This browser has no Web Bluetooth" in await view.text("bluetooth-words")
+            for agent, touch, expected in (
+                (IPHONE, 5, "No browser on an iPhone or iPad"),
+                (IPAD, 5, "No browser on an iPhone or iPad"),
+                (IPAD, 0, "Safari has no Web Bluetooth"),
+                (FIREFOX, 5, "Firefox has no Web Bluetooth"),
+            ):
+                words = await view.tab.evaluate(WORDS_FOR, [agent, touch])
+                assert expected in words and "Recordings and the demonstration can be played here" in words
+
+
+async def restart(view: Window) -> None:
+    """Let the worker end, and start it again by the button of the page."""
+    await view.tab.evaluate("computer.kill()")
+    await view.until("document.getElementById('offline').innerText.includes('has stopped')")
+    await view.tab.locator("#retry").click()
+    await view.until(READY, patience=PATIENCE)
+
+
+async def test_a_save_that_cannot_be_used_costs_nothing_that_was_recorded(
+    chromium: Browser, site: Path, tmp_path: Path
+) -> None:
+    with serving(site) as url:
+        async with open_site(chromium, url, script=SPY) as view:
+            await connect(view)
+            await view.until("held === 1")
+            await view.tab.evaluate(WALK, {"seconds": 5.0, "stream": STREAM})
+            await view.tab.evaluate("computer.call('save')")
+            before = await view.tab.evaluate("solepath.state.feet.left.strides")
+            assert before >= 1
+            await view.tab.evaluate(CHANGE_SAVE, {"saved": "{}"})
+            await restart(view)
+            words = await view.tab.evaluate(WORDS)
+            assert "The saved state cannot be used (not a saved walk); the recording is computed again" in words
+            assert await view.tab.evaluate("solepath.state.feet.left.strides") >= before
+            await view.tab.evaluate(CHANGE_SAVE, {"attempts": 3})
+            await restart(view)
+            assert "cannot go on: the page ended 3 times" in await view.tab.evaluate(WORDS)
+            await view.until("held === 0 && document.querySelectorAll('#walks li').length === 1")
+            await check_sharing(view, tmp_path)
+            await view.tab.locator("#demo").click()  # no walk is in the way
+            await view.until("solepath.state.playback?.state === 'playing'")
+            await restart(view)
+            assert await view.tab.evaluate(WORDS) == ""
+
+
+async def check_sharing(view: Window, folder: Path) -> None:
+    """A walk goes to the downloads, or to another app where the browser has a list of those."""
+    await view.tab.locator("#walks-part summary").click()
+    async with view.tab.expect_download() as downloading:
+        await view.tab.get_by_role("button", name="Share walk-").click()
+    await (await downloading.value).save_as(folder / "walk.jsonl")
+    packets = list(read_packets(folder / "walk.jsonl"))
+    assert sum(packet.channel == STREAM for packet in packets) == pytest.approx(1000, abs=50)
+    await view.tab.evaluate(SHARING)
+    await view.tab.get_by_role("button", name="Share walk-").click()
+    await view.until("globalThis.shared !== undefined")
+    title, name, text = await view.tab.evaluate("shared")
+    assert (title, name) == (title, f"{title}.txt") and text == (folder / "walk.jsonl").read_text()
