@@ -49,7 +49,7 @@ SHARING = """() => {
 }"""
 
 
-async def test_a_browser_without_bluetooth_says_what_it_can_do(chromium: Browser, site: Path) -> None:
+async def test_without_bluetooth_the_page_names_browsers_that_have_it(chromium: Browser, site: Path) -> None:
     with serving(site) as url:
         async with window(chromium, url, width=360, script="delete Navigator.prototype.bluetooth;") as view:
             assert await view.tab.locator("#connect").is_hidden() and await view.tab.locator("#demo").is_visible()
