@@ -160,6 +160,7 @@ async def test_a_server_that_hangs_is_an_error_until_it_goes_on(monkeypatch: pyt
             for _ in range(2):
                 with pytest.raises(BleakError, match=port):
                     await BleakScanner.discover(0.1, backend=backend.scanner)
+            monkeypatch.undo()  # it has all the time that it needs
             server.send_signal(signal.SIGCONT)
             async with BleakClient(await find(backend), backend=backend.client) as again:
                 assert await again.read_gatt_char(LEVEL) == b"\x57"

@@ -22,8 +22,8 @@ ROUTE = Route().stand(4.0).walk(100.0).stop(2.0)
 STATES = "Object.fromEntries(Object.entries(solepath.state.links).map(([site, link]) => [site, link.state]))"
 STRIDES = "['left', 'right'].map((foot) => solepath.state.feet[foot]?.strides ?? 0)"
 LOG = "solepath.state.log.map(([, , words]) => words)"
-IN_FLIGHT = 40
-"""Largest number of frames that may be on their way when tab and worker are killed: 200 ms of both feet."""
+IN_FLIGHT = 80
+"""Largest number of frames that kills of the tab and of the worker may cost: twice 200 ms of both feet."""
 SHOWN = f"({{ strides: {STRIDES}, track: solepath.state.tracks.left }})"
 
 
