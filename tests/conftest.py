@@ -73,6 +73,15 @@ def chromium(browser: Browsing) -> Browser:
     return browser.browser
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Spread the files of each folder over the run: while some tests wait for a radio or a browser, others compute."""
+    folders: dict[Path, list[Path]] = {}
+    for path in dict.fromkeys(item.path for item in items):
+        folders.setdefault(path.parent, []).append(path)
+    place = {path: (k / len(files), path) for files in folders.values() for k, path in enumerate(files)}
+    items.sort(key=lambda item: place[item.path])
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
     """Run a test that is a coroutine: with the fixture `chromium` on the browser's loop, else on a new loop for at most

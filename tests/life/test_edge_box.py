@@ -86,7 +86,7 @@ def walked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with emulator("--duration", "600") as (_, address):
         for kill in range(4):
             with box(folder, address):
-                wait_for_strides(folder, strides(folder) + 5 + kill)
+                wait_for_strides(folder, strides(folder) + 3 + kill)
     return folder
 
 

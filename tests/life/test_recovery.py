@@ -41,8 +41,13 @@ def test_a_recording_that_was_cut_gives_the_session_up_to_its_last_whole_line(ru
     assert session.feed(PACKETS[HALF - 1 :]) == undisturbed.feed(PACKETS[HALF - 1 :])
 
 
-@pytest.mark.parametrize("damage", ["torn", "changed", "nested", "no session", "absent", "none"])
-@pytest.mark.parametrize("saved_after", [HALF // 3, HALF + 200])
+@pytest.mark.parametrize(
+    ("damage", "saved_after"),
+    [
+        *((damage, HALF + 200) for damage in ("torn", "changed", "nested", "no session", "absent", "none")),
+        ("none", HALF // 3),
+    ],
+)
 def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run, damage: str, saved_after: int) -> None:
     recorded(Path("walk-0002.jsonl"), PACKETS[HALF : HALF + 300])
     names = run(CUT, TORN)

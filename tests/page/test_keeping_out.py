@@ -79,8 +79,8 @@ QUICK = ("nothing", "a request")
             pytest.param(PEERS[:1], sent, id=f"one peer, {name}", marks=[] if name in QUICK else [pytest.mark.soak])
             for name, sent in SENT.items()
         ],
-        *[pytest.param(PEERS, SENT[name], id=f"several peers, {name}") for name in ("nothing", "many requests")],
-        *[pytest.param((OWNER,), SENT[name], id=f"the owner's own, {name}") for name in QUICK],
+        pytest.param(PEERS, SENT["many requests"], id="several peers, many requests"),
+        pytest.param((OWNER,), SENT["nothing"], id="the owner's own, nothing"),
     ],
 )
 async def test_idle_connections_and_reconnections_keep_nobody_out(peers: tuple[str, ...], sent: bytes) -> None:

@@ -79,7 +79,7 @@ async def test_a_save_that_cannot_be_used_costs_nothing_that_was_recorded(
         async with open_site(chromium, url, script=SPY) as view:
             await connect(view)
             await view.until("held === 1")
-            await view.tab.evaluate(WALK, {"seconds": 5.0, "stream": STREAM})
+            await view.tab.evaluate(WALK, {"seconds": 4.0, "stream": STREAM})
             await view.tab.evaluate("computer.call('save')")
             before = await view.tab.evaluate("solepath.state.feet.left.strides")
             assert before >= 1
@@ -95,8 +95,6 @@ async def test_a_save_that_cannot_be_used_costs_nothing_that_was_recorded(
             await check_sharing(view, tmp_path)
             await view.tab.locator("#demo").click()  # no walk is in the way
             await view.until("solepath.state.playback?.state === 'playing'")
-            await restart(view)
-            assert await view.tab.evaluate(WORDS) == ""
 
 
 async def check_sharing(view: Window, folder: Path) -> None:
@@ -106,7 +104,7 @@ async def check_sharing(view: Window, folder: Path) -> None:
         await view.tab.get_by_role("button", name="Share walk-").click()
     await (await downloading.value).save_as(folder / "walk.jsonl")
     packets = list(read_packets(folder / "walk.jsonl"))
-    assert sum(packet.channel == STREAM for packet in packets) == pytest.approx(1000, abs=50)
+    assert sum(packet.channel == STREAM for packet in packets) == pytest.approx(800, abs=50)
     await view.tab.evaluate(SHARING)
     await view.tab.get_by_role("button", name="Share walk-").click()
     await view.until("globalThis.shared !== undefined")

@@ -79,7 +79,7 @@ class Decoder:
             if not is_address(packet.device):
                 return self._reject(packet, Rejection.MALFORMED, f"device {packet.device!r:.80} is no address")
             if self._is_other_device(packet):
-                detail = f"of {packet.device or 'nobody'}, not {self.device}"
+                detail = f"of {packet.device or 'nobody'}, not {self.device}; Session.bind lets another device send"
                 return self._reject(packet, Rejection.WRONG_DEVICE, detail)
         if self.newest_arrival is not None and t < self.newest_arrival:
             if self.backward_packets + 1 < SET_BACK_PACKETS:
