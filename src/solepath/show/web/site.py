@@ -112,7 +112,7 @@ def _with_list(files: Mapping[str, bytes]) -> bytes:
     digest = sha256()
     for name in sorted(files):
         digest.update(f"{name} {len(files[name])}\n".encode() + files[name])
-    names = json.dumps(["./", *sorted(name for name in files if name not in (WORKER_LIST, "index.html"))])
+    names = json.dumps(["./", *sorted(name for name in files if name != WORKER_LIST)])
     own = files[WORKER_LIST].decode()
     return f'const VERSION = "{digest.hexdigest()[:16]}";\nconst FILES = {names};\n\n{own}'.encode()
 

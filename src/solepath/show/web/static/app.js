@@ -3,15 +3,20 @@
 import { bluetoothWords } from "./abilities.js";
 import { addSensor, sensors } from "./bluetooth.js";
 import { computer } from "./computer.js";
-import "./live.js"; // it hears of a walk that goes on before anybody connects a sensor
+import { running } from "./live.js"; // loaded first: it hears of a walk that goes on before anybody connects a sensor
 import { offer } from "./sharing.js";
 import { keepAwake } from "./wake.js";
 import { child, show, write } from "./words.js";
 
 const element = (id) => document.getElementById(id);
 const words = (text) => write(element("site-words"), text);
-const addWords = (text) => words(`${element("site-words").textContent} ${text}`.trim());
+function addWords(text) {
+  const before = element("site-words").textContent;
+  if (!before.includes(text)) words(`${before} ${text}`.trim());
+}
 let shown = ""; // name of what is played
+let walks = []; // {name, size} of the recordings on this device
+let measured; // name of the one that is written now
 
 async function act(what) {
   words("");
@@ -39,7 +44,10 @@ element("file").addEventListener("change", () =>
     for (const file of element("file").files) {
       const { kind, notes } = await computer.call("open", file);
       if (kind === "recording") played(file.name);
-      else sentences.push(`${file.name}: this ${kind === "plan" ? "floor plan" : "calibration"} is used from now on.`);
+      else {
+        const since = running() ? "by the next walk" : "from now on";
+        sentences.push(`${file.name}: this ${kind === "plan" ? "floor plan" : "calibration"} is used ${since}.`);
+      }
       sentences.push(...notes);
     }
     element("file").value = "";
@@ -69,15 +77,16 @@ async function report(name, title) {
 }
 
 computer.on("walk", (walk) => {
+  measured = walk?.name;
+  listWalks();
   show(element("end"), walk !== null);
   if (walk?.resumed && sensors.size === 0) addWords("The walk goes on: connect the sensors again.");
   keepAwake("walk", walk !== null);
   if (walk !== null) show(element("report"), false);
 });
-computer.on("walks", (walks) => {
-  element("walks").replaceChildren();
-  for (const { name, size } of walks) walkRow(name, size);
-  show(element("walks-part"), walks.length > 0);
+computer.on("walks", (list) => {
+  walks = list;
+  listWalks();
 });
 computer.on("words", addWords);
 computer.on("progress", (share) => {
@@ -92,8 +101,15 @@ computer.on("state", (state) => {
 
 computer.on("sensors", (sensors) => {
   element("sensors").replaceChildren();
-  for (const sensor of sensors.values()) row("sensors", sensor.name, sensor.name, { Disconnect: () => sensor.end() });
+  for (const sensor of sensors.values()) row("sensors", sensor.name, sensor.words, { Disconnect: () => sensor.end() });
 });
+
+function listWalks() {
+  element("walks").replaceChildren();
+  const others = walks.filter(({ name }) => name !== measured); // what is written now can be neither played nor deleted
+  for (const { name, size } of others) walkRow(name, size);
+  show(element("walks-part"), others.length > 0);
+}
 
 function walkRow(name, size) {
   row("walks", name, `${name.replace(/\.jsonl$/, "")}, ${(size / 1_000_000).toFixed(1)} MB`, {
@@ -101,7 +117,7 @@ function walkRow(name, size) {
       await computer.call("open", await computer.call("get", name));
       played(name);
     },
-    Report: () => report(name, name),
+    Report: () => report(name, name.replace(/\.jsonl$/, "")),
     Share: async () => offer(await computer.call("get", name)),
     Delete: async () => {
       if (confirm(`Delete ${name} from this device for ever?`)) await computer.call("remove", name);

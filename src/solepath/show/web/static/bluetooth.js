@@ -3,7 +3,7 @@
 import { computer } from "./computer.js";
 import { bytes, clock, hex, notified, running, send, startWalk } from "./live.js";
 
-const ANSWER_TIME = 5000; // ms that a sensor has for an answer
+const ANSWER_TIME = 20_000; // ms that a sensor has for an answer, and a person to allow a pairing meanwhile
 const FIRST_PAUSE = 250; // ms from a lost connection to the next attempt; each further one is twice as long
 const MAX_PAUSE = 8000; // ms
 
@@ -56,6 +56,7 @@ class Sensor {
   #characteristics = new Map(); // by "service characteristic"
   #ended = false;
   #connected = false; // the worker knows of a connection
+  #connection = 0; // number of the connection
   #requests = Promise.resolve();
   #stopPause = () => {};
   #run;
@@ -68,6 +69,12 @@ class Sensor {
 
   get name() {
     return this.#device.name ?? "";
+  }
+
+  // What the page says of it.
+  get words() {
+    const worn = this.#site === null ? "" : ` on the ${this.#site.replace("_", " ")}`;
+    return `${this.name || "Sensor without a name"}${worn}: ${this.#connected ? "connected" : "connecting"}`;
   }
 
   // For tests, which read what they cannot notify.
@@ -90,12 +97,17 @@ class Sensor {
   }
 
   take(order) {
-    if (order.type === "disconnect") {
-      if (order.wrong) this.#ended = true;
-      this.#device.gatt.disconnect();
-    } else if (order.type === "error" && order.of === "add") {
+    if (order.type === "error" && order.of === "add") {
       computer.emit("words", `${this.name} cannot be added: ${order.reason}. Disconnect another one first.`);
       this.end();
+    } else if (order.connection !== this.#connection) {
+      // it was meant for a connection that has ended
+    } else if (order.type === "disconnect") {
+      if (order.wrong) {
+        computer.emit("words", `${order.reason}. Choose how it is worn before you connect it.`);
+        this.#ended = true;
+      }
+      this.#device.gatt.disconnect();
     } else if (["read", "subscribe", "write"].includes(order.type)) {
       this.#requests = this.#requests.then(() => this.#do(order));
     }
@@ -137,23 +149,31 @@ class Sensor {
           characteristics.push([service.uuid, one.uuid, one.properties.notify || one.properties.indicate]);
         }
       if (!running() || this.#ended) return;
-      this.#send({ type: "connected", name: this.name, characteristics });
-      this.#connected = true;
+      this.#connection += 1;
+      this.#send({ type: "connected", connection: this.#connection, name: this.name, characteristics });
+      this.#setConnected(true);
       if (server.connected) await lost;
     } finally {
       this.#device.gatt.disconnect();
       if (this.#connected && running()) this.#send({ type: "disconnected" });
-      this.#connected = false;
+      this.#setConnected(false);
     }
   }
 
+  #setConnected(connected) {
+    this.#connected = connected;
+    computer.emit("sensors", sensors);
+  }
+
   async #do(order) {
+    const isOver = () => order.connection !== this.#connection || !this.#connected || !running();
     const characteristic = this.#characteristics.get(`${order.service} ${order.characteristic}`);
+    if (isOver()) return;
     try {
       const value = await inTime(this.#perform(order, characteristic));
-      this.#send({ type: "done", value: value ? hex(value) : "" });
+      if (!isOver()) this.#send({ type: "done", value: value ? hex(value) : "" });
     } catch (error) {
-      if (!this.#device.gatt.connected || !running()) return; // the loss of the connection says it all
+      if (isOver() || !this.#device.gatt.connected) return; // the loss of the connection says it all
       if (error.name !== "TimeoutError") return this.#send({ type: "rejected", reason: error.message || error.name });
       this.#send({ type: "failed", reason: "the sensor did not answer in time: it is connected again" });
       this.#device.gatt.disconnect();

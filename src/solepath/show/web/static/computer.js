@@ -1,6 +1,7 @@
 // The worker that computes: it is started, called, watched, and started again when somebody asks for it.
 
 const SILENCE_LIMIT = 4; // s without a sign of life of a worker that is ready, while the page is visible
+const BUSY_LIMIT = 120; // s of the same while it does what a person asked for: a large floor plan takes its time
 const SOURCE = `import ${JSON.stringify(new URL("worker.js", import.meta.url).href)};`;
 
 class Computer {
@@ -89,7 +90,7 @@ class Computer {
   #watch() {
     if (this.state !== "ready" || document.hidden) return;
     this.#silence += 1;
-    if (this.#silence > SILENCE_LIMIT) this.#die("the worker does not answer");
+    if (this.#silence > (this.#calls.size > 0 ? BUSY_LIMIT : SILENCE_LIMIT)) this.#die("the worker does not answer");
   }
 
   // For tests: what an operating system does that needs the memory.

@@ -22,7 +22,8 @@ export class Files {
   }
 
   async demo(title) {
-    const answer = await fetch(new URL(`${DEMO}.gz`, import.meta.url));
+    const answer = await fetch(new URL(`${DEMO}.gz`, import.meta.url)).catch(() => null);
+    if (!answer?.ok) throw new Problem("The demonstration is not on this device yet, and the site cannot be reached.");
     this.#python.write(DEMO, await unpacked(await answer.blob()));
     try {
       await this.#run("open_demo", [DEMO, title]);
@@ -68,13 +69,21 @@ export class Files {
   }
 
   async get(name) {
-    const folder = await walksFolder();
-    return (await folder.getFileHandle(name)).getFile();
+    try {
+      return await (await (await walksFolder()).getFileHandle(name)).getFile();
+    } catch {
+      throw new Problem(`${name} is not on this device any more.`);
+    }
   }
 
   async remove(name) {
-    await (await walksFolder()).removeEntry(name);
-    await this.list();
+    try {
+      await (await walksFolder()).removeEntry(name);
+    } catch {
+      throw new Problem(`${name} cannot be deleted now.`);
+    } finally {
+      await this.list();
+    }
   }
 
   // Tells the page which walks are on this device, the newest first.

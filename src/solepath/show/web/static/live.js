@@ -1,5 +1,6 @@
 // The walk that is measured now: messages on its sensors go to the worker (protocol/host.md), in their order.
 
+import { now } from "./clock.js";
 import { computer } from "./computer.js";
 
 // What comes within this time goes to the worker together, ms. Each time that the worker wakes up costs as much as some
@@ -8,24 +9,29 @@ const BATCH_TIME = 8;
 const HIDDEN_BATCH_TIME = 100;
 const TICK = 200; // ms between two messages that say nothing but the time
 
-const now = () => (performance.timeOrigin + performance.now()) / 1000;
 const HEX = Array.from({ length: 256 }, (_, byte) => byte.toString(16).padStart(2, "0"));
-let walk = null; // {began, title, name, resumed, recorded}
+let walk = null; // {began, title, name, resumed, t}
+let began = 0; // s since 1970
 let batch = [];
 let sentAt = 0;
 let timer = 0;
 
-computer.on("walk", (value) => (walk = value));
+computer.on("walk", (value) => {
+  walk = value;
+  if (walk !== null) began = Math.min(walk.began, now() - walk.t); // no packet comes before what the worker has
+});
 setInterval(() => running() && send({ type: "time", t: clock() }), TICK);
 
 export const running = () => walk !== null;
 
 // Time on the clock of the walk, s: 0 where it started, also after the page was opened again.
-export const clock = () => now() - walk.began;
+export const clock = () => now() - began;
 
 // Starts a walk, unless one is running: a walk that a closed tab left goes on by itself.
 export async function startWalk(title = `Walk of ${new Date().toLocaleString([], { dateStyle: "medium", timeStyle: "short" })}`) {
-  if (!running()) await computer.call("start", title);
+  if (running()) return;
+  navigator.storage?.persist?.().catch(() => {}); // asks that nothing is deleted for lack of space
+  await computer.call("start", title);
 }
 
 // Sends a message of an app to its host.

@@ -1,7 +1,10 @@
 // A recording of packets in the origin's private file system, in the form of protocol/recording.md.
 
-const FOLDER = "walks";
+import { ownName } from "./own.js";
+
+const FOLDER = ownName("walks");
 const MAX_WAITING = 20_000_000; // bytes that wait in memory while nothing can be written
+const RETRY_INTERVAL = 2000; // ms from a write that failed to the next
 const LINE_FEED = 10;
 
 export async function walksFolder() {
@@ -31,6 +34,8 @@ export function storageWords(error, what) {
 class Recording {
   count = 0; // parts that were added
   size = 0; // bytes of whole lines in the file
+  #retryAt = 0;
+  #dropped = false; // lines were left out
   #handle;
   #header;
   #waiting = [];
@@ -47,20 +52,30 @@ class Recording {
     handle.truncate(this.size);
   }
 
-  // lines: bytes of whole lines
+  // Size of the file once everything that waits is in it.
+  get wholeSize() {
+    return this.size + this.#waitingSize;
+  }
+
+  // lines: bytes of whole lines; returns words when they begin to be left out, and "" else.
   add(lines) {
-    this.#wait(lines);
     this.count += 1;
+    if (this.#wait(lines)) return "";
+    const words = this.#dropped ? "" : "The storage is full for so long that the recording now has a gap.";
+    this.#dropped = true;
+    return words;
   }
 
   // Writes what waits; returns words when that begins to fail, and "" else.
   flush() {
+    if (this.#broken && performance.now() < this.#retryAt) return "";
     while (this.#waiting.length > 0) {
       const part = this.#waiting.length === 1 ? this.#waiting[0] : joined(this.#waiting);
       try {
         if (this.#handle.write(part, { at: this.size }) !== part.length) throw new DOMException("", "QuotaExceededError");
       } catch (error) {
-        this.#handle.truncate(this.size); // the file ends with a whole line
+        quietly(() => this.#handle.truncate(this.size)); // the file ends with a whole line
+        this.#retryAt = performance.now() + RETRY_INTERVAL;
         const words = this.#broken ? "" : storageWords(error, "The recording stops here, and is tried again");
         this.#broken = true;
         return words;
@@ -69,13 +84,13 @@ class Recording {
       this.#waiting = [];
       this.#waitingSize = 0;
     }
-    this.#broken = false;
+    this.#broken = this.#dropped = false;
     return "";
   }
 
-  // Lets the system write to its disk what a power failure would take.
+  // Lets the system write to its disk what a power failure would take; a full disk is reported by flush().
   sync() {
-    this.#handle.flush();
+    quietly(() => this.#handle.flush());
   }
 
   // Returns the header and all lines from this place in the file on.
@@ -86,10 +101,13 @@ class Recording {
     return joined([this.#header, lines]);
   }
 
+  // Returns words when something could not be written, and "" else.
   close() {
+    this.#retryAt = 0;
     this.flush();
     this.sync();
-    this.#handle.close();
+    quietly(() => this.#handle.close());
+    return this.#waitingSize > 0 ? "The end of the recording could not be stored." : "";
   }
 
   #line(fields) {
@@ -97,9 +115,10 @@ class Recording {
   }
 
   #wait(line) {
-    if (this.#waitingSize + line.length > MAX_WAITING) return;
+    if (this.#waitingSize + line.length > MAX_WAITING) return false;
     this.#waiting.push(line);
     this.#waitingSize += line.length;
+    return true;
   }
 
   // bytes up to the last line feed
@@ -108,6 +127,14 @@ class Recording {
     const end = new Uint8Array(Math.min(size, 65_536));
     this.#handle.read(end, { at: size - end.length });
     return size - end.length + end.lastIndexOf(LINE_FEED) + 1;
+  }
+}
+
+function quietly(act) {
+  try {
+    act();
+  } catch (error) {
+    console.warn(error);
   }
 }
 

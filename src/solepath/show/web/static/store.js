@@ -1,8 +1,10 @@
 // A few values by name in IndexedDB; a value is replaced whole or not at all.
 
+import { ownName } from "./own.js";
+
 const opened = () =>
   new Promise((resolve, reject) => {
-    const request = indexedDB.open("solepath", 1);
+    const request = indexedDB.open(ownName("solepath"), 1);
     request.onupgradeneeded = () => request.result.createObjectStore("values");
     request.onsuccess = () => resolve(request.result);
     request.onerror = () => reject(request.error);

@@ -1,13 +1,16 @@
 // The service worker: it keeps all files of the site, so that the page starts without a network. The build writes
 // VERSION and FILES above. A new version is used once no tab shows the old one.
 
+const OWN = `solepath ${registration.scope} `; // caches of this copy of the site: an origin may have other pages
+const CACHE = OWN + VERSION;
+
 addEventListener("install", (event) => {
   const requests = FILES.map((file) => new Request(file, { cache: "reload" }));
-  event.waitUntil(caches.open(VERSION).then((cache) => cache.addAll(requests)));
+  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(requests)));
 });
 
 addEventListener("activate", (event) => {
-  const old = (names) => Promise.all(names.filter((name) => name !== VERSION).map((name) => caches.delete(name)));
+  const old = (names) => Promise.all(names.filter((name) => name.startsWith(OWN) && name !== CACHE).map((name) => caches.delete(name)));
   event.waitUntil(
     caches
       .keys()
@@ -19,6 +22,6 @@ addEventListener("activate", (event) => {
 addEventListener("fetch", (event) => {
   const { request } = event;
   if (request.method !== "GET") return;
-  const kept = caches.open(VERSION).then((cache) => cache.match(request, { ignoreSearch: true }));
+  const kept = caches.open(CACHE).then((cache) => cache.match(request, { ignoreSearch: true }));
   event.respondWith(kept.then((answer) => answer ?? fetch(request)));
 });

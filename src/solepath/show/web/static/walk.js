@@ -1,5 +1,7 @@
 // The walk that is measured now: packets go to Python and to the recording, and all of it is saved again and again.
 
+import { now } from "./clock.js";
+import { ownName } from "./own.js";
 import { Problem } from "./python.js";
 import { openRecording, storageWords } from "./recording.js";
 import { store } from "./store.js";
@@ -7,10 +9,11 @@ import { store } from "./store.js";
 const SAVE_INTERVAL = 60; // s
 const WRITE_INTERVAL = 100; // ms between two writes of the recording: each is a message to the browser that is waited for
 const MAX_ATTEMPTS = 3; // to continue a walk
+const MAX_PAUSE = 6 * 3600; // s without the page, after which a walk is over
 const TICK = 1000; // ms between two looks at the clock
-const LOCK = "solepath walk";
+const LOCK = ownName("solepath walk");
 const LOCK_WAIT = 2000; // ms; a tab that was just killed may hold the lock a moment longer
-const now = () => (performance.timeOrigin + performance.now()) / 1000; // s since 1970, never falling within a worker
+const ELSEWHERE = "another tab of this page is open: a walk goes on there";
 
 export class Walk {
   #python;
@@ -33,15 +36,18 @@ export class Walk {
     return this.#record !== null;
   }
 
-  // Starts a walk; returns when it began, s since 1970.
+  // Starts a walk, or continues one that a closed tab left; returns when it began, s since 1970.
   async start(title) {
     if (this.running) await this.end();
-    if (!this.#alone && !(await this.#lock())) throw new Problem("another tab of this page is open: a walk goes on there");
+    if (!this.#alone && !(await this.#lock())) throw new Problem(ELSEWHERE);
+    await this.resume();
+    if (this.running) return this.#record.began;
     await this.#python.run("start_walk", [title]);
     const began = now();
-    const name = `walk-${new Date(1000 * began).toISOString().slice(0, 19).replace(/[T:]/g, "-")}.jsonl`;
-    this.#record = { name, title, began, size: 0, saved: undefined, files: this.#files.used };
+    const name = `walk-${localTime(new Date(1000 * began))}.jsonl`;
+    this.#record = { name, title, began, size: 0, saved: undefined, savedT: began };
     await this.#openRecording(name, began);
+    await store.put("files", this.#files.used).catch(() => {});
     await this.#keep();
     this.#announce();
     return began;
@@ -63,7 +69,7 @@ export class Walk {
     if (!this.running) return [];
     const answers = JSON.parse(this.#python.receive(JSON.stringify(messages)));
     const lines = this.#python.takeLines();
-    if (lines.length > 0) this.#recording?.add(lines);
+    if (lines.length > 0) this.#say(this.#recording?.add(lines));
     if (performance.now() - this.#writtenAt >= WRITE_INTERVAL) this.#flush();
     return answers;
   }
@@ -72,37 +78,41 @@ export class Walk {
   // that the page can always be used; its recording stays.
   async resume() {
     const record = await store.get("walk").catch(() => undefined);
-    if (record === undefined || !(await this.#lock())) return;
+    if (record === undefined) return this.#announce();
+    if (!this.#alone && !(await this.#lock())) {
+      this.#say("Another tab of this page measures a walk.");
+      return this.#announce();
+    }
     this.#record = { ...record, attempts: (record.attempts ?? 0) + 1 };
     await this.#keep(); // the tab may be killed meanwhile, perhaps by what it computes
     try {
       if (this.#record.attempts > MAX_ATTEMPTS) throw new Problem(`the page ended ${MAX_ATTEMPTS} times before it went on`);
-      await this.#files.reopen(record.files);
+      if (now() - record.savedT > MAX_PAUSE) throw new Problem("this page was closed for hours");
+      await this.#files.reopen(await store.get("files"));
       await this.#openRecording(record.name, record.began);
-      await this.#continueOrCompute();
+      const t = await this.#continueOrCompute();
+      this.#record.attempts = 0;
+      this.#announce(true, t);
     } catch (error) {
-      if (!(error instanceof Problem)) console.error(error);
-      this.#post({ words: `The walk ${record.title} cannot go on: ${error.message}. Its recording is below.` });
-      await this.#forget();
-      return;
+      console.warn(error);
+      this.#say(`${record.title} does not go on: ${error.message.trim().split("\n").at(-1)}. Its recording is below.`);
+      return this.#forget();
     }
-    this.#record.attempts = 0;
-    this.#announce(true);
     await this.save(); // what is computed next time starts behind the gap
   }
 
   async #continueOrCompute() {
     try {
-      await this.#continue(this.#record.saved, this.#record.size);
+      return await this.#continue(this.#record.saved, this.#record.size);
     } catch (error) {
       if (!(error instanceof Problem)) throw error;
-      this.#post({ words: `The saved state cannot be used (${error.message}); the recording is computed again.` });
-      await this.#continue(undefined, 0);
+      this.#say(`The saved state cannot be used (${error.message}); the recording is computed again.`);
+      return this.#continue(undefined, 0);
     }
   }
 
   async #forget() {
-    this.#recording?.close();
+    this.#say(this.#recording?.close());
     this.#recording = this.#record = null;
     await store.remove("walk").catch(() => {});
     this.#announce();
@@ -128,6 +138,7 @@ export class Walk {
     const t = await this.#python.run("resume_walk", [this.#record.title, saved, tail ? "tail.jsonl" : "", elapsed]);
     if (t > elapsed) this.#record.began = now() - t; // the clock of this device was set back
     if (tail) this.#python.remove("tail.jsonl");
+    return t;
   }
 
   // Saves session, scene and how much of the recording they have.
@@ -138,7 +149,8 @@ export class Walk {
     this.#recording?.sync();
     const saved = this.#python.save();
     if (saved === undefined) return;
-    Object.assign(this.#record, { saved, size: this.#recording?.size ?? 0 });
+    // what waits for room in the storage is part of the saved state, and must not be computed again
+    Object.assign(this.#record, { saved, size: this.#recording?.wholeSize ?? 0, savedT: now() });
     await this.#keep();
   }
 
@@ -146,7 +158,7 @@ export class Walk {
     try {
       await store.put("walk", this.#record);
     } catch (error) {
-      this.#post({ words: storageWords(error, "This walk cannot be saved for a restart") });
+      this.#say(storageWords(error, "This walk cannot be saved for a restart"));
     }
   }
 
@@ -155,13 +167,16 @@ export class Walk {
       this.#recording = await openRecording(name, { began: new Date(1000 * began).toISOString(), began_t: 0 });
     } catch (error) {
       this.#recording = null;
-      this.#post({ words: storageWords(error, "This walk is shown, but not recorded") });
+      this.#say(storageWords(error, "This walk is shown, but not recorded"));
     }
   }
 
   #flush() {
     this.#writtenAt = performance.now();
-    const words = this.#recording?.flush();
+    this.#say(this.#recording?.flush());
+  }
+
+  #say(words) {
     if (words) this.#post({ words });
   }
 
@@ -170,8 +185,16 @@ export class Walk {
     if (now() - this.#savedAt > SAVE_INTERVAL) this.save();
   }
 
-  #announce(resumed = false) {
+  // t: time of the walk that goes on, s
+  #announce(resumed = false, t = 0) {
     const { began, title, name } = this.#record ?? {};
-    this.#post({ walk: this.running ? { began, title, name, resumed, recorded: this.#recording !== null } : null });
+    this.#post({ walk: this.running ? { began, title, name, resumed, t } : null });
   }
+}
+
+// Date and time of day where the person is, in a form that sorts and that every file system has.
+function localTime(date) {
+  const two = (number) => String(number).padStart(2, "0");
+  const day = [date.getFullYear(), two(date.getMonth() + 1), two(date.getDate())];
+  return [...day, two(date.getHours()), two(date.getMinutes()), two(date.getSeconds())].join("-");
 }

@@ -13,6 +13,8 @@ let seen = true;
 let sentAt = 0; // ms, of the newest message for the page
 let playedAt = performance.now();
 let calls = Promise.resolve();
+let draw = () => {};
+let drawing = 0; // timer
 
 const ready = (async () => {
   const python = await Python.load();
@@ -20,7 +22,8 @@ const ready = (async () => {
   const files = new Files(python, post);
   const walk = new Walk(python, files, post);
   await walk.resume();
-  setInterval(() => guarded(() => frame(python)), FRAME_INTERVAL);
+  draw = () => guarded(() => frame(python));
+  drawRegularly();
   postMessage({ ready: JSON.parse(python.sensor_filters()) });
   await files.list();
   return { python, walk, files };
@@ -33,6 +36,7 @@ onmessage = async ({ data }) => {
   else if (data.command) guarded(() => parts.python.command(data.command));
   else if ("seen" in data) {
     seen = data.seen;
+    drawRegularly();
     if (!seen) calls = calls.then(() => parts.walk.save()).catch(failed);
   } else if (data.call) calls = calls.then(() => answer(parts, data)).catch(failed);
 };
@@ -50,13 +54,22 @@ async function answer({ walk, files }, { call, values, id }) {
     const result = await target[call](...values);
     postMessage({ answer: { id, result } });
   } catch (error) {
-    const known = error instanceof Problem || error instanceof DOMException;
-    if (!known) throw error;
+    if (isOfPython(error)) throw error;
+    if (!(error instanceof Problem)) console.warn(error);
     postMessage({ answer: { id, problem: error.message } });
   }
 }
 
+// After an error that Python did not expect what it holds is not to be trusted; a browser's own refusals end nothing.
+const isOfPython = (error) => error.constructor.name === "PythonError" || error instanceof WebAssembly.RuntimeError;
+
 const FILE_CALLS = { demo: 1, open: 1, report: 1, get: 1, remove: 1 };
+
+// A page that nobody sees needs no pictures, and each look for changes wakes a phone's processor.
+function drawRegularly() {
+  clearInterval(drawing);
+  drawing = seen ? setInterval(() => draw(), FRAME_INTERVAL) : 0;
+}
 
 function frame(python) {
   const now = performance.now();
