@@ -47,6 +47,7 @@ def test_two_insoles_walk_through_texts_alone_and_the_packets_replay_the_same_ev
     one = walked()
     assert not [message for message in one.messages if message["type"] == "error"]
     assert {event["site"] for event in one.events("Connected")} == {"left_foot", "right_foot"}
+    assert len(one.events("BatteryLevel")) >= 2, "its UUID came in four digits"
     strides = one.events("StrideTaken")
     assert {event["foot"] for event in strides} == {"left", "right"} and len(strides) >= 8
     events = [message for message in one.messages if message["type"] == "event"]
@@ -68,18 +69,81 @@ def test_a_sensortag_is_worn_where_it_was_added() -> None:
     assert {event["foot"] for event in one.events("StrideTaken")} == {"right"}
 
 
-def test_another_insole_at_the_same_foot_continues_the_walk_if_packets_name_no_device() -> None:
+@pytest.mark.parametrize("way", ["packets name no device", "bind"])
+def test_another_insole_at_the_same_foot_continues_the_walk(way: str) -> None:
     host = JsonHost(packets=True)
     for device, seed, now in (("A", 3, 0.0), ("B", 4, 10.0)):
         emulated = Bench(ROUTE, devices={LEFT: Insole()}, seed=seed, started_at=now)[LEFT]
         one = Shell(host.receive, {device: emulated}, now)
-        one.send({"type": "add", "device": device, "site": None, "address": ""})
+        if way == "bind" and device == "B":
+            one.send({"type": "bind", "site": "left_foot"})
+        one.send({"type": "add", "device": device, "site": None, "address": None if way == "bind" else ""})
         one.use(None)
         one.run(now + 9.0)
         one.lose(device)
         one.send({"type": "remove", "device": device})
         assert one.events("StrideTaken") and not one.events("PacketRejected")
-        assert not [message for message in one.messages if message["type"] == "packet" and "device" in message]
+        devices = {message.get("device", "") for message in one.messages if message["type"] == "packet"}
+        assert device in devices if way == "bind" else devices == {""}
+
+
+def test_a_frozen_sensor_is_disconnected_once_however_long_the_system_takes_for_it() -> None:
+    faults = parse_faults("2 right_foot freeze\n6 right_foot freeze\n10 right_foot freeze\n14 right_foot freeze")
+    bench = Bench(ROUTE, devices={RIGHT: CC2650()}, seed=3, faults=faults)
+    one = Shell(JsonHost().receive, {"A": bench[RIGHT]}, disconnects=False)
+    one.use("right_foot")
+    one.run(30.0)
+    ended = [message for message in one.messages if message["type"] == "disconnect"]
+    assert len(ended) == 1 and "frozen" in ended[0]["reason"]
+    assert len(one.events("StreamRestarted")) == 3
+
+
+@pytest.mark.parametrize("new_clock", [-1e5, 1000.0])
+def test_after_its_clock_restarted_a_host_neither_forgets_a_frozen_sensor_nor_takes_one_for_frozen(
+    new_clock: float,
+) -> None:
+    one = shell(JsonHost().receive, Bench(ROUTE, devices={RIGHT: CC2650()}, seed=3).peripherals)
+    one.use("right_foot")
+    one.run(2.0)
+    one.send({"type": "restart", "t": new_clock}, {"type": "time", "t": new_clock + 0.2})
+    assert not one.events("StreamRestarted")
+    one.send(*({"type": "time", "t": new_clock + 0.2 * tick} for tick in range(100)))
+    assert one.events("StreamRestarted")
+
+
+def test_the_last_values_of_a_sensor_that_was_removed_cost_no_other_sensor_its_values() -> None:
+    one = shell(JsonHost(packets=True).receive, Bench(ROUTE, seed=3).peripherals)
+    one.use(None, None)
+    one.run(2.0)
+    left, right = one.devices
+    one.lose(left)
+    one.send({"type": "remove", "device": left})
+    frame = next(m["data"] for m in reversed(one.messages) if m["type"] == "packet" and m["channel"] == "insole/frame")
+    del one.messages[:]
+    one.send({"type": "values", "values": [[2.1, left, "insole/frame", frame], [2.1, right, "insole/frame", frame]]})
+    assert [message["type"] for message in one.messages if message["type"] != "event"] == ["packet", "error"]
+
+
+def test_a_connection_that_nobody_ended_is_ended_by_the_next() -> None:
+    one = walked(until=3.0)
+    device = next(iter(one.devices))
+    one.send({"type": "connected", "device": device, "t": 3.0, "characteristics": [], "connection": 99})
+    assert [event["event"] for event in one.events("Connected", "Disconnected")][-1] == "Disconnected"
+    one.send({"type": "remove", "device": device})
+    assert one.messages[-1]["type"] != "error"
+
+
+def test_after_the_end_everything_but_another_start_is_an_error() -> None:
+    one = walked(until=4.0)
+    device = next(iter(one.devices))
+    one.send({"type": "save"}, {"type": "finish"})
+    saved = next(message["state"] for message in reversed(one.messages) if message["type"] == "saved")
+    del one.messages[:]
+    one.send({"type": "time", "t": 5.0}, {"type": "disconnected", "device": device, "t": 5.0})
+    assert [message["reason"] for message in one.messages] == ["the walk is finished"] * 2
+    del one.messages[:]
+    one.send({"type": "start", "state": saved, "packets": True}, {"type": "save"})
+    assert [message["type"] for message in one.messages] == ["saved"] and one.messages[0]["state"] == saved
 
 
 def test_a_second_left_insole_is_disconnected_with_a_reason() -> None:
@@ -106,7 +170,8 @@ def test_a_saved_state_goes_on_in_another_host() -> None:
     one.run(5.0)
     one.send({"type": "save"})
     assert one.messages[-1]["type"] == "saved"
-    other = JsonHost(Session.unpack(b64decode(one.messages[-1]["state"])), packets=True)
+    other = JsonHost()
+    assert other.receive(json.dumps({"type": "start", "state": one.messages[-1]["state"], "packets": True})) == "[]"
     assert other.host.session.pack() == b64decode(one.messages[-1]["state"])
     for device in bench.peripherals:
         device.disconnected(one.now)
@@ -142,6 +207,11 @@ BAD: list[Any] = [
     {"type": "values", "values": 5},
     {"type": "disconnected", "device": "A", "t": 0.0},
     {"type": "time", "t": None},
+    {"type": "start", "state": "bm8gc3RhdGU="},
+    {"type": "start", "state": "ä"},
+    {"type": "start", "packets": 1},
+    {"type": "bind"},
+    {"type": "bind", "site": "left_foot", "address": 5},
 ]
 
 
@@ -169,7 +239,22 @@ VALUES = st.recursive(
     lambda inner: st.lists(inner, max_size=4),
     max_leaves=6,
 )
-KEYS = ["device", "t", "site", "profile", "name", "signal", "characteristics", "value", "reason", "values"]
+KEYS = [
+    "device",
+    "t",
+    "site",
+    "profile",
+    "name",
+    "signal",
+    "characteristics",
+    "value",
+    "reason",
+    "values",
+    "connection",
+    "state",
+    "address",
+    "packets",
+]
 
 
 @given(

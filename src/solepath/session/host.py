@@ -27,8 +27,9 @@ from .session import Session
 TICK = "receiver/tick"
 """Channel of a packet that only says that time has passed (protocol/receiver.md)."""
 
-TICK_INTERVAL = 0.2
-"""Time without any packet after which such a packet is fed, s, chosen by hand."""
+TICK_INTERVAL = 0.1
+"""Time without any packet after which such a packet is fed, s: four a second are needed (protocol/receiver.md), and
+time that passes five times a second gives them in spite of its jitter."""
 
 Observe = Callable[[Packet | None, list[Event]], object]
 """Function that gets each packet, and the events that followed; None for events without a packet."""
@@ -74,13 +75,13 @@ class Host:
 
         Without a profile, the connected device shows of which kind it is. Its packets name `address`, by default
         `device`; "" where a system gives a device another identifier each time an app starts. Nothing happens if it was
-        added before. Raises ValueError when it was added at another site, another device is there, or both feet have
-        one."""
+        added before with the same profile. Raises ValueError when it was added otherwise, another device is at the
+        site, or both feet have one."""
         known = self._devices.get(device)
         if known is None:
             [member] = self.roster.add([DeviceConfig(site, device, profile)])
             self._devices[device] = HostDevice(member, device if address is None else address)
-        elif known.member.config.site is not site:
+        elif (known.member.config.site, known.member.config.profile) != (site, profile):
             raise ValueError(f"{device!r:.80} is at the {known.member.site.words}: remove it first")
 
     def check(self, device: str) -> None:
@@ -88,7 +89,9 @@ class Host:
         self._get(device)
 
     def remove(self, device: str) -> None:
-        """Remove a device that is not connected; its site becomes free."""
+        """Remove a device that is not connected; another one may be added at its site.
+
+        The session goes on to accept no other device there: call its `bind` before another is connected."""
         if self._get(device).setup is not None:
             raise ValueError(f"{device!r:.80} is connected")
         self.roster.remove(self._devices.pop(device).member)
@@ -101,12 +104,12 @@ class Host:
         now: float,
         signal: int | None = None,
     ) -> list[HostCommand]:
-        """Start the setup of a device that was connected at `now`.
+        """Start the setup of a device that was connected at `now`; an earlier connection of it has ended thereby.
 
         `name` is the name that it advertises, "" when unknown, and `signal` the signal strength, dBm. Of several
         characteristics with one UUID in a service, the first counts."""
-        one = self._get(device)
-        found = frozenset(characteristics)
+        one, found = self._get(device), frozenset(characteristics)
+        self.disconnect(device, now)
         profile = one.member.config.profile or find_profile(name, found)
         if profile is None:
             sentence = f"{name or device} is of no kind that is known here: say its profile"
@@ -124,9 +127,11 @@ class Host:
         return self._use(device, now, self._setup(device).reject(now, reason))
 
     def notify(self, device: str, channel: str, now: float, data: bytes) -> None:
-        """Feed a notification that came at `now`; one of a device that is not connected is left out."""
+        """Feed a notification that came at `now`.
+
+        One of a device that is not connected, or not yet known to be the configured one, is left out."""
         one = self._get(device)
-        if one.setup is not None and one.setup.end is None:
+        if one.setup is not None and one.setup.end is None and one.member.address:
             one.setup.add_notification(channel, now)
             self._feed_packet(one.packet(now, channel, data))
 
@@ -160,10 +165,17 @@ class Host:
 
     def restart_clock(self, now: float) -> None:
         """Go on at `now` after the clock restarted or was set, for instance because the phone did."""
+        for one in self._devices.values():
+            one.recent = RecentTroubles()
+            one.member.wrong_since.clear()
+            if one.setup is not None:
+                one.setup.restart_clock(now)
         self.observe(None, self.session.restart_clock(now))
 
     def finish(self) -> None:
-        """End the session."""
+        """End the session; no call but `remove` may follow."""
+        for one in self._devices.values():
+            one.setup = None
         self.observe(None, self.session.finish())
 
     def _use(self, device: str, now: float, values: list[Value]) -> list[HostCommand]:

@@ -6,7 +6,7 @@ for message in json.loads(host.receive(text)): ..."""
 from __future__ import annotations
 
 import json
-from base64 import b64encode
+from base64 import b64decode, b64encode
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
@@ -22,6 +22,9 @@ from .session import Session
 Message = dict[str, Any]
 T = TypeVar("T")
 
+SITES = {site.value: site for site in Site}
+BASE_UUID = "-0000-1000-8000-00805f9b34fb"
+"""End of every UUID that Bluetooth itself assigns (Bluetooth Core, vol 3 part B, 2.5.1)."""
 MAX_NAME_LENGTH = 248
 """Longest name of a device, characters (Bluetooth Core, vol 3 part C, 12.1: 248 bytes)."""
 MAX_CHARACTERISTICS = 1000
@@ -31,9 +34,9 @@ MAX_CHARACTERISTICS = 1000
 class JsonHost:
     """A host that receives and returns messages as JSON texts.
 
-    `session` is a new one with the defaults unless one is given, for instance a restored one. With `packets`, every
-    packet is returned as a message too, with the keys of a line of a recording. `observe` replaces the messages of
-    packets and events by calls of a function."""
+    `session` is a new one with the defaults unless one is given, for instance one with a calibration. With `packets`,
+    every packet is returned as a message too, with the keys of a line of a recording. `observe` replaces the messages
+    of packets and events by calls of a function."""
 
     def __init__(
         self, session: Session | None = None, *, packets: bool = False, observe: Observe | None = None
@@ -42,6 +45,7 @@ class JsonHost:
         self._packets = packets
         self._connections: dict[str, int | None] = {}
         """Number that the app gave to the newest connection of each device."""
+        self._is_finished = False
         self.host = Host(session or Session(), observe or self._observe)
 
     def receive(self, text: str) -> str:
@@ -63,6 +67,8 @@ class JsonHost:
             self._messages.append(_error("a message is an object with a known type"))
             return
         try:
+            if self._is_finished and kind not in AFTER_THE_END:
+                raise ValueError("the walk is finished")
             HANDLERS[kind](self, _Fields(message))
         except ValueError as error:
             self._messages.append(_error(str(error), kind, message.get("device")))
@@ -91,12 +97,31 @@ class JsonHost:
                 }
             )
 
+    def _start(self, message: Message) -> None:
+        state, packets = message.get("state"), message.get("packets", False)
+        if type(packets) is not bool:
+            raise ValueError("packets is true or false")
+        if state is not None and not isinstance(state, str):
+            raise ValueError("state is the text of a message saved")
+        recipe = self.host.session.recipe
+        session = Session(recipe) if state is None else Session.unpack(b64decode(state, validate=True), recipe)
+        self.host = Host(session, self.host.observe)
+        self._packets, self._is_finished = packets, False
+        self._connections.clear()
+
+    def _bind(self, message: Message) -> None:
+        site, address = _choose(message, "site", SITES), message.get("address", "")
+        if site is None:
+            raise ValueError("site is absent")
+        if not isinstance(address, str):
+            raise ValueError("address is no address of a device")
+        self.host.session.bind(site, address)
+
     def _add(self, message: Message) -> None:
-        sites = {site.value: site for site in Site}
         address = message.get("address")
         if address is not None and (not isinstance(address, str) or not is_address(address)):
             raise ValueError("address is no address of a device")
-        site, profile = _choose(message, "site", sites), _choose(message, "profile", BY_NAME)
+        site, profile = _choose(message, "site", SITES), _choose(message, "profile", BY_NAME)
         self.host.add(_device(message), site, profile, address)
 
     def _remove(self, message: Message) -> None:
@@ -115,7 +140,7 @@ class JsonHost:
         for one in characteristics:
             match one:
                 case [str(service), str(uuid), bool(can_notify)]:
-                    key = service.lower(), uuid.lower()
+                    key = _whole(service), _whole(uuid)
                     found.setdefault(key, GattCharacteristic(*key, can_notify))
                 case _:
                     raise ValueError("a characteristic is [service, UUID, can notify]")
@@ -127,10 +152,19 @@ class JsonHost:
         self._command(commands)
 
     def _done(self, message: Message) -> None:
-        self._command(self.host.answer(_device(message), _time(message), _bytes(message.get("value", ""))))
+        device, now, value = _device(message), _time(message), _bytes(message.get("value", ""))
+        if self._is_current(message):
+            self._command(self.host.answer(device, now, value))
 
     def _rejected(self, message: Message) -> None:
-        self._command(self.host.reject(_device(message), _time(message), _reason(message)))
+        device, now, reason = _device(message), _time(message), _reason(message)
+        if self._is_current(message):
+            self._command(self.host.reject(device, now, reason))
+
+    def _is_current(self, message: Message) -> bool:
+        """Return whether the message is of the newest connection of its device, as far as it names one."""
+        connection = message.get("connection")
+        return connection is None or connection == self._connections.get(_device(message))
 
     def _failed(self, message: Message) -> None:
         self.host.report(_device(message), _time(message), _reason(message))
@@ -143,19 +177,33 @@ class JsonHost:
                     values.append((device, channel, _time({"t": t}), _bytes(data)))
                 case _:
                     raise ValueError("each is [t, device, channel, value]")
-        for device in {device for device, _, _, _ in values}:
-            self.host.check(device)
+        unknown = ""
         for device, channel, arrival, value in values:
-            self.host.notify(device, channel, arrival, value)
+            try:
+                self.host.notify(device, channel, arrival, value)
+            except ValueError as error:  # its last ones, after it was removed, end none of the others
+                unknown = str(error)
+        if unknown:
+            raise ValueError(unknown)
 
     def _save(self, message: Message) -> None:
         self._messages.append({"type": "saved", "state": b64encode(self.host.session.pack()).decode()})
+
+    def _finish(self, message: Message) -> None:
+        self._is_finished = True
+        self.host.finish()
 
 
 def filters() -> Message:
     """Return the message "filters": the conditions of a scan for the built-in devices, and their services."""
     conditions = [{"name": one.name, "prefix": one.prefix, "service": one.service} for one in scan_filters(PROFILES)]
     return {"type": "filters", "filters": conditions, "services": [*used_services(PROFILES)]}
+
+
+def _whole(uuid: str) -> str:
+    """Return a UUID with all its digits in lower case; a short one is one of Bluetooth's own."""
+    digits = uuid.lower()
+    return f"{digits:0>8}{BASE_UUID}" if len(digits) in (4, 8) else digits
 
 
 def _reject_constant(text: str) -> None:
@@ -213,6 +261,8 @@ def _bytes(text: Any) -> bytes:
 
 
 HANDLERS: dict[str, Callable[[JsonHost, Message], None]] = {
+    "start": JsonHost._start,
+    "bind": JsonHost._bind,
     "scan": lambda json_host, message: json_host._messages.append(filters()),
     "add": JsonHost._add,
     "remove": JsonHost._remove,
@@ -225,6 +275,8 @@ HANDLERS: dict[str, Callable[[JsonHost, Message], None]] = {
     "time": lambda json_host, message: json_host._command(json_host.host.advance(_time(message))),
     "restart": lambda json_host, message: json_host.host.restart_clock(_time(message)),
     "save": JsonHost._save,
-    "finish": lambda json_host, message: json_host.host.finish(),
+    "finish": JsonHost._finish,
 }
 """Method for each type of message that is received."""
+AFTER_THE_END = ("start", "scan", "save", "remove")
+"""Messages that make sense after "finish"."""

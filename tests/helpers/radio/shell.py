@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable
+from random import Random
 from typing import Any
 
 from attrs import define, field
@@ -11,36 +12,55 @@ from attrs import define, field
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.peripheral import Peripheral
 
-TICK = 0.1
+TICK = 0.2
 """Time between two messages "time", s."""
+BATCH_TIME = 0.03
+"""Time for which notifications are collected, s."""
+MAX_DELAY = 0.06
+"""Longest time that a device takes for a request, s."""
 RETRY_DELAY = 0.5
 """Time from a disconnection to the next connection, s."""
+REQUESTS = ("read", "subscribe", "write")
 
 
 @define
 class Shell:
-    """The shell: it connects to emulated devices and does what the messages of `receive` request."""
+    """The shell: it connects to emulated devices and does what the messages of `receive` request, each after a while.
+
+    A request that is still to be done when its connection is lost is answered late, as a system may do."""
 
     receive: Callable[[str], str]
     devices: dict[str, Peripheral]
     now: float = 0.0
+    disconnects: bool = True
+    """False for a system that takes very long to end a connection."""
     messages: list[dict[str, Any]] = field(factory=list, init=False)
     """All messages that were received."""
-    _connected: set[str] = field(factory=set, init=False)
-    _retry_at: dict[str, float] = field(factory=dict, init=False)
     _connections: int = field(default=0, init=False)
     """Number of the newest connection."""
-    _current: dict[str, int] = field(factory=dict, init=False)
+    _connected: dict[str, int] = field(factory=dict, init=False)
+    """Number of the connection of each connected device."""
+    _requests: list[tuple[float, dict[str, Any]]] = field(factory=list, init=False)
+    """Requests, each with the time at which the device has done it."""
+    _batch: list[list[Any]] = field(factory=list, init=False)
+    _retry_at: dict[str, float] = field(factory=dict, init=False)
+    _delays: Random = field(factory=lambda: Random(5), init=False)
 
     def send(self, *sent: dict[str, Any]) -> None:
-        """Send messages, and do what the answers request."""
-        for message in json.loads(self.receive(json.dumps(sent))):
+        """Send messages after the notifications that wait, and take the answers."""
+        values, self._batch = self._batch, []
+        first = ({"type": "values", "values": values},) if values else ()
+        for message in json.loads(self.receive(json.dumps([*first, *sent]))):
             self.messages.append(message)
-            if message["type"] in ("read", "subscribe", "write"):
-                assert message["connection"] == self._current[message["device"]]
-                self._do(message)
-            elif message["type"] == "disconnect":
-                self._lose(message["device"])
+            device = message.get("device", "")
+            if message["type"] in (*REQUESTS, "disconnect") and message["connection"] != self._connected.get(device):
+                continue
+            if message["type"] in REQUESTS:
+                self._requests.append((self.now + self._delays.uniform(0.0, MAX_DELAY), message))
+            elif message["type"] == "disconnect" and self.disconnects:
+                self._lose(device)
+                if not message["wrong"]:
+                    self._retry_at[device] = self.now + RETRY_DELAY
 
     def use(self, *sites: str | None) -> None:
         """Add the devices in order, at these sites; None for those that report theirs."""
@@ -53,12 +73,19 @@ class Shell:
         next_tick = self.now
         while self.now < until:
             due = [t for device in self._connected if (t := self.devices[device].next_due()) is not None]
+            due += [t for t, _ in self._requests] + [self._batch[0][0] + BATCH_TIME for _ in self._batch[:1]]
             self.now = max(self.now, min([next_tick, *due, *self._retry_at.values()]))
             for device in [device for device, t in self._retry_at.items() if t <= self.now]:
                 del self._retry_at[device]
                 self._connect(device)
             for device in sorted(self._connected):
                 self._poll(device)
+            done = [message for t, message in self._requests if t <= self.now]
+            self._requests = [(t, message) for t, message in self._requests if t > self.now]
+            for message in done:
+                self._do(message)
+            if self._batch and self.now >= self._batch[0][0] + BATCH_TIME:
+                self.send()
             if self.now >= next_tick:
                 next_tick += TICK
                 self.send({"type": "time", "t": self.now})
@@ -75,21 +102,24 @@ class Shell:
     def _connect(self, device: str) -> None:
         emulated = self.devices[device]
         emulated.connected(self.now, emulated.mtu)
-        self._connected.add(device)
+        self._connections += 1
+        self._connected[device] = self._connections
         characteristics = [
-            [service.uuid.upper(), one.uuid, "notify" in one.properties]
+            [short(service.uuid), short(one.uuid), "notify" in one.properties]
             for service in emulated.services
             for one in service.characteristics
         ]
-        self._connections += 1
-        self._current[device] = self._connections
         about = {"device": device, "name": emulated.name, "signal": -61, "characteristics": characteristics}
         self.send({"type": "connected", "t": self.now, "connection": self._connections, **about})
 
     def _do(self, message: dict[str, Any]) -> None:
-        emulated, about = self.devices[message["device"]], {"device": message["device"], "t": self.now}
+        device, connection = message["device"], message["connection"]
+        about, value = {"device": device, "connection": connection, "t": self.now}, b""
+        if connection != self._connected.get(device):  # the system answers for a connection that it has lost
+            self.send({"type": "done", "value": "", **about})
+            return
+        emulated = self.devices[device]
         channel = self._channel(emulated, message["service"], message["characteristic"])
-        value = b""
         try:
             if message["type"] == "read":
                 value = emulated.read(channel, self.now) or b""
@@ -104,15 +134,12 @@ class Shell:
 
     def _poll(self, device: str) -> None:
         emulated = self.devices[device]
-        sent = [[self.now, device, one.channel, one.value.hex()] for one in emulated.poll(self.now)]
-        if sent:
-            self.send({"type": "values", "values": sent})
+        self._batch += [[self.now, device, one.channel, one.value.hex()] for one in emulated.poll(self.now)]
         if emulated.must_hang_up(self.now):
             self.lose(device)
 
     def _lose(self, device: str) -> None:
-        if device in self._connected:
-            self._connected.discard(device)
+        if self._connected.pop(device, None) is not None:
             self.devices[device].disconnected(self.now)
             self.send({"type": "disconnected", "device": device, "t": self.now})
 
@@ -125,6 +152,11 @@ class Shell:
             if (found.uuid, one.uuid) == (service, characteristic)
         ]
         return channel
+
+
+def short(uuid: str) -> str:
+    """Return a UUID in upper case, of one that Bluetooth assigns only the four digits, as CoreBluetooth does."""
+    return uuid[4:8].upper() if uuid.endswith("-0000-1000-8000-00805f9b34fb") else uuid.upper()
 
 
 def shell(receive: Callable[[str], str], devices: Iterable[Peripheral]) -> Shell:

@@ -163,11 +163,11 @@ class DeviceSetup:
 
     def next_check_at(self) -> float | None:
         """Return the time at which `check` is due, s; None when there is nothing to check."""
-        return self._watchdog.next_check_at() if self.is_listening and self.request is None else None
+        return self._watchdog.next_check_at() if self._is_watched() else None
 
     def check(self, now: float) -> list[Value]:
         """Check the streams at `now`, s: one that is frozen is set up again, or ends the connection."""
-        frozen_stream = self._watchdog.check(now) if self.is_listening and self.request is None else None
+        frozen_stream = self._watchdog.check(now) if self._is_watched() else None
         if frozen_stream is not None:
             channel, remedy = frozen_stream
             self._values.append(("receiver/restarted", build_text(channel)))
@@ -178,11 +178,18 @@ class DeviceSetup:
                 self._advance(now)
         return self._take_values()
 
+    def restart_clock(self, now: float) -> None:
+        """Go on at `now`, s, after the clock restarted or was set: streams have their whole time again."""
+        self._watchdog.restart_clock(now)
+
     def disconnect(self) -> list[Value]:
         """Note that the connection was lost or given up."""
         self.request, self.is_listening = None, False
         self._queue.clear()
         return [("receiver/disconnected", b"")] if self._is_accepted else []
+
+    def _is_watched(self) -> bool:
+        return self.is_listening and self.request is None and self.end is None
 
     def _read_site(self, now: float, info: bytes) -> None:
         try:

@@ -11,6 +11,8 @@ MAX_TEXT_SIZE = 500
 """Longest text of a trouble, bytes, chosen by hand."""
 REPORT_INTERVAL = 60.0
 """Shortest interval between two reports of the same trouble, s, chosen by hand."""
+MAX_RECENT = 100
+"""Largest number of troubles of a device that are remembered, chosen by hand."""
 
 Value = tuple[str, bytes]
 """Channel and data of a packet."""
@@ -40,5 +42,6 @@ class RecentTroubles:
     def _add(self, text: bytes, now: float) -> bool:
         self._reported = {reported: t for reported, t in self._reported.items() if now - t < REPORT_INTERVAL}
         is_new = text not in self._reported
-        self._reported.setdefault(text, now)
+        if is_new and len(self._reported) < MAX_RECENT:
+            self._reported[text] = now
         return is_new

@@ -38,6 +38,11 @@ class Watchdog:
         """Note a notification of `channel` at time `t`, s."""
         self._last_t[channel] = t
 
+    def restart_clock(self, now: float) -> None:
+        """Go on at `now`, s, after the clock restarted or was set."""
+        self._last_t.clear()
+        self.t_start = now
+
     def next_check_at(self) -> float | None:
         """Return the time of the next check, s; None when there is nothing to watch."""
         return min((self._frozen_at(stream) for stream in self.streams), default=None)
