@@ -6,7 +6,8 @@
 examples/edge_box.service starts it with the machine and after every end: it may be killed at any moment. Every packet
 is recorded before it is used. Each minute the session is saved and the next recording is started, so a restart reads
 the last save and a minute of packets at most. They give the same rows as before, and rows that a file has are not
-written again. Tried with emulated insoles; nobody has tried it on a box with a radio.
+written again. On a full disk it ends, and measures nothing until there is space. Tried with emulated insoles; nobody
+has tried it on a box with a radio.
 """
 
 import asyncio
@@ -34,8 +35,8 @@ class Box:
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.session, self.number, self.recording = folder, Session(), 0, 0
-        self.boot, self.rebooted, self.writer = "", False, None
-        with suppress(FileNotFoundError):
+        self.boot, self.writer = "", None  # the boot in which the newest packet came
+        with suppress(FileNotFoundError, ValueError, KeyError):  # never saved, or a file that something damaged
             saved = json.loads((folder / "state.json").read_text())
             self.number, self.recording, self.boot = saved["number"], saved["recording"], saved["boot"]
             with suppress(SnapshotError):  # another version of solepath saved it: the track starts again
@@ -57,12 +58,13 @@ class Box:
     def use_header(self, header: dict[str, str | float]) -> None:
         """Use what a recording says of its clock: the date and time at a time of its packets, s, and the boot."""
         self.started_at, self.t_start = read_start_time(header)
-        self.rebooted, self.boot = self.rebooted or header["boot"] != self.boot, header["boot"]
+        self.recorded_boot = header["boot"]
 
     def save(self) -> None:
         """Save the session and start the next recording; a restart does not need the earlier ones any more."""
         if self.writer is not None:
             self.writer.close()
+        os.sync()  # the rows, before the packets that they came from are deleted
         state = {"recording": self.recording, "number": self.number, "boot": self.boot}
         write_whole(self.folder / "state.json", json.dumps({**state, "session": self.session.snapshot()}))
         for path in self.folder.glob("packets-*.jsonl") if not KEEP_RECORDINGS else ():
@@ -80,8 +82,8 @@ class Box:
 
     def use(self, packet: Packet) -> None:
         """Feed the session a packet that a recording has, and write the rows that no file has."""
-        events = self.session.restart_clock(packet.t) if self.rebooted else []
-        self.rebooted = False
+        events = self.session.restart_clock(packet.t) if self.recorded_boot != self.boot else []
+        self.boot = self.recorded_boot
         for event in events + self.session.feed(packet):
             self.number += 1
             if self.number > self.written:
@@ -99,7 +101,10 @@ def newest_number(path: Path) -> int:
         file.seek(max(0, path.stat().st_size - 100_000))
         *whole, torn = file.read().split(b"\n")
         file.truncate(file.tell() - len(torn))
-    return json.loads(whole[-1])["row"] if whole else 0
+    for line in reversed(whole):
+        with suppress(ValueError, KeyError, TypeError):
+            return json.loads(line)["row"]
+    return 0
 
 
 def notify(state: bytes) -> None:

@@ -145,6 +145,20 @@ def test_the_recordings_before_a_save_are_deleted_and_a_row_that_was_torn_is_cut
     assert again.session.pack() == box.session.pack()
 
 
+@pytest.mark.parametrize("text", ["", "{", "{}"])
+def test_a_damaged_state_and_a_damaged_row_never_keep_the_box_from_starting(tmp_path: Path, text: str) -> None:
+    box = example().Box(tmp_path)
+    for packet in PACKETS[:HALF]:
+        box.receive(packet)
+    box.writer.close()
+    before = rows(tmp_path)
+    (tmp_path / "state.json").write_text(text)
+    with next(tmp_path.glob("rows-*.jsonl")).open("ab") as file:
+        file.write(b'{"row": \n')
+    again = example().Box(tmp_path)
+    assert again.number == len(before) and again.session.pack() == box.session.pack()
+
+
 def test_after_an_update_of_solepath_the_rows_go_on_with_a_new_track(tmp_path: Path) -> None:
     box_module = example()
     box = box_module.Box(tmp_path)
@@ -166,14 +180,15 @@ def test_after_an_update_of_solepath_the_rows_go_on_with_a_new_track(tmp_path: P
 def test_after_a_reboot_the_clock_restarts_and_after_a_kill_it_does_not(tmp_path: Path) -> None:
     box_module = example()
     resets = []
-    for boot, packets in (("first", PACKETS[:400]), ("first", PACKETS[400:HALF]), ("second", PACKETS[HALF:])):
+    starts = [("first", PACKETS[:400]), ("first", PACKETS[400:HALF]), ("second", ()), ("second", ())]
+    for boot, packets in (*starts, ("second", PACKETS[HALF:])):  # twice it ends before a sensor is found
         box_module.BOOT = boot
         box = box_module.Box(tmp_path)
         for packet in packets:
             box.receive(evolve(packet, t=packet.t + 100.0) if boot == "first" else packet)
         box.writer.close()
         resets.append(sum(row["event"] == "ClockReset" for row in rows(tmp_path)))
-    assert resets == [0, 0, 2]
+    assert resets == [0, 0, 0, 0, 2]
     assert not [row for row in rows(tmp_path) if row["event"] == "PacketRejected"]
 
 

@@ -79,7 +79,7 @@ async def restart(view: Window) -> None:
     await view.until(READY, patience=PATIENCE)
 
 
-async def test_what_was_recorded_is_computed_once_whatever_the_storage_refuses(
+async def test_what_was_recorded_is_computed_once_although_the_storage_was_full(
     chromium: Browser, site: Path, tmp_path: Path
 ) -> None:
     with serving(site) as url:

@@ -108,7 +108,7 @@ async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
     assert 0 <= radio.frames_read - frames <= IN_FLIGHT
 
 
-async def test_a_sensortag_is_worn_where_the_person_says(chromium: Browser, site: Path) -> None:
+async def test_a_sensortag_is_worn_at_the_chosen_site(chromium: Browser, site: Path) -> None:
     bench = Bench(ROUTE, devices={Site.LEFT_FOOT: CC2650()}, seed=3)
     bench.prepare()
     [tag] = bench.peripherals

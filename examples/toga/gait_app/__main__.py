@@ -4,7 +4,7 @@
     python examples/toga/gait_app/__main__.py   one button for two insoles nearby, one for an emulated wearer
 
 `solepath.ble.Devices` runs in Toga's asyncio loop. examples/toga/pyproject.toml declares what Briefcase needs to pack
-it for Android, where nobody has tried it. On iOS a queue replaces bleak (thread_and_queue.py)."""
+it for Android, where nobody has tried it. On iOS there is no bleak: protocol/host.md is the way there."""
 
 import asyncio
 from collections import deque
