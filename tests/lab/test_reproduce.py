@@ -121,11 +121,11 @@ def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path
     assert (tmp_path / f"figure.{ending}").read_bytes().startswith(magic)
 
 
-LONGEST = "footstep-tracker"
+LONGEST = ("footstep-tracker", "walking-modes", "pressure-contour")
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.soak if name == LONGEST else ()) for name in NAMES]
+    "name", [pytest.param(name, marks=pytest.mark.soak if name in LONGEST else ()) for name in NAMES]
 )
 def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeypatch):
     pytest.importorskip("matplotlib")

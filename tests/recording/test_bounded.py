@@ -54,7 +54,10 @@ def array_header(shape: tuple[int, ...], descr: str = "<f8") -> bytes:
 def inflating(path: Path, claimed: tuple[int, ...], actual: int, descr: str = "<f8") -> Path:
     """Write an archive whose `acc` claims this shape and type, and inflates to `actual` bytes of zeros."""
     np.savez(path, **{key: value for key, value in still().items() if key != "acc"})
-    with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive, archive.open("acc.npy", "w") as file:
+    with (
+        zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED, compresslevel=1) as archive,
+        archive.open("acc.npy", "w") as file,
+    ):
         file.write(array_header(claimed, descr))
         for _ in range(actual // 10_000_000):
             file.write(bytes(10_000_000))
@@ -63,7 +66,7 @@ def inflating(path: Path, claimed: tuple[int, ...], actual: int, descr: str = "<
 
 def test_an_archive_that_inflates_to_a_gigabyte_is_rejected_before_that(tmp_path: Path) -> None:
     path = inflating(tmp_path / "walk.npz", (40_000_000, 3), 960_000_000)
-    assert path.stat().st_size < 2_000_000
+    assert path.stat().st_size < 5_000_000
     assert "walk.npz: holds more than 100,000,000 numbers" in complaint("track", path)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from browsers import Browser, Window, window
+from here import PROTOCOL
 from scripted_insoles import STREAM, WALK, connect
 from web_pages import PATIENCE, READY, WORDS, open_site, ready
 
@@ -20,6 +21,15 @@ WORDS_FOR = """([userAgent, maxTouchPoints]) => {
     for (const [name, value] of Object.entries({ userAgent, maxTouchPoints }))
         Object.defineProperty(navigator, name, { value, configurable: true });
     return import('./abilities.js').then((abilities) => abilities.bluetoothWords());
+}"""
+CLOCK = """async () => {
+    const { now } = await import('./clock.js'), date = Date.now, times = [now()];
+    for (const hours of [1, -1]) {
+        Date.now = () => date() + 3_600_000 * hours;
+        times.push(now());
+    }
+    Date.now = date;
+    return [times[1] - times[0], times[2] - times[1]];
 }"""
 SPY = """
 globalThis.held = 0;
@@ -69,6 +79,9 @@ async def test_without_bluetooth_the_page_names_browsers_that_have_it(chromium: 
             ):
                 words = await view.tab.evaluate(WORDS_FOR, [agent, touch])
                 assert expected in words and "Recordings and the demonstration can be played here" in words
+            slept, set_back = await view.tab.evaluate(CLOCK)
+            assert 3599.0 <= slept < 3605.0, "the steady clock stood still while the device slept"
+            assert 0.0 <= set_back < 5.0, "no clock of a walk goes back"
 
 
 async def restart(view: Window) -> None:
@@ -84,8 +97,10 @@ async def test_what_was_recorded_is_computed_once_although_the_storage_was_full(
 ) -> None:
     with serving(site) as url:
         async with open_site(chromium, url, script=SPY) as view:
+            await view.tab.locator("#file").set_input_files([PROTOCOL / "floorplans" / "house.geojson"])
+            await view.until(f"{WORDS}.includes('this floor plan is used from now on')")
             await connect(view)
-            await view.until("held === 1")
+            await view.until("held === 1 && solepath.state.plan !== null")
             await view.tab.evaluate(WALK, {"seconds": 2.0, "stream": STREAM})
             [worker] = view.tab.workers
             await worker.evaluate(FULL, True)
@@ -97,7 +112,7 @@ async def test_what_was_recorded_is_computed_once_although_the_storage_was_full(
             await view.tab.evaluate(WALK, {"seconds": 1.0, "stream": STREAM})
             before = await view.tab.evaluate(STRIDES)
             await check_tabs(view, url)
-            await view.until(f"solepath.state.known && {STRIDES} === {before}")
+            await view.until(f"solepath.state.known && {STRIDES} === {before} && solepath.state.plan !== null")
             await view.tab.evaluate(CHANGE_SAVE, {"saved": "{}"})
             await restart(view)
             words = await view.tab.evaluate(WORDS)

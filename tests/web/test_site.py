@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ from urllib.error import URLError
 from urllib.request import urlopen
 
 import pytest
-from browsers import Browser, Window
+from browsers import Browser, Window, window
 from web_pages import PATIENCE, WORDS, demo_packets, open_site, ready, scene_of
 
 from solepath.show.page.messages import encode
@@ -99,3 +100,19 @@ async def test_it_starts_without_its_server(chromium: Browser, site: Path) -> No
             await ready(view)
             await view.tab.locator("#demo").click()
             await view.until("solepath.state.playback?.state === 'playing'", patience=PATIENCE)
+
+
+async def test_two_versions_at_two_paths_of_one_host_keep_their_files_apart(
+    chromium: Browser, site: Path, tmp_path: Path
+) -> None:
+    for name in ("one", "two"):
+        shutil.copytree(site, tmp_path / name)
+    worker = tmp_path / "two" / "sw.js"
+    worker.write_text(worker.read_text().replace('VERSION = "', 'VERSION = "another '))
+    with serving(tmp_path) as url:
+        async with window(chromium, f"{url}one/") as view:
+            for name in ("one", "two", "one"):
+                await view.tab.goto(f"{url}{name}/")
+                await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
+            kept = await view.tab.evaluate("caches.keys()")
+    assert len(kept) == 2 and sum("another" in name for name in kept) == 1

@@ -151,8 +151,13 @@ def test_a_lost_chain_is_replaced_by_the_tracks_and_reported_once(recipe: str, h
     assert named in limitation
 
 
+MORE_SILENCES = ((8.3, 100.0), (8.0, 13.0), (8.8, 13.6))
+
+
 @pytest.mark.parametrize("recipe", RECIPES)
-@pytest.mark.parametrize("silence", [(8.0, 100.0), (8.3, 100.0), (8.0, 13.0), (8.4, 13.3), (8.8, 13.6)])
+@pytest.mark.parametrize(
+    "silence", [(8.0, 100.0), (8.4, 13.3), *(pytest.param(one, marks=pytest.mark.soak) for one in MORE_SILENCES)]
+)
 def test_a_foot_that_falls_silent_neither_freezes_nor_halves_the_wearer(
     recipe: str, silence: tuple[float, float]
 ) -> None:
