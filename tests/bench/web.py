@@ -40,7 +40,7 @@ async def measure(chromium: Browser, folder: Path) -> None:
     with ExitStack() as server:
         url = server.enter_context(serving(folder))
         started = monotonic()
-        async with open_site(chromium, url) as view:
+        async with open_site(chromium, url, still=False) as view:
             print(f"first start: {monotonic() - started:.1f} s")
             await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
             started = monotonic()

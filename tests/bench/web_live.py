@@ -99,7 +99,7 @@ async def walk(view: Window, seconds: float) -> None:
 
 async def measure(chromium: Browser, folder: Path, seconds: float) -> None:
     with serving(folder) as url:
-        async with open_site(chromium, url) as view:
+        async with open_site(chromium, url, still=False) as view:
             await connect(view)
             await view.tab.workers[0].evaluate(MEASURE, await view.tab.evaluate("began"))
             await view.tab.evaluate(WALK, {"seconds": WARM_UP, "stream": STREAM})

@@ -144,11 +144,23 @@ class Window:
 
 @asynccontextmanager
 async def window(
-    browser: Browser, url: str, *, width: int = 1280, height: int = 900, dark: bool = False, script: str = ""
+    browser: Browser,
+    url: str,
+    *,
+    width: int = 1280,
+    height: int = 900,
+    dark: bool = False,
+    script: str = "",
+    still: bool = False,
 ) -> AsyncIterator[Window]:
-    """Yield the page at `url` in a new window of this size, px; `script` runs in it before any other."""
+    """Yield the page at `url` in a new window of this size, px; `script` runs in it before any other.
+
+    `still` is a person's wish for little motion, with which a page is drawn less often."""
     context = await browser.new_context(
-        viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light", locale="en-GB"
+        viewport={"width": width, "height": height},
+        color_scheme="dark" if dark else "light",
+        locale="en-GB",
+        reduced_motion="reduce" if still else "no-preference",
     )
     try:
         context.set_default_timeout(MAX_WAIT * 1000.0)

@@ -21,9 +21,11 @@ WORDS = "document.getElementById('site-words').textContent"
 
 
 @asynccontextmanager
-async def open_site(chromium: Browser, url: str, *, width: int = 360, script: str = "") -> AsyncIterator[Window]:
+async def open_site(
+    chromium: Browser, url: str, *, width: int = 360, script: str = "", still: bool = True
+) -> AsyncIterator[Window]:
     """Yield a window with the site, ready; at the end it must have requested nothing but files of its own origin."""
-    async with window(chromium, url, width=width, script=script) as view:
+    async with window(chromium, url, width=width, script=script, still=still) as view:
         await ready(view)
         yield view
         foreign = [one for one in view.requests if not one.removeprefix("blob:").startswith(url)]
