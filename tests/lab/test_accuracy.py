@@ -95,6 +95,7 @@ def test_contacts_of_both_feet_are_found_in_spite_of_radio_losses(evaluated: Eva
         assert abs(summary.together[f"{kind}_bias"]) <= 0.03
 
 
+@pytest.mark.soak  # half a minute of two processors
 def test_ten_metres_and_back_are_ten_metres(evaluated: Evaluated) -> None:
     _, summary = scores(evaluated, "ipol_10m_uturn")
     assert summary.together["leg_error_median"] <= 0.03
