@@ -112,9 +112,9 @@ def test_after_three_kills_in_mid_walk_the_rows_are_those_of_one_session_that_wa
 
 def test_each_kill_is_a_gap_of_both_feet_and_the_stride_that_it_falls_in_is_degraded(walked: Path) -> None:
     found = rows(walked)
-    starts = [row["t"] for row in found if row["event"] == "Connected" and row["site"] == "left_foot"]
-    assert len(starts) == 4
     for site, foot in (("left_foot", "left"), ("right_foot", "right")):
+        starts = [row["t"] for row in found if row["event"] == "Connected" and row["site"] == site]
+        assert len(starts) == 4
         gaps = [row["t"] for row in found if row["event"] in ("SampleGap", "ClockReset") and row["site"] == site]
         assert len(gaps) >= 3 and all(
             0.0 < start - max([t for t in gaps if t < start + 0.5]) < 10.0 for start in starts[1:]
