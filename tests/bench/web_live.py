@@ -17,17 +17,15 @@ import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 sys.path[:0] = [str(Path(__file__).parents[1] / "helpers" / folder) for folder in ("", "page")]
 
-from browsers import Browser, Window, browsing, why_not  # noqa: E402
+from browsers import Browser, Window  # noqa: E402
 from scripted_insoles import STREAM, WALK, connect  # noqa: E402
-from web_pages import open_site  # noqa: E402
+from web_pages import measure_site, open_site  # noqa: E402
 
 from solepath.emulate import Route, emulate  # noqa: E402
 from solepath.show.web.serve import serving  # noqa: E402
-from solepath.show.web.site import build_site  # noqa: E402
 
 MINUTE = 60.0
 SPEED = 1.3
@@ -118,16 +116,8 @@ def main() -> int:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--minutes", metavar="N", type=float, default=1.0)
     seconds = MINUTE * options.parse_args().minutes
-    reason = why_not()
-    if reason is not None:
-        print(reason)
-        return 2
-    print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}")
-    with TemporaryDirectory() as directory, browsing() as browser:
-        site = Path(directory, "site")
-        build_site(site, emulate(Route().stand(2.0).walk(SPEED * (2.0 * seconds + 10.0), SPEED).stop(1.0)).packets)
-        browser.run(lambda chromium: measure(chromium, site, seconds), 2.0 * (seconds + MINUTE))
-    return 0
+    packets = emulate(Route().stand(2.0).walk(SPEED * (2.0 * seconds + 10.0), SPEED).stop(1.0)).packets
+    return measure_site(packets, lambda chromium, folder: measure(chromium, folder, seconds), 2.0 * (seconds + MINUTE))
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ def test_a_wearer_who_crosses_a_time_zone_walks_on_as_if_nothing_had_happened(mo
     undisturbed, session = Session(), Session()
     move_to("UTC0")
     events = session.feed(PACKETS[:HALF])
-    move_to("XXX-9")
+    move_to("EAST-9")
     session = Session.restore(session.snapshot())
     assert events + session.feed(PACKETS[HALF:]) == undisturbed.feed(PACKETS)
     assert session.pack() == undisturbed.pack()
@@ -49,7 +49,7 @@ def test_a_wearer_who_crosses_a_time_zone_walks_on_as_if_nothing_had_happened(mo
 def test_the_header_of_a_recording_gives_the_time_of_day_in_the_zone_of_whoever_reads_it(
     run: Callable[..., dict[str, Any]], move_to: Callable[[str], None]
 ) -> None:
-    move_to("XXX-9")
+    move_to("EAST-9")
     names = run(CUT, TORN, FULL, ZONE)
     names["writer"].close()
     now = names["time_of_day"](time.monotonic() + 3600.0, "today.jsonl")

@@ -84,10 +84,6 @@ class Host:
         elif (known.member.config.site, known.member.config.profile) != (site, profile):
             raise ValueError(f"{device!r:.80} is at the {known.member.site.words}: remove it first")
 
-    def check(self, device: str) -> None:
-        """Raise ValueError when the device was not added."""
-        self._get(device)
-
     def remove(self, device: str) -> None:
         """Remove a device that is not connected; another one may be added at its site.
 

@@ -98,6 +98,7 @@ class JsonHost:
             )
 
     def _start(self, message: Message) -> None:
+        """Replace the session by a new or a saved one, which has the recipe of the earlier, and none of its options."""
         state, packets = message.get("state"), message.get("packets", False)
         if type(packets) is not bool:
             raise ValueError("packets is true or false")

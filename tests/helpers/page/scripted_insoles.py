@@ -18,8 +18,8 @@ CONNECT = """async (characteristics) => {
         if (['read', 'subscribe', 'write'].includes(type))
             live.send({ type: 'done', device, t: live.clock(), value: type === 'read' ? value(device, channel) : '' });
     }));
-    computer.on('walk', (walk) => (globalThis.began = walk.began));
     await live.startWalk('A walk');
+    globalThis.began = (performance.timeOrigin + performance.now()) / 1000 - live.clock();
     for (const device of ['left_foot', 'right_foot']) {
         live.send({ type: 'add', device });
         live.send({ type: 'connected', device, t: live.clock(), name: device, characteristics });

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import gzip
-from collections.abc import AsyncIterator
+import os
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
 from contextlib import asynccontextmanager
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from browsers import Browser, Window, window
+from browsers import MAX_TEST_TIME, Browser, Window, browsing, why_not, window
 
 from solepath import Packet, Session
 from solepath.recording import read_packets
 from solepath.show.page.scene.scene import Scene
+from solepath.show.web.site import build_site
 
 READY = "document.getElementById('site')?.dataset.ready === 'true' && computer.state === 'ready'"
 PATIENCE = 60.0
@@ -36,6 +39,22 @@ async def ready(view: Window) -> None:
     """Wait until Python runs in the page; the module computer.js is then the page's variable `computer`."""
     await view.tab.evaluate("import('./computer.js').then((m) => { globalThis.computer = m.computer; })")
     await view.until(READY, patience=PATIENCE)
+
+
+def measure_site(
+    packets: Iterable[Packet], measure: Callable[[Browser, Path], Awaitable[None]], longest: float = MAX_TEST_TIME
+) -> int:
+    """Build a site with this recording and measure it in a new browser, for `longest` s; return the exit status."""
+    reason = why_not()
+    if reason is not None:
+        print(reason)
+        return 2
+    print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}")
+    with TemporaryDirectory() as directory, browsing() as browser:
+        folder = Path(directory, "site")
+        build_site(folder, packets)
+        browser.run(lambda chromium: measure(chromium, folder), longest)
+    return 0
 
 
 @cache

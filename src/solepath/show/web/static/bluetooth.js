@@ -171,10 +171,11 @@ class Sensor {
     if (isOver()) return;
     try {
       const value = await inTime(this.#perform(order, characteristic));
-      if (!isOver()) this.#send({ type: "done", value: value ? hex(value) : "" });
+      if (!isOver()) this.#send({ type: "done", connection: order.connection, value: value ? hex(value) : "" });
     } catch (error) {
       if (isOver() || !this.#device.gatt.connected) return; // the loss of the connection says it all
-      if (error.name !== "TimeoutError") return this.#send({ type: "rejected", reason: error.message || error.name });
+      if (error.name !== "TimeoutError")
+        return this.#send({ type: "rejected", connection: order.connection, reason: error.message || error.name });
       this.#send({ type: "failed", reason: "the sensor did not answer in time: it is connected again" });
       this.#device.gatt.disconnect();
     }

@@ -36,12 +36,12 @@ export class Walk {
     return this.#record !== null;
   }
 
-  // Starts a walk, or continues one that a closed tab left; returns when it began, s since 1970.
+  // Starts a walk, or continues one that a closed tab left.
   async start(title) {
     if (this.running) await this.end();
     if (!this.#alone && !(await this.#lock())) throw new Problem(ELSEWHERE);
     await this.resume();
-    if (this.running) return this.#record.began;
+    if (this.running) return;
     await this.#python.run("start_walk", [title]);
     const began = now();
     const name = `walk-${localTime(new Date(1000 * began))}.jsonl`;
@@ -50,7 +50,6 @@ export class Walk {
     await store.put("files", this.#files.used).catch(() => {});
     await this.#keep();
     this.#announce();
-    return began;
   }
 
   // Ends the walk; its recording stays.
