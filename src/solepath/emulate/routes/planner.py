@@ -16,6 +16,7 @@ from .elevator import CarRide, ride
 from .path import ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath
 from .route import Route, Stage, Stand, stages
 from .styles import StrideKind, running_cadence, style_of
+from .wander import Wander
 
 HEIGHT_TOLERANCE = 1e-6
 """Difference in height below which two floors are the same, m."""
@@ -124,9 +125,12 @@ class _Planner:
         if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
             ends.pop()
         scale = path.length / ends[-1]
+        wander = Wander.drawn(path.length, self.wearer.wander, self.rng) if self.wearer.wander else None
         footfalls = []
         for end in (scale * end for end in ends):
             pose = path.at(end)[0]
+            if wander is not None:
+                pose = wander.move(pose, end)
             speed, running = path.pace(end)
             step_time = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
             kind = StrideKind.RUN if running else StrideKind.WALK
@@ -220,7 +224,8 @@ class _Planner:
         reach = min(displacement / 1.42, 1.4)
         roll, yaw, outward = (float(value) for value in self.rng.standard_normal(3))
         side = 1.0 if foot is Foot.LEFT else -1.0
-        deviation = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
+        swerve = side * wearer.swerve[0 if foot is Foot.LEFT else 1]
+        deviation = (swerve * (0.16 + 0.03 * roll), -swerve * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
         if style is not None:
             deviation = (style.deviation_factor * deviation[0], style.deviation_factor * deviation[1], deviation[2])
         toe_off_pitch = wearer.toe_off_pitch * max(reach, 0.08) ** 0.55 if style is None else style.toe_off_pitch

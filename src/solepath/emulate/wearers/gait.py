@@ -59,6 +59,12 @@ class Wearer:
     """Variation of the load's lateral position under the foot, m."""
     mark_error: float = 0.01
     """Standard deviation of the distance along the path from a mark to the foot that steps on it, m (assumed)."""
+    swerve: tuple[float, float] = (1.0, 1.0)
+    """Roll and yaw of the left and the right foot in mid-swing, as a ratio to 9 and 6 degrees."""
+    wander: float = 0.0
+    """Standard deviation of the body's lateral displacement from the path, m; 0: the body keeps to the path."""
+    sway: float = 0.0
+    """Standard deviation of pitch, roll and yaw of a foot while the wearer stands, rad; 0: a standing foot is still."""
     centre_height: float = 0.97
     """Height of the body's centre of mass, m.
 

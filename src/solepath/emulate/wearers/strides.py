@@ -16,13 +16,14 @@ import numpy as np
 from attrs import evolve
 
 from ...types import Foot, Phase
-from ..routes.elevator import CarRide
 from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind, style_of
-from .curves import BUMP, LEVELLING, Array, EndState, constant, evaluate, join, subcurve
-from .gait import PlannedStride, WalkPlan
+from .curves import BUMP, LEVELLING, Array, EndState, Rng, constant, evaluate, join, subcurve
+from .gait import PlannedStride, WalkPlan, Wearer
 from .motion import PHASES, FootMotion
-from .shoe import Rocker, Shoe
+from .shoe import Rocker
+from .sway import SHORTEST_STANDING, sway_pieces
+from .swing import pitch_at, reversal_share, running_swing_pitch, walking_swing_pitch
 
 IMPACT_TIME = 0.014
 """Time that the sole and the heel pad take to stop the heel, s."""
@@ -37,14 +38,6 @@ HEEL_STRIKE_SLOPES = (0.5, -4.0)
 
 LEVELLING_WEIGHT = 5.0
 """Weight of LEVELLING in swing: it lowers the peak speed of a foot from 1.9 to 1.7 times the mean speed."""
-REVERSAL_SHARE = 0.22
-"""Share of the swing, from toe-off on, in which the foot stops raising its heel and starts to raise its toe."""
-SWING_RATE_RATIO = 1.1
-"""Pitch rate at the end of that reversal, as a ratio to the mean rate from there to heel-strike."""
-RUN_SWING_PITCH, RUN_SWING_SHARE = -1.50, 0.34
-"""Extreme pitch of a runner's foot in swing, rad, negative because the heel is up, and its share of the swing."""
-RUN_SWING_ACCELERATION = 4.0
-"""Second derivative of the pitch at that extreme, in units of the pitch change and the time up to heel-strike."""
 _FOREVER = 1e6
 """Time for which a foot stands before the first and after the last stride, s."""
 
@@ -52,17 +45,17 @@ _PointMotion = tuple[Array, Array, Array]
 """Position, m, velocity, m/s, and acceleration, m/s^2, of the ankle point in the world frame, (3,) each."""
 
 
-def foot_motions(plan: WalkPlan, shoe: Shoe) -> dict[Foot, FootMotion]:
-    """Return the motion of both feet of a plan."""
-    return {foot: _MotionBuilder(shoe, plan.rides).build(plan.starts[foot], plan.strides[foot]) for foot in Foot}
+def foot_motions(plan: WalkPlan, wearer: Wearer, rng: Rng) -> dict[Foot, FootMotion]:
+    """Return the motion of both feet of a plan; `rng` draws the sway of a wearer who sways."""
+    return {foot: _MotionBuilder(wearer, plan, rng).build(plan.starts[foot], plan.strides[foot]) for foot in Foot}
 
 
 class _MotionBuilder:
     """Builds the motion of one foot from pieces, with the elevator rides."""
 
-    def __init__(self, shoe: Shoe, rides: tuple[CarRide, ...]) -> None:
-        self.shoe = shoe
-        self.rides = rides
+    def __init__(self, wearer: Wearer, plan: WalkPlan, rng: Rng) -> None:
+        self.shoe, self.sway, self.rng = wearer.shoe, wearer.sway, rng
+        self.rides, self.duration = plan.rides, plan.duration
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
     def build(self, start: Pose, strides: tuple[PlannedStride, ...]) -> FootMotion:
@@ -84,7 +77,15 @@ class _MotionBuilder:
                 # FootMotion adds the displacement of the car during the ride.
                 self._roll(Phase.STATIONARY, self.shoe.heel, pose, t_start, car.end, 0.0 * BUMP)
                 pose, t_start, rest_pitch = evolve(pose, z=pose.z + car.height), car.end, 0.0
-        self._roll(Phase.STATIONARY, self.shoe.heel, pose, t_start, end, rest_pitch * BUMP)
+        first, last = max(t_start, 0.0), min(end, self.duration)
+        if not self.sway or last - first < SHORTEST_STANDING:
+            self._roll(Phase.STATIONARY, self.shoe.heel, pose, t_start, end, rest_pitch * BUMP)
+            return
+        arc = self.shoe.heel
+        centre = [constant(float(value)) for value in self._centre(arc, pose)]
+        for start, stop, (pitch, yaw, roll) in sway_pieces(t_start, first, last, end, self.sway, self.rng):
+            curves = [*centre, pitch, yaw + constant(pose.heading), roll]
+            self._add(start, stop, curves, (arc.x, arc.radius), arc.radius, Phase.STATIONARY)
 
     def push_off(self, stride: PlannedStride) -> None:
         """Add the roll over the forefoot from heel-off to toe-off; a raised heel makes the pitch negative."""
@@ -126,7 +127,7 @@ class _MotionBuilder:
         levelling = LEVELLING_WEIGHT if stride.flight is None else 0.0
         x += -sin(heading) * stride.deviation[2] * BUMP + levelling * (p1[0] - p0[0]) * LEVELLING
         y += cos(heading) * stride.deviation[2] * BUMP + levelling * (p1[1] - p0[1]) * LEVELLING
-        curves_of_pitch = _running_swing_pitch if stride.kind is StrideKind.RUN else _walking_swing_pitch
+        curves_of_pitch = running_swing_pitch if stride.kind is StrideKind.RUN else walking_swing_pitch
         pitches = curves_of_pitch(pitch_start, pitch_end, duration)
         if stride.flight is not None:
             style = style_of(stride.kind, stride.speed)
@@ -139,7 +140,7 @@ class _MotionBuilder:
         else:
             z += self._bump_over_ground(stride, z, pitches, roll) * BUMP
         ankle = (shoe.ankle[0], shoe.ankle[2])
-        reversal = stride.toe_off + _reversal(stride) * duration
+        reversal = stride.toe_off + reversal_share(stride) * duration
         for t_start, end, pitch in ((stride.toe_off, reversal, pitches[0]), (reversal, stride.heel_strike, pitches[1])):
             share_start, share_end = ((t - stride.toe_off) / duration for t in (t_start, end))
             curves = [subcurve(curve, share_start, share_end) for curve in (x, y, z)]
@@ -150,7 +151,7 @@ class _MotionBuilder:
         """Return the factor of BUMP, m, with which the sole stays at least `clearance` times BUMP above the ground."""
         shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
         ground = stride.start.z + (stride.end.z - stride.start.z) * s
-        angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
+        angle, bump = pitch_at(pitches, s, reversal_share(stride)), evaluate(BUMP, s)
         edge = 0.5 * shoe.width * np.abs(np.sin(evaluate(roll, s)))
         height = -np.inf
         for arc in (shoe.heel, shoe.forefoot):
@@ -171,7 +172,7 @@ class _MotionBuilder:
 
         The sole is taken as discs whose centre and radius are interpolated between its two arcs."""
         shoe, s = self.shoe, np.linspace(0.04, 0.96, 93)
-        angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
+        angle, bump = pitch_at(pitches, s, reversal_share(stride)), evaluate(BUMP, s)
         x, y, z, turned = (evaluate(curve, s) for curve in (*ankle_curves, yaw))
         height = 0.0
         for share in np.linspace(0.0, 1.0, 7):
@@ -242,37 +243,6 @@ def _from_rest(end: tuple[float, float]) -> Array:
 def _landing_pitch(stride: PlannedStride) -> Array:
     """Return the pitch from heel-strike to foot-flat, rad; it is a curve from rest, reversed in time."""
     return stride.strike_pitch * subcurve(_from_rest(HEEL_STRIKE_SLOPES), 1.0, 0.0)
-
-
-def _walking_swing_pitch(pitch_start: EndState, pitch_end: EndState, duration: float) -> tuple[Array, Array]:
-    """Return the pitch of a walker's foot in swing: the reversal after toe-off, then a nearly constant rate.
-
-    The reversal lasts a s and the remaining swing b s. With pitch p and rate p' at toe-off and rate r at the end of the
-    reversal, the pitch there is p + a (p' + r) / 2. The rate r is SWING_RATE_RATIO times the mean rate over b; this is
-    solved for r."""
-    a, b = REVERSAL_SHARE * duration, (1.0 - REVERSAL_SHARE) * duration
-    rate = (
-        SWING_RATE_RATIO * (pitch_end[0] - pitch_start[0] - 0.5 * a * pitch_start[1]) / (b + 0.5 * SWING_RATE_RATIO * a)
-    )
-    middle = (pitch_start[0] + 0.5 * a * (pitch_start[1] + rate), rate, 0.0)
-    return join(pitch_start, middle, a), join(middle, pitch_end, b)
-
-
-def _running_swing_pitch(pitch_start: EndState, pitch_end: EndState, duration: float) -> tuple[Array, Array]:
-    """Return the pitch in a runner's swing: the heel rises to RUN_SWING_PITCH, then the foot swings forward."""
-    a, b = RUN_SWING_SHARE * duration, (1.0 - RUN_SWING_SHARE) * duration
-    top = (RUN_SWING_PITCH, 0.0, RUN_SWING_ACCELERATION * (pitch_end[0] - RUN_SWING_PITCH) / b**2)
-    return join(pitch_start, top, a), join(top, pitch_end, b)
-
-
-def _reversal(stride: PlannedStride) -> float:
-    return RUN_SWING_SHARE if stride.kind is StrideKind.RUN else REVERSAL_SHARE
-
-
-def _pitch_at(pitches: tuple[Array, Array], s: Array, reversal: float) -> Array:
-    """Return the pitch at shares `s` of the swing; the first curve ends at share `reversal`."""
-    early, late = (evaluate(pitches[0], s / reversal), evaluate(pitches[1], (s - reversal) / (1.0 - reversal)))
-    return np.where(s < reversal, early, late)
 
 
 def _end_state(curve: Array, s: float, duration: float) -> EndState:

@@ -29,7 +29,7 @@ class Walker:
         self.wearer = wearer or Wearer()
         self.seed = seed
         self.plan = plan(route, self.wearer, np.random.default_rng([seed, 0]))
-        self.motions = foot_motions(self.plan, self.wearer.shoe)
+        self.motions = foot_motions(self.plan, self.wearer, np.random.default_rng([seed, 6]))
         self.loads = loads(self.plan, self.wearer, np.random.default_rng([seed, 4]))
 
     @cached_property
