@@ -17,7 +17,7 @@ from .body.activity.activities import Activities
 from .body.checks.clocks.foot_clocks import FootClocks
 from .body.checks.motion import PossibleMotion
 from .body.checks.sensors import SensorChecks
-from .body.fuse.both_feet import BothFeet, BothFeetSettings
+from .body.fuse.both_feet import BothFeet
 from .body.fuse.position import MeanOfFeet
 from .body.gait.cycles import GaitCycles
 from .body.gait.turns import Turns
@@ -94,14 +94,8 @@ class Recipe:
 DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual_parts(BothFeet(), altitude=Altitude()))
 """Recipe with a stance threshold from each gait cycle, a nine-state error-state filter, and both feet in one frame."""
 
-STRAIGHT_CORRIDORS = DEFAULT.exchanged(
-    TrackPart, BothFeet(BothFeetSettings(straight_corridors=True)), "straight-corridors"
-)
-"""Default recipe for a wearer who walks straight corridors, with which the heading is aligned."""
-
 RECIPES: dict[str, str] = {
     "default": "recipes:DEFAULT",
-    "straight-corridors": "recipes:STRAIGHT_CORRIDORS",
     "kupt-dfpc": "papers.kupt_dfpc.recipe:KUPT_DFPC",
     "kupt": "papers.kupt_dfpc.recipe:KUPT",
     "zupt": "papers.kupt_dfpc.recipe:ZUPT",

@@ -19,7 +19,7 @@ REST_TILT_SIGMA, STANCE_TILT_SIGMA, MOVING_TILT_SIGMA = 0.02, 0.06, 0.5
 LARGEST_MOTION = 1e12
 """Upper bound for the amount of motion in any span, (m/s^2)^2."""
 MOST_REST_SPANS = 20
-"""Number of spans of rest that are averaged: ten seconds, not more, because the bias wanders."""
+"""Number of spans of rest over which the accelerometer scale is averaged: ten seconds."""
 LEAST_SCALE, LARGEST_SCALE = 0.8, 1.25
 """Limits of an accelerometer scale.
 
@@ -44,6 +44,19 @@ REST_ACC_SIGMA = 0.35
 """Largest standard deviation of acc at rest, without the flicker between neighbouring counts, m/s^2."""
 REST_GYRO_SIGMA = 0.02
 """Largest standard deviation of the angular rate at rest, rad/s; a foot in mid-stance shows more."""
+REST_BLOCK = 0.1
+"""Duration of a block, s; the means of the blocks of a span show how much a standing foot turns in it."""
+FIRST_BIAS = 0.009
+"""Standard deviation of a bias that is not known yet, rad/s (0.5 degrees/s), unless the first one is larger."""
+LEAST_REST_ERROR = 0.0009
+"""Least standard deviation of the mean rate of a span of rest, rad/s (3 degrees a minute).
+
+On recordings with the same sensor at several rests (gumushane_gcp, openshoe_loops, pyshoe_vicon, xio_closed_walks) the
+mean rate of a span differs from the bias by about the standard deviation of the means of its blocks, or by this."""
+BIAS_WANDER = 2e-5
+"""Random walk of the bias, rad/s per sqrt(s): 0.02 degrees/s in five minutes, as if warmed by 2 K (ST DS12814)."""
+LARGEST_SURPRISE = 25.0
+"""Squared difference of a mean rate from the bias, divided by its variance, above which the bias is another one."""
 LARGEST_BIAS = 0.8
 """Largest bias, rad/s.
 
@@ -164,6 +177,16 @@ class Rest:
     """Start of the current span, s; None before the first sample."""
     bias: Vec3 = field(default=ZERO, init=False)
     """Gyroscope bias, sensor frame, rad/s."""
+    variance: float = field(default=0.0, init=False)
+    """Variance of each component of `bias` at `learnt_at`, (rad/s)^2."""
+    learnt_at: float | None = field(default=None, init=False)
+    """Time of the newest span of rest, s; None before any and after times restart."""
+    block_end: float = field(default=0.0, init=False)
+    """End of the current block, s."""
+    block_start: tuple[int, Vec3] = field(default=(0, ZERO), init=False)
+    """Number of samples, and sum of their rates, of the span before the current block."""
+    blocks: list[Vec3] = field(factory=list, init=False)
+    """Mean rates of the blocks of the span so far, rad/s."""
     scale: float = field(default=1.0, init=False)
     """Factor for acc that makes it read 1 g at rest."""
     count: int = field(default=0, init=False)
@@ -175,8 +198,8 @@ class Rest:
 
     def reset(self) -> None:
         """Discard the current span because times restart; bias and scale stay."""
-        self.span = SampleSpan()
-        self.span_start = None
+        self._start_span(None)
+        self.learnt_at = None
 
     def calibrate(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
         """Return acc, m/s^2, and gyro, rad/s, with scale and bias applied."""
@@ -186,7 +209,7 @@ class Rest:
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> bool:
         """Add one sample without calibration; return whether a span of rest has just ended."""
         if self.span_start is None:
-            self.span_start = t
+            self._start_span(t)
         # SampleSpan.add without the cost of a call (tests/foot/test_alike.py checks that both are equal)
         span = self.span
         gx, gy, gz = gyro
@@ -211,17 +234,31 @@ class Rest:
             self.grain = least_difference = y if y > 0.0 else -y
         if -least_difference < z < least_difference and not -LARGEST_SAME_COUNT <= z <= LARGEST_SAME_COUNT:
             self.grain = z if z > 0.0 else -z
-        if t - self.span_start < REST_SPAN - TIE or span.count < 4:
+        if t < self.block_end - TIE:
             return False
-        (ax, ay, az), (gx, gy, gz) = self.span.means()
+        before, (x, y, z) = self.block_start
+        (gx, gy, gz), k = span.gyro, 1.0 / (span.count - before)
+        self.blocks.append(((gx - x) * k, (gy - y) * k, (gz - z) * k))
+        self.block_start, self.block_end = (span.count, span.gyro), t + REST_BLOCK
+        if self.span_start is None or t - self.span_start < REST_SPAN - TIE or span.count < 4:
+            return False
+        return self._end_span(t)
+
+    def _start_span(self, t: float | None) -> None:
+        self.span, self.span_start, self.blocks, self.block_start = SampleSpan(), t, [], (0, ZERO)
+        if t is not None:
+            self.block_end = t + REST_BLOCK
+
+    def _end_span(self, t: float) -> bool:
+        """Learn from a span if the foot was at rest, and start the next one; return whether it was at rest."""
+        (ax, ay, az), rate = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
-        self.span = SampleSpan()
-        self.span_start = t
+        blocks = self.blocks
+        self._start_span(t)
         if acc_variance > REST_ACC_SIGMA**2 + 0.75 * self.grain * self.grain or gyro_variance > REST_GYRO_SIGMA**2:
             return False
-        x, y, z = self.bias
         limit = LARGEST_BIAS_CHANGE if self.count else LARGEST_BIAS
-        if max(abs(gx - x), abs(gy - y), abs(gz - z)) > limit:
+        if max([abs(value - bias) for value, bias in zip(rate, self.bias, strict=True)]) > limit:
             return False
         magnitude = (ax * ax + ay * ay + az * az) ** 0.5
         scale = GRAVITY / magnitude if magnitude > 0.0 else 0.0
@@ -230,8 +267,34 @@ class Rest:
             self.count < SPANS_OF_KNOWN_SCALE or abs(scale / self.scale - 1.0) < LARGEST_SCALE_CHANGE
         ):
             self.scale += (scale - self.scale) / spans
-        weight = 1.0 / spans
-        x, y, z = self.bias
-        self.bias = (x + (gx - x) * weight, y + (gy - y) * weight, z + (gz - z) * weight)
+        self._learn_bias(t, rate, blocks)
         self.count += 1
         return True
+
+    def _learn_bias(self, t: float, rate: Vec3, blocks: list[Vec3]) -> None:
+        """Correct the bias by the mean `rate` of a span, by a Kalman gain that is the same for every axis.
+
+        A foot that trembles gives a rate with a large variance, so that a short or restless rest teaches little."""
+        noise = LEAST_REST_ERROR * LEAST_REST_ERROR + _spread(blocks)
+        x, y, z = self.bias
+        dx, dy, dz = rate[0] - x, rate[1] - y, rate[2] - z
+        square = (dx * dx + dy * dy + dz * dz) / 3.0
+        elapsed = 0.0 if self.learnt_at is None else max(0.0, t - self.learnt_at)
+        known = self.variance + BIAS_WANDER * BIAS_WANDER * elapsed if self.count else FIRST_BIAS * FIRST_BIAS
+        if square > LARGEST_SURPRISE * (known + noise):
+            known += square
+        gain = known / (known + noise)
+        self.bias = (x + gain * dx, y + gain * dy, z + gain * dz)
+        self.variance, self.learnt_at = (1.0 - gain) * known, t
+
+
+def _spread(blocks: list[Vec3]) -> float:
+    """Return the variance of rates, mean over the axes; that of a single rate is `REST_GYRO_SIGMA` squared."""
+    count = len(blocks)
+    if count < 2:
+        return REST_GYRO_SIGMA**2
+    total = 0.0
+    for axis in range(3):
+        mean = sum([block[axis] for block in blocks]) / count
+        total += sum([(block[axis] - mean) ** 2 for block in blocks])
+    return total / (3.0 * (count - 1))

@@ -1,10 +1,10 @@
-"""Position of the wearer from the tracks of two feet that belong to one body.
+"""Position of the wearer from the tracks of two feet that belong to one body, or from that of a foot alone.
 
 The world frame starts between the feet. Its x axis is the wearer's first heading, the mean of the first directions of
-both feet. At each stride, the foot that swung is compared with the foot that stood (error_filter.py). The standing foot
-should be beside the middle of the stride, at a lateral distance equal to the walking width, which is estimated. In a
-bend of `turn` rad, the chord of a stride of L m lies L turn / 8 inside the path. Feet that are further apart than
-`BothFeetSettings.reach` are always pulled together.
+both feet. At each stride, the foot that swung is compared with the foot that stood and the difference of
+their errors is corrected (error_filter.py). Feet that are further apart than `BothFeetSettings.reach` are
+always pulled together. The errors that both feet share are those of the wearer's position (common_error.py); straight
+ways show the drift of the heading among them (straightness.py). A foot alone has no other errors than these.
 
 In the first metres, the comparison aligns the two tracks, whatever the directions of the first strides are
 (walking_direction.py), and leaves the feet unchanged. From then on, corrections go to the feet, to each at its own
@@ -19,15 +19,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, sin
 
-from ...events import StrideTaken
+from ...events import SampleGap, StrideTaken
 from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartOutput, Position, Shift
-from .corridor import Corridor
-from .error_filter import HEADING, RATE, STATES_PER_FOOT, WIDTH, Term, TrackErrorFilter, X, Y
+from .common_error import USUAL_STRIDE, CommonError
+from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, standing_foot
 from .position import MeanOfFeet
+from .straightness import Straightness
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
 MAX_TRACK_VALUE = 1e6
@@ -40,16 +41,14 @@ ALIGNMENT_ERROR = (0.15, 0.05)
 """Standard deviations of position, m, and heading, rad, of a returned foot after its alignment with the other foot."""
 STANDING_WIDTH, WALKING_WIDTH = 0.18, 0.12
 """Lateral distance of the feet when standing, and first estimate of the walking width, m."""
-LATERAL_ERROR, LONGITUDINAL_ERROR = 0.045, 0.15
-"""Standard deviations of the standing foot's position relative to the middle of the other foot's stride, m."""
-TURN_ERROR = 0.12
-"""Additional standard deviation of both in a turn, m per m of stride length and rad of turn."""
 MIN_LENGTH, MAX_TURN, MAX_DIRECTION_DEVIATION = 0.5, 0.8, 0.6
 """Limits for a stride that is compared: length, m; turn, rad; deviation from the foot's usual direction, rad."""
 GATE_LIMIT, NO_GATE = 16.0, 1e12
 """Largest squared innovation, divided by its variance, of a measurement that is used; `NO_GATE`: always."""
 MAX_STRIDE_LENGTH = 2.5
 """Longest plausible stride, m; the excess of a longer stride inflates the covariance."""
+UNSEEN_DISTANCE = 3.0
+"""Distance that a wearer may have walked while both clocks restarted, m: that of a foot in a gap (propagated.py)."""
 ALIGNMENT_DISTANCE = 5.0
 """Distance walked after which the tracks count as aligned and corrections go to the feet, m."""
 
@@ -58,8 +57,8 @@ ALIGNMENT_DISTANCE = 5.0
 class BothFeetSettings:
     """The settings of `BothFeet`."""
 
-    straight_corridors: bool = False
-    """Flag: a path that is nearly straight is assumed to be straight (corridor.py)."""
+    straightness: bool = True
+    """Flag: the drift of the heading is learnt from straight ways (straightness.py)."""
     feedback: bool = True
     """Flag: corrections are returned to the feet."""
     reach: float = 1.5
@@ -68,15 +67,17 @@ class BothFeetSettings:
 
 @define
 class BothFeet(MeanOfFeet):
-    """The mean position of two feet whose headings and positions correct each other.
+    """The mean position of two feet whose headings and positions correct each other, or the position of a foot alone.
 
-    Latency: none. `position` uses at once what a stride says about the other foot. The other foot itself is corrected
-    at its next foot-flat, if its corrector accepts shifts."""
+    Latency: none. `position` uses at once what a stride says about the other foot, and at the end of a straight way
+    what that way says about both. A foot itself is corrected at its next foot-flat, if its corrector accepts shifts."""
 
     settings: BothFeetSettings = BothFeetSettings()
     errors: TrackErrorFilter = field(factory=TrackErrorFilter, init=False)
-    """Covariance of the errors of both tracks."""
-    corridor: Corridor = field(factory=Corridor, init=False)
+    """Covariance of the errors of both tracks, of which only the differences are used."""
+    common: CommonError = field(factory=CommonError, init=False)
+    """Covariance of the errors that both tracks share."""
+    straightness: Straightness = field(factory=Straightness, init=False)
     started: bool = field(default=False, init=False)
     """Flag: both feet have had samples."""
     distance: float = field(default=0.0, init=False)
@@ -94,40 +95,45 @@ class BothFeet(MeanOfFeet):
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         was_unplaced = self.left.unplaced or self.right.unplaced
         MeanOfFeet.feed(self, view)
-        if not self.started:
-            if self.left.t is None or self.right.t is None:
-                return ()
+        if not self.started and self.left.t is not None and self.right.t is not None:
             self._start()
-        if not view.events or self.left.unplaced or self.right.unplaced:
+        if not view.events:
             return ()
-        if was_unplaced:
+        this = self.left if view.foot is Foot.LEFT else self.right
+        if this.unplaced:
+            return ()
+        if was_unplaced and not self.left.unplaced and not self.right.unplaced:
             self.errors.align(0 if self.placed_last is Foot.LEFT else 1, *ALIGNMENT_ERROR)
             self._keep_placements()
         outputs: list[PartOutput] = []
         for event in view.events:
             if isinstance(event, StrideTaken):
                 outputs += self._add_stride(event, view.after.takes_shifts)
+            elif isinstance(event, SampleGap):
+                self.common.add_gap(event.duration)
         return outputs
 
     def reset(self, site: Site) -> None:
         """Reset a foot as `MeanOfFeet` does, and discard its newest stride; if both are, the wearer may have moved."""
-        both_unknown = self.left.t is self.right.t is None
+        was_unknown = self.left.t is self.right.t is None
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
             self.strides[0 if site.foot is Foot.LEFT else 1] = None
-            self.corridor.reset()
-            if self.started and not both_unknown and self.left.t is self.right.t is None:
-                self.errors.inflate_both()
+            self.straightness.reset()
+            if not was_unknown and self.left.t is self.right.t is None:
+                self.common.inflate(UNSEEN_DISTANCE * UNSEEN_DISTANCE)
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """Return the wearer's position, with the mean's covariance at the newest stride; None before any sample."""
+        """Return the wearer's position, with the covariance at the newest stride; None before any sample."""
         mean = MeanOfFeet.position(self, feet)
-        left, right = self.left, self.right
-        if mean is None or not self.started or left.unplaced or right.unplaced or left.absent or right.absent:
+        if mean is None or not self.common.started:
             return mean
-        xx, xy, yy = self.errors.mean_covariance()
+        x, y, _ = mean.position
+        xx, xy, yy = self.common.position_covariance((x, y))
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
-        return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, mean.covariance[5]))
+        return Position(
+            mean.t, mean.position, (xx + FOOTPRINT_VARIANCE, xy, 0.0, yy + FOOTPRINT_VARIANCE, 0.0, mean.covariance[5])
+        )
 
     def _start(self) -> None:
         self.started, self.width = True, WALKING_WIDTH
@@ -143,11 +149,12 @@ class BothFeet(MeanOfFeet):
 
     def _add_stride(self, event: StrideTaken, takes_shifts: bool) -> Sequence[PartOutput]:
         index = 0 if event.foot is Foot.LEFT else 1
-        this = self.left if index == 0 else self.right
+        this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
         numbers = (*event.position, *event.displacement, *event.covariance)
         if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
             self._restart()
             return ()
+        share = self.common.share(alone=not self.started or other.unplaced or other.absent)
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
@@ -155,9 +162,11 @@ class BothFeet(MeanOfFeet):
         swing = max(0.0, min(event.t_end - t_toe_off, MAX_PHASE_TIME))
         stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
         # correct the drift of the heading, and the displacement by the drift up to mid-swing
-        rate = self.errors.rates[index]
-        mid_turn = rate * (stance + 0.5 * swing)
-        this.correct(own_position, rate * (stance + swing), -mid_turn * dy, mid_turn * dx)
+        rate, usual_strides = self.errors.rates[index], min(1.0, event.length / USUAL_STRIDE)
+        drift = self.common.turn_of(usual_strides, event.heading_change)
+        mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
+        this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
+        dx, dy = dx - mid_turn * dy, dy + mid_turn * dx
         x, y, _ = this.place(own_position)
         xx, xy, _, yy, _, _ = event.covariance
         cc, ss, cs = c * c, s * s, c * s
@@ -167,19 +176,48 @@ class BothFeet(MeanOfFeet):
             ss * xx + 2.0 * cs * xy + cc * yy + FOOTPRINT_VARIANCE,
         )
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
-        self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, event.degraded or excess > 0.0)
+        self.common.propagate(share, usual_strides, event.heading_change, stance + swing, (dx, dy), variance)
+        if self.started:
+            degraded = event.degraded or excess > 0.0
+            self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, degraded)
         if excess > 0.0:
             self.errors.inflate(index, excess)
-        self.distance = min(ALIGNMENT_DISTANCE, self.distance + 0.5 * event.length)  # the mean of both feet
+            self.common.inflate(share * share * excess * excess)
+        self.distance = min(ALIGNMENT_DISTANCE, self.distance + share * event.length)
         x, y, _ = event.displacement
         straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not event.degraded
         self.strides[index] = DirectedStride(event.t_end, own_position, atan2(y, x) if straight else None)
-        if self.distance >= ALIGNMENT_DISTANCE or not self._realign(index, event):
+        if not self.started:
+            self._learn_drift(event, share, usual_strides, (dx, dy))
+        elif self.distance >= ALIGNMENT_DISTANCE or not self._realign(index, event):
             self._compare_feet(index, event, dx, dy, stance, swing)
-            if self.settings.straight_corridors:
-                x, y, z = this.place(own_position)
-                self._follow_corridor(index, event, (x - dx, y - dy, z), (x, y, z))
+            self._learn_drift(event, share, usual_strides, (dx, dy))
         return self._shift_foot(index, event.foot, takes_shifts)
+
+    def _learn_drift(self, event: StrideTaken, share: float, strides: float, displacement: tuple[float, float]) -> None:
+        """Add a stride to the stretch, and correct the common errors by what a straight stretch shows."""
+        if not self.settings.straightness:
+            return
+        sigma, straightness = self.common.drift_sigma, self.straightness
+        found = straightness.add_stride(event.t_end, displacement, share, strides, event.heading_change, sigma)
+        if found is None:
+            return
+        move = self.common.correct_drift(found.drift, found.variance, found.weight)
+        (lx, ly, _), (rx, ry, _) = self._end_of(0)[1], self._end_of(1)[1]
+        share = 0.5 if not self.common.alone else 1.0 if event.foot is Foot.LEFT else 0.0
+        self._move_tracks((share * lx + (1.0 - share) * rx, share * ly + (1.0 - share) * ry), (move, move))
+
+    def _move_tracks(self, centre: tuple[float, float], moves: tuple[Vec3, Vec3]) -> None:
+        """Move each track by its x and y, m, and turn it by its third number, rad, about `centre`, m."""
+        for index, (track, (dx, dy, yaw)) in enumerate(zip((self.left, self.right), moves, strict=True)):
+            own, (x, y, _) = self._end_of(index)
+            track.correct(own, yaw, dx - yaw * (y - centre[1]), dy + yaw * (x - centre[0]))
+
+    def _end_of(self, index: int) -> tuple[Vec3, Vec3]:
+        """Return where foot 0 or 1 stood last, on its own track and in the common frame, m."""
+        track, stride = (self.left, self.right)[index], self.strides[index]
+        own = track.newest_place if stride is None else stride.end
+        return own, track.place(own)
 
     def _realign(self, index: int, event: StrideTaken) -> bool:
         """Align the tracks of both feet again if they diverge within the first metres; return whether that was done."""
@@ -192,7 +230,7 @@ class BothFeet(MeanOfFeet):
             return False
         align_tracks(track, stride, other_track, other_stride, angle, 0.5 * event.length, side * WALKING_WIDTH)
         self.errors.start()
-        self.corridor.end()
+        self.straightness.reset()
         self.distance, self.directions = 0.0, [WalkingDirection(), WalkingDirection()]
         self._keep_placements()
         return True
@@ -205,8 +243,6 @@ class BothFeet(MeanOfFeet):
         other_stride = self.strides[1 - index]
         if other_stride is None or other.absent:
             return
-        this_x, this_y = index * STATES_PER_FOOT + X, index * STATES_PER_FOOT + Y
-        other_x, other_y = (1 - index) * STATES_PER_FOOT + X, (1 - index) * STATES_PER_FOOT + Y
         ex, ey, _ = this.place(event.position)
         if (
             event.t_start < other_stride.t_end < event.t_end
@@ -215,31 +251,9 @@ class BothFeet(MeanOfFeet):
             and abs(deviation) < MAX_DIRECTION_DEVIATION
             and not event.degraded
         ):
-            # u: direction of the stride; n: to its left; m: from the middle of the stride to the standing foot
-            ux, uy = dx / length, dy / length
-            nx, ny = -uy, ux
             qx, qy, _ = other.place(other_stride.end)
-            mx, my = qx - (ex - 0.5 * dx), qy - (ey - 0.5 * dy)
-            ahead, leftward = ux * mx + uy * my, nx * mx + ny * my
-            side = 1.0 if index == 1 else -1.0
-            spread = TURN_ERROR * turn * length
-            heading, rate = index * STATES_PER_FOOT + HEADING, index * STATES_PER_FOOT + RATE
-            other_heading = (1 - index) * STATES_PER_FOOT + HEADING
-            # u and the middle depend on the heading in mid-swing, psi - r T_swing / 2; the error of the turn is r T
-            arm = 0.5 * length - ahead
-            terms: list[Term] = [
-                (other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny), (heading, arm), (other_heading, -arm),
-                (rate, length * (stance + swing) / 8.0 - 0.5 * swing * arm), (WIDTH, -side),
-            ]  # fmt: skip
-            expected = side * self.width - length * turn / 8.0
-            self._correct(
-                self.errors.correct(terms, expected - leftward, LATERAL_ERROR**2 + spread * spread, GATE_LIMIT)
-            )
-            terms = [
-                (other_x, ux), (other_y, uy), (this_x, -ux), (this_y, -uy), (heading, leftward),
-                (other_heading, -leftward), (rate, -0.5 * swing * leftward),
-            ]  # fmt: skip
-            self._correct(self.errors.correct(terms, -ahead, LONGITUDINAL_ERROR**2 + spread * spread, GATE_LIMIT))
+            for one in standing_foot(index, (dx, dy), (ex, ey), (qx, qy), turn, (stance, swing), self.width):
+                self._correct(self.errors.correct(one.terms, one.z, one.variance, GATE_LIMIT))
             ex, ey, _ = this.place(event.position)
         qx, qy, _ = other.place(other.newest_place)
         separation = hypot(qx - ex, qy - ey)
@@ -249,32 +263,15 @@ class BothFeet(MeanOfFeet):
             self.errors.inflate(1 - index, max(0.0, hypot(wx, wy) - MAX_STRIDE_LENGTH))
             if other_stride.t_end < event.t_start:  # no foot stands that long: its strides were not detected
                 self.errors.inflate(1 - index, event.length)
-            nx, ny = (qx - ex) / separation, (qy - ey) / separation
-            terms = [(other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny)]
-            self._correct(self.errors.correct(terms, self.settings.reach - separation, LONGITUDINAL_ERROR**2, NO_GATE))
+            one = feet_apart(index, (ex, ey), (qx, qy), self.settings.reach)
+            self._correct(self.errors.correct(one.terms, one.z, one.variance, NO_GATE))
 
     def _correct(self, errors: list[float] | None) -> None:
         """Remove the estimated errors (None: no change) from both tracks."""
         if errors is None:
             return
         self.width += errors[WIDTH]
-        cx, cy = self.errors.centre
-        for index, track in ((0, self.left), (1, self.right)):
-            stride, first = self.strides[index], index * STATES_PER_FOOT
-            pivot = track.newest_place if stride is None else stride.end
-            x, y, _ = track.place(pivot)
-            yaw = errors[first + HEADING]
-            track.correct(pivot, yaw, errors[first + X] - yaw * (y - cy), errors[first + Y] + yaw * (x - cx))
-
-    def _follow_corridor(self, index: int, event: StrideTaken, start: Vec3, end: Vec3) -> None:
-        """Correct the heading by the result of the corridor filter."""
-        correction = self.corridor.add_stride(index, event.t_end, start, end, event.heading_change)
-        if correction is not None:
-            yaw, rate = correction
-            errors = [0.0] * (WIDTH + 1)
-            errors[HEADING] = errors[STATES_PER_FOOT + HEADING] = yaw
-            self._correct(errors)
-            self.errors.correct_mean_rate(rate, self.corridor.drift[2])
+        self._move_tracks(self.errors.centre, moves_of(errors))
 
     def _shift_foot(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""
@@ -296,5 +293,5 @@ class BothFeet(MeanOfFeet):
         """Restart the error filter, because its estimates or a stride have impossible values."""
         self.errors.start()
         self.strides = [None, None]
-        self.corridor.end()
+        self.straightness.reset()
         (self.left.turn, self.left.offset), (self.right.turn, self.right.offset) = self.placements

@@ -1,7 +1,7 @@
 """Error that the tracks of both feet share, which no comparison of the feet can show.
 
-A gyroscope whose scale or axes are off turns the heading by nearly the same angle in every stride, because the loop that
-a foot describes in a swing does not close, and by a share of every turn. The errors (truth minus track) are therefore
+A gyroscope whose scale or axes are off turns the heading by nearly the same angle in every stride, because the loop of
+rotations of a swing does not close, and by a share of every turn. The errors (truth minus track) are therefore
 
     x, y       position of the wearer, m, world frame
     heading    heading of both tracks, rad
@@ -18,7 +18,7 @@ heading error of any size does to the position is in `position_covariance`."""
 
 from __future__ import annotations
 
-from math import exp
+from math import exp, sqrt
 
 from ...types.attrs import define, field
 
@@ -30,10 +30,12 @@ TURNING, SINGLE_TURNING = 0.005, 0.007
 """Standard deviation of the relative error of a turn of two feet together and of a foot alone, no unit.
 
 Sheets of gyroscopes give tolerances of the scale of 1 to 3 %, which are two standard deviations."""
-DRIFT_CHANGE = 2e-5
-"""Random walk of the drift, rad a stride and sqrt(s): the bias wanders, and a wearer changes the manner of walking."""
-HEADING_NOISE = 0.0007
-"""Random walk of the heading, rad/sqrt(s): 0.3 degrees in a minute."""
+DRIFT_CHANGE = 3e-6
+"""Random walk of the drift, rad a stride and sqrt(s): a wearer changes the manner of walking."""
+HEADING_NOISE = 0.0028
+"""Random walk of the heading, rad/sqrt(s): 1.2 degrees in a minute, because the bias wanders and is learnt anew."""
+GAP_RATE, MAX_GAP_ERROR = 0.3, 0.06
+"""Error of the heading after a gap in the samples of a foot: rad per s of the gap, and at the most, rad."""
 LENGTH_ERROR = 0.01
 """Standard deviation of the relative error that all strides have in common, no unit.
 
@@ -65,15 +67,32 @@ class CommonError:
     """Estimated drift, which is removed from both tracks, rad a stride."""
     turning: float = field(default=0.0, init=False)
     """Estimated relative error of turns, which is removed from both tracks, no unit."""
+    started: bool = field(default=False, init=False)
+    """Flag: a foot has taken a stride."""
+    alone: bool = field(default=False, init=False)
+    """Flag: the newest stride was that of a foot alone."""
+
+    @property
+    def drift_sigma(self) -> float:
+        """Standard deviation of `drift`, rad a stride."""
+        return sqrt(self.rr)
+
+    def share(self, alone: bool) -> float:
+        """Return the share of the next stride of a foot in the mean: all of it if the foot is `alone`, or one half."""
+        if alone and not self.alone:  # its own drift was hidden in the mean
+            self.rr += SINGLE_DRIFT * SINGLE_DRIFT - DRIFT * DRIFT
+            self.kk += SINGLE_TURNING * SINGLE_TURNING - TURNING * TURNING
+        self.started, self.alone = True, alone
+        return 1.0 if alone else 0.5
 
     def propagate(
         self, share: float, strides: float, turn: float, duration: float, displacement: tuple[float, float],
-        variance: tuple[float, float, float], heading_variance: float,
+        variance: tuple[float, float, float],
     ) -> None:  # fmt: skip
         """Propagate the covariance over a stride that moves the mean by `share` of its `displacement`, m.
 
         It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s; `variance` is that of its
-        displacement: xx, xy, yy, m^2, and `heading_variance`, rad^2, what it adds to that of the heading."""
+        displacement: xx, xy, yy, m^2."""
         dx, dy = share * displacement[0], share * displacement[1]
         n, k = share * strides, share * turn
         # d: the turn of the heading in the stride, n drift + k turning; g: the heading in its middle
@@ -95,10 +114,15 @@ class CommonError:
         self.yr += dx * gr
         self.xk -= dy * gk
         self.yk += dx * gk
-        self.hh += 2.0 * dh + dd + square * heading_variance + share * HEADING_NOISE * HEADING_NOISE * duration
+        self.hh += 2.0 * dh + dd + share * HEADING_NOISE * HEADING_NOISE * duration
         self.hr += dr
         self.hk += dk
         self.rr += share * DRIFT_CHANGE * DRIFT_CHANGE * duration
+
+    def add_gap(self, duration: float) -> None:
+        """Inflate the variance of the heading by a gap in the samples of a foot, of this duration in s."""
+        error = (1.0 if self.alone else 0.5) * min(GAP_RATE * duration, MAX_GAP_ERROR)
+        self.hh += error * error
 
     def turn_of(self, strides: float, turn: float) -> float:
         """Return the correction of the heading, rad, over a stride that counts as `strides` and turns by `turn` rad."""

@@ -20,9 +20,10 @@ does not move their weighted mean. Such a gain is not optimal, so P is updated i
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import exp, sqrt
+from math import exp, hypot
 
-from ...types.attrs import define, field
+from ...types import Vec3
+from ...types.attrs import define, field, frozen
 
 X, Y, HEADING, RATE = range(4)
 """Indices of the states of one foot."""
@@ -45,9 +46,11 @@ HEADING_DRIFT = 0.0015
 """Random walk of the heading error that adds to the drift rate, rad/sqrt(s)."""
 DEGRADED_ERROR = 0.06
 """Standard deviation of the heading error that a degraded stride adds, rad."""
-UNSEEN_DISTANCE = 3.0
-"""Distance that a wearer may have walked while both clocks restarted, m: that of a foot in a gap (propagated.py)."""
 
+LATERAL_ERROR, LONGITUDINAL_ERROR = 0.045, 0.15
+"""Standard deviations of the standing foot's position relative to the middle of the other foot's stride, m."""
+TURN_ERROR = 0.12
+"""Additional standard deviation of both in a turn, m per m of stride length and rad of turn."""
 Term = tuple[int, float]
 """Index of a state, and the derivative of the measurement with respect to it."""
 
@@ -155,13 +158,6 @@ class TrackErrorFilter:
         p[x][x] += distance * distance
         p[x + Y][x + Y] += distance * distance
 
-    def inflate_both(self) -> None:
-        """Inflate the variance of the position of both feet, which may have moved on together unseen."""
-        for axis in (X, Y):
-            for one in (axis, axis + STATES_PER_FOOT):
-                for other in (axis, axis + STATES_PER_FOOT):
-                    self.covariance[one][other] += UNSEEN_DISTANCE * UNSEEN_DISTANCE
-
     def correct(self, terms: Sequence[Term], z: float, variance: float, gate: float) -> list[float] | None:
         """Correct the filter with the innovation `z` of a measurement with these terms and this noise variance.
 
@@ -195,28 +191,83 @@ class TrackErrorFilter:
         self.rates[1] += errors[RATE + STATES_PER_FOOT]
         return errors
 
-    def correct_mean_rate(self, rate: float, variance: float) -> None:
-        """Add `rate`, rad/s, to the rates of both feet; `variance` is that of the mean rate, (rad/s)^2."""
-        p = self.covariance
-        ph = [0.5 * (row[RATE] + row[RATE + STATES_PER_FOOT]) for row in p]
-        s = variance + 0.5 * (ph[RATE] + ph[RATE + STATES_PER_FOOT])
-        if s > 0.0:
-            self._joseph([covariance / s for covariance in ph], ph, s)
-        self.rates[0] += rate
-        self.rates[1] += rate
-
-    def mean_covariance(self) -> tuple[float, float, float]:
-        """Return the covariance of the mean position of both feet: xx, xy, yy, m^2."""
-        p, r = self.covariance, STATES_PER_FOOT
-        xx = p[X][X] + p[X + r][X + r] + 2.0 * p[X][X + r]
-        yy = p[Y][Y] + p[Y + r][Y + r] + 2.0 * p[Y][Y + r]
-        xy = p[X][Y] + p[X + r][Y + r] + p[X][Y + r] + p[X + r][Y]
-        xx, yy = max(0.0, xx), max(0.0, yy)
-        bound = sqrt(xx * yy)  # |xy| exceeds it only by rounding
-        return (0.25 * xx, 0.25 * min(max(xy, -bound), bound), 0.25 * yy)
-
     def _joseph(self, gains: list[float], ph: list[float], s: float) -> None:
         """Update the covariance: P <- (1 - K H) P (1 - K H)' + K R K', with P H' and S = H P H' + R."""
         for row, gain, a in zip(self.covariance, gains, ph, strict=True):
             for j in range(STATE_COUNT):
                 row[j] += gain * gains[j] * s - gain * ph[j] - a * gains[j]
+
+
+@frozen
+class Measurement:
+    """A measured difference of the errors of both tracks."""
+
+    terms: tuple[Term, ...]
+    """States, and the derivative of the measurement with respect to each."""
+    z: float
+    """Innovation: the expected difference minus that of the tracks, m."""
+    variance: float
+    """Variance of the measurement, m^2."""
+
+
+def standing_foot(
+    index: int,
+    displacement: tuple[float, float],
+    end: tuple[float, float],
+    other: tuple[float, float],
+    turn: float,
+    times: tuple[float, float],
+    width: float,
+) -> tuple[Measurement, Measurement]:
+    """Return the lateral and the longitudinal measurement of where the other foot stands during a stride.
+
+    It should be beside the middle of the stride, at a lateral distance equal to the walking width. In a bend of `turn`
+    rad, the chord of a stride of L m lies L turn / 8 inside the path.
+    `displacement` and `end` of the stride of foot 0 (left) or 1 and the place of the `other` foot are in m, common
+    frame. The stride turns by `turn` rad and has these `times` of stance and swing, s; `width` is the walking width,
+    m."""
+    this_x, this_y = index * STATES_PER_FOOT + X, index * STATES_PER_FOOT + Y
+    other_x, other_y = (1 - index) * STATES_PER_FOOT + X, (1 - index) * STATES_PER_FOOT + Y
+    heading, rate = index * STATES_PER_FOOT + HEADING, index * STATES_PER_FOOT + RATE
+    other_heading = (1 - index) * STATES_PER_FOOT + HEADING
+    (dx, dy), (stance, swing) = displacement, times
+    length = hypot(dx, dy)
+    # u: direction of the stride; n: to its left; m: from the middle of the stride to the standing foot
+    ux, uy = dx / length, dy / length
+    nx, ny = -uy, ux
+    mx, my = other[0] - (end[0] - 0.5 * dx), other[1] - (end[1] - 0.5 * dy)
+    ahead, leftward = ux * mx + uy * my, nx * mx + ny * my
+    side = 1.0 if index == 1 else -1.0
+    spread = TURN_ERROR * turn * length
+    # u and the middle depend on the heading in mid-swing, psi - r T_swing / 2; the error of the turn is r T
+    arm = 0.5 * length - ahead
+    lateral = (
+        (other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny), (heading, arm), (other_heading, -arm),
+        (rate, length * (stance + swing) / 8.0 - 0.5 * swing * arm), (WIDTH, -side),
+    )  # fmt: skip
+    longitudinal = (
+        (other_x, ux), (other_y, uy), (this_x, -ux), (this_y, -uy), (heading, leftward), (other_heading, -leftward),
+        (rate, -0.5 * swing * leftward),
+    )  # fmt: skip
+    expected = side * width - length * turn / 8.0
+    return (
+        Measurement(lateral, expected - leftward, LATERAL_ERROR**2 + spread * spread),
+        Measurement(longitudinal, -ahead, LONGITUDINAL_ERROR**2 + spread * spread),
+    )
+
+
+def feet_apart(index: int, place: tuple[float, float], other: tuple[float, float], reach: float) -> Measurement:
+    """Return the measurement that foot 0 (left) or 1 at `place` is at most `reach` m from the `other` foot, m."""
+    this_x, this_y = index * STATES_PER_FOOT + X, index * STATES_PER_FOOT + Y
+    other_x, other_y = (1 - index) * STATES_PER_FOOT + X, (1 - index) * STATES_PER_FOOT + Y
+    dx, dy = other[0] - place[0], other[1] - place[1]
+    distance = hypot(dx, dy)
+    nx, ny = dx / distance, dy / distance
+    terms = ((other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny))
+    return Measurement(terms, reach - distance, LONGITUDINAL_ERROR**2)
+
+
+def moves_of(errors: list[float]) -> tuple[Vec3, Vec3]:
+    """Return the moves in x and y, m, and the turns, rad, of the left and the right track for errors of all states."""
+    r = STATES_PER_FOOT
+    return (errors[X], errors[Y], errors[HEADING]), (errors[r + X], errors[r + Y], errors[r + HEADING])

@@ -6,8 +6,8 @@ from math import cos, sin
 
 from ...types import Vec3
 from ...types.attrs import define, field
-from .corridor import wrap_angle
 from .position import PlacedTrack
+from .straightness import wrap_angle
 
 STRIDE_WEIGHT = 0.1
 """Weight of one stride in the running mean of a foot's walking direction."""

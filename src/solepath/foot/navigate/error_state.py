@@ -26,7 +26,7 @@ from .level import FLOOR_SIGMA, LevelGround
 from .propagated import IndependentInterval, PropagatedCovariance
 from .recovery import Recovery
 from .stance_rhythm import StanceRhythm
-from .strapdown import WIDEST_SERIES
+from .strapdown import CONING, WIDEST_SERIES
 
 STATIONARY: Final = Phase.STATIONARY
 """Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
@@ -108,9 +108,11 @@ class ErrorStateFilter(PropagatedCovariance):
         else:  # far from the ends of the ranges: store only what `watch` would store
             recovery.earlier_acc, recovery.last_acc = recovery.last_acc, acc
             recovery.earlier_rate, recovery.earlier_dt = rate, dt
-        # half the turn by the mean rate, and its sin and cos by their series
-        k = 0.25 * dt
-        hx, hy, hz = k * (gx + rx), k * (gy + ry), k * (gz + rz)
+        # half the rotation vector by a rate that changes linearly, and its sin and cos by their series
+        k, m = 0.25 * dt, CONING * dt * dt
+        hx = k * (gx + rx) + m * (ry * gz - rz * gy)
+        hy = k * (gy + ry) + m * (rz * gx - rx * gz)
+        hz = k * (gz + rz) + m * (rx * gy - ry * gx)
         n = hx * hx + hy * hy + hz * hz
         if n < WIDEST_SERIES:
             c = 1.0 - n * (0.5 - n * (1.0 / 24.0 - n * (1.0 / 720.0 - n / 40320.0)))

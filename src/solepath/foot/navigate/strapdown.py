@@ -16,6 +16,14 @@ from .corrector import Corrector
 WIDEST_SERIES = 0.06
 """Square of the half angle up to which the series for sin and cos are accurate to 1e-12, rad^2."""
 
+CONING = 1.0 / 12.0
+"""Half of the factor of w1 x w2 in the rotation vector from a sample with rate w1 to the next one with w2, by dt^2.
+
+A rate that changes linearly gives dt^2 / 12 w1 x w2 (coning; Bortz 1971, IEEE Trans. Aerospace 7). The mean of w1 and
+w2 is wrong by dt^3 w'' / 12 where the rate is curved; turned into the navigation frame and summed over a stride, that
+is once more dt^3 / 12 w x w' per sample, by partial integration. Both have the same sign in every stride and opposite
+signs in both feet: without them an emulated heading drifts by 0.6 degrees a minute at 100 Hz and by 2.4 at 50 Hz."""
+
 
 @define
 class Strapdown(Corrector):
@@ -51,13 +59,16 @@ class Strapdown(Corrector):
 
     def integrate(self, dt: float, acc: Vec3, gyro: Vec3) -> Vec3:
         """Integrate one sample; return the mean acceleration over dt, m/s^2."""
-        # turn by the mean rate: half angles, with series for sin and cos because the angle of one sample is small
+        # half the rotation vector of a rate that changes linearly; series for sin and cos, because its angle is small
         gx, gy, gz = gyro
         if self.rate is None:
             hx, hy, hz = 0.5 * dt * gx, 0.5 * dt * gy, 0.5 * dt * gz
         else:
             rx, ry, rz = self.rate
-            hx, hy, hz = 0.25 * dt * (gx + rx), 0.25 * dt * (gy + ry), 0.25 * dt * (gz + rz)
+            k, m = 0.25 * dt, CONING * dt * dt
+            hx = k * (gx + rx) + m * (ry * gz - rz * gy)
+            hy = k * (gy + ry) + m * (rz * gx - rx * gz)
+            hz = k * (gz + rz) + m * (rx * gy - ry * gx)
         self.rate = gyro
         n = hx * hx + hy * hy + hz * hz
         if n < WIDEST_SERIES:

@@ -1,0 +1,207 @@
+"""Drift of the heading from straight ways.
+
+Borenstein and Ojeda, "Heuristic drift elimination for personnel tracking systems", Journal of Navigation 63, 2010,
+assume that a nearly straight path is straight: people walk straight on for long stretches, in any direction, and a
+gyroscope that drifts bends these stretches by nearly the same angle in every stride. No sensor measures that a stretch
+is straight, so it is tested.
+
+A stretch consists of strides in nearly one direction. At its end a parabola is fitted to it. People wander about a
+straight line by some centimetres, which leaves its curvature uncertain: by 8 1/km after 20 m of straight way, by 0.3
+1/km after 60 m. The curvature that remains is that of the drift, of a gentle bend, or of a bend. The probability of
+each follows from the curvature (all three are normal distributions) and from how often each was met before on this
+walk, so that the drift is learnt in corridors, and not in a ring, on a track or on a plaza. A stretch that leaves its
+parabola by more than people wander is none."""
+
+from __future__ import annotations
+
+from math import atan2, cos, exp, hypot, pi, sin, sqrt
+
+from ...types.attrs import define, field, frozen
+
+MAX_FOOT_TURN = 0.2
+"""Largest turn of a foot in a stride of a stretch, rad; feet turn by some degrees from stride to stride anyway."""
+MIN_ADVANCE = 0.4
+"""Shortest stride of a stretch, m."""
+MAX_DEVIATION, DEVIATION_STRIDES = 0.17, 4
+"""Largest angle between the way of the last strides and the stretch so far, rad, and number of these strides."""
+MAX_PAUSE = 3.0
+"""Longest time between the ends of two strides of a stretch, s."""
+MIN_LENGTH, MAX_LENGTH = 7.0, 80.0
+"""Shortest stretch that is used, and length at which a longer one is divided, m."""
+MIN_STRIDES = 8
+"""Least number of strides of a stretch that is used."""
+FOOTFALL = 0.015
+"""Standard deviation of the middle of both feet from the smooth way of the body, m; feet land 2 to 3 cm to a side."""
+USUAL_WANDER, WANDER_WEIGHT, MAX_WANDER_WEIGHT = 0.05, 4.0, 30.0
+"""Usual standard deviation of the wandering about a straight line, m, the number of stretches as which it counts in the
+mean over the stretches of a wearer, and the largest such number. (Legs of 9 m in `ipol_10m_uturn` bow by 5 to 7 cm.)"""
+WANDER_LENGTH, MIN_INDEPENDENT = 4.5, 7.0
+"""Length after which the wandering is another one, m, and least number of such lengths that a curvature counts.
+
+Both describe the curvature of parabolas that are fitted to a spline with random knots every 5 m (emulate/wander.py)."""
+CURVATURE_FACTOR = sqrt(720.0)
+"""Standard deviation of the curvature of a parabola through n points of standard deviation s on a length L: this number
+times s / (L^2 sqrt(n)), for large n."""
+MAX_RESIDUAL = 5.0
+"""Largest ratio of the mean square of the distances from the parabola to the expected one."""
+DRIFT_SCATTER = 2.5e-4
+"""Standard deviation of the drift of one stretch from the mean drift, rad a stride, because the bias wanders."""
+GATE = 9.0
+"""Largest squared drift, divided by its variance, that is attributed to the gyroscope."""
+GENTLE_BEND, BEND = 0.006, 0.03
+"""Standard deviations of the curvature of ways that bend gently, and of bends, 1/m."""
+FIRST_COUNTS = (2.0, 1.0, 1.0)
+"""Number of stretches as which it counts before any walk that stretches are straight, bend gently, and bend."""
+FORGETTING = 0.97
+"""Factor of all counts at each stretch: about the last thirty count."""
+
+
+@frozen
+class StretchDrift:
+    """The drift that a straight stretch shows."""
+
+    drift: float
+    """Turn of the heading in a usual stride that makes the stretch straight, rad, positive to the left."""
+    variance: float
+    """Variance of `drift`, rad^2."""
+    weight: float
+    """Probability that the stretch is straight, from 0 to 1."""
+
+
+@define
+class Straightness:
+    """Collects the strides of a stretch in the sums of a parabola, and keeps what was learnt from earlier stretches."""
+
+    x: float = field(default=0.0, init=False)
+    """Place of the wearer since the start of the stretch, m; x is along its first direction."""
+    y: float = field(default=0.0, init=False)
+    """Place of the wearer to the left of that direction, m."""
+    direction: float = field(default=0.0, init=False)
+    """Direction of the first stride of the stretch, rad, world frame."""
+    t: float | None = field(default=None, init=False)
+    """End of the newest stride, s; None before any stretch."""
+    count: int = field(default=0, init=False)
+    """Number of places in the sums; 0 without a stretch."""
+    strides: float = field(default=0.0, init=False)
+    """Number of usual strides in which the heading of the mean of both feet drifts."""
+    recent: list[tuple[float, float]] = field(factory=list, init=False)
+    """The places of the last strides."""
+    powers: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
+    """Sums of x, x^2, x^3 and x^4."""
+    products: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
+    """Sums of y, x y, x^2 y and y^2."""
+    counts: tuple[float, float, float] = field(default=FIRST_COUNTS, init=False)
+    """Number of stretches that were straight, that bent gently and that bent, each fading by `FORGETTING`."""
+    wander: tuple[float, float] = field(default=(USUAL_WANDER * USUAL_WANDER, WANDER_WEIGHT), init=False)
+    """Variance of the wandering, m^2, and the number of stretches as which it counts."""
+
+    def add_stride(
+        self, t: float, displacement: tuple[float, float], share: float, strides: float, turn: float, drift_sigma: float
+    ) -> StretchDrift | None:
+        """Add a stride that ended at `t`, s; return the drift of the stretch that it has ended, if it shows one.
+
+        `displacement` is in m, world frame, `turn` that of the foot, rad. The mean of both feet moves and drifts by
+        `share` of the stride, which counts as `strides` usual ones. `drift_sigma` is the standard deviation of the
+        estimated drift, rad a stride, which is already removed from the stride."""
+        dx, dy = displacement
+        found = None
+        paused = self.t is not None and not 0.0 <= t - self.t <= MAX_PAUSE
+        self.t = t
+        if paused or abs(turn) > MAX_FOOT_TURN or hypot(dx, dy) < MIN_ADVANCE:
+            return self.break_off(drift_sigma)
+        if not self.count:
+            self._start(atan2(dy, dx))
+        c, s = cos(self.direction), sin(self.direction)
+        x, y = self.x + share * (c * dx + s * dy), self.y + share * (c * dy - s * dx)
+        earlier_x, earlier_y = self.recent[0]
+        if len(self.recent) > DEVIATION_STRIDES:
+            deviation = atan2(y - earlier_y, x - earlier_x) - atan2(y, x)
+            if abs(wrap_angle(deviation)) > MAX_DEVIATION:
+                found = self._end(drift_sigma)
+                self._start(atan2(dy, dx))
+                x, y = share * hypot(dx, dy), 0.0
+        self._add_place(x, y)
+        self.strides += share * strides
+        if x > MAX_LENGTH:
+            found = self._end(drift_sigma)
+            self._start(self.direction)
+        return found
+
+    def break_off(self, drift_sigma: float) -> StretchDrift | None:
+        """End the stretch at a stride that cannot belong to one; return its drift, if it shows one."""
+        found = self._end(drift_sigma)
+        self._clear()
+        return found
+
+    def reset(self) -> None:
+        """Discard the stretch, because the clock restarts."""
+        self._clear()
+        self.t = None
+
+    def _end(self, drift_sigma: float) -> StretchDrift | None:
+        length = self.x
+        fit = self._parabola() if self.count >= MIN_STRIDES and length >= MIN_LENGTH and self.strides > 0.0 else None
+        if fit is None:
+            return None
+        curvature, mean_square = fit
+        variance, weight = self.wander
+        footfall = FOOTFALL * FOOTFALL
+        independent = max(MIN_INDEPENDENT, length / WANDER_LENGTH)
+        error = (CURVATURE_FACTOR / (length * length)) ** 2 * (variance / independent + footfall / (self.count + 6.0))
+        per_stride = length / self.strides  # rad a stride for a curvature in 1/m
+        z, noise = -curvature * per_stride, error * per_stride * per_stride + DRIFT_SCATTER * DRIFT_SCATTER
+        s = drift_sigma * drift_sigma + noise
+        # share of the wandering that a parabola leaves
+        share = 0.75 * length * length / (length * length + 256.0)
+        expected = share * share * variance + footfall
+        variances = (s, s + (GENTLE_BEND * per_stride) ** 2, s + (BEND * per_stride) ** 2)
+        likely = [count * exp(-0.5 * z * z / v) / sqrt(v) for count, v in zip(self.counts, variances, strict=True)]
+        if z * z > GATE * s or mean_square > MAX_RESIDUAL * expected:
+            likely[0] = 0.0
+        total = sum(likely)
+        shares = [one / total for one in likely] if total > 0.0 else [0.0, 0.0, 1.0]
+        straight, gentle, bent = [FORGETTING * old + new for old, new in zip(self.counts, shares, strict=True)]
+        self.counts = (straight, gentle, bent)
+        if shares[0] > 0.5 and length > 2.0 * MIN_LENGTH:
+            seen = max(0.0, mean_square - footfall) / (share * share)
+            self.wander = (variance + (seen - variance) / (weight + 1.0), min(weight + 1.0, MAX_WANDER_WEIGHT))
+        return StretchDrift(z, noise, shares[0])
+
+    def _clear(self) -> None:
+        self.x = self.y = self.strides = 0.0
+        self.count, self.recent = 0, []
+        self.powers = self.products = (0.0, 0.0, 0.0, 0.0)
+
+    def _start(self, direction: float) -> None:
+        self._clear()
+        self.direction = direction
+        self._add_place(0.0, 0.0)
+
+    def _add_place(self, x: float, y: float) -> None:
+        self.x, self.y = x, y
+        self.recent = [*self.recent[-DEVIATION_STRIDES:], (x, y)]
+        self.count += 1
+        square = x * x
+        a, b, c, d = self.powers
+        self.powers = (a + x, b + square, c + square * x, d + square * square)
+        a, b, c, d = self.products
+        self.products = (a + y, b + x * y, c + square * y, d + y * y)
+
+    def _parabola(self) -> tuple[float, float] | None:
+        """Return the curvature, 1/m, of the parabola of least squares and the mean square distance from it, m^2."""
+        n = float(self.count)
+        (s1, s2, s3, s4), (t0, t1, t2, square) = self.powers, self.products
+        # normal equations of y = a + b x + c x^2, solved by Cramer's rule
+        m0, m1, m2 = s2 * s4 - s3 * s3, s1 * s4 - s2 * s3, s1 * s3 - s2 * s2
+        determinant = n * m0 - s1 * m1 + s2 * m2
+        if determinant <= 0.0:
+            return None
+        a = (t0 * m0 - t1 * m1 + t2 * m2) / determinant
+        b = (-t0 * m1 + t1 * (n * s4 - s2 * s2) - t2 * (n * s3 - s1 * s2)) / determinant
+        c = (t0 * m2 - t1 * (n * s3 - s1 * s2) + t2 * (n * s2 - s1 * s1)) / determinant
+        return 2.0 * c, max(0.0, square - a * t0 - b * t1 - c * t2) / n
+
+
+def wrap_angle(angle: float) -> float:
+    """Return the angle plus whole turns, from -pi to pi, rad."""
+    return (angle + pi) % (2.0 * pi) - pi
