@@ -6,17 +6,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from solepath.emulate.routes.route import Stairs, Stand, TurnAction
+from solepath.emulate.routes.route import Route, Stairs, TurnAction
 from solepath.emulate.wearers.walker import Walker
-from solepath.lab.emulated.walks import (
-    HALF_HOUR,
-    STOREYS,
-    four_floors,
-    half_hour_walk,
-    long_walk,
-    mean_position,
-    place_figures,
-)
+from solepath.lab.emulated.heading import HeadingTrack, heading_figures, is_half_hour
+from solepath.lab.emulated.heading_walks import KINDS, heading_route
+from solepath.lab.emulated.walks import STOREYS, four_floors, mean_position, place_figures
+from solepath.lab.measures.drift import drift_of_strides, drift_that_opens
 from solepath.types import Foot
 
 
@@ -45,15 +40,6 @@ def test_a_heading_error_counts_over_the_rest_of_the_walk():
     assert found["rms_2d"] < 0.3 * chord
 
 
-def test_ways_are_as_long_as_they_are_called():
-    for seed in (101, 102, 103):
-        route = long_walk(seed)
-        assert 500.0 <= route.length <= 540.0
-        assert sum(isinstance(action, TurnAction) for action in route.actions) >= 10
-        stood = sum(action.duration for action in half_hour_walk(seed).actions if isinstance(action, Stand))
-        assert 0.9 * HALF_HOUR <= stood + half_hour_walk(seed).length / half_hour_walk(seed).speed <= 1.05 * HALF_HOUR
-
-
 def test_four_floors_lead_up_and_down_again():
     actions = four_floors(101).actions
     heights = np.cumsum([action.steps * action.rise for action in actions if isinstance(action, Stairs)])
@@ -70,3 +56,58 @@ def test_the_truth_is_the_mean_of_both_feet():
     feet = [walker.truth().pose(foot, t).position for foot in Foot]
     assert_allclose(place, 0.5 * (feet[0] + feet[1]))
     assert abs(place[-1, 2]) < 1e-9 and hypot(*place[-1, :2]) > 1.0
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "circle"])
+def test_a_walk_of_half_an_hour_lasts_half_an_hour(kind):
+    assert 1750.0 < Walker(heading_route(kind, 101, is_half_hour), seed=101).duration < 2150.0
+
+
+def turned_track(walker, angle, start=(0.0, 0.0), covariance=(1.0, 0.0, 1.0)):
+    """The true track, turned by `angle` rad about the start from the second stride on, and the truth."""
+    truth = walker.truth()
+    t = np.arange(10.0, walker.duration, 1.0)
+    middle = 0.5 * sum(truth.pose(foot, t).position[:, :2] for foot in Foot)
+    middle = middle - 0.5 * sum(truth.pose(foot, np.zeros(1)).position[:, :2] for foot in Foot)
+    c, s = np.cos(angle), np.sin(angle)
+    places = middle @ np.array([[c, s], [-s, c]]) + np.array(start)
+    headings = [0.0, *[-angle] * (len(t) - 1)]
+    rows = [(x, y) for x, y in places.tolist()]
+    return HeadingTrack(t.tolist(), rows, [covariance] * len(t), headings, [0.01] * len(t)), truth
+
+
+def test_a_heading_error_moves_the_end_and_is_weighed_by_the_covariance():
+    walker = Walker(Route().stand(2.0).walk(120.0, 1.3).stop(2.0), seed=1)
+    track, truth = turned_track(walker, 0.1, covariance=(25.0, 0.0, 36.0))
+    found = heading_figures(track, truth)
+    assert found["heading_end"] == pytest.approx(0.1)
+    assert found["position_end"] == pytest.approx(2.0 * 120.0 * np.sin(0.05), rel=0.02)
+    assert found["end_relative"] == pytest.approx(found["position_end"] / found["path"])
+    assert found["heading_nees_60"] == pytest.approx(1.0)
+    x = 1.3 * 57.5
+    assert found["nees_60"] == pytest.approx(0.5 * ((x * 0.1) ** 2 / 36.0), rel=0.1)
+    assert found["held_60"] == 1.0
+    sure = heading_figures(turned_track(walker, 0.1, covariance=(0.5, 0.0, 0.5))[0], truth)
+    assert sure["held_60"] == 0.0 and sure["nees_60"] > 30.0
+
+
+def test_a_track_whose_frame_is_turned_as_a_whole_is_not_off():
+    walker = Walker(Route().stand(2.0).walk(80.0, 1.3).turn(1.0, 3.0).walk(30.0).stop(2.0), seed=1)
+    track, truth = turned_track(walker, 0.3)
+    track.headings = [-0.3] * len(track.t)
+    found = heading_figures(track, truth)
+    assert found["position_end"] == pytest.approx(0.0, abs=1e-6)
+    assert found["heading_end"] == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("drift", [-0.002, 0.0, 0.001])
+def test_a_drift_is_found_from_surveyed_strides_and_from_a_loop_that_stays_open(drift):
+    t = np.arange(0.0, 120.0, 1.1)
+    way = 2.0 * np.pi * t / t[-1]
+    truth = np.column_stack([12.0 * np.sin(way), 5.0 * (1.0 - np.cos(way))])
+    steps = np.diff(truth, axis=0) @ np.array([1.0, 1.0j]) * np.exp(1j * drift * 0.5 * (t[1:] + t[:-1]))
+    places = np.concatenate([[0.0], np.cumsum(steps)])
+    track = np.column_stack([places.real, places.imag, 0.0 * t])
+    assert drift_of_strides(t, track, truth) == pytest.approx(drift, abs=1e-9)
+    assert drift_that_opens(t, track) == pytest.approx(drift, rel=0.1, abs=1e-9), "linear in the drift"
+    assert drift_of_strides(t[:30], track[:30], truth[:30]) is None, "too short to tell"

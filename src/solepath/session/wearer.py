@@ -27,7 +27,7 @@ from ..foot.tracker import FootTracker
 from ..foot.view import FootView
 from ..recipes import Recipe, part_class
 from ..types import OTHER, Foot, Sample, Site
-from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, field, frozen
+from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, evolve, field, frozen
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -212,8 +212,11 @@ class WearerParts:
         position = self.position
         if position is None:
             return None
-        t, point, covariance = position.t, position.position, position.covariance
-        return WearerMoved(t=t, known_at=max(t, known_at), position=point, covariance=covariance)
+        t = position.t
+        return WearerMoved(
+            t=t, known_at=max(t, known_at),
+            position=position.position, covariance=position.covariance, heading_variance=position.heading_variance,
+        )  # fmt: skip
 
     def _feed_limb(self, sample: Sample) -> list[Event]:
         """Pass a sample from above the ankle to the parts that use it."""
@@ -248,7 +251,7 @@ class WearerParts:
             return tracked
         x, y, z = tracked.position
         xx, xy, xz, yy, yz, zz = tracked.covariance
-        return Position(tracked.t, (x, y, z + height), (xx, xy, xz, yy, yz, zz + variance))
+        return evolve(tracked, position=(x, y, z + height), covariance=(xx, xy, xz, yy, yz, zz + variance))
 
     def find_attribute(self, name: str) -> Any:
         """Return the attribute `name` of the first part that has it; None if no part has it."""

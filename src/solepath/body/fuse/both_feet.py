@@ -131,9 +131,8 @@ class BothFeet(MeanOfFeet):
         x, y, _ = mean.position
         xx, xy, yy = self.common.position_covariance((x, y))
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
-        return Position(
-            mean.t, mean.position, (xx + FOOTPRINT_VARIANCE, xy, 0.0, yy + FOOTPRINT_VARIANCE, 0.0, mean.covariance[5])
-        )
+        xx, yy, zz = xx + FOOTPRINT_VARIANCE, yy + FOOTPRINT_VARIANCE, mean.covariance[5]
+        return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, zz), self.common.hh)
 
     def _start(self) -> None:
         self.started, self.width = True, WALKING_WIDTH

@@ -14,13 +14,13 @@ from attrs import frozen
 from ...body.checks.clocks.offset import EVEN_SWINGS
 from ...calibration import Calibration
 from ...emulate.walk import sampled
-from ...emulate.wearers.gait import Wearer
 from ...events import Defect, DefectFound, Event, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
 from ...recording import RecordingError
 from ...recording.samples import load_samples
 from ...session import Session
 from ...types import OTHER, Foot, Sample
-from ..emulated.walks import insoles_of, long_walk
+from ..emulated.heading import LENGTHS
+from ..emulated.heading_walks import heading_route, insoles_of, wearer_of
 from ..evaluate.insoles import force_sensors, switches
 
 PAUSE = 2.5
@@ -74,7 +74,8 @@ def read_walk(job: ClockJob) -> ClockWalk | str:
     samples: Iterable[Sample]
     if job.path is None:
         seed = int(job.name)
-        samples = sampled(long_walk(seed).walk(300.0), wearer=Wearer(), insoles=insoles_of(seed), seed=seed).samples
+        route = heading_route("right_angles", seed, LENGTHS["500m"]).walk(300.0)
+        samples = sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed).samples
     else:
         try:
             recording = load_samples(job.path)

@@ -1,4 +1,4 @@
-"""Scores the session's position after long walks of emulated wearers. Scorers have the form that datasets.py describes.
+"""Scores the session's position on emulated walks over stairs. Scorers have the form that datasets.py describes.
 
 Both feet wear insoles of 96 cells (odd seeds) or 24 cells (even seeds) with the errors of an LSM6DSOX, at 100 Hz. The
 session receives all their samples, without a radio link. Route, gait and devices are drawn from the seed. Seeds 1 to 50
@@ -15,14 +15,13 @@ over the first ALIGNED_LENGTH m. A heading error after that counts over the rest
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import pi
 from pathlib import Path
 
 import numpy as np
 
 from ...emulate.routes.path import ahead
-from ...emulate.routes.route import TIGHT_TURN_SPEED, Route
+from ...emulate.routes.route import Route
 from ...emulate.sensors.insole_device import Insole
 from ...emulate.walk import sampled
 from ...emulate.wearers.gait import Wearer
@@ -40,29 +39,13 @@ ALIGNED_LENGTH = 10.0
 """Length of path over which a track is aligned with the truth, m."""
 POSITION_INTERVAL = 0.5
 """Interval between positions, s."""
-LONG_WALK = 500.0
-"""Shortest length of the long walk, m."""
-HALF_HOUR = 1800.0
-"""Shortest duration of the half-hour walk, s."""
 STANDING_TIME = 3.0
-"""Duration of standing at the start, at the end, and at every halt, s."""
-HALT_DISTANCE = 150.0
-"""Approximate distance between two halts, m."""
+"""Duration of standing at the start and at the end, s."""
 STOREYS = 4
 RISERS, RISE, GOING = 10, 0.16, 0.30
 """Number, height (m) and depth (m) of the stairs in a flight. Two flights make a storey of 3.2 m."""
 LANDING_LENGTH = 1.0
 """Length of the straight walk on a landing before and after the turn, m. The turn's radius is 0.7 of that."""
-
-
-def long_walk(seed: int) -> Route:
-    """Return a route of straights of 8 to 40 m and turns that ends with the first straight after 500 m."""
-    return _random_route(seed, lambda length, seconds: length >= LONG_WALK)
-
-
-def half_hour_walk(seed: int) -> Route:
-    """Return a route of straights and turns for thirty minutes of walking and halts, about 2 km."""
-    return _random_route(seed, lambda length, seconds: seconds >= HALF_HOUR)
 
 
 def four_floors(seed: int) -> Route:
@@ -83,32 +66,15 @@ def four_floors(seed: int) -> Route:
     return route.walk(6.0).stop(STANDING_TIME)
 
 
-def _random_route(seed: int, is_complete: Callable[[float, float], bool]) -> Route:
-    rng = np.random.default_rng([seed, 10])
-    speed = float(rng.uniform(1.1, 1.5))
-    route, length, seconds, last_halt = Route(speed=speed).stand(STANDING_TIME), 0.0, STANDING_TIME, 0.0
-    while True:
-        straight = float(rng.uniform(8.0, 40.0))
-        route, length, seconds = route.walk(straight), length + straight, seconds + straight / speed
-        if is_complete(length, seconds):
-            return route.stop(STANDING_TIME)
-        if length - last_halt > HALT_DISTANCE:
-            route, seconds, last_halt = route.stand(STANDING_TIME), seconds + STANDING_TIME, length
-        angle = float(rng.choice((0.5, 0.25, 1.0), p=(0.6, 0.2, 0.2)) * rng.choice((pi, -pi)))
-        radius = float(rng.uniform(0.6, 2.5))
-        route, length = route.turn(angle, radius), length + abs(angle) * radius
-        seconds += abs(angle) * radius / (speed if radius >= 1.0 else min(speed, TIGHT_TURN_SPEED))
-
-
 def insoles_of(seed: int) -> dict[Site, Insole]:
     """Return the insoles of a seed's wearer."""
     return {SITE_OF_FOOT[foot]: Insole(cells=96 if seed % 2 else 24) for foot in Foot}
 
 
-def score_route(make_route: Callable[[int], Route], path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score the route that `make_route`, one of the functions above, draws from the seed in the entry `meta`."""
+def score_floors(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score the walk over four floors that is drawn from the seed in the entry `meta`."""
     seed: int = meta["seed"]
-    walk = sampled(make_route(seed), wearer=Wearer(), insoles=insoles_of(seed), seed=seed)
+    walk = sampled(four_floors(seed), wearer=Wearer(), insoles=insoles_of(seed), seed=seed)
     session, truth = Session(settings.recipe, calibration=settings.calibration), walk.truth
     collection, track, seconds = run_timed(session, walk.samples, POSITION_INTERVAL)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()

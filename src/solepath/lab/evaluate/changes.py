@@ -37,7 +37,8 @@ _LESS = (
     "strides_invented", "stride_error", "stride_error_median", "stride_error_track", "heel_strike_mad",
     "heel_strike_scatter", "heel_strike_off", "toe_off_mad", "toe_off_scatter", "toe_off_off", "stride_time_error",
     "stride_time_error_median", "leg_error", "leg_error_median", "body_leg_error", "body_leg_error_median",
-    "leg_spread", "uturn_angle", "uturn_invented", "rides_invented", "level_called",
+    "leg_spread", "uturn_angle", "uturn_invented", "rides_invented", "level_called", "heading_end", "radius_error",
+    "drift",
 )  # fmt: skip
 _NEARER_ZERO = ("heel_strike_bias", "toe_off_bias", "stride_time_bias", "leg_bias", "body_leg_bias")
 _MORE = (

@@ -12,7 +12,9 @@ from pathlib import Path
 from attrs import frozen
 
 from ...recipes import Recipe
-from ..emulated.walks import four_floors, half_hour_walk, long_walk, score_route
+from ..emulated.heading import CHECKED_TIMES, LENGTHS, score_heading
+from ..emulated.heading_walks import KINDS
+from ..emulated.walks import score_floors
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
 from .activity import STAIR_SPANS, score_labelled, score_stairs
@@ -69,7 +71,7 @@ def _is_surveyed(name: str, meta: Meta) -> bool:
 
 TRACK_FIGURES = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
 STRIDE_FIGURES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
-LOOP_FIGURES = ("end_error", "end_error_2d", "end_height", "path", "relative")
+LOOP_FIGURES = ("end_error", "end_error_2d", "end_height", "path", "relative", "drift")
 HEEL_STRIKE_FIGURES = (
     "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad",
     "heel_strike_scatter", "heel_strike_off",
@@ -88,8 +90,8 @@ DATASETS = (
     DataSet("pyshoe_vicon", "VICON tracks, one shoe", score_vicon, TRACK_FIGURES + STRIDE_FIGURES[:4]),
     DataSet(
         "gumushane_surveyed", "every footprint surveyed, one shoe", score_surveyed,
-        ("position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", *STRIDE_FIGURES,
-         "stride_error_track"),
+        ("position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", "drift",
+         *STRIDE_FIGURES, "stride_error_track"),
         folders=("gumushane_gcp",), has_truth=_is_surveyed,
     ),
     DataSet(
@@ -116,7 +118,7 @@ DATASETS = (
          "end_error_2d", "end_height", "uturn_found", "uturn_angle", "uturn_invented"),
         lists_recordings=False,
     ),
-    DataSet("tripod_treadmill", "a treadmill, both feet", score_treadmill, CONTACT_FIGURES),
+    DataSet("tripod_treadmill", "a treadmill, both feet", score_treadmill, ("drift", *CONTACT_FIGURES)),
     DataSet(
         "gaitmap_examples", "4 x 10 m, both feet", score_borders,
         (*HEEL_STRIKE_FIGURES, *STRIDE_TIME_FIGURES, *LEG_FIGURES, *BODY_LEG_FIGURES, "leg_spread",
@@ -158,12 +160,22 @@ DATASETS = (
 WALK_FIGURES = (
     "rms_2d", "position_end", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
 )  # fmt: skip
-EMULATED = tuple(
-    DataSet(name, title, partial(score_route, way), WALK_FIGURES + STRIDE_FIGURES, has_pressure=True)
-    for name, title, way in (
-        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", long_walk),
-        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", half_hour_walk),
-        ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", four_floors),
-    )
-)
+HEADING_FIGURES = (
+    "end_relative", "position_end", "heading_end", "radius_error", "path",
+    *(f"{figure}_{t}" for t in CHECKED_TIMES for figure in ("nees", "held", "heading_nees")),
+)  # fmt: skip
+EMULATED = (
+    *(
+        DataSet(
+            f"emulated_{kind}_{length}", f"{kind.replace('_', ' ')}, {length}, emulated insoles on both feet",
+            partial(score_heading, kind, is_complete), HEADING_FIGURES, has_pressure=True,
+        )
+        for length, is_complete in LENGTHS.items()
+        for kind in KINDS
+    ),
+    DataSet(
+        "emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_floors,
+        WALK_FIGURES + STRIDE_FIGURES, has_pressure=True,
+    ),
+)  # fmt: skip
 """Emulated data sets, which need no files: a recording is a seed."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...types import Foot
 from ..measures.alignment import at_times, path_length, track_error
+from ..measures.drift import drift_of_strides, drift_that_opens
 from ..measures.legs import leg_errors
 from ..measures.matching import Errors
 from ..measures.score import Figures, Scored
@@ -82,7 +83,9 @@ def _loop_figures(result: RecordingRun, length: float) -> Figures:
     if not len(foot.t):
         return {}
     figures = _closing_errors(foot.positions[0], foot.positions[-1])
-    return {**figures, "path": length, "relative": (figures["end_error"] or 0.0) / length}
+    t = np.array([foot.strides[0].t_start, *(stride.t_end for stride in foot.strides)]) if foot.strides else foot.t
+    drift = drift_that_opens(t, at_times(foot.t, foot.positions, t))
+    return {**figures, "path": length, "relative": (figures["end_error"] or 0.0) / length, "drift": abs(drift)}
 
 
 def _closing_errors(first: Any, last: Any) -> Figures:
@@ -112,7 +115,9 @@ def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         errors = position_errors(times, truth["gt_stride_xy"], foot.t, foot.positions)
         heights = np.interp(times, foot.t, foot.positions[:, 2])
         surveyed = path_length(truth["gt_stride_xy"])
+        drift = drift_of_strides(times, at_times(foot.t, foot.positions, times), truth["gt_stride_xy"])
         figures = {
+            "drift": None if drift is None else abs(drift),
             "position_mean": float(np.mean(errors)),
             "position_max": float(np.max(errors)),
             "authors": authors,

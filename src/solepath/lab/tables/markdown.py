@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import degrees
 
 from ...show.tables.table import milliseconds, number, percent
+from ..emulated.heading import CHECKED_TIMES
 from ..evaluate.report import Result
 from ..measures.confusion import CLASSES
 from ..measures.score import Figures, Summary
@@ -21,6 +23,16 @@ POSITION_FIGURES = {
     "end_height": "from end to start, in height",
 }
 """Figures that are averaged over recordings, m."""
+PATH_SHARES = {
+    "end_relative": "off at the end, share of the path",
+    "radius_error": "radius of circles too large or too small by",
+}
+"""Shares that are averaged over recordings."""
+ANGLES = {
+    "heading_end": (1.0, "heading off at the end", "degrees"),
+    "drift": (60.0, "drift of the heading", "degrees/min"),
+}
+"""Factor, name and unit of angles, rad, and of drifts, rad/s, that are averaged over recordings."""
 AUTHORS_SHARES = {"authors_beaten": "trials in which the authors' own system is further off"}
 """Shares of recordings."""
 STAIR_SHARES = {
@@ -46,7 +58,7 @@ def accuracy_table(results: Sequence[Result]) -> str:
             data = f"{result.data_set.title}: `{result.data_set.name}`, {count}"
             bipedal = [other for other in result.summaries if other.group == "bipedal"]
             figures = [
-                *_position_lines(summary), *_share_lines(summary, AUTHORS_SHARES),
+                *_position_lines(summary), *_heading_lines(summary), *_share_lines(summary, AUTHORS_SHARES),
                 *(row for other in bipedal for row in _bipedal_lines(other)), *_stride_lines(summary.together),
                 *_leg_lines(summary.together), *_event_lines(summary.together), *_activity_lines(summary),
             ]  # fmt: skip
@@ -74,6 +86,27 @@ def _position_lines(summary: Summary) -> list[tuple[str, str]]:
             mean, median = (f"{number(averages[key], 3)} m" for averages in (summary.mean, summary.median))
             entries.append((measured, mean if summary.count == 1 else f"mean {mean}, median {median}"))
     return entries
+
+
+def _heading_lines(summary: Summary) -> list[tuple[str, str]]:
+    lines = []
+    for key, name in PATH_SHARES.items():
+        if key in summary.mean:
+            mean, median = (percent(averages[key], 2) for averages in (summary.mean, summary.median))
+            lines.append((name, f"mean {mean} %, median {median} %"))
+    for key, (factor, name, unit) in ANGLES.items():
+        if key in summary.mean:
+            mean, median = (
+                number(degrees(factor * (averages[key] or 0.0)), 1) for averages in (summary.mean, summary.median)
+            )
+            lines.append((name, f"mean {mean}, median {median} {unit}"))
+    for t in CHECKED_TIMES:
+        if f"nees_{t}" in summary.mean:
+            mean, median = (number(averages[f"nees_{t}"], 2) for averages in (summary.mean, summary.median))
+            held = percent(summary.mean[f"held_{t}"], 0)
+            name = f"NEES/2 after {t // 60} min, and walks within the ellipse of 95 %"
+            lines.append((name, f"mean {mean}, median {median}, {held} %"))
+    return lines
 
 
 def _share_lines(summary: Summary, titles: dict[str, str]) -> list[tuple[str, str]]:

@@ -8,6 +8,7 @@ from math import degrees
 
 from ...show.tables.table import milliseconds, number, percent, table
 from ...types import Activity
+from ..emulated.heading import CHECKED_TIMES
 from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
 from ..evaluate.ablation import Column
 from ..evaluate.changes import DIGITS, SUMMARY_ROWS, Changes, Scores, Verdict, compare_scores, names_missing
@@ -16,6 +17,7 @@ from ..measures.confusion import CLASSES
 from ..measures.score import Figures, Summary
 
 _metres = _three_digits = partial(number, digits=3)
+_two_digits = partial(number, digits=2)
 _short_metres = partial(number, digits=1)
 _count = partial(number, digits=0)
 _fine_percent = partial(percent, digits=2)
@@ -23,6 +25,10 @@ _fine_percent = partial(percent, digits=2)
 
 def _degrees(value: float | None) -> str:
     return number(None if value is None else degrees(value), 1)
+
+
+def _degrees_a_minute(value: float | None) -> str:
+    return _degrees(None if value is None else 60.0 * value)
 
 
 def _activity_name(activity: Activity) -> str:
@@ -47,6 +53,14 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "end_height": ("in height m", _metres),
     "position_end": ("at the end m", _metres),
     "end_relative": ("at the end, of path %", _fine_percent),
+    "heading_end": ("heading degrees", _degrees),
+    "radius_error": ("radius %", _fine_percent),
+    "drift": ("drift degrees/min", _degrees_a_minute),
+    **{
+        f"{figure}_{t}": (f"{title} {t} s", _two_digits)
+        for t in CHECKED_TIMES
+        for figure, title in (("nees", "NEES/2"), ("held", "held"), ("heading_nees", "heading"))
+    },
     "height_end": ("height at end m", _metres),
     "height_max": ("height, largest m", _metres),
     "strides_found": ("found", _count),
@@ -98,7 +112,8 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
 ARMSE2d is the RMS 2D error / sqrt 2. `relative` is the error (RMS 2D, mean or end error) as a share of the path length.
 `end_error` is the distance between the ends of a closed loop, `position_end` that from the estimated to the true end.
 `authors` is the mean error of the system of the data set's authors. `stride_error_track` is the mean stride length
-error by the live positions. `off` is the median magnitude of the offsets. `uturn_invented` is a number a recording."""
+error by the live positions. `nees`, `held` and `heading_nees` are defined in emulated/heading.py, `drift` in
+measures/drift.py. `off` is the median magnitude of the offsets. `uturn_invented` is a number a recording."""
 
 
 def score_table(result: Result) -> str:
