@@ -22,24 +22,24 @@ from math import exp, sqrt
 
 from ...types.attrs import define, field
 
-DRIFT, SINGLE_DRIFT = 0.0012, 0.0016
-"""Standard deviation of the drift of two feet together and of a foot alone, rad a stride (3.5 and 5 degrees a minute).
+DRIFT, SINGLE_DRIFT = 0.0010, 0.0014
+"""Standard deviation of the drift of two feet together and of a foot alone, rad a stride (3 and 4 degrees a minute).
 
 On recordings a foot drifts by 1 to 8 degrees a minute (`solepath evaluate`, heading drift)."""
 TURNING, SINGLE_TURNING = 0.005, 0.007
 """Standard deviation of the relative error of a turn of two feet together and of a foot alone, no unit.
 
 Sheets of gyroscopes give tolerances of the scale of 1 to 3 %, which are two standard deviations."""
-DRIFT_CHANGE = 3e-6
-"""Random walk of the drift, rad a stride and sqrt(s): a wearer changes the manner of walking."""
-HEADING_NOISE = 0.0028
-"""Random walk of the heading, rad/sqrt(s): 1.2 degrees in a minute, because the bias wanders and is learnt anew."""
+DRIFT_CHANGE = 1.2e-5
+"""Random walk of the drift, rad a stride and sqrt(s): the bias wanders, and the manner of walking changes."""
+HEADING_NOISE = 0.0018
+"""Random walk of the heading, rad/sqrt(s): 0.8 degrees in a minute, because the bias wanders and is learnt anew."""
 GAP_RATE, MAX_GAP_ERROR = 0.3, 0.06
 """Error of the heading after a gap in the samples of a foot: rad per s of the gap, and at the most, rad."""
-LENGTH_ERROR = 0.01
+LENGTH_ERROR = 0.007
 """Standard deviation of the relative error that all strides have in common, no unit.
 
-Strides of surveyed walks are 1 to 2 % too long or too short on average (docs/accuracy.md)."""
+Emulated strides are up to 1.6 % too long or too short on average (rms 0.7 %)."""
 USUAL_STRIDE = 0.8
 """Length from which a stride swings through the whole loop, m; the loop of a shorter one is proportionally smaller."""
 

@@ -50,7 +50,7 @@ GATE = 9.0
 """Largest squared drift, divided by its variance, that is attributed to the gyroscope."""
 GENTLE_BEND, BEND = 0.006, 0.03
 """Standard deviations of the curvature of ways that bend gently, and of bends, 1/m."""
-FIRST_COUNTS = (2.0, 1.0, 1.0)
+FIRST_COUNTS = (1.0, 1.0, 1.0)
 """Number of stretches as which it counts before any walk that stretches are straight, bend gently, and bend."""
 FORGETTING = 0.97
 """Factor of all counts at each stretch: about the last thirty count."""
