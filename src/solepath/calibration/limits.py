@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ..types import Cell, Foot, Layout, WalkingMode
 from ..types.attrs import fields
-from .records import Calibration, InsoleCalibration, Limbs, Newtons, ShoeGeometry
+from .records import Calibration, HeadingCalibration, InsoleCalibration, Limbs, Newtons, ShoeGeometry
 
 _Limit = tuple[str, object, float, float, str]
 """Key, value, smallest and largest allowed value, and unit of one number of a calibration."""
@@ -62,6 +62,9 @@ def _type_problems(calibration: Calibration) -> Iterator[str]:
             for mode, compensation in modes.items():
                 yield from _check_tuple(f"modes.{foot.value}.{mode.value}", compensation, 2)
     yield from _check_dict("toe_out", calibration.toe_out, Foot)
+    yield from _check_dict("headings", calibration.headings, Foot)
+    for foot, heading in calibration.headings.items():
+        yield from _check_type(f"headings.{foot.value}", heading, HeadingCalibration)
 
 
 def _check_type(key: str, value: object, kind: type) -> Iterator[str]:
@@ -96,6 +99,11 @@ def _limits(calibration: Calibration) -> Iterator[_Limit]:
         yield from ((f"drift.{foot.value}", speed, -1.0, 1.0, " m/s") for speed in slope)
     for foot, angle in calibration.toe_out.items():
         yield f"toe_out.{foot.value}", angle, -1.0, 1.0, " rad"
+    for foot, heading in calibration.headings.items():
+        yield f"headings.{foot.value}.drift", heading.drift, -0.05, 0.05, " rad"
+        yield f"headings.{foot.value}.turning", heading.turning, -0.2, 0.2, ""
+        yield f"headings.{foot.value}.drift_sigma", heading.drift_sigma, 1e-6, 0.05, " rad"
+        yield f"headings.{foot.value}.turning_sigma", heading.turning_sigma, 1e-6, 0.2, ""
     if calibration.limbs is not None:
         for one in fields(Limbs):
             yield f"limbs.{one.name}", getattr(calibration.limbs, one.name), 0.001, 1.5, " m"

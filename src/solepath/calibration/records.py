@@ -91,6 +91,23 @@ class Limbs:
 
 
 @frozen
+class HeadingCalibration:
+    """Drift of the heading of one foot, from a walk there and back (`solepath calibrate walk`).
+
+    The errors of a gyroscope turn the track by nearly the same angle in every stride, and by a share of every turn.
+    They belong to this sensor on this shoe of this wearer. Standard deviations include what changes from day to day."""
+
+    drift: float
+    """Angle by which the track must be turned in a usual stride, rad, positive to the left."""
+    turning: float
+    """Angle by which the track must be turned for a turn of 1 rad, no unit."""
+    drift_sigma: float
+    """Standard deviation of `drift` on another day, rad."""
+    turning_sigma: float
+    """Standard deviation of `turning` on another day, no unit."""
+
+
+@frozen
 class Calibration:
     """The calibration of one wearer; a value that was not calibrated is None or absent."""
 
@@ -111,6 +128,8 @@ class Calibration:
     toe_out: dict[Foot, float] = field(factory=dict)
     """Angle from the direction of walking to each foot's long axis, outwards positive, rad (Liu et al. 2015, equation
     (1))."""
+    headings: dict[Foot, HeadingCalibration] = field(factory=dict)
+    """Drift of the heading of each foot."""
 
     def insole(self, foot: Foot) -> InsoleCalibration:
         """Return the calibration of this foot's insole, or an empty one."""
@@ -129,11 +148,13 @@ def merged(known: Calibration, newer: Calibration) -> Calibration:
         insoles[foot] = _replace_values(old_insole, insole)
     drift = {**known.drift, **newer.drift}
     toe_out = {**known.toe_out, **newer.toe_out}
+    headings = {**known.headings, **newer.headings}
     return evolve(
         _replace_values(known, newer),
         insoles={foot: insoles[foot] for foot in Foot if foot in insoles},
         drift={foot: drift[foot] for foot in Foot if foot in drift},
         toe_out={foot: toe_out[foot] for foot in Foot if foot in toe_out},
+        headings={foot: headings[foot] for foot in Foot if foot in headings},
     )
 
 

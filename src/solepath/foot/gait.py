@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from math import hypot
+
+from ..calibration import HeadingCalibration
 from ..events import Event
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import define, field
@@ -12,7 +15,7 @@ from .gaps.template import StrideTemplate
 from .navigate.corrector import Corrector
 from .path import PathCovariance
 from .phase import EVENT_OF_PHASE, PHASES, Cue
-from .stride import SHORTEST_STRIDE, StrideBuilder
+from .stride import SHORTEST_STRIDE, StrideBuilder, usual_strides
 from .world import Covariance3, World
 
 FLAT_SPEED = 0.35
@@ -24,6 +27,8 @@ class Gait:
     """The phases and strides of one foot, each of which becomes an event as soon as its cue is seen."""
 
     foot: Foot
+    heading: HeadingCalibration | None = None
+    """Drift of the heading that is removed at the end of every stride; None when it was not calibrated."""
     phase: Phase = field(default=Phase.STATIONARY, init=False)
     phase_start: float | None = field(default=None, init=False)
     """Start of the current phase, s; None before the first change of phase and after times restarted."""
@@ -130,6 +135,8 @@ class Gait:
         if repair is not None:
             (x, y, z), (dx, dy, dz) = stride.start, repair.displacement
             corrector.repair(repair.turn, (x + dx, y + dy, z + dz))
+        if self.heading is not None:
+            self._turn_back(self.heading, corrector, path, turn)
         rise = corrector.position[2] - stride.start[2]
         corrector.flat(stride.start, turn)
         position, attitude = corrector.position, corrector.attitude
@@ -145,6 +152,19 @@ class Gait:
             world.settle()
         stride.start_stride(t, position, attitude)
         return [] if stride_event is None else [stride_event]
+
+    @staticmethod
+    def _turn_back(heading: HeadingCalibration, corrector: Corrector, path: Vec3, turn: float) -> None:
+        """Remove the drift of a stride along `path`, m, that turned by `turn` rad; half of it turned the path."""
+        x, y, _ = path
+        yaw = heading.drift * usual_strides(hypot(x, y)) + heading.turning * turn
+        by = (-0.5 * yaw * y, 0.5 * yaw * x, 0.0)
+        shift = getattr(corrector, "shift", None)
+        if shift is not None:
+            shift(yaw, by)
+            return
+        (x, y, z), (dx, dy, _) = corrector.position, by
+        corrector.repair(yaw, (x + dx, y + dy, z))
 
     def _anchor(self, corrector: Corrector) -> None:
         """Add the stretch since the last anchor to the path."""

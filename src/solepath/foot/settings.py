@@ -8,7 +8,7 @@ docs/accuracy.md; docs/settings.md has the effect of half and of twice each. The
 
 from __future__ import annotations
 
-from ..calibration import Newtons
+from ..calibration import HeadingCalibration, Newtons
 from ..types.attrs import frozen
 
 
@@ -22,6 +22,8 @@ class FootSettings:
     """The recipe needs pressure cells.
 
     A foot without cells then reports nothing, and an unknown layout of the cells is learnt."""
+    heading: HeadingCalibration | None = None
+    """Drift of the heading that is removed at the end of every stride; None when it was not calibrated."""
 
 
 @frozen

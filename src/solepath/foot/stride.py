@@ -38,6 +38,14 @@ MOTION_GAIN, LEAST_MOTION_RATIO, LARGEST_MOTION_RATIO = 0.2, 0.5, 1.3
 SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
+USUAL_STRIDE = 0.8
+"""Length from which a stride swings through the whole loop of rotations, m; that of a shorter one is smaller."""
+
+
+def usual_strides(length: float) -> float:
+    """Return the number of usual strides as which one of `length` m counts for the drift of the heading, 0 to 1."""
+    return min(1.0, length / USUAL_STRIDE)
+
 
 @define
 class StrideBuilder:

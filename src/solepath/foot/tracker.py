@@ -65,7 +65,7 @@ class FootTracker:
     limitations: Limitations = field(init=False)
 
     def __attrs_post_init__(self) -> None:
-        self.gait = Gait(self.foot)
+        self.gait = Gait(self.foot, self.settings.heading)
         self.limitations = Limitations(self.foot)
 
     @sole.default

@@ -262,7 +262,7 @@ class WearerParts:
         tracker = self.feet.get(foot)
         if tracker is None:
             recipe, calibration = self.settings.recipe, self.settings.calibration
-            settings = FootSettings(self.settings.poses, recipe.needs_pressure)
+            settings = FootSettings(self.settings.poses, recipe.needs_pressure, calibration.headings.get(foot))
             detector, corrector, cues, insole = deepcopy(
                 (recipe.detector, recipe.corrector, recipe.cues, recipe.insole)
             )

@@ -19,13 +19,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, sin
 
+from ...calibration import Calibration
 from ...events import SampleGap, StrideTaken
+from ...foot.stride import usual_strides
 from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartOutput, Position, Shift
-from .common_error import USUAL_STRIDE, CommonError
+from .common_error import CommonError
 from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, standing_foot
 from .position import MeanOfFeet
 from .straightness import Straightness
@@ -90,6 +92,14 @@ class BothFeet(MeanOfFeet):
     directions: list[WalkingDirection] = field(factory=lambda: [WalkingDirection(), WalkingDirection()], init=False)
     placements: list[tuple[float, Vec3]] = field(factory=lambda: [(0.0, ZERO), (0.0, ZERO)], init=False)
     """Turn, rad, and offset, m, of each track when alignment ended; later corrections go to the feet themselves."""
+
+    def calibrated(self, calibration: Calibration) -> BothFeet:
+        """Return the part for a wearer whose feet remove a drift that a calibration walk has shown."""
+        if not calibration.headings:
+            return self
+        part = BothFeet(self.settings)
+        part.common.use_calibration(calibration.headings)
+        return part
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
@@ -161,8 +171,8 @@ class BothFeet(MeanOfFeet):
         swing = max(0.0, min(event.t_end - t_toe_off, MAX_PHASE_TIME))
         stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
         # correct the drift of the heading, and the displacement by the drift up to mid-swing
-        rate, usual_strides = self.errors.rates[index], min(1.0, event.length / USUAL_STRIDE)
-        drift = self.common.turn_of(usual_strides, event.heading_change)
+        rate, count = self.errors.rates[index], usual_strides(event.length)
+        drift = self.common.turn_of(count, event.heading_change)
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
         this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
         dx, dy = dx - mid_turn * dy, dy + mid_turn * dx
@@ -175,7 +185,7 @@ class BothFeet(MeanOfFeet):
             ss * xx + 2.0 * cs * xy + cc * yy + FOOTPRINT_VARIANCE,
         )
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
-        self.common.propagate(share, usual_strides, event.heading_change, stance + swing, (dx, dy), variance)
+        self.common.propagate(share, count, event.heading_change, stance + swing, (dx, dy), variance)
         if self.started:
             degraded = event.degraded or excess > 0.0
             self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, degraded)
@@ -187,10 +197,10 @@ class BothFeet(MeanOfFeet):
         straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not event.degraded
         self.strides[index] = DirectedStride(event.t_end, own_position, atan2(y, x) if straight else None)
         if not self.started:
-            self._learn_drift(event, share, usual_strides, (dx, dy))
+            self._learn_drift(event, share, count, (dx, dy))
         elif self.distance >= ALIGNMENT_DISTANCE or not self._realign(index, event):
             self._compare_feet(index, event, dx, dy, stance, swing)
-            self._learn_drift(event, share, usual_strides, (dx, dy))
+            self._learn_drift(event, share, count, (dx, dy))
         return self._shift_foot(index, event.foot, takes_shifts)
 
     def _learn_drift(self, event: StrideTaken, share: float, strides: float, displacement: tuple[float, float]) -> None:

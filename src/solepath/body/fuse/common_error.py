@@ -18,16 +18,19 @@ heading error of any size does to the position is in `position_covariance`."""
 
 from __future__ import annotations
 
-from math import exp, sqrt
+from collections.abc import Mapping
+from math import exp, hypot, sqrt
 
+from ...calibration import HeadingCalibration
+from ...types import Foot
 from ...types.attrs import define, field
 
-DRIFT, SINGLE_DRIFT = 0.0010, 0.0014
-"""Standard deviation of the drift of two feet together and of a foot alone, rad a stride (3 and 4 degrees a minute).
+DRIFT = 0.0014
+"""Standard deviation of the drift of one foot, rad a stride (4 degrees a minute), unless it was calibrated.
 
-On recordings a foot drifts by 1 to 8 degrees a minute (`solepath evaluate`, heading drift)."""
-TURNING, SINGLE_TURNING = 0.005, 0.007
-"""Standard deviation of the relative error of a turn of two feet together and of a foot alone, no unit.
+On recordings a foot drifts by 1 to 8 degrees a minute (`solepath evaluate`, drift of the heading)."""
+TURNING = 0.007
+"""Standard deviation of the relative error of a turn of one foot, no unit, unless it was calibrated.
 
 Sheets of gyroscopes give tolerances of the scale of 1 to 3 %, which are two standard deviations."""
 DRIFT_CHANGE = 1.2e-5
@@ -40,8 +43,6 @@ LENGTH_ERROR = 0.007
 """Standard deviation of the relative error that all strides have in common, no unit.
 
 Emulated strides are up to 1.6 % too long or too short on average (rms 0.7 %)."""
-USUAL_STRIDE = 0.8
-"""Length from which a stride swings through the whole loop, m; the loop of a shorter one is proportionally smaller."""
 
 
 @define
@@ -60,9 +61,9 @@ class CommonError:
     hh: float = field(default=0.0, init=False)
     hr: float = field(default=0.0, init=False)
     hk: float = field(default=0.0, init=False)
-    rr: float = field(default=DRIFT * DRIFT, init=False)
+    rr: float = field(default=0.5 * DRIFT * DRIFT, init=False)
     rk: float = field(default=0.0, init=False)
-    kk: float = field(default=TURNING * TURNING, init=False)
+    kk: float = field(default=0.5 * TURNING * TURNING, init=False)
     drift: float = field(default=0.0, init=False)
     """Estimated drift, which is removed from both tracks, rad a stride."""
     turning: float = field(default=0.0, init=False)
@@ -72,6 +73,26 @@ class CommonError:
     alone: bool = field(default=False, init=False)
     """Flag: the newest stride was that of a foot alone."""
 
+    foot_drift_sigma: float = field(default=DRIFT, init=False)
+    """Standard deviation of the drift of one foot, rad a stride."""
+    foot_turning_sigma: float = field(default=TURNING, init=False)
+    """Standard deviation of the relative error of the turns of one foot, no unit."""
+
+    def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:
+        """Use the standard deviations of a calibration, before any stride; the feet remove the drift themselves."""
+        drifts = [headings[foot].drift_sigma if foot in headings else DRIFT for foot in Foot]
+        turnings = [headings[foot].turning_sigma if foot in headings else TURNING for foot in Foot]
+        if len(headings) == 1:  # the other foot may never come
+            drifts, turnings = (
+                [one.drift_sigma for one in headings.values()],
+                [one.turning_sigma for one in headings.values()],
+            )
+        self.foot_drift_sigma, self.foot_turning_sigma = (
+            hypot(*drifts) / sqrt(len(drifts)),
+            hypot(*turnings) / sqrt(len(turnings)),
+        )
+        self.rr, self.kk = 0.5 * self.foot_drift_sigma**2, 0.5 * self.foot_turning_sigma**2
+
     @property
     def drift_sigma(self) -> float:
         """Standard deviation of `drift`, rad a stride."""
@@ -80,8 +101,8 @@ class CommonError:
     def share(self, alone: bool) -> float:
         """Return the share of the next stride of a foot in the mean: all of it if the foot is `alone`, or one half."""
         if alone and not self.alone:  # its own drift was hidden in the mean
-            self.rr += SINGLE_DRIFT * SINGLE_DRIFT - DRIFT * DRIFT
-            self.kk += SINGLE_TURNING * SINGLE_TURNING - TURNING * TURNING
+            self.rr += 0.5 * self.foot_drift_sigma * self.foot_drift_sigma
+            self.kk += 0.5 * self.foot_turning_sigma * self.foot_turning_sigma
         self.started, self.alone = True, alone
         return 1.0 if alone else 0.5
 

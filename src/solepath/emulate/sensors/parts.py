@@ -46,6 +46,8 @@ class TriadErrors:
     """False output per specific force along the same axis, u per m/s^2; its sign is random."""
     bias_limit: float = inf
     """Largest bias, u, where a sheet guarantees a limit."""
+    specimen: int | None = None
+    """Number of a specimen, which has the same scale, axes and signs of `g_effect` in every walk; None: random."""
 
 
 @frozen

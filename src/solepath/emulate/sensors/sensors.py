@@ -92,13 +92,14 @@ def to_counts(measured: Array, chip: TriadErrors, count: float) -> CountReading:
 
 def add_errors(true: Array, sampling: Sampling, chip: TriadErrors, rng: Rng, force: Array | None = None) -> Array:
     """Return the true values with scale error, misalignment, bias, bias drift and white noise, not yet filtered."""
-    mixing = np.eye(3) + np.diag(chip.scale * rng.standard_normal(3))
-    mixing += chip.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
+    specimen = rng if chip.specimen is None else np.random.default_rng([chip.specimen, 24])
+    mixing = np.eye(3) + np.diag(chip.scale * specimen.standard_normal(3))
+    mixing += chip.cross * specimen.standard_normal((3, 3)) * (1.0 - np.eye(3))
     signal = true @ mixing.T
     signal += np.clip(chip.bias * rng.standard_normal(3), -chip.bias_limit, chip.bias_limit)
     signal += chip.drift * random_drift(sampling.fine_times, chip.correlation_time, 3, rng)
     if force is not None and chip.g_effect:
-        signal += chip.g_effect * force * rng.choice([-1.0, 1.0], 3)
+        signal += chip.g_effect * force * specimen.choice([-1.0, 1.0], 3)
     # White noise of density d has sigma d sqrt(rate / 2) when it fills the band up to half of the fine rate.
     signal += chip.density * sqrt(0.5 * sampling.rate) * rng.standard_normal(true.shape)
     return np.asarray(signal)

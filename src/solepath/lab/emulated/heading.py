@@ -22,15 +22,17 @@ import numpy as np
 from attrs import define, field
 
 from ...body.fuse.both_feet import BothFeet
+from ...calibration import merged
 from ...emulate.walk import SampledWalk, sampled
 from ...emulate.wearers.truth import Truth
 from ...events import StrideTaken
 from ...session import Session
+from ...session.heading_walk import heading_calibration, heading_walk
 from ...types import Foot, Quat
 from ..evaluate.run import Meta, RunSettings
 from ..measures.alignment import Floats, distances
 from ..measures.score import Figures, Scored
-from .heading_walks import IsComplete, heading_route, insoles_of, wearer_of
+from .heading_walks import IsComplete, calibration_samples, heading_route, insoles_of, wearer_of
 
 CHECKED_TIMES = (60, 300, 900, 1800)
 """Times after which the covariance is compared with the error, s."""
@@ -115,12 +117,19 @@ def _placement(session: Session, foot: Foot) -> float:
     return 0.0
 
 
-def score_heading(kind: str, is_complete: IsComplete, path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score a walk of a kind of routes and of the seed in the entry `meta`."""
+def score_heading(
+    kind: str, is_complete: IsComplete, calibrated: bool, path: Path, meta: Meta, settings: RunSettings
+) -> Scored:
+    """Score a walk of a kind of routes and of the seed in the entry `meta`.
+
+    If it is `calibrated`, the session has the calibration of a walk there and back on the day before."""
     seed: int = meta["seed"]
     route = heading_route(kind, seed, is_complete)
     walk = sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed)
-    session = Session(settings.recipe, calibration=settings.calibration)
+    calibration = settings.calibration
+    if calibrated:
+        calibration = merged(calibration, heading_calibration(heading_walk(calibration_samples(seed))))
+    session = Session(settings.recipe, calibration=calibration)
     track = follow(session, walk)
     return Scored(path.stem, figures=heading_figures(track, walk.truth), samples=len(walk.samples))
 

@@ -7,16 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import pi, radians
+from operator import attrgetter
 
 import numpy as np
 from attrs import define, evolve
 
 from ...emulate.routes.route import TIGHT_TURN_SPEED, Route
+from ...emulate.sensors.device import device_rng
 from ...emulate.sensors.insole_device import Insole
 from ...emulate.sensors.parts import LSM6DSOX, Imu
 from ...emulate.wearers.curves import Rng
 from ...emulate.wearers.gait import Wearer, random_wearer
-from ...types import SITE_OF_FOOT, Foot, Site
+from ...emulate.wearers.walker import Walker
+from ...types import SITE_OF_FOOT, Foot, Sample, Site
 from ...types.vector import GRAVITY
 
 STANDING_TIME = 3.0
@@ -38,6 +41,13 @@ IMU-3000 specify; that of the LSM6DSOX does not specify any."""
 SHOE_IMU = Imu("LSM6DSOX with g-effect", LSM6DSOX.acc, evolve(LSM6DSOX.gyro, g_effect=G_EFFECT))
 """The chip of the insoles."""
 
+CALIBRATION_LAPS, CALIBRATION_LEG, CALIBRATION_SPEED = 5, 15.0, 1.3
+"""Number of times that the wearer walks to and fro, length of a leg, m, and speed, m/s: two minutes."""
+CALIBRATION_TURN_RADIUS, CALIBRATION_STAND = 0.6, 5.0
+"""Radius of the turns at both ends, m, and time of standing before and after the walk, s."""
+OTHER_DAY = 10_000
+"""Number that is added to the seed of gait, bias and noise on the day of the calibration walk."""
+
 IsComplete = Callable[[float, float], bool]
 """Function of the length of a route so far, m, and of its duration, s, that returns whether it is long enough."""
 
@@ -53,8 +63,34 @@ def wearer_of(seed: int) -> Wearer:
 
 
 def insoles_of(seed: int) -> dict[Site, Insole]:
-    """Return the insoles of a seed's wearer."""
-    return {SITE_OF_FOOT[foot]: Insole(cells=96 if seed % 2 else 24, chip=SHOE_IMU) for foot in Foot}
+    """Return the insoles of a seed's wearer, which are the same on every day but for bias and noise."""
+    insoles: dict[Site, Insole] = {}
+    for number, foot in enumerate(Foot):
+        acc, gyro = (
+            evolve(one, specimen=4 * seed + 2 * number + k) for k, one in enumerate((SHOE_IMU.acc, SHOE_IMU.gyro))
+        )
+        chip = evolve(SHOE_IMU, acc=acc, gyro=gyro)
+        insoles[SITE_OF_FOOT[foot]] = Insole(cells=96 if seed % 2 else 24, chip=chip)
+    return insoles
+
+
+def calibration_samples(seed: int) -> list[Sample]:
+    """Return the samples of the calibration walk of a seed's wearer: five times to and fro, on the day before."""
+    rng = np.random.default_rng([seed, 22])
+    side = float(rng.choice((1.0, -1.0)))
+    route = Route().stand(CALIBRATION_STAND)
+    for leg in range(2 * CALIBRATION_LAPS):
+        if leg:
+            route = route.turn(side * pi, CALIBRATION_TURN_RADIUS)
+            side = -side if leg % 2 else side
+        route = route.walk(CALIBRATION_LEG, CALIBRATION_SPEED)
+    walker = Walker(route.stop(CALIBRATION_STAND), wearer_of(seed), OTHER_DAY + seed)
+    samples = [
+        sample
+        for site, insole in insoles_of(seed).items()
+        for sample in insole.samples(walker, site, device_rng(OTHER_DAY + seed, site))
+    ]
+    return sorted(samples, key=attrgetter("t"))
 
 
 @define

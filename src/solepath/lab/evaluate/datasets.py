@@ -167,11 +167,13 @@ HEADING_FIGURES = (
 EMULATED = (
     *(
         DataSet(
-            f"emulated_{kind}_{length}", f"{kind.replace('_', ' ')}, {length}, emulated insoles on both feet",
-            partial(score_heading, kind, is_complete), HEADING_FIGURES, has_pressure=True,
+            f"emulated_{kind}_{length}" + ("_calibrated" if calibrated else ""),
+            f"{kind.replace('_', ' ')}, {length}, insoles on both feet" + (", calibration walk" if calibrated else ""),
+            partial(score_heading, kind, is_complete, calibrated), HEADING_FIGURES, has_pressure=True,
         )
         for length, is_complete in LENGTHS.items()
         for kind in KINDS
+        for calibrated in (False, True)
     ),
     DataSet(
         "emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_floors,

@@ -1,0 +1,159 @@
+"""Drift of the heading of each foot, from a walk there and back along one straight line.
+
+The wearer walks a corridor or the straight of a track to and fro, and turns at its ends now to the left and now to the
+right. All legs have the same direction, or the opposite one. What the track of a foot has turned from one leg to the
+next is therefore its drift: `drift` for each usual stride, and `turning` for each rad that it has turned. Both are
+fitted to the directions of the legs by least squares, with their usual sizes as a prior. If all turns are to one side,
+only their sum for a leg with its turn is known, and the standard deviations say so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import atan2, hypot, pi, remainder, sqrt
+
+import numpy as np
+
+from ..body.fuse.both_feet import BothFeet
+from ..body.fuse.common_error import DRIFT, TURNING
+from ..body.fuse.position import MeanOfFeet
+from ..calibration import Calibration, CalibrationError, HeadingCalibration
+from ..events import StrideTaken
+from ..foot.stride import usual_strides
+from ..recipes import DEFAULT
+from ..types import Foot, Packet, Sample
+from ..types.attrs import frozen
+from .session import Session
+
+MIN_LEG, MIN_LEGS = 6.0, 4
+"""Shortest leg, m, and least number of legs of a foot from which its drift is learnt."""
+MAX_LEG_TURN, MIN_LEG_STRIDE = 0.35, 0.5
+"""Largest turn, rad, and least length, m, of a stride of a leg."""
+MAX_LEG_ERROR = 0.35
+"""Largest difference of the direction of a leg from that of the one before or its opposite, rad; above it the walk is
+not there and back."""
+LEG_BOW = 0.1
+"""Standard deviation of the lateral distance between both ends of a leg and the line, m: feet land beside it."""
+HEADING_NOISE = 0.0025
+"""Random walk of the heading of one foot, rad/sqrt(s): sqrt(2) times that of two feet (common_error.py)."""
+DAY_DRIFT = 4e-4
+"""Standard deviation of the change of the drift from one day to another, rad a stride: the bias is learnt anew at rest,
+with an error of about 1.2 degrees a minute."""
+DAY_TURNING = 0.001
+"""Standard deviation of the change of the relative error of turns from one day to another, no unit (assumed)."""
+PRIOR_FACTOR = 3.0
+"""Ratio of the prior standard deviations to those of the session's filter, so that the walk decides."""
+
+
+@frozen
+class HeadingFit:
+    """The drift of one foot, and how well it explains the walk."""
+
+    foot: Foot
+    heading: HeadingCalibration
+    """Drift of the foot."""
+    legs: int
+    """Number of legs."""
+    minutes: float
+    """Time from the first leg to the last one, min."""
+    before: float
+    """Root mean square of the differences of the directions of the legs, rad."""
+    after: float
+    """The same without the drift, rad."""
+
+
+@frozen
+class _Leg:
+    t: float
+    direction: float
+    length: float
+    strides: float
+    turn: float
+
+
+def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | None = None) -> list[HeadingFit]:
+    """Return the drift of each foot that walked there and back. CalibrationError is raised when none did."""
+    known = calibration or Calibration()
+    # each foot by itself, without any earlier calibration of its heading
+    session = Session(DEFAULT.exchanged(BothFeet, MeanOfFeet()), calibration=_without_headings(known))
+    events = [*(event for one in source for event in session.feed(one)), *session.finish()]
+    fits: list[HeadingFit] = []
+    reasons: list[str] = []
+    for foot in Foot:
+        strides = [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
+        found = fit_heading(foot, strides)
+        if isinstance(found, HeadingFit):
+            fits.append(found)
+        elif strides:
+            reasons.append(f"{foot.value} foot: {found}")
+    if not fits:
+        raise CalibrationError("; ".join(reasons) or "no strides")
+    return fits
+
+
+def fit_heading(foot: Foot, strides: Sequence[StrideTaken]) -> HeadingFit | str:
+    """Return the drift of a foot from its strides, or the reason why they do not show it."""
+    legs = _find_legs(strides)
+    if len(legs) < MIN_LEGS:
+        return f"{len(legs)} straight legs of {MIN_LEG:g} m and more, of which {MIN_LEGS} are needed"
+    directions = [legs[0].direction]
+    for leg in legs[1:]:
+        step = remainder(leg.direction - directions[-1], pi)
+        if abs(step) > MAX_LEG_ERROR:
+            return "its legs do not lead there and back along one line"
+        directions.append(directions[-1] + step)
+    theta = np.array(directions)
+    t, strides_done, turned = (np.array([getattr(leg, name) for leg in legs]) for name in ("t", "strides", "turn"))
+    # theta = line - drift strides - turning turn + noise; the heading's random walk is correlated between the legs
+    model = np.column_stack([np.ones(len(legs)), -strides_done, -turned])
+    elapsed = t - t[0]
+    noise = HEADING_NOISE**2 * np.minimum.outer(elapsed, elapsed)
+    noise += np.diag([2.0 * (LEG_BOW / leg.length) ** 2 for leg in legs])
+    weights = np.linalg.inv(noise)
+    prior = np.diag([0.0, (PRIOR_FACTOR * DRIFT) ** -2, (PRIOR_FACTOR * TURNING) ** -2])
+    covariance = np.linalg.inv(model.T @ weights @ model + prior)
+    line, drift, turning = (float(value) for value in covariance @ model.T @ weights @ theta)
+    left = theta - model @ np.array([line, drift, turning])
+    heading = HeadingCalibration(
+        drift=drift,
+        turning=turning,
+        drift_sigma=hypot(sqrt(float(covariance[1, 1])), DAY_DRIFT),
+        turning_sigma=hypot(sqrt(float(covariance[2, 2])), DAY_TURNING),
+    )
+    return HeadingFit(foot, heading, len(legs), float(elapsed[-1]) / 60.0, float(np.std(theta)), float(np.std(left)))
+
+
+def heading_calibration(fits: Iterable[HeadingFit]) -> Calibration:
+    """Return the calibration that a session takes."""
+    return Calibration(headings={fit.foot: fit.heading for fit in fits})
+
+
+def _without_headings(known: Calibration) -> Calibration:
+    return Calibration(insoles=known.insoles, shoe=known.shoe, limbs=known.limbs, weight=known.weight)
+
+
+def _find_legs(strides: Sequence[StrideTaken]) -> list[_Leg]:
+    """Return the runs of strides without a turn, with what the foot had walked and turned at the middle of each."""
+    legs: list[_Leg] = []
+    run: list[StrideTaken] = []
+    counts: list[tuple[float, float]] = []
+    count = turn = 0.0
+
+    def close() -> None:
+        x, y = (sum(stride.displacement[axis] for stride in run) for axis in range(2))
+        if hypot(x, y) >= MIN_LEG:
+            done, turned = (sum(one[k] for one in counts) / len(counts) for k in range(2))
+            middle = 0.5 * (run[0].t_start + run[-1].t_end)
+            legs.append(_Leg(middle, atan2(y, x), hypot(x, y), done, turned))
+        run.clear()
+        counts.clear()
+
+    for stride in strides:
+        usual = usual_strides(stride.length)
+        if abs(stride.heading_change) > MAX_LEG_TURN or stride.length < MIN_LEG_STRIDE:
+            close()
+        else:
+            run.append(stride)
+            counts.append((count + 0.5 * usual, turn + 0.5 * stride.heading_change))
+        count, turn = count + usual, turn + stride.heading_change
+    close()
+    return legs
