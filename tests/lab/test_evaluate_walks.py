@@ -73,7 +73,7 @@ def turned_track(walker, angle, start=(0.0, 0.0), covariance=(1.0, 0.0, 1.0)):
     places = middle @ np.array([[c, s], [-s, c]]) + np.array(start)
     headings = [0.0, *[-angle] * (len(t) - 1)]
     rows = [(x, y) for x, y in places.tolist()]
-    return HeadingTrack(t.tolist(), rows, [covariance] * len(t), headings, [0.01] * len(t)), truth
+    return HeadingTrack(t.tolist(), rows, [covariance] * len(t), headings, [0.1] * len(t)), truth
 
 
 def test_a_heading_error_moves_the_end_and_is_weighed_by_the_covariance():

@@ -77,8 +77,8 @@ class Position:
     """Position in the world frame, m."""
     covariance: Covariance3
     """Covariance of `position`: xx, xy, xz, yy, yz, zz, m^2."""
-    heading_variance: float | None = None
-    """Variance of the error of all directions of the track at `t`, rad^2; None if the recipe does not know it."""
+    heading_sigma: float | None = None
+    """Standard deviation of all directions of the track at `t`, rad; None if the recipe does not know it."""
 
 
 PartOutput = Happening | Shift | HeightShift | Replacement

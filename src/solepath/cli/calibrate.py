@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from math import degrees
 from pathlib import Path
 from typing import Any
 
-from ..calibration import Calibration, InsoleCalibration, merged
+from ..calibration import Calibration, merged
 from ..recording import printable
 from ..saving.files import identity
-from ..show.tables.table import number, table
-from ..types import Foot
-from .common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
+from .calibrate_kinds import KINDS
+from .common.failure import Failure
 from .common.files import CALIBRATION, OutputFile, check_outputs, check_writable
-from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
 MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
 """Sentence of the help text."""
@@ -28,7 +25,7 @@ def add_to(commands: Any) -> None:
         description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGE_NOTE}",
     )
     kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
-    for add in (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, _add_modes):
+    for add in KINDS:
         add(kinds)
     for kind in kinds.choices.values():
         kind.add_argument("--out", metavar="FILE", type=Path, required=True, help="the calibration file")
@@ -80,218 +77,3 @@ def _try_to_complete(path: Path, learnt: Calibration) -> bool:
     except _FileChanged:
         return False
     return True
-
-
-LearntCalibration = tuple[Calibration, list[str]]
-"""A calibration that was learnt, and the lines that report it."""
-
-
-def _add_recording(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
-    add_foot(command)
-
-
-def _add_noise(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
-        "noise",
-        help="what pressure cells show in the air, from a walk",
-        description="From some 20 s of walking: what every cell shows while the foot swings, which is taken off later.",
-        epilog="example: solepath calibrate noise walk.jsonl --out me.json",
-    )
-    command.set_defaults(learn=_noise)
-    _add_recording(command)
-    command.add_argument(
-        "--share",
-        metavar="SHARE",
-        type=parse_share,
-        default=0.15,
-        help="of the samples with the least load that are taken for swing (default: 0.15)",
-    )
-
-
-def _noise(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.kupt_dfpc.noise import pressure_noise
-    from ..recording.decoded import decode_recording
-
-    if options.share == 0.0:
-        raise Failure("--share 0: of no samples at all nothing is learnt")
-    learnt = pressure_noise(decode_recording(source_of(options.file, foot_of(options))).samples, options.share, known)
-    rows = [
-        [foot.value, str(len(insole.noise)), number(sum(insole.noise) / len(insole.noise)), number(max(insole.noise))]
-        for foot, insole in learnt.insoles.items()
-    ]
-    return learnt, [table(["foot", "cells", "mean noise", "largest"], rows)]
-
-
-def _add_shoe(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
-        "shoe",
-        help="how a shoe rolls over its forefoot, from postures measured with rulers",
-        description="From static postures between flat and toe-off: a csv file with the columns pitch_deg, L_r_m, "
-        "L_p2t_m, and H_imu_m and heel_L_r_m where they are known.",
-        epilog="example: solepath calibrate shoe postures.csv --out me.json",
-    )
-    command.set_defaults(learn=_shoe)
-    command.add_argument("file", metavar="POSTURES", type=Path, help="the csv file")
-
-
-def _shoe(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.kupt_dfpc.shoe import fit_shoe
-
-    fit = fit_shoe(options.file)
-    shoe = fit.calibration.shoe
-    steepest = "" if shoe is None else f", flat to {degrees(shoe.steepest):.0f} degrees"
-    return fit.calibration, [
-        f"{fit.measurements} measurements of {fit.postures} postures{steepest}: rms error of L_r "
-        f"{1000.0 * fit.residual_radius:.1f} mm, of L_p2t {1000.0 * fit.residual_to_toe:.1f} mm, largest "
-        f"{1000.0 * fit.worst:.1f} mm"
-    ]
-
-
-def _add_square(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
-        "square",
-        help="which way positions drift, from laps of a square over marks",
-        description="From four to six laps of a square on whose edges every stride of one foot is marked, the same "
-        "marks in every lap: how fast the positions of pressure-contour and gyroscope drift, which is taken off later.",
-        epilog="example: solepath calibrate square laps.jsonl --out me.json",
-    )
-    command.set_defaults(learn=_square)
-    _add_recording(command)
-    command.add_argument(
-        "--marks",
-        metavar="MARKS",
-        type=Path,
-        help="a csv file of the visits, mark and t (s); without it they are counted",
-    )
-    command.add_argument(
-        "--steps", metavar="N", type=parse_count, default=40, help="marks around the square (default: 40)"
-    )
-    command.add_argument(
-        "--recipe",
-        metavar="NAME",
-        default="pressure-contour",
-        help="whose positions (default: pressure-contour; or gyroscope)",
-    )
-    command.add_argument(
-        "--whole", action="store_true", help="keep a drift that the laps do not agree on, as the paper"
-    )
-
-
-def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.pressure_contour.square import read_marks, square_drift
-
-    recipe = recipe_named(options.recipe)
-    foot = foot_of(options)
-    marks = read_marks(options.marks) if options.marks else None
-    source = source_of(options.file, foot)
-    check_pressure(recipe, source)
-    drift = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
-    x, y = drift.slope
-    if drift.agreed:
-        verdict = "the laps agree on it, and it is taken off later"
-    elif options.whole:
-        verdict = "the laps do not agree on it, and it is taken off all the same"
-    else:
-        verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"
-    return Calibration(drift={drift.foot: drift.slope if options.whole else drift.kept}), [
-        f"{drift.foot} foot: {drift.visits} visits of {drift.marks} marks, drift {1000.0 * x:.2f}, "
-        f"{1000.0 * y:.2f} mm/s within {1000.0 * drift.scatter:.2f}: {verdict}"
-    ]
-
-
-def _add_toe_out(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
-        "toe-out",
-        help="how far feet point beside their way, from a straight walk of known length",
-        description="From a straight walk whose length is known: how far each foot points outwards of its way, which "
-        "the recipe footstep-tracker takes into account.",
-        epilog="example: solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
-    )
-    command.set_defaults(learn=_toe_out)
-    _add_recording(command)
-    command.add_argument("--distance", metavar="M", type=parse_positive, required=True, help="length of the walk, m")
-
-
-def _toe_out(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
-
-    feet = toe_out(source_of(options.file, foot_of(options)), options.distance)
-    angles = ["none" if foot.angle is None else number(degrees(foot.angle)) for foot in feet]
-    rows = [
-        [one.foot.value, str(one.strides), number(one.along, 2), angle] for one, angle in zip(feet, angles, strict=True)
-    ]
-    lines = [table(["foot", "strides", "along the foot m", "toe-out degrees"], rows)]
-    if all([foot.angle is None for foot in feet]):
-        lengths = " and ".join([f"{foot.along:.1f} m of the {foot.foot} foot" for foot in feet])
-        raise Failure(
-            f"nothing is learnt: the strides come to {lengths}, less than the {options.distance:g} m of the walk"
-        )
-    if "none" in angles:
-        lines.append("none: these strides come to less than the walk, which no angle explains: nothing is learnt of it")
-    return toe_out_calibration(feet), lines
-
-
-def _add_newton(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
-        "newton",
-        help="from an insole's counts to newtons, from what a gauge pressed",
-        description="A cubic through what a gauge pressed and what the insole said: a csv file with the columns counts "
-        "and newtons.",
-        epilog="example: solepath calibrate newton gauge.csv --foot left --out me.json",
-    )
-    command.set_defaults(learn=_newton)
-    command.add_argument("file", metavar="GAUGE", type=Path, help="the csv file")
-    command.add_argument("--foot", choices=["left", "right"], help="whose insole it is (default: both are alike)")
-
-
-def _newton(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.walking_modes.newton import fit_gauge
-
-    foot = foot_of(options)
-    feet = list(Foot) if foot is None else [foot]
-    fit = fit_gauge(options.file)
-    a, b, c, d = fit.newtons.coefficients
-    insole = InsoleCalibration(newtons=fit.newtons)
-    return Calibration(insoles={foot: insole for foot in feet}), [
-        f"{' and '.join(foot.value for foot in feet)}: N = {a:.4g} + {b:.4g} c + {c:.4g} c^2 + {d:.4g} c^3, "
-        f"{fit.points} points, rms error {fit.residual:.2f} N, largest {fit.worst:.2f} N"
-    ]
-
-
-def _add_modes(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
-        "modes",
-        help="a wearer's own compensation of touchdowns, from walks over marks",
-        description="From walks on marked points, straight on and along bends: what touchdowns are off by in each "
-        "walking mode. Each recording comes with a csv file of its marks: foot, x, y (m), mode, and t (s) or step. "
-        "Limbs and insoles that FILE knows already are used.",
-        epilog="example: solepath calibrate modes straight.jsonl straight.csv bend.jsonl bend.csv --out me.json",
-    )
-    command.set_defaults(learn=_modes)
-    command.add_argument("files", metavar="RECORDING MARKS", nargs="+", type=Path, help="two files for each walk")
-    command.add_argument(
-        "--heading",
-        metavar="DEGREES",
-        type=parse_degrees,
-        help="where the wearer looks at the start, in the world that all sensors share (default: the first step says)",
-    )
-
-
-def _modes(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.walking_modes.calibrate import fit_modes
-    from ..recording.decoded import decode_recording
-
-    if len(options.files) % 2:
-        raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")
-    walks = [
-        (decode_recording(source_of(walk)), marks)
-        for walk, marks in zip(options.files[::2], options.files[1::2], strict=True)
-    ]
-    learnt = fit_modes(walks, known, options.heading)
-    rows = [
-        [foot.value, mode.value, number(100.0 * forward, 2), number(100.0 * left, 2)]
-        for foot, modes in (learnt.modes or {}).items()
-        for mode, (forward, left) in modes.items()
-    ]
-    return learnt, [table(["foot", "mode", "forward cm", "left cm"], rows)]

@@ -34,8 +34,8 @@ class WearerMoved(Happening):
     """Position of the wearer, world frame, m."""
     covariance: tuple[float, float, float, float, float, float]
     """Covariance of `position`: xx, xy, xz, yy, yz, zz, m^2."""
-    heading_variance: float | None = None
-    """Variance of the error of all directions of the track at `t`, rad^2; None if the recipe does not know it."""
+    heading_sigma: float | None = None
+    """Standard deviation of all directions of the track at `t`, rad; None if the recipe does not know it."""
     final: bool = False
 
 

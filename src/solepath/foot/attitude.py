@@ -177,7 +177,7 @@ class Rest:
     """Start of the current span, s; None before the first sample."""
     bias: Vec3 = field(default=ZERO, init=False)
     """Gyroscope bias, sensor frame, rad/s."""
-    variance: float = field(default=0.0, init=False)
+    variance: float = field(default=FIRST_BIAS * FIRST_BIAS, init=False)
     """Variance of each component of `bias` at `learnt_at`, (rad/s)^2."""
     learnt_at: float | None = field(default=None, init=False)
     """Time of the newest span of rest, s; None before any and after times restart."""
@@ -280,7 +280,7 @@ class Rest:
         dx, dy, dz = rate[0] - x, rate[1] - y, rate[2] - z
         square = (dx * dx + dy * dy + dz * dz) / 3.0
         elapsed = 0.0 if self.learnt_at is None else max(0.0, t - self.learnt_at)
-        known = self.variance + BIAS_WANDER * BIAS_WANDER * elapsed if self.count else FIRST_BIAS * FIRST_BIAS
+        known = self.variance + BIAS_WANDER * BIAS_WANDER * elapsed
         if square > LARGEST_SURPRISE * (known + noise):
             known += square
         gain = known / (known + noise)

@@ -112,7 +112,8 @@ class FootTracker:
             takes_shifts, covariance = (
                 (hasattr(corrector, "shift"), gait.covariance(corrector)) if with_covariance else (False, None)
             )
-            after = AfterEvents(gait.stride.attitude, self.sole.insole.layout, other_t, takes_shifts, covariance)
+            layout = self.sole.insole.layout
+            after = AfterEvents(gait.stride.attitude, layout, other_t, takes_shifts, covariance, rest.variance)
         if cells:
             insole = self.sole.insole
             layout = insole.layout

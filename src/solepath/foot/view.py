@@ -39,9 +39,11 @@ class AfterEvents(NamedTuple):
     """The corrector can be turned and moved by a `Shift` (body/part.py); given with a stride."""
     covariance: Covariance3 | None
     """Covariance of the position, world frame, m^2; None without a stride, because it is costly."""
+    bias_variance: float
+    """Variance of each component of the gyroscope bias, (rad/s)^2."""
 
 
-NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None)
+NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None, 0.0)
 """Value of `FootView.after` for a sample without events."""
 
 

@@ -3,15 +3,15 @@
 The wearer walks a corridor or the straight of a track to and fro, and turns at its ends now to the left and now to the
 right. All legs have the same direction, or the opposite one. What the track of a foot has turned from one leg to the
 next is therefore its drift: `drift` for each usual stride, and `turning` for each rad that it has turned. Both are
-fitted to the directions of the legs by least squares, with their usual sizes as a prior. If all turns are to one side,
-only their sum for a leg with its turn is known, and the standard deviations say so."""
+fitted to the directions of the legs by a Kalman filter, with three times their usual sizes as a prior. If all turns are
+to one side, only their sum for a leg with its turn is known, and the standard deviations say so."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from math import atan2, hypot, pi, remainder, sqrt
-
-import numpy as np
+from statistics import pstdev
 
 from ..body.fuse.both_feet import BothFeet
 from ..body.fuse.common_error import DRIFT, TURNING
@@ -53,8 +53,8 @@ class HeadingFit:
     """Drift of the foot."""
     legs: int
     """Number of legs."""
-    minutes: float
-    """Time from the first leg to the last one, min."""
+    duration: float
+    """Time from the first leg to the last one, s."""
     before: float
     """Root mean square of the differences of the directions of the legs, rad."""
     after: float
@@ -101,25 +101,42 @@ def fit_heading(foot: Foot, strides: Sequence[StrideTaken]) -> HeadingFit | str:
         if abs(step) > MAX_LEG_ERROR:
             return "its legs do not lead there and back along one line"
         directions.append(directions[-1] + step)
-    theta = np.array(directions)
-    t, strides_done, turned = (np.array([getattr(leg, name) for leg in legs]) for name in ("t", "strides", "turn"))
-    # theta = line - drift strides - turning turn + noise; the heading's random walk is correlated between the legs
-    model = np.column_stack([np.ones(len(legs)), -strides_done, -turned])
-    elapsed = t - t[0]
-    noise = HEADING_NOISE**2 * np.minimum.outer(elapsed, elapsed)
-    noise += np.diag([2.0 * (LEG_BOW / leg.length) ** 2 for leg in legs])
-    weights = np.linalg.inv(noise)
-    prior = np.diag([0.0, (PRIOR_FACTOR * DRIFT) ** -2, (PRIOR_FACTOR * TURNING) ** -2])
-    covariance = np.linalg.inv(model.T @ weights @ model + prior)
-    line, drift, turning = (float(value) for value in covariance @ model.T @ weights @ theta)
-    left = theta - model @ np.array([line, drift, turning])
+    drift, turning, drift_variance, turning_variance = _filter(legs, directions)
+    first = legs[0]
+    left = [
+        direction + drift * (leg.strides - first.strides) + turning * (leg.turn - first.turn)
+        for leg, direction in zip(legs, directions, strict=True)
+    ]
     heading = HeadingCalibration(
         drift=drift,
         turning=turning,
-        drift_sigma=hypot(sqrt(float(covariance[1, 1])), DAY_DRIFT),
-        turning_sigma=hypot(sqrt(float(covariance[2, 2])), DAY_TURNING),
+        drift_sigma=hypot(sqrt(drift_variance), DAY_DRIFT),
+        turning_sigma=hypot(sqrt(turning_variance), DAY_TURNING),
     )
-    return HeadingFit(foot, heading, len(legs), float(elapsed[-1]) / 60.0, float(np.std(theta)), float(np.std(left)))
+    return HeadingFit(foot, heading, len(legs), legs[-1].t - first.t, pstdev(directions), pstdev(left))
+
+
+def _filter(legs: Sequence[_Leg], directions: Sequence[float]) -> tuple[float, float, float, float]:
+    """Return drift and turning and their variances from the directions of legs, rad, by a Kalman filter.
+
+    Its states are the direction of the line on the track h, drift r and turning k. Between two legs, with n usual
+    strides and a turn of theta, h' = h - n r - theta k, and h walks at random; the direction of a leg measures h."""
+    h, r, k = directions[0], 0.0, 0.0
+    hh = 2.0 * (LEG_BOW / legs[0].length) ** 2
+    hr = hk = rk = 0.0
+    rr, kk = (PRIOR_FACTOR * DRIFT) ** 2, (PRIOR_FACTOR * TURNING) ** 2
+    for (before, leg), direction in zip(pairwise(legs), directions[1:], strict=True):
+        n, turn = leg.strides - before.strides, leg.turn - before.turn
+        h -= n * r + turn * k
+        ar, ak = n * rr + turn * rk, n * rk + turn * kk
+        hh += n * ar + turn * ak - 2.0 * (n * hr + turn * hk) + HEADING_NOISE * HEADING_NOISE * (leg.t - before.t)
+        hr, hk = hr - ar, hk - ak
+        s = hh + 2.0 * (LEG_BOW / leg.length) ** 2
+        innovation, a, b, c = direction - h, hh / s, hr / s, hk / s
+        h, r, k = h + a * innovation, r + b * innovation, k + c * innovation
+        rr, rk, kk = rr - b * hr, rk - b * hk, kk - c * hk
+        hh, hr, hk = (1.0 - a) * hh, (1.0 - a) * hr, (1.0 - a) * hk
+    return r, k, rr, kk
 
 
 def heading_calibration(fits: Iterable[HeadingFit]) -> Calibration:

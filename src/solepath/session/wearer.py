@@ -215,7 +215,7 @@ class WearerParts:
         t = position.t
         return WearerMoved(
             t=t, known_at=max(t, known_at),
-            position=position.position, covariance=position.covariance, heading_variance=position.heading_variance,
+            position=position.position, covariance=position.covariance, heading_sigma=position.heading_sigma,
         )  # fmt: skip
 
     def _feed_limb(self, sample: Sample) -> list[Event]:

@@ -17,7 +17,7 @@ that loses its signal and returns is treated as in `MeanOfFeet`."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, hypot, sin, sqrt
 
 from ...calibration import Calibration
 from ...events import SampleGap, StrideTaken
@@ -27,7 +27,7 @@ from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartOutput, Position, Shift
-from .common_error import CommonError
+from .common_error import NO_MOVE, CommonError, FootRest
 from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, standing_foot
 from .position import MeanOfFeet
 from .straightness import Straightness
@@ -107,10 +107,7 @@ class BothFeet(MeanOfFeet):
         MeanOfFeet.feed(self, view)
         if not self.started and self.left.t is not None and self.right.t is not None:
             self._start()
-        if not view.events:
-            return ()
-        this = self.left if view.foot is Foot.LEFT else self.right
-        if this.unplaced:
+        if not view.events or (self.left if view.foot is Foot.LEFT else self.right).unplaced:
             return ()
         if was_unplaced and not self.left.unplaced and not self.right.unplaced:
             self.errors.align(0 if self.placed_last is Foot.LEFT else 1, *ALIGNMENT_ERROR)
@@ -118,7 +115,8 @@ class BothFeet(MeanOfFeet):
         outputs: list[PartOutput] = []
         for event in view.events:
             if isinstance(event, StrideTaken):
-                outputs += self._add_stride(event, view.after.takes_shifts)
+                rest = FootRest(event.t_end, view.gyro_bias, view.after.bias_variance, view.attitude)
+                outputs += self._add_stride(event, view.after.takes_shifts, rest)
             elif isinstance(event, SampleGap):
                 self.common.add_gap(event.duration)
         return outputs
@@ -142,7 +140,7 @@ class BothFeet(MeanOfFeet):
         xx, xy, yy = self.common.position_covariance((x, y))
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
         xx, yy, zz = xx + FOOTPRINT_VARIANCE, yy + FOOTPRINT_VARIANCE, mean.covariance[5]
-        return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, zz), self.common.hh)
+        return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, zz), sqrt(self.common.hh))
 
     def _start(self) -> None:
         self.started, self.width = True, WALKING_WIDTH
@@ -156,7 +154,7 @@ class BothFeet(MeanOfFeet):
     def _keep_placements(self) -> None:
         self.placements = [(track.turn, track.offset) for track in (self.left, self.right)]
 
-    def _add_stride(self, event: StrideTaken, takes_shifts: bool) -> Sequence[PartOutput]:
+    def _add_stride(self, event: StrideTaken, takes_shifts: bool, rest: FootRest) -> Sequence[PartOutput]:
         index = 0 if event.foot is Foot.LEFT else 1
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
         numbers = (*event.position, *event.displacement, *event.covariance)
@@ -164,6 +162,7 @@ class BothFeet(MeanOfFeet):
             self._restart()
             return ()
         share = self.common.share(alone=not self.started or other.unplaced or other.absent)
+        self._move_both(event.foot, self.common.add_rest(index, rest))
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
@@ -172,20 +171,15 @@ class BothFeet(MeanOfFeet):
         stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
         # correct the drift of the heading, and the displacement by the drift up to mid-swing
         rate, count = self.errors.rates[index], usual_strides(event.length)
-        drift = self.common.turn_of(count, event.heading_change)
+        drift = self.common.turn_of(count, event.heading_change, event.t_end - event.t_start)
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
         this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
         dx, dy = dx - mid_turn * dy, dy + mid_turn * dx
         x, y, _ = this.place(own_position)
-        xx, xy, _, yy, _, _ = event.covariance
-        cc, ss, cs = c * c, s * s, c * s
-        variance = (
-            cc * xx - 2.0 * cs * xy + ss * yy + FOOTPRINT_VARIANCE,
-            cs * (xx - yy) + (cc - ss) * xy,
-            ss * xx + 2.0 * cs * xy + cc * yy + FOOTPRINT_VARIANCE,
-        )
+        xx, xy, yy = this.turned_covariance(event.covariance)
+        variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
-        self.common.propagate(share, count, event.heading_change, stance + swing, (dx, dy), variance)
+        self.common.propagate(share, count, event.heading_change, event.t_end - event.t_start, (dx, dy), variance)
         if self.started:
             degraded = event.degraded or excess > 0.0
             self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, degraded)
@@ -207,13 +201,19 @@ class BothFeet(MeanOfFeet):
         """Add a stride to the stretch, and correct the common errors by what a straight stretch shows."""
         if not self.settings.straightness:
             return
-        sigma, straightness = self.common.drift_sigma, self.straightness
+        sigma, straightness = sqrt(self.common.drift_variance(event.t_end - event.t_start)), self.straightness
         found = straightness.add_stride(event.t_end, displacement, share, strides, event.heading_change, sigma)
         if found is None:
             return
-        move = self.common.correct_drift(found.drift, found.variance, found.weight)
+        move = self.common.correct_drift(found.drift, found.variance, found.weight, found.stride_time)
+        self._move_both(event.foot, move)
+
+    def _move_both(self, foot: Foot, move: Vec3) -> None:
+        """Move both tracks alike, and turn them about the wearer; `foot` is the one that took the newest stride."""
+        if move == NO_MOVE:
+            return
         (lx, ly, _), (rx, ry, _) = self._end_of(0)[1], self._end_of(1)[1]
-        share = 0.5 if not self.common.alone else 1.0 if event.foot is Foot.LEFT else 0.0
+        share = 0.5 if not self.common.alone else 1.0 if foot is Foot.LEFT else 0.0
         self._move_tracks((share * lx + (1.0 - share) * rx, share * ly + (1.0 - share) * ry), (move, move))
 
     def _move_tracks(self, centre: tuple[float, float], moves: tuple[Vec3, Vec3]) -> None:
@@ -253,13 +253,8 @@ class BothFeet(MeanOfFeet):
         if other_stride is None or other.absent:
             return
         ex, ey, _ = this.place(event.position)
-        if (
-            event.t_start < other_stride.t_end < event.t_end
-            and length > MIN_LENGTH
-            and abs(turn) < MAX_TURN
-            and abs(deviation) < MAX_DIRECTION_DEVIATION
-            and not event.degraded
-        ):
+        walks_on = length > MIN_LENGTH and abs(turn) < MAX_TURN and abs(deviation) < MAX_DIRECTION_DEVIATION
+        if walks_on and event.t_start < other_stride.t_end < event.t_end and not event.degraded:
             qx, qy, _ = other.place(other_stride.end)
             for one in standing_foot(index, (dx, dy), (ex, ey), (qx, qy), turn, (stance, swing), self.width):
                 self._correct(self.errors.correct(one.terms, one.z, one.variance, GATE_LIMIT))
@@ -277,10 +272,9 @@ class BothFeet(MeanOfFeet):
 
     def _correct(self, errors: list[float] | None) -> None:
         """Remove the estimated errors (None: no change) from both tracks."""
-        if errors is None:
-            return
-        self.width += errors[WIDTH]
-        self._move_tracks(self.errors.centre, moves_of(errors))
+        if errors is not None:
+            self.width += errors[WIDTH]
+            self._move_tracks(self.errors.centre, moves_of(errors))
 
     def _shift_foot(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""

@@ -1,20 +1,24 @@
 """Error that the tracks of both feet share, which no comparison of the feet can show.
 
 A gyroscope whose scale or axes are off turns the heading by nearly the same angle in every stride, because the loop of
-rotations of a swing does not close, and by a share of every turn. The errors (truth minus track) are therefore
+rotations of a swing does not close, and by a share of every turn. One whose bias was learnt badly turns it all the
+time. The errors (truth minus track) are therefore
 
     x, y       position of the wearer, m, world frame
     heading    heading of both tracks, rad
     drift      turn of the heading in a usual stride, rad
     turning    turn of the heading for a turn of 1 rad, no unit
+    bias       rate of the heading, rad/s
 
-For a stride with the displacement d that turns by theta and counts as n usual strides, with e = (x, y) and c, a
-rotation by +90 degrees:
+For a stride with the displacement d that lasts T, turns by theta and counts as n usual strides, with e = (x, y) and c,
+a rotation by +90 degrees:
 
-    heading' = heading + w (n drift + theta turning),   e' = e + w (heading + (n drift + theta turning) / 2) c d
+    a = w (n drift + theta turning + T bias),   heading' = heading + a,   e' = e + w (heading + a / 2) c d
 
-where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. The equations are linear in the errors; what a
-heading error of any size does to the position is in `position_covariance`."""
+where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. Straight ways measure the drift with the bias
+(straightness.py). A rest at which a foot learns its bias anew measures the bias, and with it what the bias has turned
+since the rest before. The equations are linear in the errors; what a heading error of any size does to the position is
+in `position_covariance`."""
 
 from __future__ import annotations
 
@@ -22,8 +26,10 @@ from collections.abc import Mapping
 from math import exp, hypot, sqrt
 
 from ...calibration import HeadingCalibration
-from ...types import Foot
-from ...types.attrs import define, field
+from ...foot.attitude import BIAS_WANDER
+from ...types import Foot, Quat, Vec3
+from ...types.attrs import define, field, frozen
+from ...types.vector import rotate, sub
 
 DRIFT = 0.0014
 """Standard deviation of the drift of one foot, rad a stride (4 degrees a minute), unless it was calibrated.
@@ -33,10 +39,12 @@ TURNING = 0.007
 """Standard deviation of the relative error of a turn of one foot, no unit, unless it was calibrated.
 
 Sheets of gyroscopes give tolerances of the scale of 1 to 3 %, which are two standard deviations."""
-DRIFT_CHANGE = 1.2e-5
-"""Random walk of the drift, rad a stride and sqrt(s): the bias wanders, and the manner of walking changes."""
-HEADING_NOISE = 0.0018
-"""Random walk of the heading, rad/sqrt(s): 0.8 degrees in a minute, because the bias wanders and is learnt anew."""
+DRIFT_CHANGE = 3e-6
+"""Random walk of the drift, rad a stride and sqrt(s): the manner of walking changes."""
+HEADING_NOISE = 0.0012
+"""Random walk of the heading, rad/sqrt(s): 0.5 degrees in a minute."""
+LEAST_GAIN = 0.01
+"""Least gain of a bias that was learnt anew; a smaller one comes from rounding."""
 GAP_RATE, MAX_GAP_ERROR = 0.3, 0.06
 """Error of the heading after a gap in the samples of a foot: rad per s of the gap, and at the most, rad."""
 LENGTH_ERROR = 0.007
@@ -44,67 +52,89 @@ LENGTH_ERROR = 0.007
 
 Emulated strides are up to 1.6 % too long or too short on average (rms 0.7 %)."""
 
+Move = tuple[float, float, float]
+"""Values to be added to x and y, m, and to the heading of both tracks, rad."""
+NO_MOVE: Move = (0.0, 0.0, 0.0)
+
+
+@frozen
+class FootRest:
+    """The gyroscope bias of a foot at the end of a stride, learnt at its last rest."""
+
+    t: float
+    """End of the stride, s."""
+    bias: Vec3
+    """Gyroscope bias, sensor frame, rad/s."""
+    variance: float
+    """Variance of each component of `bias`, (rad/s)^2."""
+    attitude: Quat
+    """Attitude of the foot, which stands, sensor to navigation frame."""
+
 
 @define
 class CommonError:
-    """Covariance of the errors x, y, heading (h), drift (r) and turning (k) of the mean of both tracks."""
+    """Covariance of the errors x, y, heading (h), drift (r), turning (k) and bias (b) of the mean of both tracks."""
 
     xx: float = field(default=0.0, init=False)
     xy: float = field(default=0.0, init=False)
     xh: float = field(default=0.0, init=False)
     xr: float = field(default=0.0, init=False)
     xk: float = field(default=0.0, init=False)
+    xb: float = field(default=0.0, init=False)
     yy: float = field(default=0.0, init=False)
     yh: float = field(default=0.0, init=False)
     yr: float = field(default=0.0, init=False)
     yk: float = field(default=0.0, init=False)
+    yb: float = field(default=0.0, init=False)
     hh: float = field(default=0.0, init=False)
     hr: float = field(default=0.0, init=False)
     hk: float = field(default=0.0, init=False)
+    hb: float = field(default=0.0, init=False)
     rr: float = field(default=0.5 * DRIFT * DRIFT, init=False)
     rk: float = field(default=0.0, init=False)
+    rb: float = field(default=0.0, init=False)
     kk: float = field(default=0.5 * TURNING * TURNING, init=False)
+    kb: float = field(default=0.0, init=False)
+    bb: float = field(default=0.0, init=False)
     drift: float = field(default=0.0, init=False)
     """Estimated drift, which is removed from both tracks, rad a stride."""
     turning: float = field(default=0.0, init=False)
     """Estimated relative error of turns, which is removed from both tracks, no unit."""
+    bias: float = field(default=0.0, init=False)
+    """Estimated rate of the heading, which is removed from both tracks, rad/s."""
     started: bool = field(default=False, init=False)
     """Flag: a foot has taken a stride."""
     alone: bool = field(default=False, init=False)
     """Flag: the newest stride was that of a foot alone."""
-
-    foot_drift_sigma: float = field(default=DRIFT, init=False)
-    """Standard deviation of the drift of one foot, rad a stride."""
-    foot_turning_sigma: float = field(default=TURNING, init=False)
-    """Standard deviation of the relative error of the turns of one foot, no unit."""
+    foot_sigmas: tuple[float, float] = field(default=(DRIFT, TURNING), init=False)
+    """Standard deviations of the drift, rad a stride, and of the relative error of the turns of one foot."""
+    foot_biases: list[FootRest | None] = field(factory=lambda: [None, None], init=False)
+    """Bias of the left and the right foot at its newest stride."""
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:
-        """Use the standard deviations of a calibration, before any stride; the feet remove the drift themselves."""
-        drifts = [headings[foot].drift_sigma if foot in headings else DRIFT for foot in Foot]
-        turnings = [headings[foot].turning_sigma if foot in headings else TURNING for foot in Foot]
-        if len(headings) == 1:  # the other foot may never come
-            drifts, turnings = (
-                [one.drift_sigma for one in headings.values()],
-                [one.turning_sigma for one in headings.values()],
-            )
-        self.foot_drift_sigma, self.foot_turning_sigma = (
-            hypot(*drifts) / sqrt(len(drifts)),
-            hypot(*turnings) / sqrt(len(turnings)),
-        )
-        self.rr, self.kk = 0.5 * self.foot_drift_sigma**2, 0.5 * self.foot_turning_sigma**2
+        """Use the standard deviations of a calibration, before any stride; the feet remove the drift themselves.
 
-    @property
-    def drift_sigma(self) -> float:
-        """Standard deviation of `drift`, rad a stride."""
-        return sqrt(self.rr)
+        A foot without calibration counts with the usual ones, unless only one foot has any: it may be alone."""
+        drifts, turnings = (
+            [one.drift_sigma for one in headings.values()],
+            [one.turning_sigma for one in headings.values()],
+        )
+        self.foot_sigmas = hypot(*drifts) / sqrt(len(drifts)), hypot(*turnings) / sqrt(len(turnings))
+        self.rr, self.kk = 0.5 * self.foot_sigmas[0] ** 2, 0.5 * self.foot_sigmas[1] ** 2
 
     def share(self, alone: bool) -> float:
         """Return the share of the next stride of a foot in the mean: all of it if the foot is `alone`, or one half."""
         if alone and not self.alone:  # its own drift was hidden in the mean
-            self.rr += 0.5 * self.foot_drift_sigma * self.foot_drift_sigma
-            self.kk += 0.5 * self.foot_turning_sigma * self.foot_turning_sigma
+            drift, turning = self.foot_sigmas
+            self.rr += 0.5 * drift * drift
+            self.kk += 0.5 * turning * turning
+            self.bb *= 2.0
         self.started, self.alone = True, alone
         return 1.0 if alone else 0.5
+
+    def drift_variance(self, stride_time: float) -> float:
+        """Return the variance of drift and bias together, (rad a stride)^2, with strides of this duration, s."""
+        return self.rr + stride_time * (2.0 * self.rb + stride_time * self.bb)
 
     def propagate(
         self, share: float, strides: float, turn: float, duration: float, displacement: tuple[float, float],
@@ -115,29 +145,36 @@ class CommonError:
         It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s; `variance` is that of its
         displacement: xx, xy, yy, m^2."""
         dx, dy = share * displacement[0], share * displacement[1]
-        n, k = share * strides, share * turn
-        # d: the turn of the heading in the stride, n drift + k turning; g: the heading in its middle
-        dx_, dy_ = n * self.xr + k * self.xk, n * self.yr + k * self.yk
-        dh, dr, dk = n * self.hr + k * self.hk, n * self.rr + k * self.rk, n * self.rk + k * self.kk
-        dd = n * dr + k * dk
-        gx, gy = self.xh + 0.5 * dx_, self.yh + 0.5 * dy_
-        gr, gk = self.hr + 0.5 * dr, self.hk + 0.5 * dk
-        gg = self.hh + dh + 0.25 * dd
-        gh = self.hh + 1.5 * dh + 0.5 * dd
+        n, k, t = share * strides, share * turn, share * duration
+        # a: the turn of the heading in the stride, n drift + k turning + t bias; g: the heading in its middle
+        ax = n * self.xr + k * self.xk + t * self.xb
+        ay = n * self.yr + k * self.yk + t * self.yb
+        ah = n * self.hr + k * self.hk + t * self.hb
+        ar = n * self.rr + k * self.rk + t * self.rb
+        ak = n * self.rk + k * self.kk + t * self.kb
+        ab = n * self.rb + k * self.kb + t * self.bb
+        aa = n * ar + k * ak + t * ab
+        gx, gy = self.xh + 0.5 * ax, self.yh + 0.5 * ay
+        gr, gk, gb = self.hr + 0.5 * ar, self.hk + 0.5 * ak, self.hb + 0.5 * ab
+        gg = self.hh + ah + 0.25 * aa
+        gh = self.hh + 1.5 * ah + 0.5 * aa
         xx, xy, yy = variance
         square = share * share
         self.xx += -2.0 * dy * gx + dy * dy * gg + square * xx
         self.xy += dx * gx - dy * gy - dx * dy * gg + square * xy
         self.yy += 2.0 * dx * gy + dx * dx * gg + square * yy
-        self.xh += dx_ - dy * gh
-        self.yh += dy_ + dx * gh
+        self.xh += ax - dy * gh
+        self.yh += ay + dx * gh
         self.xr -= dy * gr
         self.yr += dx * gr
         self.xk -= dy * gk
         self.yk += dx * gk
-        self.hh += 2.0 * dh + dd + share * HEADING_NOISE * HEADING_NOISE * duration
-        self.hr += dr
-        self.hk += dk
+        self.xb -= dy * gb
+        self.yb += dx * gb
+        self.hh += 2.0 * ah + aa + share * HEADING_NOISE * HEADING_NOISE * duration
+        self.hr += ar
+        self.hk += ak
+        self.hb += ab
         self.rr += share * DRIFT_CHANGE * DRIFT_CHANGE * duration
 
     def add_gap(self, duration: float) -> None:
@@ -145,39 +182,89 @@ class CommonError:
         error = (1.0 if self.alone else 0.5) * min(GAP_RATE * duration, MAX_GAP_ERROR)
         self.hh += error * error
 
-    def turn_of(self, strides: float, turn: float) -> float:
-        """Return the correction of the heading, rad, over a stride that counts as `strides` and turns by `turn` rad."""
-        return strides * self.drift + turn * self.turning
+    def turn_of(self, strides: float, turn: float, duration: float) -> float:
+        """Return the correction of the heading, rad, over a stride.
 
-    def correct_drift(self, z: float, variance: float, weight: float) -> tuple[float, float, float]:
+        It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s."""
+        return strides * self.drift + turn * self.turning + duration * self.bias
+
+    def add_rest(self, foot: int, rest: FootRest) -> Move:
+        """Take in what foot 0 (left) or 1 knows of its bias at the end of a stride; return the correction.
+
+        A bias that has been learnt anew was measured: with the variance p before and q now, the gain of that
+        measurement is 1 - q / p, its innovation the change of the bias divided by the gain, and its variance q divided
+        by the gain (attitude.py). From now on the track turns more slowly by the change of the vertical component."""
+        newest, share = self.foot_biases[foot], 1.0 if self.alone else 0.5
+        self.foot_biases[foot] = rest
+        if newest is None:
+            self.bb += share * share * rest.variance
+            return NO_MOVE
+        wander = BIAS_WANDER * BIAS_WANDER * max(0.0, rest.t - newest.t)
+        self.bb += share * share * wander
+        before = newest.variance + wander
+        gain = 1.0 - rest.variance / before if before > 0.0 else 0.0
+        if gain < LEAST_GAIN:
+            self.bb += share * share * max(0.0, rest.variance - before)
+            return NO_MOVE
+        change = rotate(rest.attitude, sub(rest.bias, newest.bias))[2]
+        # the foot's bias is the mean one times its part in the variance of the mean, and a rest that is noise
+        other = None if self.alone else self.foot_biases[1 - foot]
+        part = 1.0 if other is None else 2.0 * before / (before + other.variance)
+        column = (part * self.xb, part * self.yb, part * self.hb, part * self.rb, part * self.kb, part * self.bb)
+        own = part * column[5]
+        noise = max(before, own) - own + before * (1.0 - gain) / gain
+        move = self._correct(column, own, -change / gain, noise)
+        self.bias += share * change
+        return move
+
+    def correct_drift(self, z: float, variance: float, weight: float, stride_time: float) -> Move:
         """Correct the errors by a measured drift that differs by `z` rad a stride from the estimate.
 
-        `variance` is that of the measurement; `weight` is the probability that it measures the drift at all. With the
-        gain K, the error moves by weight K z, and its covariance to that of both possibilities together (the filter of
-        Bar-Shalom for uncertain measurements). Returns what is to be added to x and y, m, and to the heading, rad."""
-        s = self.rr + variance
-        column = (self.xr, self.yr, self.hr, self.rr, self.rk)
-        a, b, c, d, e = [value / s for value in column]
+        `variance` is that of the measurement and `stride_time` the duration of a stride, s, in which the bias adds to
+        the drift; `weight` is the probability that it measures them at all. Returns what is to be added to x and y, m,
+        and to the heading, rad."""
+        t = stride_time
+        column = (
+            self.xr + t * self.xb, self.yr + t * self.yb, self.hr + t * self.hb, self.rr + t * self.rb,
+            self.rk + t * self.kb, self.rb + t * self.bb,
+        )  # fmt: skip
+        return self._correct(column, column[3] + t * column[5], z, variance, weight)
+
+    def _correct(self, column: tuple[float, ...], own: float, z: float, variance: float, weight: float = 1.0) -> Move:
+        """Correct the errors by a measurement with the innovation `z`; `column` is P H', and `own` H P H'.
+
+        With the gain K, the error moves by weight K z, and its covariance to that of both possibilities together, that
+        it measures the errors or not (Bar-Shalom et al. 2001, section 11.6)."""
+        s = variance + own
+        a, b, c, d, e, g = [value / s for value in column]
         # P <- P - weight K S K' + weight (1 - weight) K z z K'
         f = weight * ((1.0 - weight) * z * z - s)
-        self.xx += f * a * a
-        self.xy += f * a * b
-        self.xh += f * a * c
-        self.xr += f * a * d
-        self.xk += f * a * e
-        self.yy += f * b * b
-        self.yh += f * b * c
-        self.yr += f * b * d
-        self.yk += f * b * e
-        self.hh += f * c * c
-        self.hr += f * c * d
-        self.hk += f * c * e
-        self.rr += f * d * d
-        self.rk += f * d * e
+        fa, fb, fc, fd = f * a, f * b, f * c, f * d
+        self.xx += fa * a
+        self.xy += fa * b
+        self.xh += fa * c
+        self.xr += fa * d
+        self.xk += fa * e
+        self.xb += fa * g
+        self.yy += fb * b
+        self.yh += fb * c
+        self.yr += fb * d
+        self.yk += fb * e
+        self.yb += fb * g
+        self.hh += fc * c
+        self.hr += fc * d
+        self.hk += fc * e
+        self.hb += fc * g
+        self.rr += fd * d
+        self.rk += fd * e
+        self.rb += fd * g
         self.kk += f * e * e
+        self.kb += f * e * g
+        self.bb += f * g * g
         z *= weight
         self.drift += d * z
         self.turning += e * z
+        self.bias += g * z
         return (a * z, b * z, c * z)
 
     def inflate(self, variance: float) -> None:

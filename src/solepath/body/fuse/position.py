@@ -13,6 +13,7 @@ from math import atan2, cos, fsum, hypot, sin
 from typing import ClassVar, Final
 
 from ...foot.view import FootPose, FootView
+from ...foot.world import Covariance3
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub, turned
@@ -69,6 +70,13 @@ class PlacedTrack:
             x, y = c * x - s * y, s * x + c * y
         dx, dy, dz = self.offset
         return (x + dx, y + dy, z + dz)
+
+    def turned_covariance(self, own: Covariance3) -> tuple[float, float, float]:
+        """Return the horizontal covariance `own` of the foot's own track in the common frame: xx, xy, yy, m^2."""
+        xx, xy, _, yy, _, _ = own
+        c, s = cos(self.turn), sin(self.turn)
+        cc, ss, cs = c * c, s * s, c * s
+        return (cc * xx - 2.0 * cs * xy + ss * yy, cs * (xx - yy) + (cc - ss) * xy, ss * xx + 2.0 * cs * xy + cc * yy)
 
     def correct(self, pivot: Vec3, yaw: float, dx: float, dy: float) -> None:
         """Rotate the track by `yaw`, rad, about the place `pivot` of the own track, m, and move it by (dx, dy), m.

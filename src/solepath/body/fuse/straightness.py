@@ -66,6 +66,8 @@ class StretchDrift:
     """Variance of `drift`, rad^2."""
     weight: float
     """Probability that the stretch is straight, from 0 to 1."""
+    stride_time: float
+    """Mean duration of a usual stride of the stretch, s."""
 
 
 @define
@@ -82,6 +84,8 @@ class Straightness:
     """End of the newest stride, s; None before any stretch."""
     count: int = field(default=0, init=False)
     """Number of places in the sums; 0 without a stretch."""
+    t_start: float = field(default=0.0, init=False)
+    """End of the first stride of the stretch, s."""
     strides: float = field(default=0.0, init=False)
     """Number of usual strides in which the heading of the mean of both feet drifts."""
     recent: list[tuple[float, float]] = field(factory=list, init=False)
@@ -165,7 +169,7 @@ class Straightness:
         if shares[0] > 0.5 and length > 2.0 * MIN_LENGTH:
             seen = max(0.0, mean_square - footfall) / (share * share)
             self.wander = (variance + (seen - variance) / (weight + 1.0), min(weight + 1.0, MAX_WANDER_WEIGHT))
-        return StretchDrift(z, noise, shares[0])
+        return StretchDrift(z, noise, shares[0], max(0.0, ((self.t or 0.0) - self.t_start) / self.strides))
 
     def _clear(self) -> None:
         self.x = self.y = self.strides = 0.0
@@ -174,7 +178,7 @@ class Straightness:
 
     def _start(self, direction: float) -> None:
         self._clear()
-        self.direction = direction
+        self.direction, self.t_start = direction, self.t or 0.0
         self._add_place(0.0, 0.0)
 
     def _add_place(self, x: float, y: float) -> None:

@@ -74,8 +74,8 @@ class HeadingTrack:
     """Covariances of the positions: xx, xy, yy, m^2."""
     headings: list[float] = field(factory=list)
     """Mean error of the attitudes of both feet about the vertical, truth minus track, rad."""
-    heading_variances: list[float] = field(factory=list)
-    """Variances of the headings, rad^2; 0 if the recipe does not know them."""
+    heading_sigmas: list[float] = field(factory=list)
+    """Standard deviations of the headings, rad; 0 if the recipe does not know them."""
 
 
 def yaw_of(q: Quat) -> float:
@@ -105,7 +105,7 @@ def follow(session: Session, walk: SampledWalk) -> HeadingTrack:
             track.places.append((px, py))
             track.covariances.append((xx, xy, yy))
             track.headings.append(0.5 * sum(errors.values()))
-            track.heading_variances.append(here.heading_variance or 0.0)
+            track.heading_sigmas.append(here.heading_sigma or 0.0)
     return track
 
 
@@ -163,8 +163,8 @@ def heading_figures(track: HeadingTrack, truth: Truth) -> Figures:
         square = float(errors[k] @ np.linalg.solve(covariance, errors[k]))
         figures[f"nees_{checked}"] = 0.5 * square
         figures[f"held_{checked}"] = float(square < HELD)
-        if track.heading_variances[k] > 0.0:
-            figures[f"heading_nees_{checked}"] = float(headings[k] - turn) ** 2 / track.heading_variances[k]
+        if track.heading_sigmas[k] > 0.0:
+            figures[f"heading_nees_{checked}"] = (float(headings[k] - turn) / track.heading_sigmas[k]) ** 2
     return figures
 
 

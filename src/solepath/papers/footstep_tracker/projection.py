@@ -21,7 +21,7 @@ from ...foot.navigate.strapdown import Strapdown
 from ...foot.stance.stance import Stance
 from ...types import Foot, Phase, Quat, Vec3
 from ...types.attrs import define, evolve, field, frozen
-from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, rotate, tipped
+from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, normalise, rotate, tipped
 from .critical_times import CriticalTimes
 from .segment import StrideSegment
 from .stride_length import closed_stride_length, stride_length, swing_turn, vertical_turn
@@ -172,6 +172,13 @@ class Projection(Strapdown):
 
     def repair(self, yaw: float, position: Vec3) -> None:
         """Do nothing, because only strides with a gap need a repair, and `_dedrifted_end` ends those."""
+
+    def shift(self, yaw: float, by: Vec3) -> None:
+        """Turn the state by `yaw` rad about the foot, which stands, and move it by `by` m, navigation frame."""
+        self.turn_about(yaw, by)
+        self.rest_attitude = normalise(multiply(from_yaw(yaw), self.rest_attitude))
+        (x, y, z), (dx, dy, dz) = self.rest_position, by
+        self.rest_position = (x + dx, y + dy, z + dz)
 
     def bridge(self, dt: float) -> float:
         if dt <= LONGEST_BRIDGE:

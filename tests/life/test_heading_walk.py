@@ -1,0 +1,111 @@
+"""A walk there and back shows how the heading of each foot drifts, and every recipe takes it off."""
+
+from functools import cache
+from math import pi
+
+import numpy as np
+import pytest
+
+from solepath import recipes
+from solepath.calibration import Calibration, CalibrationError, HeadingCalibration
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import sampled
+from solepath.events import StrideTaken
+from solepath.lab.emulated.heading import follow
+from solepath.lab.emulated.heading_walks import calibration_samples, insoles_of, wearer_of
+from solepath.session import Session
+from solepath.session.heading_walk import fit_heading, heading_calibration, heading_walk
+from solepath.types import Foot, Sample
+
+SEED = 101
+"""A wearer whose heading drifts by some degrees a minute."""
+
+
+@cache
+def learnt() -> Calibration:
+    return heading_calibration(heading_walk(calibration_samples(SEED)))
+
+
+def walk_of(route: Route, seed: int = SEED) -> tuple[Sample, ...]:
+    return sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed).samples
+
+
+def test_the_walk_explains_most_of_what_its_legs_are_apart() -> None:
+    fits = heading_walk(calibration_samples(SEED))
+    assert [fit.foot for fit in fits] == list(Foot)
+    for fit in fits:
+        assert fit.legs == 10 and 90.0 < fit.duration < 180.0
+        assert fit.after < 0.2 * fit.before and fit.after < np.radians(0.8)
+        assert 3e-4 < fit.heading.drift_sigma < 1e-3 and fit.heading.turning_sigma < 0.004
+
+
+def test_on_another_day_the_heading_drifts_by_a_part_of_what_it_did() -> None:
+    """Arcs to both sides, which show no drift by themselves."""
+    route = Route().stand(3.0)
+    for side in (1.0, -1.0) * 3:
+        route = route.turn(side * pi, 12.0, 1.3)
+    walk = sampled(route.stop(3.0), wearer=wearer_of(SEED), insoles=insoles_of(SEED), seed=SEED)
+    drifts = {}
+    for name, calibration in (("without", Calibration()), ("with", learnt())):
+        track = follow(Session(calibration=calibration), walk)
+        drifts[name] = abs(np.polyfit(track.t, track.headings, 1)[0])
+        assert track.heading_sigmas[-1] > 0.0
+    assert np.degrees(drifts["without"]) * 60.0 > 3.0
+    assert drifts["with"] < 0.5 * drifts["without"]
+
+
+def test_a_session_with_a_calibration_is_surer_of_its_heading() -> None:
+    samples = walk_of(Route().stand(3.0).walk(60.0, 1.3).stop(2.0))
+    sigmas = []
+    for calibration in (Calibration(), learnt()):
+        session = Session(calibration=calibration)
+        for sample in samples:
+            session.feed(sample)
+        assert session.position is not None
+        sigmas.append(session.position.heading_sigma or 0.0)
+    assert 0.0 < sigmas[1] < 0.7 * sigmas[0]
+
+
+@pytest.mark.parametrize("name", recipes.NAMES)
+def test_every_recipe_takes_the_drift_off(name: str) -> None:
+    """By as much in every stride as the calibration says, here a whole degree."""
+    heading = HeadingCalibration(np.radians(1.0), 0.0, 1e-3, 1e-3)
+    calibration = Calibration(headings=dict.fromkeys(Foot, heading))
+    samples = walk_of(Route().stand(3.0).walk(16.0, 1.2).stop(2.0))
+    turned = []
+    for one in (Calibration(), calibration):
+        session = Session(recipes.by_name(name), calibration=one)
+        strides = [e for sample in samples for e in session.feed(sample) if isinstance(e, StrideTaken)]
+        turned.append([stride.heading_change for stride in strides if stride.length > 1.0])
+    assert len(turned[0]) == len(turned[1]) > 8
+    more = np.degrees(np.array(turned[1]) - np.array(turned[0]))
+    assert np.median(more) == pytest.approx(1.0, abs=0.15)
+
+
+def test_turns_to_one_side_only_leave_turns_and_strides_apart_unsure() -> None:
+    route = Route().stand(5.0)
+    for leg in range(8):
+        route = route.turn(pi, 0.6).walk(15.0, 1.3) if leg else route.walk(15.0, 1.3)
+    one_side = heading_walk(walk_of(route.stop(3.0)))
+    both_sides = heading_walk(calibration_samples(SEED))
+    for one, two in zip(one_side, both_sides, strict=True):
+        assert one.heading.turning_sigma > 2.0 * two.heading.turning_sigma
+        assert one.heading.drift_sigma > 1.5 * two.heading.drift_sigma
+
+
+@pytest.mark.parametrize(
+    ("route", "reason"),
+    [
+        (Route().stand(3.0).walk(40.0).stop(2.0), "1 straight legs"),
+        (Route().stand(3.0).walk(12.0).turn(0.5 * pi, 1.0).walk(12.0).turn(0.5 * pi, 1.0).walk(12.0)
+         .turn(0.5 * pi, 1.0).walk(12.0).turn(0.5 * pi, 1.0).walk(12.0).stop(2.0), "there and back"),
+        (Route().stand(10.0), "no strides"),
+    ],
+)  # fmt: skip
+def test_another_walk_is_no_calibration_for_a_stated_reason(route: Route, reason: str) -> None:
+    with pytest.raises(CalibrationError, match=reason):
+        heading_walk(walk_of(route))
+
+
+def test_no_stride_shows_nothing() -> None:
+    assert fit_heading(Foot.LEFT, []) == "0 straight legs of 6 m and more, of which 4 are needed"
