@@ -7,12 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from solepath.lab.emulated.heading import CHECKED_TIMES
 from solepath.lab.evaluate.changes import BETTER, Verdict, compare_scores, names_missing, read_scores, verdict
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.tables.scores import comparison_tables
 from solepath.recording import RecordingError
 
 NEITHER = {
+    *(f"{figure}_{t}" for figure in ("nees", "held", "heading_nees") for t in CHECKED_TIMES),
     "path", "authors", "most_frequent", "strides_true", "rides_true", "heel_strike_true", "heel_strike_found",
     "toe_off_true", "toe_off_found", "stride_longest",
 }  # fmt: skip

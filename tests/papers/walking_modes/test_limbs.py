@@ -144,12 +144,18 @@ def test_for_any_attitudes_the_chain_is_finite(attitudes: list[tuple[Site, float
 
 
 def test_a_sensor_without_an_attitude_of_its_own_is_held_upright_by_gravity() -> None:
-    """A shank of an emulated walk: its lean from where it stood, against the truth. What the accelerometer is off by at
-    rest is in both attitudes, and so in neither lean."""
-    walker = Walker(Route().stand(2.0).walk(15.0, 1.2).stop(1.0), Wearer(), seed=5)
+    """A shank of four emulated walks: its lean from where it stood, against the truth. What the accelerometer is off by
+    at rest is in both attitudes, and so in neither lean; how well the bias is learnt differs between walks."""
+    off = [leans(seed) for seed in range(1, 5)]
+    assert np.mean([np.median(np.abs(one)) for one in off]) < radians(1.5)
+    assert max(np.abs(one).max() for one in off) < radians(5.0)
+
+
+def leans(seed: int) -> list[float]:
+    walker = Walker(Route().stand(2.0).walk(15.0, 1.2).stop(1.0), Wearer(), seed=seed)
     site = Site.LEFT_SHANK
-    exact = [s for s in limb_samples(walker, 100.0, seed=5, attitude=None, errors=None) if s.site is site]
-    samples = [s for s in limb_samples(walker, 100.0, seed=5, attitude=None, errors=MPU9250) if s.site is site]
+    exact = [s for s in limb_samples(walker, 100.0, seed=seed, attitude=None, errors=None) if s.site is site]
+    samples = [s for s in limb_samples(walker, 100.0, seed=seed, attitude=None, errors=MPU9250) if s.site is site]
     sensor = Inclination()
     off: list[float] = []
     stood: tuple[Quat, Quat] | None = None
@@ -160,9 +166,8 @@ def test_a_sensor_without_an_attitude_of_its_own_is_held_upright_by_gravity() ->
             continue
         stood = stood or (attitude, true.quat)
         off.append(lean(attitude, stood[0]) - lean(true.quat, stood[1]))
-    assert len(off) > 1000
-    assert np.median(np.abs(off)) < radians(1.5) and np.abs(off).max() < radians(5.0)
-    assert sensor.heading is not None
+    assert len(off) > 1000 and sensor.heading is not None
+    return off
 
 
 def lean(attitude: Quat, stood: Quat) -> float:
