@@ -8,20 +8,10 @@ from math import atan2, cos, hypot, pi, radians, sin
 import numpy as np
 import pytest
 
-from solepath.body.fuse.common_error import (
-    DRIFT,
-    DRIFT_CHANGE,
-    HEADING_NOISE,
-    LENGTH_ERROR,
-    NO_MOVE,
-    TURNING,
-    CommonError,
-    FootRest,
-)
+from solepath.body.fuse.common_error import DRIFT, DRIFT_CHANGE, HEADING_NOISE, LENGTH_ERROR, TURNING, CommonError
 from solepath.body.fuse.straightness import Straightness
 from solepath.emulate.routes.wander import Wander
 from solepath.saving import codec as machine
-from solepath.types.vector import IDENTITY
 
 STEP = 0.65
 """Advance of the body from the stride of one foot to that of the other, m."""
@@ -162,44 +152,24 @@ def test_the_covariance_is_that_of_the_equations() -> None:
             assert np.allclose(matrix(error), expected, rtol=1e-9, atol=1e-15)
 
 
-def rest(t: float, rate: float, sigma: float) -> FootRest:
-    """A foot whose bias about the vertical is `rate`."""
-    return FootRest(t, (0.0, 0.0, rate), sigma * sigma, IDENTITY)
-
-
-def test_a_rest_shows_what_the_bias_has_turned_since_the_rest_before() -> None:
-    """A foot alone walks for five minutes with a bias that is 2 mrad/s too small, then learns it at a rest."""
-    error = CommonError()
-    error.share(alone=True)
-    error.rr = 1e-12
-    assert error.add_rest(0, rest(0.0, 0.0, 0.002)) == NO_MOVE
-    for k in range(300):
-        error.propagate(1.0, 1.0, 0.0, 1.0, (1.3, 0.0), (1e-4, 0.0, 1e-4))
-        assert error.add_rest(0, rest(k + 1.0, 0.0, 0.002)) == NO_MOVE
-    before = error.hh
-    x, y, heading = error.add_rest(0, rest(301.0, 0.002, 1e-5))
-    assert heading == pytest.approx(-0.002 * 300.0, rel=0.02), "the track has turned to the left by that much"
-    assert y == pytest.approx(-0.002 * 300.0 * 0.5 * 390.0, rel=0.03) and abs(x) < 1e-6
-    assert error.hh < 0.02 * before
-    assert error.bias == pytest.approx(0.0, abs=1e-5), "from now on the foot itself removes the bias"
-
-
-def test_a_rest_that_teaches_nothing_moves_nothing_and_one_foot_teaches_half() -> None:
-    error = CommonError()
-    error.share(alone=False)
-    for foot in range(2):
-        error.add_rest(foot, rest(0.0, 0.0, 0.002))
-    assert error.bb == pytest.approx(0.5 * 0.002**2)
-    for _ in range(100):
-        error.propagate(0.5, 1.0, 0.0, 1.0, (1.3, 0.0), (1e-4, 0.0, 1e-4))
-    assert error.add_rest(0, rest(1.0, 1e-6, 0.00199999)) == NO_MOVE
-    _, _, heading = error.add_rest(0, rest(1.0, 0.002, 1e-6))
-    assert heading == pytest.approx(-0.5 * 0.002 * 50.0, rel=0.05)
-    assert error.bb == pytest.approx(0.25 * 0.002**2, rel=0.02), "the other foot's bias is as unsure as before"
-    _, _, heading = error.add_rest(1, rest(1.0, 0.002, 1e-6))
-    assert heading == pytest.approx(-0.5 * 0.002 * 50.0, rel=0.05)
-    assert error.bb < 1e-7
-    assert min(np.linalg.eigvalsh(matrix(error))) > -1e-12
+def test_a_bias_that_is_learnt_anew_makes_another_error() -> None:
+    """Of a foot alone, whose rest teaches everything, and of one of two feet, whose other foot has learnt nothing."""
+    for alone, left in ((True, 0.0), (False, 0.5)):
+        error = CommonError()
+        error.share(alone)
+        for foot in range(1 if alone else 2):
+            error.add_rest(foot, 0.0, 4e-6)
+        assert error.bb == pytest.approx(4e-6 if alone else 2e-6)
+        for k in range(100):
+            error.propagate(1.0 if alone else 0.5, 1.0, 0.0, 1.0, (1.3, 0.0), (1e-4, 0.0, 1e-4))
+            error.add_rest(0, 0.01 * k, 4e-6)
+        with_heading, heading = error.hb, error.hh
+        assert with_heading > 0.0
+        error.add_rest(0, 1.0, 1e-12)
+        assert error.hb == pytest.approx(left * with_heading, rel=0.01, abs=1e-8)
+        assert error.bb == pytest.approx(left * left * 4e-6, rel=0.01, abs=1e-9)
+        assert error.hh == heading, "what it has turned, it has turned"
+        assert min(np.linalg.eigvalsh(matrix(error))) > -1e-12
 
 
 @pytest.mark.parametrize("sigma", [0.05, 0.5, 1.0, 2.0, 4.0])

@@ -27,7 +27,7 @@ from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartOutput, Position, Shift
-from .common_error import NO_MOVE, CommonError, FootRest
+from .common_error import CommonError
 from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, standing_foot
 from .position import MeanOfFeet
 from .straightness import Straightness
@@ -115,8 +115,7 @@ class BothFeet(MeanOfFeet):
         outputs: list[PartOutput] = []
         for event in view.events:
             if isinstance(event, StrideTaken):
-                rest = FootRest(event.t_end, view.gyro_bias, view.after.bias_variance, view.attitude)
-                outputs += self._add_stride(event, view.after.takes_shifts, rest)
+                outputs += self._add_stride(event, view.after.takes_shifts, view.after.bias_variance)
             elif isinstance(event, SampleGap):
                 self.common.add_gap(event.duration)
         return outputs
@@ -154,7 +153,7 @@ class BothFeet(MeanOfFeet):
     def _keep_placements(self) -> None:
         self.placements = [(track.turn, track.offset) for track in (self.left, self.right)]
 
-    def _add_stride(self, event: StrideTaken, takes_shifts: bool, rest: FootRest) -> Sequence[PartOutput]:
+    def _add_stride(self, event: StrideTaken, takes_shifts: bool, bias_variance: float) -> Sequence[PartOutput]:
         index = 0 if event.foot is Foot.LEFT else 1
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
         numbers = (*event.position, *event.displacement, *event.covariance)
@@ -162,7 +161,7 @@ class BothFeet(MeanOfFeet):
             self._restart()
             return ()
         share = self.common.share(alone=not self.started or other.unplaced or other.absent)
-        self._move_both(event.foot, self.common.add_rest(index, rest))
+        self.common.add_rest(index, event.t_end, bias_variance)
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
@@ -206,14 +205,8 @@ class BothFeet(MeanOfFeet):
         if found is None:
             return
         move = self.common.correct_drift(found.drift, found.variance, found.weight, found.stride_time)
-        self._move_both(event.foot, move)
-
-    def _move_both(self, foot: Foot, move: Vec3) -> None:
-        """Move both tracks alike, and turn them about the wearer; `foot` is the one that took the newest stride."""
-        if move == NO_MOVE:
-            return
         (lx, ly, _), (rx, ry, _) = self._end_of(0)[1], self._end_of(1)[1]
-        share = 0.5 if not self.common.alone else 1.0 if foot is Foot.LEFT else 0.0
+        share = 0.5 if not self.common.alone else 1.0 if event.foot is Foot.LEFT else 0.0
         self._move_tracks((share * lx + (1.0 - share) * rx, share * ly + (1.0 - share) * ry), (move, move))
 
     def _move_tracks(self, centre: tuple[float, float], moves: tuple[Vec3, Vec3]) -> None:

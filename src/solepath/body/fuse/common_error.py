@@ -16,8 +16,8 @@ a rotation by +90 degrees:
     a = w (n drift + theta turning + T bias),   heading' = heading + a,   e' = e + w (heading + a / 2) c d
 
 where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. Straight ways measure the drift with the bias
-(straightness.py). A rest at which a foot learns its bias anew measures the bias, and with it what the bias has turned
-since the rest before. The equations are linear in the errors; what a heading error of any size does to the position is
+(straightness.py). After a rest at which a foot learns its bias anew, the bias makes another error. The equations are
+linear in the errors; what a heading error of any size does to the position is
 in `position_covariance`."""
 
 from __future__ import annotations
@@ -27,9 +27,8 @@ from math import exp, hypot, sqrt
 
 from ...calibration import HeadingCalibration
 from ...foot.attitude import BIAS_WANDER
-from ...types import Foot, Quat, Vec3
+from ...types import Foot
 from ...types.attrs import define, field, frozen
-from ...types.vector import rotate, sub
 
 DRIFT = 0.0014
 """Standard deviation of the drift of one foot, rad a stride (4 degrees a minute), unless it was calibrated.
@@ -58,17 +57,13 @@ NO_MOVE: Move = (0.0, 0.0, 0.0)
 
 
 @frozen
-class FootRest:
-    """The gyroscope bias of a foot at the end of a stride, learnt at its last rest."""
+class FootBias:
+    """The knowledge that a foot has of its gyroscope bias at the end of a stride."""
 
     t: float
     """End of the stride, s."""
-    bias: Vec3
-    """Gyroscope bias, sensor frame, rad/s."""
     variance: float
-    """Variance of each component of `bias`, (rad/s)^2."""
-    attitude: Quat
-    """Attitude of the foot, which stands, sensor to navigation frame."""
+    """Variance of each component of the bias, (rad/s)^2."""
 
 
 @define
@@ -108,7 +103,7 @@ class CommonError:
     """Flag: the newest stride was that of a foot alone."""
     foot_sigmas: tuple[float, float] = field(default=(DRIFT, TURNING), init=False)
     """Standard deviations of the drift, rad a stride, and of the relative error of the turns of one foot."""
-    foot_biases: list[FootRest | None] = field(factory=lambda: [None, None], init=False)
+    foot_biases: list[FootBias | None] = field(factory=lambda: [None, None], init=False)
     """Bias of the left and the right foot at its newest stride."""
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:
@@ -188,34 +183,34 @@ class CommonError:
         It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s."""
         return strides * self.drift + turn * self.turning + duration * self.bias
 
-    def add_rest(self, foot: int, rest: FootRest) -> Move:
-        """Take in what foot 0 (left) or 1 knows of its bias at the end of a stride; return the correction.
+    def add_rest(self, foot: int, t: float, variance: float) -> None:
+        """Take in the `variance` of the bias of foot 0 (left) or 1, (rad/s)^2, at the end of a stride at `t`, s.
 
-        A bias that has been learnt anew was measured: with the variance p before and q now, the gain of that
-        measurement is 1 - q / p, its innovation the change of the bias divided by the gain, and its variance q divided
-        by the gain (attitude.py). From now on the track turns more slowly by the change of the vertical component."""
+        A foot that has learnt its bias anew, with a gain of 1 - q / p for the variance p before and q now, makes
+        another error from now on, which has less to do with the errors so far. That the new bias shows also what the
+        old one has turned is not used: a standing foot sways, and most changes of a bias come from that."""
         newest, share = self.foot_biases[foot], 1.0 if self.alone else 0.5
-        self.foot_biases[foot] = rest
+        self.foot_biases[foot] = FootBias(t, variance)
         if newest is None:
-            self.bb += share * share * rest.variance
-            return NO_MOVE
-        wander = BIAS_WANDER * BIAS_WANDER * max(0.0, rest.t - newest.t)
+            self.bb += share * share * variance
+            return
+        wander = BIAS_WANDER * BIAS_WANDER * max(0.0, t - newest.t)
         self.bb += share * share * wander
         before = newest.variance + wander
-        gain = 1.0 - rest.variance / before if before > 0.0 else 0.0
+        gain = 1.0 - variance / before if before > 0.0 else 0.0
         if gain < LEAST_GAIN:
-            self.bb += share * share * max(0.0, rest.variance - before)
-            return NO_MOVE
-        change = rotate(rest.attitude, sub(rest.bias, newest.bias))[2]
-        # the foot's bias is the mean one times its part in the variance of the mean, and a rest that is noise
+            self.bb += share * share * max(0.0, variance - before)
+            return
+        # the bias of the mean changes by -w gain times that of the foot and noise; the foot's is `part` of the mean's
         other = None if self.alone else self.foot_biases[1 - foot]
         part = 1.0 if other is None else 2.0 * before / (before + other.variance)
-        column = (part * self.xb, part * self.yb, part * self.hb, part * self.rb, part * self.kb, part * self.bb)
-        own = part * column[5]
-        noise = max(before, own) - own + before * (1.0 - gain) / gain
-        move = self._correct(column, own, -change / gain, noise)
-        self.bias += share * change
-        return move
+        kept = max(0.0, 1.0 - share * gain * part)
+        self.xb *= kept
+        self.yb *= kept
+        self.hb *= kept
+        self.rb *= kept
+        self.kb *= kept
+        self.bb = kept * kept * self.bb + share * share * gain * max(0.0, before - gain * part * part * self.bb)
 
     def correct_drift(self, z: float, variance: float, weight: float, stride_time: float) -> Move:
         """Correct the errors by a measured drift that differs by `z` rad a stride from the estimate.

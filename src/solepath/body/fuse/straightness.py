@@ -70,30 +70,63 @@ class StretchDrift:
     """Mean duration of a usual stride of the stretch, s."""
 
 
+@frozen
+class Places:
+    """The places of a stretch as the sums of a parabola through them."""
+
+    t: float
+    """Time of the newest place, s."""
+    x: float
+    """Newest place along the first direction of the stretch, from its start, m."""
+    y: float
+    """Newest place to the left of that direction, m."""
+    strides: float = 0.0
+    """Number of usual strides in which the heading of the mean of both feet has drifted since the start."""
+    count: int = 0
+    powers: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    """Sums of x, x^2, x^3 and x^4."""
+    products: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    """Sums of y, x y, x^2 y and y^2."""
+
+    def add(self, t: float, x: float, y: float, strides: float) -> Places:
+        """Return the places with one more at `t`, s, after `strides` more usual strides."""
+        square = x * x
+        a, b, c, d = self.powers
+        e, f, g, h = self.products
+        return Places(
+            t, x, y, self.strides + strides, self.count + 1,
+            (a + x, b + square, c + square * x, d + square * square), (e + y, f + x * y, g + square * y, h + y * y),
+        )  # fmt: skip
+
+    def parabola(self) -> tuple[float, float] | None:
+        """Return the curvature, 1/m, of the parabola of least squares and the mean square distance from it, m^2."""
+        n = float(self.count)
+        (s1, s2, s3, s4), (t0, t1, t2, square) = self.powers, self.products
+        # normal equations of y = a + b x + c x^2, solved by Cramer's rule
+        m0, m1, m2 = s2 * s4 - s3 * s3, s1 * s4 - s2 * s3, s1 * s3 - s2 * s2
+        determinant = n * m0 - s1 * m1 + s2 * m2
+        if determinant <= 0.0:
+            return None
+        a = (t0 * m0 - t1 * m1 + t2 * m2) / determinant
+        b = (-t0 * m1 + t1 * (n * s4 - s2 * s2) - t2 * (n * s3 - s1 * s2)) / determinant
+        c = (t0 * m2 - t1 * (n * s3 - s1 * s2) + t2 * (n * s2 - s1 * s1)) / determinant
+        return 2.0 * c, max(0.0, square - a * t0 - b * t1 - c * t2) / n
+
+
 @define
 class Straightness:
-    """Collects the strides of a stretch in the sums of a parabola, and keeps what was learnt from earlier stretches."""
+    """Collects the strides of a stretch, and keeps what was learnt from earlier stretches."""
 
-    x: float = field(default=0.0, init=False)
-    """Place of the wearer since the start of the stretch, m; x is along its first direction."""
-    y: float = field(default=0.0, init=False)
-    """Place of the wearer to the left of that direction, m."""
     direction: float = field(default=0.0, init=False)
     """Direction of the first stride of the stretch, rad, world frame."""
     t: float | None = field(default=None, init=False)
     """End of the newest stride, s; None before any stretch."""
-    count: int = field(default=0, init=False)
-    """Number of places in the sums; 0 without a stretch."""
     t_start: float = field(default=0.0, init=False)
     """End of the first stride of the stretch, s."""
-    strides: float = field(default=0.0, init=False)
-    """Number of usual strides in which the heading of the mean of both feet drifts."""
-    recent: list[tuple[float, float]] = field(factory=list, init=False)
-    """The places of the last strides."""
-    powers: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
-    """Sums of x, x^2, x^3 and x^4."""
-    products: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
-    """Sums of y, x y, x^2 y and y^2."""
+    recent: list[Places] = field(factory=list, init=False)
+    """The places after each of the last strides, the newest last; empty without a stretch."""
+    left_out: int = field(default=0, init=False)
+    """Number of strides that are left out before the next stretch starts, because the wearer still turns."""
     counts: tuple[float, float, float] = field(default=FIRST_COUNTS, init=False)
     """Number of stretches that were straight, that bent gently and that bent, each fading by `FORGETTING`."""
     wander: tuple[float, float] = field(default=(USUAL_WANDER * USUAL_WANDER, WANDER_WEIGHT), init=False)
@@ -108,51 +141,54 @@ class Straightness:
         `share` of the stride, which counts as `strides` usual ones. `drift_sigma` is the standard deviation of the
         estimated drift, rad a stride, which is already removed from the stride."""
         dx, dy = displacement
-        found = None
         paused = self.t is not None and not 0.0 <= t - self.t <= MAX_PAUSE
         self.t = t
         if paused or abs(turn) > MAX_FOOT_TURN or hypot(dx, dy) < MIN_ADVANCE:
             return self.break_off(drift_sigma)
-        if not self.count:
+        if self.left_out:
+            self.left_out -= 1
+            return None
+        if not self.recent:
             self._start(atan2(dy, dx))
+        newest, earlier = self.recent[-1], self.recent[0]
         c, s = cos(self.direction), sin(self.direction)
-        x, y = self.x + share * (c * dx + s * dy), self.y + share * (c * dy - s * dx)
-        earlier_x, earlier_y = self.recent[0]
+        x, y = newest.x + share * (c * dx + s * dy), newest.y + share * (c * dy - s * dx)
         if len(self.recent) > DEVIATION_STRIDES:
-            deviation = atan2(y - earlier_y, x - earlier_x) - atan2(y, x)
-            if abs(wrap_angle(deviation)) > MAX_DEVIATION:
-                found = self._end(drift_sigma)
-                self._start(atan2(dy, dx))
-                x, y = share * hypot(dx, dy), 0.0
-        self._add_place(x, y)
-        self.strides += share * strides
-        if x > MAX_LENGTH:
-            found = self._end(drift_sigma)
-            self._start(self.direction)
+            deviation = atan2(y - earlier.y, x - earlier.x) - atan2(y, x)
+            if abs(wrap_angle(deviation)) > MAX_DEVIATION:  # the wearer has turned off, perhaps some strides ago
+                found = self._end(earlier, drift_sigma)
+                self.recent, self.left_out = [], DEVIATION_STRIDES // 2
+                return found
+        self.recent = [*self.recent[-DEVIATION_STRIDES:], newest.add(t, x, y, share * strides)]
+        if x <= MAX_LENGTH:
+            return None
+        found = self._end(self.recent[-1], drift_sigma)
+        self._start(self.direction)
         return found
 
     def break_off(self, drift_sigma: float) -> StretchDrift | None:
         """End the stretch at a stride that cannot belong to one; return its drift, if it shows one."""
-        found = self._end(drift_sigma)
-        self._clear()
+        found = self._end(self.recent[-1], drift_sigma) if self.recent else None
+        self.recent, self.left_out = [], 0
         return found
 
     def reset(self) -> None:
         """Discard the stretch, because the clock restarts."""
-        self._clear()
-        self.t = None
+        self.recent, self.left_out, self.t = [], 0, None
 
-    def _end(self, drift_sigma: float) -> StretchDrift | None:
-        length = self.x
-        fit = self._parabola() if self.count >= MIN_STRIDES and length >= MIN_LENGTH and self.strides > 0.0 else None
+    def _end(self, places: Places, drift_sigma: float) -> StretchDrift | None:
+        length = places.x
+        if places.count < MIN_STRIDES or length < MIN_LENGTH or not places.strides > 0.0:
+            return None
+        fit = places.parabola()
         if fit is None:
             return None
         curvature, mean_square = fit
         variance, weight = self.wander
         footfall = FOOTFALL * FOOTFALL
         independent = max(MIN_INDEPENDENT, length / WANDER_LENGTH)
-        error = (CURVATURE_FACTOR / (length * length)) ** 2 * (variance / independent + footfall / (self.count + 6.0))
-        per_stride = length / self.strides  # rad a stride for a curvature in 1/m
+        error = (CURVATURE_FACTOR / (length * length)) ** 2 * (variance / independent + footfall / (places.count + 6.0))
+        per_stride = length / places.strides  # rad a stride for a curvature in 1/m
         z, noise = -curvature * per_stride, error * per_stride * per_stride + DRIFT_SCATTER * DRIFT_SCATTER
         s = drift_sigma * drift_sigma + noise
         # share of the wandering that a parabola leaves
@@ -169,41 +205,11 @@ class Straightness:
         if shares[0] > 0.5 and length > 2.0 * MIN_LENGTH:
             seen = max(0.0, mean_square - footfall) / (share * share)
             self.wander = (variance + (seen - variance) / (weight + 1.0), min(weight + 1.0, MAX_WANDER_WEIGHT))
-        return StretchDrift(z, noise, shares[0], max(0.0, ((self.t or 0.0) - self.t_start) / self.strides))
-
-    def _clear(self) -> None:
-        self.x = self.y = self.strides = 0.0
-        self.count, self.recent = 0, []
-        self.powers = self.products = (0.0, 0.0, 0.0, 0.0)
+        return StretchDrift(z, noise, shares[0], max(0.0, (places.t - self.t_start) / places.strides))
 
     def _start(self, direction: float) -> None:
-        self._clear()
         self.direction, self.t_start = direction, self.t or 0.0
-        self._add_place(0.0, 0.0)
-
-    def _add_place(self, x: float, y: float) -> None:
-        self.x, self.y = x, y
-        self.recent = [*self.recent[-DEVIATION_STRIDES:], (x, y)]
-        self.count += 1
-        square = x * x
-        a, b, c, d = self.powers
-        self.powers = (a + x, b + square, c + square * x, d + square * square)
-        a, b, c, d = self.products
-        self.products = (a + y, b + x * y, c + square * y, d + y * y)
-
-    def _parabola(self) -> tuple[float, float] | None:
-        """Return the curvature, 1/m, of the parabola of least squares and the mean square distance from it, m^2."""
-        n = float(self.count)
-        (s1, s2, s3, s4), (t0, t1, t2, square) = self.powers, self.products
-        # normal equations of y = a + b x + c x^2, solved by Cramer's rule
-        m0, m1, m2 = s2 * s4 - s3 * s3, s1 * s4 - s2 * s3, s1 * s3 - s2 * s2
-        determinant = n * m0 - s1 * m1 + s2 * m2
-        if determinant <= 0.0:
-            return None
-        a = (t0 * m0 - t1 * m1 + t2 * m2) / determinant
-        b = (-t0 * m1 + t1 * (n * s4 - s2 * s2) - t2 * (n * s3 - s1 * s2)) / determinant
-        c = (t0 * m2 - t1 * (n * s3 - s1 * s2) + t2 * (n * s2 - s1 * s1)) / determinant
-        return 2.0 * c, max(0.0, square - a * t0 - b * t1 - c * t2) / n
+        self.recent = [Places(self.t_start, 0.0, 0.0).add(self.t_start, 0.0, 0.0, 0.0)]
 
 
 def wrap_angle(angle: float) -> float:
