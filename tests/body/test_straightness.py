@@ -152,7 +152,7 @@ def test_the_covariance_is_that_of_the_equations() -> None:
             assert np.allclose(matrix(error), expected, rtol=1e-9, atol=1e-15)
 
 
-def test_a_bias_that_is_learnt_anew_makes_another_error() -> None:
+def test_a_bias_that_is_learnt_again_has_a_new_error() -> None:
     """Of a foot alone, whose rest teaches everything, and of one of two feet, whose other foot has learnt nothing."""
     for alone, left in ((True, 0.0), (False, 0.5)):
         error = CommonError()

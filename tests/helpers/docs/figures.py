@@ -32,7 +32,17 @@ ACTIVITIES = [
     *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
     "--markdown",
 ]
-LONG_WAYS = [*("--emulated", "--walks", "3", "--recipe", "default", "--recipe", "straight-corridors"), "--markdown"]
+LONG_WAYS = [
+    *("--emulated", "--walks", "3", "--only", "emulated_four_floors"),
+    *(
+        word
+        for kind in ("any_angles", "there_and_back", "one_way_loops", "arcs")
+        for length in ("500m", "500m_calibrated", "30min")
+        for word in ("--only", f"emulated_{kind}_{length}")
+    ),
+    "--markdown",
+]
+"""Options for four of the nine kinds of long walks."""
 EXPERIMENTS = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
 IN_SHORT = {
@@ -50,8 +60,8 @@ IN_SHORT = {
     "gaitpdb_vgrf": ("heel-strikes", "toe-offs"),
     "hugadb": ("labelled time classified correctly", "lift rides, with their direction"),
     "stairs": ("time on stairs that was called stairs", "time on the level that was called stairs"),
-    "emulated_long_way": ("off at the end, horizontal", "stride length error"),
-    "emulated_half_hour": ("off at the end, horizontal",),
+    "emulated_any_angles_500m": ("off at the end, share of the path",),
+    "emulated_any_angles_30min": ("off at the end, share of the path",),
 }
 """Measures of each data set that the short table has, without their counts."""
 SHORTER = {"the same / sqrt 2 (ARMSE2d)": "position error, ARMSE2d"}
