@@ -10,8 +10,10 @@ import pytest
 
 from solepath.body.fuse.common_error import DRIFT, DRIFT_CHANGE, HEADING_NOISE, LENGTH_ERROR, TURNING, CommonError
 from solepath.body.fuse.straightness import Straightness
+from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.wander import Wander
 from solepath.saving import codec as machine
+from solepath.types import Foot
 
 STEP = 0.65
 """Advance of the body from the stride of one foot to that of the other, m."""
@@ -30,7 +32,7 @@ class Walked:
         self.off, self.turned = 0.0, 0.0
         """Heading error of the track, rad, and turn of the way so far, rad."""
         place = true_place = np.zeros(2)
-        self.error.share(alone=False)
+        self.error.share(0, alone=False)
         for k in range(int(length / STEP)):
             s = k * STEP
             turn = heading(s + 2.0 * STEP) - heading(s)
@@ -156,7 +158,7 @@ def test_a_bias_that_is_learnt_again_has_a_new_error() -> None:
     """Of a foot alone, whose rest teaches everything, and of one of two feet, whose other foot has learnt nothing."""
     for alone, left in ((True, 0.0), (False, 0.5)):
         error = CommonError()
-        error.share(alone)
+        error.share(0, alone)
         for foot in range(1 if alone else 2):
             error.add_rest(foot, 0.0, 4e-6)
         assert error.bb == pytest.approx(4e-6 if alone else 2e-6)
@@ -170,6 +172,30 @@ def test_a_bias_that_is_learnt_again_has_a_new_error() -> None:
         assert error.bb == pytest.approx(left * left * 4e-6, rel=0.01, abs=1e-9)
         assert error.hh == heading, "what it has turned, it has turned"
         assert min(np.linalg.eigvalsh(matrix(error))) > -1e-12
+
+
+def test_a_foot_that_stands_for_an_hour_is_turned_by_no_bias_that_it_has_learnt_since() -> None:
+    error = CommonError()
+    error.share(0, alone=True)
+    error.add_rest(0, 0.0, 4e-6)
+    error.bias = 1e-3
+    error.add_rest(0, 3600.0, 1e-10)
+    assert abs(error.bias) < 1e-5
+
+
+def test_a_foot_without_calibration_makes_two_feet_as_unsure_as_it_is() -> None:
+    known = HeadingCalibration(0.0, 0.0, 1e-4, 1e-4)
+    sigmas = []
+    for feet in ((), (Foot.LEFT,), (Foot.LEFT, Foot.RIGHT)):
+        error = CommonError()
+        error.use_calibration(dict.fromkeys(feet, known))
+        sigmas.append(error.rr**0.5)
+    assert sigmas == pytest.approx([DRIFT / 2.0**0.5, (DRIFT**2 + 1e-8) ** 0.5 / 2.0, 1e-4 / 2.0**0.5])
+    for foot, sigma in ((0, 1e-4), (1, DRIFT)):
+        error = CommonError()
+        error.use_calibration({Foot.LEFT: known})
+        error.share(foot, alone=True)
+        assert error.rr**0.5 >= sigma
 
 
 @pytest.mark.parametrize("sigma", [0.05, 0.5, 1.0, 2.0, 4.0])
@@ -198,7 +224,7 @@ def test_strides_that_are_all_too_long_leave_the_place_uncertain_along_the_way()
 
 def test_a_gap_and_a_turn_make_the_heading_less_sure() -> None:
     error = CommonError()
-    error.share(alone=False)
+    error.share(0, alone=False)
     before = error.hh
     error.add_gap(0.1)
     short = error.hh - before

@@ -21,7 +21,7 @@ from ..events import StrideTaken
 from ..foot.stride import usual_strides
 from ..recipes import DEFAULT
 from ..types import Foot, Packet, Sample
-from ..types.attrs import frozen
+from ..types.attrs import evolve, frozen
 from .session import Session
 
 MIN_LEG, MIN_LEGS = 6.0, 4
@@ -34,7 +34,7 @@ not there and back."""
 LEG_BOW = 0.1
 """Standard deviation of the lateral distance between both ends of a leg and the line, m: feet land beside it."""
 HEADING_NOISE = 0.0025
-"""Random walk of the heading of one foot, rad/sqrt(s): sqrt(2) times that of two feet (common_error.py)."""
+"""Random walk of the heading of one foot, rad/sqrt(s), that of a wandering bias included."""
 DAY_DRIFT = 4e-4
 """Standard deviation of the change of the drift from one day to another, rad a stride: the bias is learnt anew at rest,
 with an error of about 1.2 degrees a minute."""
@@ -74,7 +74,7 @@ def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | N
     """Return the drift of each foot that walked there and back. CalibrationError is raised when none did."""
     known = calibration or Calibration()
     # each foot by itself, without any earlier calibration of its heading
-    session = Session(DEFAULT.exchanged(BothFeet, MeanOfFeet()), calibration=_without_headings(known))
+    session = Session(DEFAULT.exchanged(BothFeet, MeanOfFeet()), calibration=evolve(known, headings={}))
     events = [*(event for one in source for event in session.feed(one)), *session.finish()]
     fits: list[HeadingFit] = []
     reasons: list[str] = []
@@ -142,10 +142,6 @@ def _filter(legs: Sequence[_Leg], directions: Sequence[float]) -> tuple[float, f
 def heading_calibration(fits: Iterable[HeadingFit]) -> Calibration:
     """Return the calibration that a session takes."""
     return Calibration(headings={fit.foot: fit.heading for fit in fits})
-
-
-def _without_headings(known: Calibration) -> Calibration:
-    return Calibration(insoles=known.insoles, shoe=known.shoe, limbs=known.limbs, weight=known.weight)
 
 
 def _find_legs(strides: Sequence[StrideTaken]) -> list[_Leg]:

@@ -1,10 +1,10 @@
 """Position of the wearer from the tracks of two feet that belong to one body, or from that of a foot alone.
 
 The world frame starts between the feet. Its x axis is the wearer's first heading, the mean of the first directions of
-both feet. At each stride, the foot that swung is compared with the foot that stood and the difference of
-their errors is corrected (error_filter.py). Feet that are further apart than `BothFeetSettings.reach` are
-always pulled together. The errors that both feet share are those of the wearer's position (common_error.py); straight
-ways show the drift of the heading among them (straightness.py). A foot alone has no other errors than these.
+both feet. At each stride, the foot that swung is compared with the foot that stood, and the difference of their errors
+is corrected (error_filter.py). Feet that are further apart than `BothFeetSettings.reach` are always pulled together.
+The errors that both feet share are those of the wearer's position (common_error.py); straight ways show the drift of
+the heading among them (straightness.py). A foot alone has no other errors than these.
 
 In the first metres, the comparison aligns the two tracks, whatever the directions of the first strides are
 (walking_direction.py), and leaves the feet unchanged. From then on, corrections go to the feet, to each at its own
@@ -36,7 +36,7 @@ from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection
 MAX_TRACK_VALUE = 1e6
 """Largest coordinate of a track, m, and largest variance of a stride, m^2, that are used."""
 MAX_PHASE_TIME = 1.0
-"""Longest stance or swing time over which the drift rate of a walking foot is integrated, s."""
+"""Longest stance or swing time over which a drift rate is integrated, s; a foot that stands longer learns its bias."""
 FOOTPRINT_VARIANCE = 1e-4
 """Variance of a foot's position at foot-flat that is added to a stride's variance, m^2."""
 ALIGNMENT_ERROR = (0.15, 0.05)
@@ -139,7 +139,7 @@ class BothFeet(MeanOfFeet):
         xx, xy, yy = self.common.position_covariance((x, y))
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
         xx, yy, zz = xx + FOOTPRINT_VARIANCE, yy + FOOTPRINT_VARIANCE, mean.covariance[5]
-        return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, zz), sqrt(self.common.hh))
+        return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, zz), self.common.heading_sigma)
 
     def _start(self) -> None:
         self.started, self.width = True, WALKING_WIDTH
@@ -160,7 +160,7 @@ class BothFeet(MeanOfFeet):
         if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
             self._restart()
             return ()
-        share = self.common.share(alone=not self.started or other.unplaced or other.absent)
+        share = self.common.share(index, not self.started or other.unplaced or other.absent)
         self.common.add_rest(index, event.t_end, bias_variance)
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
@@ -170,7 +170,7 @@ class BothFeet(MeanOfFeet):
         stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
         # correct the drift of the heading, and the displacement by the drift up to mid-swing
         rate, count = self.errors.rates[index], usual_strides(event.length)
-        drift = self.common.turn_of(count, event.heading_change, event.t_end - event.t_start)
+        drift = self.common.turn_of(count, event.heading_change, stance + swing)
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
         this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
         dx, dy = dx - mid_turn * dy, dy + mid_turn * dx
@@ -178,7 +178,7 @@ class BothFeet(MeanOfFeet):
         xx, xy, yy = this.turned_covariance(event.covariance)
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
-        self.common.propagate(share, count, event.heading_change, event.t_end - event.t_start, (dx, dy), variance)
+        self.common.propagate(share, count, event.heading_change, stance + swing, (dx, dy), variance)
         if self.started:
             degraded = event.degraded or excess > 0.0
             self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, degraded)
@@ -200,8 +200,8 @@ class BothFeet(MeanOfFeet):
         """Add a stride to the stretch, and correct the common errors by what a straight stretch shows."""
         if not self.settings.straightness:
             return
-        sigma, straightness = sqrt(self.common.drift_variance(event.t_end - event.t_start)), self.straightness
-        found = straightness.add_stride(event.t_end, displacement, share, strides, event.heading_change, sigma)
+        sigma = sqrt(self.common.drift_variance(event.t_end - event.t_start))
+        found = self.straightness.add_stride(event.t_end, displacement, share, strides, event.heading_change, sigma)
         if found is None:
             return
         move = self.common.correct_drift(found.drift, found.variance, found.weight, found.stride_time)

@@ -17,13 +17,12 @@ a rotation by +90 degrees:
 
 where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. Straight ways measure the drift with the bias
 (straightness.py). After a rest at which a foot learns its bias anew, the bias makes another error. The equations are
-linear in the errors; what a heading error of any size does to the position is
-in `position_covariance`."""
+linear in the errors; what a heading error of any size does to the position is in `position_covariance`."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import exp, hypot, sqrt
+from math import exp, sqrt
 
 from ...calibration import HeadingCalibration
 from ...foot.attitude import BIAS_WANDER
@@ -53,7 +52,6 @@ Emulated strides are up to 1.6 % too long or too short on average (rms 0.7 %).""
 
 Move = tuple[float, float, float]
 """Values to be added to x and y, m, and to the heading of both tracks, rad."""
-NO_MOVE: Move = (0.0, 0.0, 0.0)
 
 
 @frozen
@@ -101,35 +99,42 @@ class CommonError:
     """Flag: a foot has taken a stride."""
     alone: bool = field(default=False, init=False)
     """Flag: the newest stride was that of a foot alone."""
-    foot_sigmas: tuple[float, float] = field(default=(DRIFT, TURNING), init=False)
-    """Standard deviations of the drift, rad a stride, and of the relative error of the turns of one foot."""
+    drift_variances: tuple[float, float] = field(default=(DRIFT * DRIFT, DRIFT * DRIFT), init=False)
+    """Variance of the drift of the left and the right foot before any stride, (rad a stride)^2."""
+    turning_variances: tuple[float, float] = field(default=(TURNING * TURNING, TURNING * TURNING), init=False)
+    """Variance of the relative error of the turns of the left and the right foot before any stride, no unit."""
     foot_biases: list[FootBias | None] = field(factory=lambda: [None, None], init=False)
     """Bias of the left and the right foot at its newest stride."""
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:
-        """Use the standard deviations of a calibration, before any stride; the feet remove the drift themselves.
-
-        A foot without calibration counts with the usual ones, unless only one foot has any: it may be alone."""
-        drifts, turnings = (
-            [one.drift_sigma for one in headings.values()],
-            [one.turning_sigma for one in headings.values()],
+        """Use the standard deviations of a calibration, before any stride; the feet remove the drift themselves."""
+        left, right = headings.get(Foot.LEFT), headings.get(Foot.RIGHT)
+        self.drift_variances = (
+            (DRIFT if left is None else left.drift_sigma) ** 2, (DRIFT if right is None else right.drift_sigma) ** 2
+        )  # fmt: skip
+        self.turning_variances = (
+            (TURNING if left is None else left.turning_sigma) ** 2,
+            (TURNING if right is None else right.turning_sigma) ** 2,
         )
-        self.foot_sigmas = hypot(*drifts) / sqrt(len(drifts)), hypot(*turnings) / sqrt(len(turnings))
-        self.rr, self.kk = 0.5 * self.foot_sigmas[0] ** 2, 0.5 * self.foot_sigmas[1] ** 2
+        self.rr, self.kk = 0.25 * sum(self.drift_variances), 0.25 * sum(self.turning_variances)
 
-    def share(self, alone: bool) -> float:
-        """Return the share of the next stride of a foot in the mean: all of it if the foot is `alone`, or one half."""
+    def share(self, foot: int, alone: bool) -> float:
+        """Return the share of the next stride of foot 0 (left) or 1 in the mean: all of it if it is `alone`."""
         if alone and not self.alone:  # its own drift was hidden in the mean
-            drift, turning = self.foot_sigmas
-            self.rr += 0.5 * drift * drift
-            self.kk += 0.5 * turning * turning
+            self.rr += max(0.0, self.drift_variances[foot] - 0.25 * sum(self.drift_variances))
+            self.kk += max(0.0, self.turning_variances[foot] - 0.25 * sum(self.turning_variances))
             self.bb *= 2.0
         self.started, self.alone = True, alone
         return 1.0 if alone else 0.5
 
     def drift_variance(self, stride_time: float) -> float:
         """Return the variance of drift and bias together, (rad a stride)^2, with strides of this duration, s."""
-        return self.rr + stride_time * (2.0 * self.rb + stride_time * self.bb)
+        return max(0.0, self.rr + stride_time * (2.0 * self.rb + stride_time * self.bb))
+
+    @property
+    def heading_sigma(self) -> float:
+        """Standard deviation of the heading, rad."""
+        return sqrt(max(0.0, self.hh))  # below 0 only by rounding
 
     def propagate(
         self, share: float, strides: float, turn: float, duration: float, displacement: tuple[float, float],
@@ -205,6 +210,7 @@ class CommonError:
         other = None if self.alone else self.foot_biases[1 - foot]
         part = 1.0 if other is None else 2.0 * before / (before + other.variance)
         kept = max(0.0, 1.0 - share * gain * part)
+        self.bias *= kept
         self.xb *= kept
         self.yb *= kept
         self.hb *= kept
@@ -216,21 +222,15 @@ class CommonError:
         """Correct the errors by a measured drift that differs by `z` rad a stride from the estimate.
 
         `variance` is that of the measurement and `stride_time` the duration of a stride, s, in which the bias adds to
-        the drift; `weight` is the probability that it measures them at all. Returns what is to be added to x and y, m,
-        and to the heading, rad."""
+        the drift; `weight` is the probability that it measures them at all. With the gain K, the errors move by weight
+        K z, and their covariance becomes that of both possibilities together (Bar-Shalom et al. 2001, section 11.6).
+        Returns what is to be added to x and y, m, and to the heading, rad."""
         t = stride_time
         column = (
             self.xr + t * self.xb, self.yr + t * self.yb, self.hr + t * self.hb, self.rr + t * self.rb,
             self.rk + t * self.kb, self.rb + t * self.bb,
         )  # fmt: skip
-        return self._correct(column, column[3] + t * column[5], z, variance, weight)
-
-    def _correct(self, column: tuple[float, ...], own: float, z: float, variance: float, weight: float = 1.0) -> Move:
-        """Correct the errors by a measurement with the innovation `z`; `column` is P H', and `own` H P H'.
-
-        With the gain K, the error moves by weight K z, and its covariance to that of both possibilities together, that
-        it measures the errors or not (Bar-Shalom et al. 2001, section 11.6)."""
-        s = variance + own
+        s = variance + self.drift_variance(t)
         a, b, c, d, e, g = [value / s for value in column]
         # P <- P - weight K S K' + weight (1 - weight) K z z K'
         f = weight * ((1.0 - weight) * z * z - s)

@@ -46,11 +46,11 @@ HEADING_DRIFT = 0.0015
 """Random walk of the heading error that adds to the drift rate, rad/sqrt(s)."""
 DEGRADED_ERROR = 0.06
 """Standard deviation of the heading error that a degraded stride adds, rad."""
-
 LATERAL_ERROR, LONGITUDINAL_ERROR = 0.045, 0.15
 """Standard deviations of the standing foot's position relative to the middle of the other foot's stride, m."""
 TURN_ERROR = 0.12
 """Additional standard deviation of both in a turn, m per m of stride length and rad of turn."""
+
 Term = tuple[int, float]
 """Index of a state, and the derivative of the measurement with respect to it."""
 
@@ -223,6 +223,7 @@ def standing_foot(
 
     It should be beside the middle of the stride, at a lateral distance equal to the walking width. In a bend of `turn`
     rad, the chord of a stride of L m lies L turn / 8 inside the path.
+
     `displacement` and `end` of the stride of foot 0 (left) or 1 and the place of the `other` foot are in m, common
     frame. The stride turns by `turn` rad and has these `times` of stance and swing, s; `width` is the walking width,
     m."""

@@ -6,7 +6,7 @@ gyroscope that drifts bends these stretches by nearly the same angle in every st
 is straight, so it is tested.
 
 A stretch consists of strides in nearly one direction. At its end a parabola is fitted to it. People wander about a
-straight line by some centimetres, which leaves its curvature uncertain: by 8 1/km after 20 m of straight way, by 0.3
+straight line by some centimetres, which leaves its curvature uncertain: by 1.3 1/km after 20 m of straight way, by 0.1
 1/km after 60 m. The curvature that remains is that of the drift, of a gentle bend, or of a bend. The probability of
 each follows from the curvature (all three are normal distributions) and from how often each was met before on this
 walk, so that the drift is learnt in corridors, and not in a ring, on a track or on a plaza. A stretch that leaves its
@@ -38,7 +38,13 @@ mean over the stretches of a wearer, and the largest such number. (Legs of 9 m i
 WANDER_LENGTH, MIN_INDEPENDENT = 4.5, 7.0
 """Length after which the wandering is another one, m, and least number of such lengths that a curvature counts.
 
-Both describe the curvature of parabolas that are fitted to a spline with random knots every 5 m (emulate/wander.py)."""
+Both describe the curvature of parabolas that are fitted to a spline with random knots every 5 m. Emulated wearers
+wander by the same spline (emulate/routes/wander.py), so they do not prove these numbers."""
+MAX_WANDER_SHARE, HALF_SHARE_LENGTH = 0.75, 16.0
+"""Share of the wandering that a parabola through a long stretch leaves, and length at which it leaves half of that, m;
+of the same spline."""
+FITTED_PLACES = 6.0
+"""Number of places that is added to that of a stretch, because the factor below holds for many only."""
 CURVATURE_FACTOR = sqrt(720.0)
 """Standard deviation of the curvature of a parabola through n points of standard deviation s on a length L: this number
 times s / (L^2 sqrt(n)), for large n."""
@@ -187,12 +193,13 @@ class Straightness:
         variance, weight = self.wander
         footfall = FOOTFALL * FOOTFALL
         independent = max(MIN_INDEPENDENT, length / WANDER_LENGTH)
-        error = (CURVATURE_FACTOR / (length * length)) ** 2 * (variance / independent + footfall / (places.count + 6.0))
+        error = (CURVATURE_FACTOR / (length * length)) ** 2 * (
+            variance / independent + footfall / (places.count + FITTED_PLACES)
+        )
         per_stride = length / places.strides  # rad a stride for a curvature in 1/m
         z, noise = -curvature * per_stride, error * per_stride * per_stride + DRIFT_SCATTER * DRIFT_SCATTER
         s = drift_sigma * drift_sigma + noise
-        # share of the wandering that a parabola leaves
-        share = 0.75 * length * length / (length * length + 256.0)
+        share = MAX_WANDER_SHARE * length * length / (length * length + HALF_SHARE_LENGTH * HALF_SHARE_LENGTH)
         expected = share * share * variance + footfall
         variances = (s, s + (GENTLE_BEND * per_stride) ** 2, s + (BEND * per_stride) ** 2)
         likely = [count * exp(-0.5 * z * z / v) / sqrt(v) for count, v in zip(self.counts, variances, strict=True)]

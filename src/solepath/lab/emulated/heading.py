@@ -6,8 +6,8 @@ figures are
 
 - `end_relative`, `position_end`: horizontal distance from the truth at the end, as a share of the path and in m
 - `heading_end`: mean error of the attitudes of both feet at the end, rad
-- `radius_error`: `heading_end` divided by the turn of the whole walk, if that is some whole turns or more: the share by
-  which circles are too large or too small
+- `radius_error`: `heading_end` divided by the turn of a walk that turns to one side only: the share by which circles
+  are too large or too small
 - `nees_T`: after T s, d' P^-1 d / 2 for the horizontal error d and its covariance P: 1 on average for a filter that is
   right, 0.69 in the median (normalised estimation error squared; Bar-Shalom et al. 2001, section 5.4)
 - `held_T`: 1 if the ellipse of 95 % held the wearer after T s, otherwise 0
@@ -40,8 +40,8 @@ END_TOLERANCE = 60.0
 """Time by which a walk may be shorter than a checked time, s."""
 HELD = 5.991
 """Squared distance, in units of the covariance, within which the wearer is with 95 % probability (chi-square, 2)."""
-MIN_TURN = 6.0 * pi
-"""Least turn of a walk whose `radius_error` is measured, rad."""
+ONE_SIDED = ("circle", "one_way_loops")
+"""Names of the kinds that turn to one side only."""
 LONG_WALK = 500.0
 """Shortest length of the shorter walks, m."""
 HALF_HOUR = 1800.0
@@ -131,11 +131,13 @@ def score_heading(
         calibration = merged(calibration, heading_calibration(heading_walk(calibration_samples(seed))))
     session = Session(settings.recipe, calibration=calibration)
     track = follow(session, walk)
-    return Scored(path.stem, figures=heading_figures(track, walk.truth), samples=len(walk.samples))
+    return Scored(path.stem, figures=heading_figures(track, walk.truth, kind in ONE_SIDED), samples=len(walk.samples))
 
 
-def heading_figures(track: HeadingTrack, truth: Truth) -> Figures:
-    """Return the figures of a track, which the module defines; none without strides."""
+def heading_figures(track: HeadingTrack, truth: Truth, one_sided: bool = False) -> Figures:
+    """Return the figures of a track, which the module defines; none without strides.
+
+    `one_sided` is true for a walk that turns to one side only."""
     if len(track.t) < 2:
         return {}
     t, headings = np.array(track.t), np.array(track.headings)
@@ -151,8 +153,8 @@ def heading_figures(track: HeadingTrack, truth: Truth) -> Figures:
         "heading_end": abs(float(headings[-1] - turn)),
         "path": path,
     }
-    turned = float(np.ptp(np.unwrap(yaws(truth, t))))
-    if turned > MIN_TURN:
+    if one_sided:
+        turned = float(np.ptp(np.unwrap(yaws(truth, t))))
         figures["radius_error"] = abs(float(headings[-1] - turn)) / turned
     for checked in CHECKED_TIMES:
         if checked > t[-1] + END_TOLERANCE:
