@@ -6,6 +6,8 @@ swept."""
 
 from __future__ import annotations
 
+from math import fsum
+
 from ..types import Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import GRAVITY, TIE, ZERO, levelling
@@ -293,8 +295,5 @@ def _spread(blocks: list[Vec3]) -> float:
     count = len(blocks)
     if count < 2:
         return REST_GYRO_SIGMA**2
-    total = 0.0
-    for axis in range(3):
-        mean = sum([block[axis] for block in blocks]) / count
-        total += sum([(block[axis] - mean) ** 2 for block in blocks])
-    return total / (3.0 * (count - 1))
+    means = [fsum(rates) / count for rates in zip(*blocks, strict=True)]
+    return fsum((w - mean) ** 2 for block in blocks for w, mean in zip(block, means, strict=True)) / (3 * (count - 1))

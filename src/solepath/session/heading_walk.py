@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from math import atan2, hypot, pi, remainder, sqrt
-from statistics import pstdev
+from math import atan2, fsum, hypot, pi, remainder, sqrt
 
 from ..body.fuse.both_feet import BothFeet
 from ..body.fuse.common_error import DRIFT, TURNING
@@ -113,7 +112,13 @@ def fit_heading(foot: Foot, strides: Sequence[StrideTaken]) -> HeadingFit | str:
         drift_sigma=hypot(sqrt(drift_variance), DAY_DRIFT),
         turning_sigma=hypot(sqrt(turning_variance), DAY_TURNING),
     )
-    return HeadingFit(foot, heading, len(legs), legs[-1].t - first.t, pstdev(directions), pstdev(left))
+    return HeadingFit(foot, heading, len(legs), legs[-1].t - first.t, _spread(directions), _spread(left))
+
+
+def _spread(directions: Sequence[float]) -> float:
+    """Return the root mean square of the differences of directions from their mean, rad."""
+    mean = fsum(directions) / len(directions)
+    return sqrt(fsum((one - mean) ** 2 for one in directions) / len(directions))
 
 
 def _filter(legs: Sequence[_Leg], directions: Sequence[float]) -> tuple[float, float, float, float]:
@@ -152,9 +157,9 @@ def _find_legs(strides: Sequence[StrideTaken]) -> list[_Leg]:
     count = turn = 0.0
 
     def close() -> None:
-        x, y = (sum(stride.displacement[axis] for stride in run) for axis in range(2))
+        x, y = (fsum(stride.displacement[axis] for stride in run) for axis in range(2))
         if hypot(x, y) >= MIN_LEG:
-            done, turned = (sum(one[k] for one in counts) / len(counts) for k in range(2))
+            done, turned = (fsum(one[k] for one in counts) / len(counts) for k in range(2))
             middle = 0.5 * (run[0].t_start + run[-1].t_end)
             legs.append(_Leg(middle, atan2(y, x), hypot(x, y), done, turned))
         run.clear()

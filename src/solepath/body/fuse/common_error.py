@@ -22,7 +22,7 @@ linear in the errors; what a heading error of any size does to the position is i
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import exp, sqrt
+from math import exp, fsum, sqrt
 
 from ...calibration import HeadingCalibration
 from ...foot.attitude import BIAS_WANDER
@@ -116,13 +116,13 @@ class CommonError:
             (TURNING if left is None else left.turning_sigma) ** 2,
             (TURNING if right is None else right.turning_sigma) ** 2,
         )
-        self.rr, self.kk = 0.25 * sum(self.drift_variances), 0.25 * sum(self.turning_variances)
+        self.rr, self.kk = 0.25 * fsum(self.drift_variances), 0.25 * fsum(self.turning_variances)
 
     def share(self, foot: int, alone: bool) -> float:
         """Return the share of the next stride of foot 0 (left) or 1 in the mean: all of it if it is `alone`."""
         if alone and not self.alone:  # its own drift was hidden in the mean
-            self.rr += max(0.0, self.drift_variances[foot] - 0.25 * sum(self.drift_variances))
-            self.kk += max(0.0, self.turning_variances[foot] - 0.25 * sum(self.turning_variances))
+            self.rr += max(0.0, self.drift_variances[foot] - 0.25 * fsum(self.drift_variances))
+            self.kk += max(0.0, self.turning_variances[foot] - 0.25 * fsum(self.turning_variances))
             self.bb *= 2.0
         self.started, self.alone = True, alone
         return 1.0 if alone else 0.5

@@ -14,7 +14,7 @@ parabola by more than people wander is none."""
 
 from __future__ import annotations
 
-from math import atan2, cos, exp, hypot, pi, sin, sqrt
+from math import atan2, cos, exp, fsum, hypot, pi, sin, sqrt
 
 from ...types.attrs import define, field, frozen
 
@@ -205,7 +205,7 @@ class Straightness:
         likely = [count * exp(-0.5 * z * z / v) / sqrt(v) for count, v in zip(self.counts, variances, strict=True)]
         if z * z > GATE * s or mean_square > MAX_RESIDUAL * expected:
             likely[0] = 0.0
-        total = sum(likely)
+        total = fsum(likely)
         shares = [one / total for one in likely] if total > 0.0 else [0.0, 0.0, 1.0]
         straight, gentle, bent = [FORGETTING * old + new for old, new in zip(self.counts, shares, strict=True)]
         self.counts = (straight, gentle, bent)
