@@ -35,9 +35,7 @@ LEVEL_SPAN, REST_SPAN = 0.25, 0.5
 LEVEL_ACC_SIGMA = 0.6
 """Largest standard deviation of acc for the first attitude, m/s^2; 8-bit accelerometers flicker by 0.3."""
 LEVEL_GYRO_SIGMA = 0.1
-"""Largest standard deviation of the angular rate for the first attitude, rad/s.
-
-The mean rate is not used, because cheap gyroscopes are off by 0.3 at rest."""
+"""Largest standard deviation of the angular rate for the first attitude, rad/s; its mean is 0.3 in cheap gyroscopes."""
 SHORT_SPAN, LONGEST_STRIDE = 0.06, 1.3
 """Durations for a foot that already walks, s: a short span, and a stride with its stance."""
 RATE_PER_ACC = 0.3
@@ -53,16 +51,15 @@ FIRST_BIAS = 0.009
 LEAST_REST_ERROR = 0.0009
 """Least standard deviation of the mean rate of a span of rest, rad/s (3 degrees a minute).
 
-On recordings with the same sensor at several rests (gumushane_gcp, openshoe_loops, pyshoe_vicon, xio_closed_walks) the
-mean rate of a span differs from the bias by about the standard deviation of the means of its blocks, or by this."""
+On recordings with the same sensor at several rests (gumushane_gcp, openshoe_loops, pyshoe_vicon, felius_2min_walk) the
+mean rate of a span differs from the bias by about the standard deviation of the means of its blocks, or by this. About
+the vertical, that is half of what it is about the other axes, because a standing foot lies on the ground."""
 BIAS_WANDER = 2e-5
 """Random walk of the bias, rad/s per sqrt(s): 0.02 degrees/s in five minutes, as if warmed by 2 K (ST DS12814)."""
 LARGEST_SURPRISE = 25.0
 """Squared difference of a mean rate from the bias, divided by its variance, above which the bias is another one."""
 LARGEST_BIAS = 0.8
-"""Largest bias, rad/s.
-
-A higher steady rate is a turn. Cheap gyroscopes start with a bias of 0.35 and more."""
+"""Largest bias, rad/s; a higher steady rate is a turn. Cheap gyroscopes start with a bias of 0.35 and more."""
 LARGEST_BIAS_CHANGE = 0.5
 """Largest difference of a rate at rest from a known bias, rad/s."""
 
@@ -179,8 +176,8 @@ class Rest:
     """Start of the current span, s; None before the first sample."""
     bias: Vec3 = field(default=ZERO, init=False)
     """Gyroscope bias, sensor frame, rad/s."""
-    variance: float = field(default=FIRST_BIAS * FIRST_BIAS, init=False)
-    """Variance of each component of `bias` at `learnt_at`, (rad/s)^2."""
+    variances: tuple[float, float] = field(default=(FIRST_BIAS**2, FIRST_BIAS**2), init=False)
+    """Variances of `bias` at `learnt_at`, (rad/s)^2: about the vertical, and about each horizontal axis."""
     learnt_at: float | None = field(default=None, init=False)
     """Time of the newest span of rest, s; None before any and after times restart."""
     block_end: float = field(default=0.0, init=False)
@@ -269,31 +266,35 @@ class Rest:
             self.count < SPANS_OF_KNOWN_SCALE or abs(scale / self.scale - 1.0) < LARGEST_SCALE_CHANGE
         ):
             self.scale += (scale - self.scale) / spans
-        self._learn_bias(t, rate, blocks)
+        k = 1.0 / magnitude if magnitude > 0.0 else 0.0
+        self._learn_bias(t, rate, blocks, (k * ax, k * ay, k * az))
         self.count += 1
         return True
 
-    def _learn_bias(self, t: float, rate: Vec3, blocks: list[Vec3]) -> None:
-        """Correct the bias by the mean `rate` of a span, by a Kalman gain that is the same for every axis.
+    def _learn_bias(self, t: float, rate: Vec3, blocks: list[Vec3], up: Vec3) -> None:
+        """Correct the bias by the mean `rate` of a span, by one Kalman gain about `up` and one about horizontal axes.
 
         A foot that trembles gives a rate with a large variance, so that a short or restless rest teaches little."""
-        noise = LEAST_REST_ERROR * LEAST_REST_ERROR + _spread(blocks)
-        x, y, z = self.bias
-        dx, dy, dz = rate[0] - x, rate[1] - y, rate[2] - z
-        square = (dx * dx + dy * dy + dz * dz) / 3.0
         elapsed = 0.0 if self.learnt_at is None else max(0.0, t - self.learnt_at)
-        known = self.variance + BIAS_WANDER * BIAS_WANDER * elapsed
-        if square > LARGEST_SURPRISE * (known + noise):
-            known += square
-        gain = known / (known + noise)
-        self.bias = (x + gain * dx, y + gain * dy, z + gain * dz)
-        self.variance, self.learnt_at = (1.0 - gain) * known, t
+        x, y, z = self.bias
+        squares = _squares((rate[0] - x, rate[1] - y, rate[2] - z), up)
+        spreads = [_squares((u - rate[0], v - rate[1], w - rate[2]), up) for u, v, w in blocks]
+        gains, variances = [1.0, 1.0], [0.0, 0.0]
+        for axis in range(2):
+            seen = fsum([one[axis] for one in spreads]) / (len(blocks) - 1) if len(blocks) > 1 else REST_GYRO_SIGMA**2
+            noise = LEAST_REST_ERROR * LEAST_REST_ERROR + seen
+            known = self.variances[axis] + BIAS_WANDER * BIAS_WANDER * elapsed
+            if squares[axis] > LARGEST_SURPRISE * (known + noise):
+                known += squares[axis]
+            gains[axis] = known / (known + noise)
+            variances[axis] = (1.0 - gains[axis]) * known
+        dx, dy, dz = rate[0] - x, rate[1] - y, rate[2] - z
+        level, extra = gains[1], (gains[0] - gains[1]) * (dx * up[0] + dy * up[1] + dz * up[2])
+        self.bias = (x + level * dx + extra * up[0], y + level * dy + extra * up[1], z + level * dz + extra * up[2])
+        self.variances, self.learnt_at = (variances[0], variances[1]), t
 
 
-def _spread(blocks: list[Vec3]) -> float:
-    """Return the variance of rates, mean over the axes; that of a single rate is `REST_GYRO_SIGMA` squared."""
-    count = len(blocks)
-    if count < 2:
-        return REST_GYRO_SIGMA**2
-    means = [fsum(rates) / count for rates in zip(*blocks, strict=True)]
-    return fsum((w - mean) ** 2 for block in blocks for w, mean in zip(block, means, strict=True)) / (3 * (count - 1))
+def _squares(w: Vec3, up: Vec3) -> tuple[float, float]:
+    """Return the squared rate of `w` about `up`, and its mean square about the two horizontal axes."""
+    about_up = (w[0] * up[0] + w[1] * up[1] + w[2] * up[2]) ** 2
+    return about_up, max(0.0, 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - about_up))

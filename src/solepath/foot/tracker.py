@@ -109,11 +109,11 @@ class FootTracker:
         corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
         after, pressed = NOTHING_HAPPENED, None
         if events:
-            takes_shifts, covariance = (
-                (hasattr(corrector, "shift"), gait.covariance(corrector)) if with_covariance else (False, None)
-            )
-            layout = self.sole.insole.layout
-            after = AfterEvents(gait.stride.attitude, layout, other_t, takes_shifts, covariance, rest.variance)
+            layout, error = self.sole.insole.layout, gait.world.rotate_vector(corrector.velocity_error)
+            takes_shifts = with_covariance and hasattr(corrector, "shift")
+            covariance = gait.covariance(corrector) if with_covariance else None
+            attitude, variance = gait.stride.attitude, rest.variances[0]
+            after = AfterEvents(attitude, layout, other_t, takes_shifts, covariance, variance, error)
         if cells:
             insole = self.sole.insole
             layout = insole.layout

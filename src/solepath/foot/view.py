@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 from ..events import Event
 from ..types import Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define
-from ..types.vector import IDENTITY
+from ..types.vector import IDENTITY, ZERO
 from .world import Covariance3
 
 
@@ -40,10 +40,12 @@ class AfterEvents(NamedTuple):
     covariance: Covariance3 | None
     """Covariance of the position, world frame, m^2; None without a stride, because it is costly."""
     bias_variance: float
-    """Variance of each component of the gyroscope bias, (rad/s)^2."""
+    """Variance of the gyroscope bias about the vertical, (rad/s)^2."""
+    velocity_error: Vec3
+    """Integrated velocity of the foot when it came to stand, world frame, m/s; 0 if it was right or is not known."""
 
 
-NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None, 0.0)
+NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None, 0.0, ZERO)
 """Value of `FootView.after` for a sample without events."""
 
 
