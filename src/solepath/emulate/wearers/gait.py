@@ -64,7 +64,7 @@ class Wearer:
     wander: float = 0.0
     """Standard deviation of the body's lateral displacement from the path, m; 0: the body keeps to the path."""
     sway: float = 0.0
-    """Standard deviation of pitch, roll and yaw of a foot while the wearer stands, rad; 0: a standing foot is still."""
+    """Standard deviation of pitch and roll of a foot while the wearer stands, rad; 0: a standing foot is still."""
     centre_height: float = 0.97
     """Height of the body's centre of mass, m.
 

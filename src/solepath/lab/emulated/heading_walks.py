@@ -33,7 +33,7 @@ With them, a scale error of 1 % of one axis turns the heading by 2 to 16 degrees
 sets it is 2 to 20, and differs by a fifth, seldom by a factor of two, between the feet of a wearer."""
 LEAST_WANDER, MOST_WANDER, FOOTFALL_VARIATION = 0.03, 0.08, 0.02
 """Least and largest wandering of a wearer about the path, and lateral variation of the footfalls, m (wander.py)."""
-SWAY = radians(0.1)
+SWAY = radians(0.14)
 """Sway of a standing foot, rad (sway.py)."""
 G_EFFECT = radians(0.1) / GRAVITY
 """False angular rate per specific force, rad/s per m/s^2: 0.1 degrees/s per g, as the sheets of the MPU-6050 and the
