@@ -15,6 +15,7 @@ from typing import Any
 
 from .body.activity.activities import Activities
 from .body.checks.clocks.foot_clocks import FootClocks
+from .body.checks.looseness import Looseness
 from .body.checks.motion import PossibleMotion
 from .body.checks.sensors import SensorChecks
 from .body.fuse.both_feet import BothFeet
@@ -40,11 +41,11 @@ def usual_parts(
 ) -> tuple[Part, ...]:
     """Return the parts of the body in the order that most recipes use.
 
-    They are: SensorChecks, PossibleMotion, Wear, the position of the wearer (`track`; MeanOfFeet when it is None), the
-    activity (`activity`; Activities when it is None), Turns, the height from elevators and air pressure (`altitude`;
-    when it is None, heights are those of the feet), FootClocks, and GaitCycles."""
+    They are: SensorChecks, PossibleMotion, Looseness, Wear, the position of the wearer (`track`; MeanOfFeet when it is
+    None), the activity (`activity`; Activities when it is None), Turns, the height from elevators and air pressure
+    (`altitude`; when it is None, heights are those of the feet), FootClocks, and GaitCycles."""
     track, activity = track or MeanOfFeet(), activity or Activities()
-    checks = (SensorChecks(), PossibleMotion())
+    checks = (SensorChecks(), PossibleMotion(), Looseness())
     parts = (*checks, Wear(), track, activity, Turns(), altitude, FootClocks(), GaitCycles())
     return tuple([part for part in parts if part is not None])
 
@@ -138,6 +139,7 @@ PARTS: dict[str, str] = {
     "GaitCues": _FOOT + "cues.gait_cues",
     "SensorChecks": _BODY + "checks.sensors",
     "PossibleMotion": _BODY + "checks.motion",
+    "Looseness": _BODY + "checks.looseness",
     "Wear": _BODY + "worn.wear",
     "MeanOfFeet": _BODY + "fuse.position",
     "BothFeet": _BODY + "fuse.both_feet",

@@ -42,6 +42,12 @@ class Defect(Enum):
     """The times of the two feet are not on one clock."""
     IMPOSSIBLE_MOTION = "motion"
     """A speed, an angle or a height that no person has."""
+    LOOSE = "mounting"
+    """The sensor moves against the shoe, because it came loose."""
+    MOVING_GROUND = "moving ground"
+    """The ground carries the wearer, as a moving walkway or an escalator does."""
+    CALIBRATION = "calibration of the heading"
+    """Straight ways contradict the calibration of the heading: it is of other shoes or sensors, or too old."""
 
 
 @frozen(kw_only=True)
@@ -51,8 +57,8 @@ class DefectFound(Happening):
     `t` is the time of the sample or stride that showed it, with which it is reported. While a defect that `spoils`
     lasts, the strides of the foot are marked degraded: until another device is connected there, or the clock of the
     device restarts. Until then each defect of a site is reported once, but AXES once more when the correction is known,
-    IMPOSSIBLE_MOTION when most strides are impossible, CLIPPED when it becomes frequent, and CLOCKS whenever the offset
-    has changed."""
+    IMPOSSIBLE_MOTION when most strides are impossible, CLIPPED when it becomes frequent, CLOCKS whenever the offset has
+    changed, and MOVING_GROUND whenever the ground starts or stops to move."""
 
     site: Site
     """Site whose data are wrong; for clocks, the right foot, whose times would have to be shifted."""

@@ -17,20 +17,21 @@ that loses its signal and returns is treated as in `MeanOfFeet`."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import atan2, cos, hypot, sin, sqrt
+from math import atan2, cos, hypot, sin
 
 from ...calibration import Calibration
-from ...events import SampleGap, StrideTaken
+from ...events import DefectFound, SampleGap, StrideTaken
 from ...foot.stride import usual_strides
-from ...foot.view import FootPose, FootView
+from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
-from ..part import PartOutput, Position, Shift
-from .common_error import CommonError
+from ..part import PartInput, PartOutput, Position, Shift
+from .common_error import CommonError, Move
 from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, standing_foot
+from .moving_ground import MovingGround
 from .position import MeanOfFeet
-from .straightness import Straightness
+from .straight_ways import NO_MOVE, StraightWays
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
 MAX_TRACK_VALUE = 1e6
@@ -79,7 +80,8 @@ class BothFeet(MeanOfFeet):
     """Covariance of the errors of both tracks, of which only the differences are used."""
     common: CommonError = field(factory=CommonError, init=False)
     """Covariance of the errors that both tracks share."""
-    straightness: Straightness = field(factory=Straightness, init=False)
+    straight_ways: StraightWays = field(factory=StraightWays, init=False)
+    ground: MovingGround = field(factory=MovingGround, init=False)
     started: bool = field(default=False, init=False)
     """Flag: both feet have had samples."""
     distance: float = field(default=0.0, init=False)
@@ -99,6 +101,7 @@ class BothFeet(MeanOfFeet):
             return self
         part = BothFeet(self.settings)
         part.common.use_calibration(calibration.headings)
+        part.straight_ways.use_calibration(calibration.headings)
         return part
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
@@ -115,10 +118,16 @@ class BothFeet(MeanOfFeet):
         outputs: list[PartOutput] = []
         for event in view.events:
             if isinstance(event, StrideTaken):
-                outputs += self._add_stride(event, view.after.takes_shifts, view.after.bias_variance)
+                outputs += self._add_stride(event, view.after)
             elif isinstance(event, SampleGap):
                 self.common.add_gap(event.duration)
         return outputs
+
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+        """Receive an event; nothing is learnt from the straight ways of a foot that a defect spoils."""
+        if isinstance(event, DefectFound):
+            self.straight_ways.add_defect(event)
+        return ()
 
     def reset(self, site: Site) -> None:
         """Reset a foot as `MeanOfFeet` does, and discard its newest stride; if both are, the wearer may have moved."""
@@ -126,7 +135,8 @@ class BothFeet(MeanOfFeet):
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
             self.strides[0 if site.foot is Foot.LEFT else 1] = None
-            self.straightness.reset()
+            self.straight_ways.reset(site.foot)
+            self.ground = MovingGround()
             if not was_unknown and self.left.t is self.right.t is None:
                 self.common.inflate(UNSEEN_DISTANCE * UNSEEN_DISTANCE)
 
@@ -153,7 +163,7 @@ class BothFeet(MeanOfFeet):
     def _keep_placements(self) -> None:
         self.placements = [(track.turn, track.offset) for track in (self.left, self.right)]
 
-    def _add_stride(self, event: StrideTaken, takes_shifts: bool, bias_variance: float) -> Sequence[PartOutput]:
+    def _add_stride(self, event: StrideTaken, after: AfterEvents) -> Sequence[PartOutput]:
         index = 0 if event.foot is Foot.LEFT else 1
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
         numbers = (*event.position, *event.displacement, *event.covariance)
@@ -161,7 +171,7 @@ class BothFeet(MeanOfFeet):
             self._restart()
             return ()
         share = self.common.share(index, not self.started or other.unplaced or other.absent)
-        self.common.add_rest(index, event.t_end, bias_variance)
+        self.common.add_rest(index, event.t_end, after.bias_variance)
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
@@ -174,39 +184,36 @@ class BothFeet(MeanOfFeet):
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
         this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
         dx, dy = dx - mid_turn * dy, dy + mid_turn * dx
-        x, y, _ = this.place(own_position)
+        ex, ey, _ = this.place(own_position)
         xx, xy, yy = this.turned_covariance(event.covariance)
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
         self.common.propagate(share, count, event.heading_change, stance + swing, (dx, dy), variance)
         if self.started:
             degraded = event.degraded or excess > 0.0
-            self.errors.propagate(index, stance, swing, (x, y), (dx, dy), variance, degraded)
+            self.errors.propagate(index, stance, swing, (ex, ey), (dx, dy), variance, degraded)
         if excess > 0.0:
             self.errors.inflate(index, excess)
             self.common.inflate(share * share * excess * excess)
         self.distance = min(ALIGNMENT_DISTANCE, self.distance + share * event.length)
-        x, y, _ = event.displacement
         straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not event.degraded
         self.strides[index] = DirectedStride(event.t_end, own_position, atan2(y, x) if straight else None)
-        if not self.started:
-            self._learn_drift(event, share, count, (dx, dy))
-        elif self.distance >= ALIGNMENT_DISTANCE or not self._realign(index, event):
+        realigned = self.started and self.distance < ALIGNMENT_DISTANCE and self._realign(index, event)
+        if self.started and not realigned:
             self._compare_feet(index, event, dx, dy, stance, swing)
-            self._learn_drift(event, share, count, (dx, dy))
-        return self._shift_foot(index, event.foot, takes_shifts)
+        defects = [self.ground.add_stride(index, event, after)]
+        self.common.inflate(self.ground.variance(event.t_end))
+        if self.settings.straightness and not realigned:
+            move, misfit = self.straight_ways.add_stride(event, share, count, (dx, dy), self.common)
+            defects.append(misfit)
+            if move != NO_MOVE:
+                self._move_both(event.foot, move)
+        return [*filter(None, defects), *self._shift_foot(index, event.foot, after.takes_shifts)]
 
-    def _learn_drift(self, event: StrideTaken, share: float, strides: float, displacement: tuple[float, float]) -> None:
-        """Add a stride to the stretch, and correct the common errors by what a straight stretch shows."""
-        if not self.settings.straightness:
-            return
-        sigma = sqrt(self.common.drift_variance(event.t_end - event.t_start))
-        found = self.straightness.add_stride(event.t_end, displacement, share, strides, event.heading_change, sigma)
-        if found is None:
-            return
-        move = self.common.correct_drift(found.drift, found.variance, found.weight, found.stride_time)
+    def _move_both(self, foot: Foot, move: Move) -> None:
+        """Move and turn both tracks about the position of the wearer."""
         (lx, ly, _), (rx, ry, _) = self._end_of(0)[1], self._end_of(1)[1]
-        share = 0.5 if not self.common.alone else 1.0 if event.foot is Foot.LEFT else 0.0
+        share = 0.5 if not self.common.alone else 1.0 if foot is Foot.LEFT else 0.0
         self._move_tracks((share * lx + (1.0 - share) * rx, share * ly + (1.0 - share) * ry), (move, move))
 
     def _move_tracks(self, centre: tuple[float, float], moves: tuple[Vec3, Vec3]) -> None:
@@ -232,7 +239,7 @@ class BothFeet(MeanOfFeet):
             return False
         align_tracks(track, stride, other_track, other_stride, angle, 0.5 * event.length, side * WALKING_WIDTH)
         self.errors.start()
-        self.straightness.reset()
+        self.straight_ways.reset()
         self.distance, self.directions = 0.0, [WalkingDirection(), WalkingDirection()]
         self._keep_placements()
         return True
@@ -289,5 +296,5 @@ class BothFeet(MeanOfFeet):
         """Restart the error filter, because its estimates or a stride have impossible values."""
         self.errors.start()
         self.strides = [None, None]
-        self.straightness.reset()
+        self.straight_ways.reset()
         (self.left.turn, self.left.offset), (self.right.turn, self.right.offset) = self.placements

@@ -29,10 +29,10 @@ from ...foot.attitude import BIAS_WANDER
 from ...types import Foot
 from ...types.attrs import define, field, frozen
 
-DRIFT = 0.0014
-"""Standard deviation of the drift of one foot, rad a stride (4 degrees a minute), unless it was calibrated.
+DRIFT = 0.0011
+"""Standard deviation of the drift of one foot, rad a stride (3 degrees a minute), unless it was calibrated.
 
-On recordings a foot drifts by 1 to 8 degrees a minute (`solepath evaluate`, drift of the heading)."""
+On recordings a foot drifts by 1 to 7 degrees a minute with its bias (`solepath evaluate`, drift of the heading)."""
 TURNING = 0.007
 """Standard deviation of the relative error of a turn of one foot, no unit, unless it was calibrated.
 
@@ -61,7 +61,7 @@ class FootBias:
     t: float
     """End of the stride, s."""
     variance: float
-    """Variance of each component of the bias, (rad/s)^2."""
+    """Variance of the bias about the vertical, (rad/s)^2."""
 
 
 @define
@@ -108,14 +108,9 @@ class CommonError:
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:
         """Use the standard deviations of a calibration, before any stride; the feet remove the drift themselves."""
-        left, right = headings.get(Foot.LEFT), headings.get(Foot.RIGHT)
-        self.drift_variances = (
-            (DRIFT if left is None else left.drift_sigma) ** 2, (DRIFT if right is None else right.drift_sigma) ** 2
-        )  # fmt: skip
-        self.turning_variances = (
-            (TURNING if left is None else left.turning_sigma) ** 2,
-            (TURNING if right is None else right.turning_sigma) ** 2,
-        )
+        known = [headings.get(foot) for foot in (Foot.LEFT, Foot.RIGHT)]
+        left, right = [(DRIFT, TURNING) if one is None else (one.drift_sigma, one.turning_sigma) for one in known]
+        self.drift_variances, self.turning_variances = (left[0] ** 2, right[0] ** 2), (left[1] ** 2, right[1] ** 2)
         self.rr, self.kk = 0.25 * fsum(self.drift_variances), 0.25 * fsum(self.turning_variances)
 
     def share(self, foot: int, alone: bool) -> float:
@@ -261,6 +256,22 @@ class CommonError:
         self.turning += e * z
         self.bias += g * z
         return (a * z, b * z, c * z)
+
+    def replace_drift(self, drift: float, variance: float, strides: float, way: tuple[float, float]) -> None:
+        """Replace the drift by another one with its `variance`, rad a stride, because a calibration does not fit.
+
+        The heading may have turned by the difference in each of the `strides` so far, and the `way` so far, m, by half
+        of that, as if it had been straight."""
+        square = ((drift - self.drift) * strides) ** 2
+        self.drift, self.rr = drift, variance
+        self.xr = self.yr = self.hr = self.rk = self.rb = 0.0
+        ax, ay = -0.5 * way[1], 0.5 * way[0]
+        self.xx += square * ax * ax
+        self.xy += square * ax * ay
+        self.yy += square * ay * ay
+        self.xh += square * ax
+        self.yh += square * ay
+        self.hh += square
 
     def inflate(self, variance: float) -> None:
         """Add `variance`, m^2, to that of x and of y."""

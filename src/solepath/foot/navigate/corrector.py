@@ -6,6 +6,7 @@ from typing import Protocol, Self
 
 from ...calibration import Calibration
 from ...types import Foot, Quat, Vec3
+from ...types.vector import ZERO
 from ..phase import Cue
 from ..stance.stance import Stance
 
@@ -73,6 +74,13 @@ class Corrector(Protocol):
 
         None for a corrector that uses no velocity of a rolling shoe. StrideFeatures reports it."""
         return None
+
+    @property
+    def velocity_error(self) -> Vec3:
+        """Difference between the integrated velocity and that of the standing foot when it last came to stand, m/s.
+
+        It is in the navigation frame, and 0 for a corrector that does not measure it."""
+        return ZERO
 
     def use_attitude(self, attitude: Quat) -> None:
         """Use the device's own attitude at the next sample: sensor to a world frame of the device, z up."""

@@ -16,7 +16,7 @@ from typing import Final
 
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
-from ...types.vector import GRAVITY, TIE
+from ...types.vector import GRAVITY, TIE, ZERO
 from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
 from .clipping import ClippedPeak
@@ -71,6 +71,8 @@ class ErrorStateFilter(PropagatedCovariance):
     """Smallest statistic that the gate has rejected since `accepted_at`."""
     evidence_since: float | None = field(default=None, init=False)
     """Start of the current unbroken evidence, s; None without evidence."""
+    landing_error: Vec3 = field(default=ZERO, init=False)
+    """Error of the velocity at the first accepted evidence of the newest stance, m/s; see `velocity_error`."""
     rhythm: StanceRhythm = field(factory=StanceRhythm, init=False)
     """Usual durations of stance and swing, for evidence that the gate rejects."""
     recovery: Recovery = field(factory=Recovery, init=False)
@@ -238,6 +240,8 @@ class ErrorStateFilter(PropagatedCovariance):
         tx, ty = self._tilt_correction(share) if stands else (0.0, 0.0)
         self._inject(error, tx, ty)
         self.rhythm.add(t, self.accepted_at)
+        if self.accepted_at < self.evidence_since:
+            self.landing_error = (vx - rx, vy - ry, vz - rz)
         self.accepted_at = t
         self.least_gated_statistic = NO_STATISTIC
         return True
@@ -249,6 +253,10 @@ class ErrorStateFilter(PropagatedCovariance):
             return t - accepted_at > self.rhythm.time_until_stance(inf, share, longest) - TIE
         until = self.rhythm.time_until_stance(evidence_since - accepted_at, share, longest)
         return t - evidence_since > until - TIE
+
+    @property
+    def velocity_error(self) -> Vec3:
+        return self.landing_error
 
     def bridge(self, dt: float) -> float:
         if dt > LONGEST_BRIDGE:

@@ -1,0 +1,111 @@
+"""Ground that carries the wearer, as a moving walkway or an escalator does.
+
+A foot that stands has the velocity 0 for a navigation that knows of no other ground. When the wearer steps onto a
+walkway, the integrated velocity of each foot at its first stance there is that of the walkway, once; when the wearer
+steps off, it is the opposite. An error of a single foot, or of both with different velocities, is something else."""
+
+from __future__ import annotations
+
+from math import hypot
+
+from ...events import Defect, DefectFound, StrideTaken
+from ...foot.view import AfterEvents
+from ...types import SITE_OF_FOOT
+from ...types.attrs import define, field
+
+LEAST_SPEED = 0.35
+"""Least error of the velocity of both feet that shows moving ground, m/s; walkways run at 0.5 to 0.75 (EN 115-1)."""
+MOST_SPEED = 1.2
+"""Largest speed of ground that a person steps onto, m/s; express walkways exceed the 0.75 of EN 115-1."""
+LARGEST_DIFFERENCE = 0.25
+"""Largest difference of the velocity errors of both feet, m/s: of 3,900 pairs of strides on still ground (recordings of
+walking with both feet), 6 had errors above `LEAST_SPEED` that were as similar and were not usual for that walk."""
+UNUSUAL = 4.0
+"""Least ratio of such an error to the usual one of the foot."""
+LEAST_STRIDES = 6
+"""Number of strides of a foot after which its usual error is known."""
+USUAL_RATE = 0.1
+"""Rate at which a stride changes the usual error."""
+LONGEST_STEP = 1.5
+"""Longest time between the stances of both feet that are compared, s."""
+LONGEST_RIDE = 300.0
+"""Time after which ground that was not seen to stop counts as still, s: 200 m of walkway at 0.65 m/s."""
+
+
+@define
+class FootVelocity:
+    """The velocity errors of one foot."""
+
+    count: int = 0
+    usual: float = 0.0
+    """Usual size of the error, m/s."""
+    t: float = 0.0
+    """End of the newest stride, s."""
+    error: tuple[float, float] = (0.0, 0.0)
+    """Error at the newest stride, along it and to the left of it, m/s; 0 unless it is unusual."""
+
+    def add(self, event: StrideTaken, error: tuple[float, float]) -> None:
+        """Add the error at the end of a stride."""
+        size = hypot(*error)
+        self.t, is_unusual = event.t_end, self.count >= LEAST_STRIDES and size > UNUSUAL * self.usual
+        self.error = error if is_unusual and LEAST_SPEED < size < MOST_SPEED else (0.0, 0.0)
+        self.count += 1
+        if not is_unusual or self.error == (0.0, 0.0):
+            self.usual += max(USUAL_RATE, 1.0 / self.count) * (size - self.usual)
+
+
+@define
+class MovingGround:
+    """The ground's velocity, from the strides of both feet."""
+
+    feet: tuple[FootVelocity, FootVelocity] = field(factory=lambda: (FootVelocity(), FootVelocity()), init=False)
+    velocity: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    """Velocity of the ground, along the strides and to the left of them, m/s; 0 while it stands still."""
+    since: float | None = field(default=None, init=False)
+    """Time since which the ground moves, s; None while it stands still."""
+    t: float = field(default=0.0, init=False)
+    """Time up to which `variance` was given, s."""
+
+    def add_stride(self, index: int, event: StrideTaken, after: AfterEvents) -> DefectFound | None:
+        """Add a stride of foot 0 (left) or 1; return the event if it shows that the ground starts or stops to move."""
+        this, other = self.feet[index], self.feet[1 - index]
+        (dx, dy, _), (ex, ey, _) = event.displacement, after.velocity_error
+        length = hypot(dx, dy)
+        if length <= 0.0:
+            return None
+        this.add(event, ((ex * dx + ey * dy) / length, (ey * dx - ex * dy) / length))
+        if self.since is not None and not 0.0 <= event.t_end - self.since < LONGEST_RIDE:
+            self.velocity, self.since = (0.0, 0.0), None
+        (ax, ay), (bx, by) = this.error, other.error
+        if not (ax or ay) or not (bx or by) or not 0.0 <= this.t - other.t < LONGEST_STEP:
+            return None
+        if hypot(ax - bx, ay - by) > LARGEST_DIFFERENCE:
+            return None
+        this.error = other.error = (0.0, 0.0)
+        x, y = self.velocity
+        seen = (0.5 * (ax + bx), 0.5 * (ay + by))
+        stops = self.since is not None and hypot(x + seen[0], y + seen[1]) < hypot(x, y)
+        started, self.since, self.t = self.since, None if stops else this.t, this.t
+        self.velocity = (0.0, 0.0) if stops else seen
+        if stops and started is not None:
+            carried = hypot(x, y) * (this.t - started)
+            return _found(
+                event, f"the ground stands still again; the track lacks about {carried:.0f} m that it has moved"
+            )
+        text = "as a moving walkway does; the track lacks the way by which it carries the wearer"
+        return _found(event, f"the ground moves by {hypot(*seen):.1f} m/s, {text}")
+
+    def variance(self, t: float) -> float:
+        """Return what to add to the variance of the position, m^2, for the ground's motion since the last call."""
+        if self.since is None or t <= self.t:
+            return 0.0
+        square = self.velocity[0] ** 2 + self.velocity[1] ** 2
+        before, now, self.t = self.t - self.since, t - self.since, t
+        return square * (now * now - before * before)
+
+
+def _found(event: StrideTaken, what: str) -> DefectFound:
+    return DefectFound(
+        t=event.t, known_at=event.known_at, site=SITE_OF_FOOT[event.foot], defect=Defect.MOVING_GROUND, what=what,
+        spoils=False,
+    )  # fmt: skip
