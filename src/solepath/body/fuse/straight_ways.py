@@ -1,4 +1,4 @@
-"""The heading by straight ways: its drift (straightness.py) and doubt of its calibration (calibration_doubt.py)."""
+"""The heading by straight ways: its drift (straightness.py) and whether its calibration fits (calibration_fit.py)."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from ...calibration import HeadingCalibration
 from ...events import Defect, DefectFound, StrideTaken
 from ...types import SITE_OF_FOOT, Foot
 from ...types.attrs import define, evolve, field
-from .calibration_doubt import CalibrationDoubt, DriftHypothesis
+from .calibration_fit import CalibrationFit, DriftHypothesis
 from .common_error import DRIFT, CommonError, Move
 from .straightness import Straightness
 
 NO_MOVE: Move = (0.0, 0.0, 0.0)
-"""No correction."""
+"""The correction of nothing: the tracks stay where they are."""
 
 
 @define
@@ -24,7 +24,7 @@ class StraightWays:
     straightness: Straightness = field(factory=Straightness, init=False)
     calibrated: tuple[float, float] | None = field(default=None, init=False)
     """Drift of the left and the right foot that a calibration says and the feet remove, rad a stride; None without."""
-    doubt: CalibrationDoubt | None = field(default=None, init=False)
+    fit: CalibrationFit | None = field(default=None, init=False)
     """Test of the calibration; None without one, and once it was dropped."""
     strides: float = field(default=0.0, init=False)
     """Number of usual strides of the mean of both feet so far."""
@@ -68,19 +68,19 @@ class StraightWays:
             return NO_MOVE, None
         t = found.stride_time
         if self.calibrated is not None:
-            doubt = self.doubt = self.doubt or self._first_doubt(event.foot, self.calibrated, common)
+            fit = self.fit = self.fit or self._first_fit(event.foot, self.calibrated, common)
             bias_known = evolve(found, variance=found.variance + t * t * common.bb)
-            if doubt.add(bias_known, found.drift + common.drift + t * common.bias):
-                common.replace_drift(doubt.other.drift, doubt.other.variance, self.strides, self.way)
-                self.calibrated = self.doubt = None
-                return NO_MOVE, _misfit(event, doubt.other.drift / t if t > 0.0 else 0.0)
+            if fit.add(bias_known, found.drift + common.drift + t * common.bias):
+                common.replace_drift(fit.other.drift, fit.other.variance, self.strides, self.way)
+                self.calibrated = self.fit = None
+                return NO_MOVE, _misfit(event, fit.other.drift / t if t > 0.0 else 0.0)
         return common.correct_drift(found.drift, found.variance, found.weight, t), None
 
-    def _first_doubt(self, foot: Foot, drifts: tuple[float, float], common: CommonError) -> CalibrationDoubt:
+    def _first_fit(self, foot: Foot, drifts: tuple[float, float], common: CommonError) -> CalibrationFit:
         left, right = drifts
         drift = (left if foot is Foot.LEFT else right) if common.alone else 0.5 * (left + right)
         share = 1.0 if common.alone else 0.5
-        return CalibrationDoubt(
+        return CalibrationFit(
             DriftHypothesis(0.0, common.rr), DriftHypothesis(-drift, share * DRIFT * DRIFT + common.rr)
         )
 

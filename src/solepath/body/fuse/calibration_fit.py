@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from math import exp, log, sqrt
 
-from ...types.attrs import define, field
+from ...types.attrs import define
 from .straightness import StretchDrift
 
 DROP_RATIO = 1000.0
@@ -45,14 +45,14 @@ class DriftHypothesis:
 
 
 @define
-class CalibrationDoubt:
-    """Evidence against the calibration of the heading."""
+class CalibrationFit:
+    """Evidence on whether the calibration of the heading fits a walk."""
 
     fits: DriftHypothesis
     """The feet drift as calibrated."""
     other: DriftHypothesis
     """The feet drift as if they had not been calibrated."""
-    evidence: float = field(default=0.0, init=False)
+    evidence: float = 0.0
     """Logarithm of the ratio of the likelihoods of `other` and `fits`, at least 0."""
 
     def add(self, found: StretchDrift, seen: float) -> bool:

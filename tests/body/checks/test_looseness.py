@@ -1,0 +1,62 @@
+"""A sensor that came loose in mid-walk is noticed, and one that is fixed is not."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import product
+from math import pi
+
+import pytest
+from disturbed import loose
+
+from solepath import Session
+from solepath.body.fuse.both_feet import BothFeet
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import SampledWalk, sampled
+from solepath.events import Defect, DefectFound, Event, StrideTaken
+from solepath.types import OTHER, Foot, Sample
+
+ROUTE = Route().stand(3).walk(60, 1.3).turn(pi, 0.6).walk(60, 1.3).stop(2)
+CAME_LOOSE = 40.0
+
+
+@cache
+def walk(seed: int) -> SampledWalk:
+    return sampled(ROUTE, seed=seed)
+
+
+def found(samples: tuple[Sample, ...], session: Session | None = None) -> tuple[list[DefectFound], list[Event]]:
+    session = session or Session()
+    events: list[Event] = [event for sample in samples for event in session.feed(sample)]
+    return [event for event in events if isinstance(event, DefectFound) and event.defect is Defect.LOOSE], events
+
+
+def test_a_sensor_that_swings_is_noticed_and_its_strides_are_degraded() -> None:
+    """Within a minute in five of six walks; the stances of the sixth one are quiet moments of the swinging sensor."""
+    noticed = 0
+    for seed, foot in product((1, 2, 3), Foot):
+        reports, events = found(loose(walk(seed), foot, CAME_LOOSE, 0.6, seed))
+        for one in reports:
+            noticed += 1
+            assert one.site.foot is foot and one.t > CAME_LOOSE and "came loose" in one.what
+            later = [event for event in events if isinstance(event, StrideTaken) and event.t > one.t]
+            assert all(event.degraded for event in later if event.foot is foot)
+            assert not all(event.degraded for event in later if event.foot is OTHER[foot])
+    assert noticed >= 5
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_fixed_sensor_has_not_come_loose(seed: int) -> None:
+    assert found(walk(seed).samples)[0] == []
+
+
+def test_nothing_is_learnt_from_the_straight_ways_of_a_loose_sensor() -> None:
+    samples, session = loose(walk(2), Foot.LEFT, CAME_LOOSE, 0.6, 2), Session()
+    (one,), _ = found(samples, session)
+    known = Session()
+    found(tuple(sample for sample in samples if sample.t <= one.t), known)
+    drifts = [
+        part.common.drift for state in (known, session) for part in state._state.wearer.parts
+        if isinstance(part, BothFeet)
+    ]  # fmt: skip
+    assert drifts[0] == drifts[1]
