@@ -257,21 +257,21 @@ class CommonError:
         self.bias += g * z
         return (a * z, b * z, c * z)
 
-    def replace_drift(self, drift: float, variance: float, strides: float, way: tuple[float, float]) -> None:
+    def replace_drift(self, drift: float, variance: float, strides: float, moves: tuple[float, float]) -> Move:
         """Replace the drift by another one with its `variance`, rad a stride, because a calibration does not fit.
 
-        The heading may have turned by the difference in each of the `strides` so far, and the `way` so far, m, by half
-        of that, as if it had been straight."""
-        square = ((drift - self.drift) * strides) ** 2
-        self.drift, self.rr = drift, variance
-        self.xr = self.yr = self.hr = self.rk = self.rb = 0.0
-        ax, ay = -0.5 * way[1], 0.5 * way[0]
-        self.xx += square * ax * ax
-        self.xy += square * ax * ay
-        self.yy += square * ay * ay
-        self.xh += square * ax
-        self.yh += square * ay
-        self.hh += square
+        The walk so far counts as `strides` usual ones, and `moves` is the derivative of the position by the drift, m
+        for each rad a stride. Returns what is to be added to x and y, m, and to the heading, rad."""
+        change, (x, y) = drift - self.drift, moves
+        self.drift, self.rr, self.rk, self.rb = drift, variance, 0.0, 0.0
+        self.xr, self.yr, self.hr = variance * x, variance * y, variance * strides
+        self.xx += self.xr * x
+        self.xy += self.xr * y
+        self.xh += self.xr * strides
+        self.yy += self.yr * y
+        self.yh += self.yr * strides
+        self.hh += self.hr * strides
+        return (change * x, change * y, change * strides)
 
     def inflate(self, variance: float) -> None:
         """Add `variance`, m^2, to that of x and of y."""

@@ -28,8 +28,8 @@ class StraightWays:
     """Test of the calibration; None without one, and once it was dropped."""
     strides: float = field(default=0.0, init=False)
     """Number of usual strides of the mean of both feet so far."""
-    way: tuple[float, float] = field(default=(0.0, 0.0), init=False)
-    """Way of the mean of both feet so far, m, world frame."""
+    moves: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    """Derivative of the position by the drift so far, m for each rad a stride."""
     spoiled: tuple[Foot, ...] = field(default=(), init=False)
     """Feet whose rates are wrong by another defect, for example because the sensor came loose."""
 
@@ -57,8 +57,8 @@ class StraightWays:
         The mean of both feet moves by `share` of its `displacement`, m, and it counts as `strides` usual ones. Returns
         the correction of the tracks, and the event if the calibration was dropped. A stride of a foot with a defect
         ends the stretch, and nothing is learnt from it."""
-        self.strides += share * strides
-        self.way = (self.way[0] + share * displacement[0], self.way[1] + share * displacement[1])
+        turned, (x, y), (dx, dy) = share * (self.strides + 0.5 * share * strides), self.moves, displacement
+        self.strides, self.moves = self.strides + share * strides, (x - turned * dy, y + turned * dx)
         if event.foot in self.spoiled:
             self.straightness.reset()
             return NO_MOVE, None
@@ -71,9 +71,9 @@ class StraightWays:
             fit = self.fit = self.fit or self._first_fit(event.foot, self.calibrated, common)
             bias_known = evolve(found, variance=found.variance + t * t * common.bb)
             if fit.add(bias_known, found.drift + common.drift + t * common.bias):
-                common.replace_drift(fit.other.drift, fit.other.variance, self.strides, self.way)
+                move = common.replace_drift(fit.other.drift, fit.other.variance, self.strides, self.moves)
                 self.calibrated = self.fit = None
-                return NO_MOVE, _misfit(event, fit.other.drift / t if t > 0.0 else 0.0)
+                return move, _misfit(event, fit.other.drift / t if t > 0.0 else 0.0)
         return common.correct_drift(found.drift, found.variance, found.weight, t), None
 
     def _first_fit(self, foot: Foot, drifts: tuple[float, float], common: CommonError) -> CalibrationFit:

@@ -53,7 +53,7 @@ def on_walkway(
     return tuple(sorted(changed, key=lambda sample: sample.t)), (float(way[0]), float(way[1]))
 
 
-LEVER = 0.04
+ARM = 0.04
 """Distance of a loose sensor from what it still hangs on, m."""
 STEP = 0.002
 """Time over which motions are differentiated, s."""
@@ -62,13 +62,13 @@ STEP = 0.002
 def loose(walk: SampledWalk, foot: Foot, t_start: float, angle: float, seed: int = 1) -> tuple[Sample, ...]:
     """Return the samples of a walk with a sensor of `foot` that swings on the shoe from t_start, s, on.
 
-    It swings about one axis by `angle` rad (standard deviation), at random and below 3 Hz, at a distance of `LEVER`."""
+    It swings about one axis by `angle` rad (standard deviation), at random and below 3 Hz, at a distance of `ARM`."""
     own = [sample for sample in walk.samples if sample.site is SITE_OF_FOOT[foot] and sample.t >= t_start]
     rng = np.random.default_rng([seed, 41])
     axis = rng.standard_normal(3)
     axis /= np.linalg.norm(axis)
-    lever = np.cross(axis, rng.standard_normal(3))
-    lever *= LEVER / np.linalg.norm(lever)
+    arm = np.cross(axis, rng.standard_normal(3))
+    arm *= ARM / np.linalg.norm(arm)
     frequency, phase = rng.uniform(0.3, 3.0, 12), rng.uniform(0.0, 2.0 * np.pi, 12)
     amplitude, turning = angle / np.sqrt(6.0), 2.0 * np.pi * frequency
 
@@ -79,7 +79,7 @@ def loose(walk: SampledWalk, foot: Foot, t_start: float, angle: float, seed: int
 
     def moved(t: Array) -> Array:
         """Return how far the sensor is from where it was fixed, world frame, m."""
-        off: Array = swung(t) @ lever - lever
+        off: Array = swung(t) @ arm - arm
         moves: Array = np.einsum("nij,nj->ni", _world_from_sensor(walk.truth.pose(foot, t).attitude), off)
         return moves
 
