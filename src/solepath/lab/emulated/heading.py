@@ -8,8 +8,7 @@ figures are
 - `heading_end`: mean error of the attitudes of both feet at the end, rad
 - `radius_error`: `heading_end` divided by the turn of a walk that turns to one side only: the share by which circles
   are too large or too small
-- `nees_T`: after T s, d' P^-1 d / 2 for the horizontal error d and its covariance P: 1 on average for a filter that is
-  right, 0.69 in the median (normalised estimation error squared; Bar-Shalom et al. 2001, section 5.4)
+- `nees_T`: NEES/2 after T s (consistency.py): 1 on average for a filter that is right, 0.69 in the median
 - `held_T`: 1 if the ellipse of 95 % held the wearer after T s, otherwise 0
 - `heading_nees_T`: the square of the heading error divided by its variance, 1 on average"""
 
@@ -31,6 +30,7 @@ from ...session.heading_walk import heading_calibration, heading_walk
 from ...types import Foot, Quat
 from ..evaluate.run import Meta, RunSettings
 from ..measures.alignment import Floats, distances
+from ..measures.consistency import consistency
 from ..measures.score import Figures, Scored
 from .heading_walks import IsComplete, calibration_samples, heading_route, insoles_of, wearer_of
 
@@ -38,8 +38,6 @@ CHECKED_TIMES = (60, 300, 900, 1800)
 """Times after which the covariance is compared with the error, s."""
 END_TOLERANCE = 60.0
 """Time by which a walk may be shorter than a checked time, s."""
-HELD = 5.991
-"""Squared distance, in units of the covariance, within which the wearer is with 95 % probability (chi-square, 2)."""
 ONE_SIDED = ("circle", "one_way_loops")
 """Names of the kinds that turn to one side only."""
 LONG_WALK = 500.0
@@ -162,9 +160,7 @@ def heading_figures(track: HeadingTrack, truth: Truth, one_sided: bool = False) 
         k = min(int(np.searchsorted(t, checked)), len(t) - 1)
         xx, xy, yy = track.covariances[k]
         covariance = rotation @ np.array([[xx, xy], [xy, yy]]) @ rotation.T
-        square = float(errors[k] @ np.linalg.solve(covariance, errors[k]))
-        figures[f"nees_{checked}"] = 0.5 * square
-        figures[f"held_{checked}"] = float(square < HELD)
+        figures[f"nees_{checked}"], figures[f"held_{checked}"] = consistency(errors[k], covariance)
         if track.heading_sigmas[k] > 0.0:
             figures[f"heading_nees_{checked}"] = (float(headings[k] - turn) / track.heading_sigmas[k]) ** 2
     return figures

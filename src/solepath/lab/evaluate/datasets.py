@@ -91,7 +91,7 @@ DATASETS = (
     DataSet(
         "gumushane_surveyed", "every footprint surveyed, one shoe", score_surveyed,
         ("position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", "drift",
-         *STRIDE_FIGURES, "stride_error_track"),
+         "nees_end", "held_end", *STRIDE_FIGURES, "stride_error_track"),
         folders=("gumushane_gcp",), has_truth=_is_surveyed,
     ),
     DataSet(

@@ -13,14 +13,14 @@ import attrs
 import numpy as np
 from attrs import frozen
 
-from ...body.part import ActivityPart
+from ...body.part import ActivityPart, Position
 from ...calibration import Calibration, merged
 from ...events import Event
 from ...recipes import Recipe
 from ...recording.samples import load_samples
 from ...recording.samples.npz import read_arrays
 from ...session import Session
-from ...types import Foot, Sample, Vec3
+from ...types import Foot, Sample
 from ..measures.alignment import Floats
 from ..measures.score import Scored
 from .gathered import EventCollection, FootRun
@@ -44,6 +44,8 @@ class ScoredTrack:
     """Times, (n,), s."""
     positions: Floats
     """Positions in the world frame, (n,3), m."""
+    covariances: Floats
+    """Covariances of the horizontal positions, (n,3): xx, xy, yy, m^2."""
 
 
 @frozen(eq=False)
@@ -94,16 +96,20 @@ def run_timed(
 
     The track has a position every `interval` s, or after every sample when that is 0. With None there is no track."""
     outputs: list[list[Event]] = []
-    positions: list[tuple[float, Vec3]] = []
+    positions: list[Position] = []
     started_at = perf_counter()
     for sample in samples:
         outputs.append(session.feed(sample))
         due = interval is not None and (interval == 0.0 or sample.t >= len(positions) * interval)
         if due and (position := session.position) is not None:
-            positions.append((position.t, position.position))
+            positions.append(position)
     outputs.append(session.finish())
     seconds = perf_counter() - started_at
-    track = ScoredTrack(np.array([t for t, _ in positions]), np.array([at for _, at in positions]).reshape(-1, 3))
+    covariances = [(one.covariance[0], one.covariance[1], one.covariance[3]) for one in positions]
+    track = ScoredTrack(
+        np.array([one.t for one in positions]), np.array([one.position for one in positions]).reshape(-1, 3),
+        np.array(covariances).reshape(-1, 3),
+    )  # fmt: skip
     return EventCollection.of(event for events in outputs for event in events), track if positions else None, seconds
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...types import Foot
 from ..measures.alignment import at_times, path_length, track_error
+from ..measures.consistency import consistency_at_end
 from ..measures.drift import drift_of_strides, drift_that_opens
 from ..measures.legs import leg_errors
 from ..measures.matching import Errors
@@ -107,8 +108,8 @@ Trials in which it lost strides are not listed."""
 
 def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score positions and strides against the survey of every footprint."""
-    truth, result = truth_of(path), run(path, settings)
-    foot = result.feet[Foot.RIGHT]
+    truth, result = truth_of(path), run(path, settings, body=True)
+    foot, body = result.feet[Foot.RIGHT], result.body
     figures: Figures = {}
     if len(foot.t):
         times, authors = truth["t"][truth["gt_stride_index"]], AUTHORS_ERRORS.get(path.stem)
@@ -126,6 +127,10 @@ def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
             "path": surveyed,
             "relative": float(np.mean(errors)) / surveyed,
         }
+        if body is not None:
+            k = np.minimum(np.searchsorted(body.t, times), len(body.t) - 1)
+            places = body.positions[k, :2], body.covariances[k], truth["gt_stride_xy"][:, :2].astype(np.float64)
+            figures |= consistency_at_end(*places)
     return scored(path, result, figures=figures, strides=_survey_score(truth, foot))
 
 

@@ -100,11 +100,12 @@ def _heading_lines(summary: Summary) -> list[tuple[str, str]]:
                 number(degrees(factor * (averages[key] or 0.0)), 1) for averages in (summary.mean, summary.median)
             )
             lines.append((name, f"mean {mean}, median {median} {unit}"))
-    for t in CHECKED_TIMES:
-        if f"nees_{t}" in summary.mean:
-            mean, median = (number(averages[f"nees_{t}"], 2) for averages in (summary.mean, summary.median))
-            held = percent(summary.mean[f"held_{t}"], 0)
-            name = f"NEES/2 after {t // 60} min, and walks within the ellipse of 95 %"
+    moments = {"end": "at the end", **{str(t): f"after {t // 60} min" for t in CHECKED_TIMES}}
+    for moment, when in moments.items():
+        if f"nees_{moment}" in summary.mean:
+            mean, median = (number(averages[f"nees_{moment}"], 2) for averages in (summary.mean, summary.median))
+            held = percent(summary.mean[f"held_{moment}"], 0)
+            name = f"NEES/2 {when}, and walks within the ellipse of 95 %"
             lines.append((name, f"mean {mean}, median {median}, {held} %"))
     return lines
 

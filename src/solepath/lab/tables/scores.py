@@ -61,6 +61,8 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
         for t in CHECKED_TIMES
         for figure, title in (("nees", "NEES/2"), ("held", "held"), ("heading_nees", "heading"))
     },
+    "nees_end": ("NEES/2 at the end", _two_digits),
+    "held_end": ("held", _two_digits),
     "height_end": ("height at end m", _metres),
     "height_max": ("height, largest m", _metres),
     "strides_found": ("found", _count),
