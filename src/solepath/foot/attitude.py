@@ -6,11 +6,10 @@ swept."""
 
 from __future__ import annotations
 
-from math import fsum
-
 from ..types import Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import GRAVITY, TIE, ZERO, levelling
+from .navigate.bias import BiasFilter, RestSpan
 
 COARSEST_COUNT = 0.7
 """Upper limit for the value of one accelerometer count, m/s^2; 8 bits for +-8 g give 0.61."""
@@ -46,18 +45,6 @@ REST_GYRO_SIGMA = 0.02
 """Largest standard deviation of the angular rate at rest, rad/s; a foot in mid-stance shows more."""
 REST_BLOCK = 0.1
 """Duration of a block, s; the means of the blocks of a span show how much a standing foot turns in it."""
-FIRST_BIAS = 0.009
-"""Standard deviation of a bias that is not known yet, rad/s (0.5 degrees/s), unless the first one is larger."""
-LEAST_REST_ERROR = 0.0009
-"""Least standard deviation of the mean rate of a span of rest, rad/s (3 degrees a minute).
-
-On recordings with the same sensor at several rests (gumushane_gcp, openshoe_loops, pyshoe_vicon, felius_2min_walk) the
-mean rate of a span differs from the bias by about the standard deviation of the means of its blocks, or by this. About
-the vertical, that is half of what it is about the other axes, because a standing foot lies on the ground."""
-BIAS_WANDER = 2e-5
-"""Random walk of the bias, rad/s per sqrt(s): 0.02 degrees/s in five minutes, as if warmed by 2 K (ST DS12814)."""
-LARGEST_SURPRISE = 25.0
-"""Squared difference of a mean rate from the bias, divided by its variance, above which the bias is another one."""
 LARGEST_BIAS = 0.8
 """Largest bias, rad/s; a higher steady rate is a turn. Cheap gyroscopes start with a bias of 0.35 and more."""
 LARGEST_BIAS_CHANGE = 0.5
@@ -174,12 +161,9 @@ class Rest:
     span: SampleSpan = field(factory=SampleSpan, init=False)
     span_start: float | None = field(default=None, init=False)
     """Start of the current span, s; None before the first sample."""
+    bias_filter: BiasFilter = field(factory=BiasFilter, init=False)
     bias: Vec3 = field(default=ZERO, init=False)
-    """Gyroscope bias, sensor frame, rad/s."""
-    variances: tuple[float, float] = field(default=(FIRST_BIAS**2, FIRST_BIAS**2), init=False)
-    """Variances of `bias` at `learnt_at`, (rad/s)^2: about the vertical, and about each horizontal axis."""
-    learnt_at: float | None = field(default=None, init=False)
-    """Time of the newest span of rest, s; None before any and after times restart."""
+    """Gyroscope bias by the filter, sensor frame, rad/s."""
     block_end: float = field(default=0.0, init=False)
     """End of the current block, s."""
     block_start: tuple[int, Vec3] = field(default=(0, ZERO), init=False)
@@ -198,7 +182,7 @@ class Rest:
     def reset(self) -> None:
         """Discard the current span because times restart; bias and scale stay."""
         self._start_span(None)
-        self.learnt_at = None
+        self.bias_filter.reset()
 
     def calibrate(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
         """Return acc, m/s^2, and gyro, rad/s, with scale and bias applied."""
@@ -255,9 +239,11 @@ class Rest:
         blocks = self.blocks
         self._start_span(t)
         if acc_variance > REST_ACC_SIGMA**2 + 0.75 * self.grain * self.grain or gyro_variance > REST_GYRO_SIGMA**2:
+            self.bias_filter.end_rest()
             return False
         limit = LARGEST_BIAS_CHANGE if self.count else LARGEST_BIAS
         if max([abs(value - bias) for value, bias in zip(rate, self.bias, strict=True)]) > limit:
+            self.bias_filter.end_rest()
             return False
         magnitude = (ax * ax + ay * ay + az * az) ** 0.5
         scale = GRAVITY / magnitude if magnitude > 0.0 else 0.0
@@ -267,34 +253,7 @@ class Rest:
         ):
             self.scale += (scale - self.scale) / spans
         k = 1.0 / magnitude if magnitude > 0.0 else 0.0
-        self._learn_bias(t, rate, blocks, (k * ax, k * ay, k * az))
+        self.bias_filter.add(RestSpan(t, rate, tuple(blocks), (k * ax, k * ay, k * az)))
+        self.bias = self.bias_filter.bias.value
         self.count += 1
         return True
-
-    def _learn_bias(self, t: float, rate: Vec3, blocks: list[Vec3], up: Vec3) -> None:
-        """Correct the bias by the mean `rate` of a span, by one Kalman gain about `up` and one about horizontal axes.
-
-        A foot that trembles gives a rate with a large variance, so that a short or restless rest teaches little."""
-        elapsed = 0.0 if self.learnt_at is None else max(0.0, t - self.learnt_at)
-        x, y, z = self.bias
-        squares = _squares((rate[0] - x, rate[1] - y, rate[2] - z), up)
-        spreads = [_squares((u - rate[0], v - rate[1], w - rate[2]), up) for u, v, w in blocks]
-        gains, variances = [1.0, 1.0], [0.0, 0.0]
-        for axis in range(2):
-            seen = fsum([one[axis] for one in spreads]) / (len(blocks) - 1) if len(blocks) > 1 else REST_GYRO_SIGMA**2
-            noise = LEAST_REST_ERROR * LEAST_REST_ERROR + seen
-            known = self.variances[axis] + BIAS_WANDER * BIAS_WANDER * elapsed
-            if squares[axis] > LARGEST_SURPRISE * (known + noise):
-                known += squares[axis]
-            gains[axis] = known / (known + noise)
-            variances[axis] = (1.0 - gains[axis]) * known
-        dx, dy, dz = rate[0] - x, rate[1] - y, rate[2] - z
-        level, extra = gains[1], (gains[0] - gains[1]) * (dx * up[0] + dy * up[1] + dz * up[2])
-        self.bias = (x + level * dx + extra * up[0], y + level * dy + extra * up[1], z + level * dz + extra * up[2])
-        self.variances, self.learnt_at = (variances[0], variances[1]), t
-
-
-def _squares(w: Vec3, up: Vec3) -> tuple[float, float]:
-    """Return the squared rate of `w` about `up`, and its mean square about the two horizontal axes."""
-    about_up = (w[0] * up[0] + w[1] * up[1] + w[2] * up[2]) ** 2
-    return about_up, max(0.0, 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - about_up))

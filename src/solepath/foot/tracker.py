@@ -112,8 +112,8 @@ class FootTracker:
             layout, error = self.sole.insole.layout, gait.world.rotate_vector(corrector.velocity_error)
             takes_shifts = with_covariance and hasattr(corrector, "shift")
             covariance = gait.covariance(corrector) if with_covariance else None
-            attitude, variance = gait.stride.attitude, rest.variances[0]
-            after = AfterEvents(attitude, layout, other_t, takes_shifts, covariance, variance, error)
+            attitude, bias = gait.stride.attitude, rest.bias_filter.bias
+            after = AfterEvents(attitude, layout, other_t, takes_shifts, covariance, bias, error)
         if cells:
             insole = self.sole.insole
             layout = insole.layout

@@ -8,6 +8,7 @@ from ..events import Event
 from ..types import Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define
 from ..types.vector import IDENTITY, ZERO
+from .navigate.bias import Bias
 from .world import Covariance3
 
 
@@ -39,13 +40,13 @@ class AfterEvents(NamedTuple):
     """The corrector can be turned and moved by a `Shift` (body/part.py); given with a stride."""
     covariance: Covariance3 | None
     """Covariance of the position, world frame, m^2; None without a stride, because it is costly."""
-    bias_variance: float
-    """Variance of the gyroscope bias about the vertical, (rad/s)^2."""
+    bias: Bias
+    """Gyroscope bias by the rests of the foot, and its variances."""
     velocity_error: Vec3
     """Integrated velocity of the foot when it came to stand, world frame, m/s; 0 if it was right or is not known."""
 
 
-NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None, 0.0, ZERO)
+NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None, Bias(), ZERO)
 """Value of `FootView.after` for a sample without events."""
 
 

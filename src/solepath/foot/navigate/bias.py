@@ -1,0 +1,151 @@
+"""Bias of a gyroscope, from rests of the foot.
+
+A standing foot sways: it turns slowly to and fro within a small angle. The mean rate over a rest of the duration T is
+the bias and the difference of the first and the last angle, divided by T. On recordings with long rests (hugadb,
+ipol_10m_uturn, openshoe_loops) the angle is that of a first-order Gauss-Markov process with a correlation time of about
+a second, so that the variance of the mean rate is
+
+    2 s^2 (1 - exp(-T / tau)) / T^2,
+
+where s^2 is the variance of the angle and tau the correlation time. A long rest therefore teaches far more than several
+short ones. A Kalman filter takes each rest as one measurement, with one gain about the vertical and one about the
+horizontal axes: a standing foot lies on the ground, so it turns less about the vertical. A foot that trembles has a
+larger s, so that a restless rest teaches little. A foot starts to turn slowly before it leaves the ground; the last
+span of a rest therefore teaches nothing, unless it is the first span of all."""
+
+from __future__ import annotations
+
+from math import exp, fsum
+
+from ...types import Vec3
+from ...types.attrs import define, field, frozen
+from ...types.vector import ZERO
+
+FIRST_BIAS = 0.009
+"""Standard deviation of a bias that is not known yet, rad/s (0.5 degrees/s), unless the first one is larger."""
+LEAST_REST_ERROR = 0.0009
+"""Least standard deviation of the mean rate of a span of rest, rad/s (3 degrees a minute).
+
+On recordings with the same sensor at several rests (gumushane_gcp, openshoe_loops, pyshoe_vicon, felius_2min_walk) the
+mean rate of a span differs from the bias by about the standard deviation of the means of its blocks, or by this. About
+the vertical, that is half of what it is about the other axes."""
+UNKNOWN_REST_ERROR = 0.02
+"""Standard deviation of the mean rate of a span with too few samples to tell, rad/s: the most that counts as rest."""
+SWAY_SPANS = 2.0
+"""Correlation time of the sway, in spans of rest of half a second each (foot/attitude.py): 1 s."""
+BIAS_ERROR = 1.5e-4
+"""Standard deviation of the bias that even a long rest leaves, rad/s (0.5 degrees a minute).
+
+The mean rates of both halves of rests of 16 s (hugadb) differ by 0.9 degrees a minute."""
+BIAS_WANDER = 2e-5
+"""Random walk of the bias, rad/s per sqrt(s): 0.02 degrees/s in five minutes, as if warmed by 2 K (ST DS12814)."""
+LARGEST_SURPRISE = 25.0
+"""Squared difference of a mean rate from the bias, divided by its variance, above which the bias is another one."""
+
+
+@frozen
+class RestSpan:
+    """One span of rest."""
+
+    t: float
+    """End of the span, s."""
+    rate: Vec3
+    """Mean rate, rad/s."""
+    blocks: tuple[Vec3, ...]
+    """Mean rates of successive blocks of the span, rad/s."""
+    up: Vec3
+    """Direction of the mean specific force, a unit vector."""
+
+
+@frozen
+class Bias:
+    """A gyroscope bias with its uncertainty."""
+
+    value: Vec3 = ZERO
+    """Bias, sensor frame, rad/s."""
+    variances: tuple[float, float] = (FIRST_BIAS**2, FIRST_BIAS**2)
+    """Variances of `value` at `t`, (rad/s)^2: about the vertical, and about each horizontal axis."""
+    t: float | None = None
+    """End of the newest span of rest that was used, s; None before any and after times restart."""
+    change: float = 0.0
+    """Sum of all changes of `value` about the vertical, rad/s."""
+
+
+@define
+class BiasFilter:
+    """The bias of a gyroscope, from all rests so far."""
+
+    bias: Bias = field(factory=Bias, init=False)
+    before: Bias = field(factory=Bias, init=False)
+    """Bias before the current rest."""
+    count: int = field(default=0, init=False)
+    """Number of spans of the current rest that were used."""
+    rate: Vec3 = field(default=ZERO, init=False)
+    """Mean rate over these spans, rad/s."""
+    noise: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    """Mean over these spans of the variance of the rate of one span, (rad/s)^2, about the axes of `Bias.variances`."""
+    newest: RestSpan | None = field(default=None, init=False)
+    """Newest span, which is used once the next one is at rest too."""
+    is_known: bool = field(default=False, init=False)
+    """Flag: a span was used."""
+
+    def add(self, span: RestSpan) -> None:
+        """Add a span of rest that follows the one before without a break."""
+        if self.newest is not None:
+            self._learn(self.newest)
+        elif not self.is_known:
+            self._learn(span)
+            return
+        self.newest = span
+
+    def end_rest(self) -> None:
+        """Discard the newest span, because the foot moves; the next span starts another rest."""
+        self.newest, self.count = None, 0
+
+    def reset(self) -> None:
+        """Discard the current rest, because times restart; the bias stays."""
+        self.end_rest()
+        bias = self.bias
+        self.bias = Bias(bias.value, bias.variances, None, bias.change)
+
+    def _learn(self, span: RestSpan) -> None:
+        if not self.count:
+            self.before, self.rate, self.noise = self.bias, ZERO, (0.0, 0.0)
+        before, up = self.before, span.up
+        self.count += 1
+        n, k = float(self.count), 1.0 / self.count
+        x, y, z = self.rate
+        u, v, w = span.rate
+        self.rate = x, y, z = (x + k * (u - x), y + k * (v - y), z + k * (w - z))
+        spreads = [_squares((p - u, q - v, r - w), up) for p, q, r in span.blocks]
+        ox, oy, oz = before.value
+        dx, dy, dz = x - ox, y - oy, z - oz
+        squares = _squares((dx, dy, dz), up)
+        # (1 - exp(-T / tau)) / T^2 relative to that of one span
+        sway = (1.0 - exp(-n / SWAY_SPANS)) / ((1.0 - exp(-1.0 / SWAY_SPANS)) * n * n)
+        elapsed = 0.0 if before.t is None else max(0.0, span.t - before.t)
+        gains, variances, noises = [1.0, 1.0], [0.0, 0.0], [0.0, 0.0]
+        for axis in range(2):
+            seen = UNKNOWN_REST_ERROR * UNKNOWN_REST_ERROR
+            if len(spreads) > 1:
+                seen = fsum([one[axis] for one in spreads]) / (len(spreads) - 1)
+            mean = self.noise[axis]
+            noises[axis] = mean = mean + k * (LEAST_REST_ERROR * LEAST_REST_ERROR + seen - mean)
+            noise = sway * mean + BIAS_ERROR * BIAS_ERROR
+            known = before.variances[axis] + BIAS_WANDER * BIAS_WANDER * elapsed
+            if squares[axis] > LARGEST_SURPRISE * (known + noise):
+                known += squares[axis]
+            gains[axis] = known / (known + noise)
+            variances[axis] = (1.0 - gains[axis]) * known
+        self.noise = (noises[0], noises[1])
+        about_up = dx * up[0] + dy * up[1] + dz * up[2]
+        level, extra = gains[1], (gains[0] - gains[1]) * about_up
+        value = (ox + level * dx + extra * up[0], oy + level * dy + extra * up[1], oz + level * dz + extra * up[2])
+        self.bias = Bias(value, (variances[0], variances[1]), span.t, before.change + gains[0] * about_up)
+        self.is_known = True
+
+
+def _squares(w: Vec3, up: Vec3) -> tuple[float, float]:
+    """Return the squared rate of `w` about `up`, and its mean square about the two horizontal axes."""
+    about_up = (w[0] * up[0] + w[1] * up[1] + w[2] * up[2]) ** 2
+    return about_up, max(0.0, 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2] - about_up))
