@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from functools import cache
+from math import inf
 
 import pytest
 
 from solepath import Session
+from solepath.body.fuse.calibration_fit import CalibrationFit, DriftHypothesis
+from solepath.body.fuse.straightness import StretchDrift
 from solepath.calibration import Calibration
 from solepath.emulate.walk import SampledWalk, sampled
 from solepath.events import Defect, DefectFound
@@ -48,6 +51,21 @@ def test_a_calibration_of_other_shoes_is_dropped_and_the_track_turned_back(kind:
     (one,) = misfits(kind, calibration(ANOTHER))
     assert "does not fit this walk" in one.what and not one.spoils
     assert end_error(kind, calibration(ANOTHER)) < 0.05, "0.8 rad of heading would be a fifth of the way or more"
+
+
+def stretches(*bends: float) -> CalibrationFit:
+    """Return the test of a calibration after stretches that bend by this much with it, rad a stride."""
+    fit = CalibrationFit(DriftHypothesis(0.0, 4e-4**2), DriftHypothesis(-0.0025, 0.0015**2))
+    for bend in bends:
+        if fit.add(StretchDrift(bend, 2.6e-4**2, 0.0, 1.1), bend):
+            fit.count = inf
+    return fit
+
+
+def test_ways_that_weave_say_nothing_against_a_calibration() -> None:
+    """Arcs of 600 m radius to the left and to the right in turn: every other one could be the drift of other shoes."""
+    assert stretches(*[-0.0022, 0.0022, -0.0015, 0.0023, -0.0020, 0.0021, -0.0023] * 3).count < inf
+    assert stretches(*[-0.0022, -0.0020, 0.0012, -0.0021, -0.0023, -0.0019]).count == inf
 
 
 @pytest.mark.parametrize("kind", ["right_angles", "any_angles", "ring", "arcs"])
