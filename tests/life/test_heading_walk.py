@@ -107,5 +107,15 @@ def test_another_walk_is_no_calibration_for_a_stated_reason(route: Route, reason
         heading_walk(walk_of(route))
 
 
+def test_who_stands_longer_before_the_walk_is_surer_of_another_day() -> None:
+    sigmas = []
+    for seconds in (3.0, 20.0):
+        route = Route().stand(seconds)
+        for leg in range(6):
+            route = route.turn(pi if leg % 2 else -pi, 0.6).walk(25.0, 1.3) if leg else route.walk(25.0, 1.3)
+        sigmas.append([fit.heading.drift_sigma for fit in heading_walk(walk_of(route.stop(3.0)))])
+    assert all(long < 0.8 * short for short, long in zip(*sigmas, strict=True))
+
+
 def test_no_stride_shows_nothing() -> None:
-    assert fit_heading(Foot.LEFT, []) == "0 straight legs of 6 m and more, of which 4 are needed"
+    assert fit_heading(Foot.LEFT, [], 1e-3) == "0 straight legs of 6 m and more, of which 4 are needed"

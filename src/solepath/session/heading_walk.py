@@ -13,10 +13,11 @@ from itertools import pairwise
 from math import atan2, fsum, hypot, pi, remainder, sqrt
 
 from ..body.fuse.both_feet import BothFeet
-from ..body.fuse.common_error import DRIFT, TURNING
+from ..body.fuse.common_error import DRIFT, HEADING_NOISE, TURNING
 from ..body.fuse.position import MeanOfFeet
 from ..calibration import Calibration, CalibrationError, HeadingCalibration
-from ..events import StrideTaken
+from ..events import Event, StrideTaken
+from ..foot.navigate.bias import FIRST_BIAS
 from ..foot.stride import usual_strides
 from ..recipes import DEFAULT
 from ..types import Foot, Packet, Sample
@@ -32,11 +33,9 @@ MAX_LEG_ERROR = 0.35
 not there and back."""
 LEG_BOW = 0.1
 """Standard deviation of the lateral distance between both ends of a leg and the line, m: feet land beside it."""
-HEADING_NOISE = 0.0025
-"""Random walk of the heading of one foot, rad/sqrt(s), that of a wandering bias included."""
-DAY_DRIFT = 4e-4
-"""Standard deviation of the change of the drift from one day to another, rad a stride: the bias is learnt anew at rest,
-with an error of about 1.2 degrees a minute."""
+DAY_DRIFT = 1.5e-4
+"""Standard deviation of the change of the drift from one day to another, rad a stride: a tenth of a usual drift,
+because nobody walks alike every day (assumed). The error of the bias on the day of the walk is added."""
 DAY_TURNING = 0.001
 """Standard deviation of the change of the relative error of turns from one day to another, no unit (assumed)."""
 PRIOR_FACTOR = 3.0
@@ -74,12 +73,18 @@ def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | N
     known = calibration or Calibration()
     # each foot by itself, without any earlier calibration of its heading
     session = Session(DEFAULT.exchanged(BothFeet, MeanOfFeet()), calibration=evolve(known, headings={}))
-    events = [*(event for one in source for event in session.feed(one)), *session.finish()]
+    taken: dict[Foot, list[StrideTaken]] = {foot: [] for foot in Foot}
+    bias_sigmas: dict[Foot, float] = {}
+    for one in source:
+        _sort_strides(session.feed(one), taken)
+        for foot, tracker in session.feet.items():
+            if taken[foot] and foot not in bias_sigmas:
+                bias_sigmas[foot] = sqrt(tracker.rest.bias_filter.bias.variances[0])
+    _sort_strides(session.finish(), taken)
     fits: list[HeadingFit] = []
     reasons: list[str] = []
-    for foot in Foot:
-        strides = [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
-        found = fit_heading(foot, strides)
+    for foot, strides in taken.items():
+        found = fit_heading(foot, strides, bias_sigmas.get(foot, FIRST_BIAS))
         if isinstance(found, HeadingFit):
             fits.append(found)
         elif strides:
@@ -89,8 +94,17 @@ def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | N
     return fits
 
 
-def fit_heading(foot: Foot, strides: Sequence[StrideTaken]) -> HeadingFit | str:
-    """Return the drift of a foot from its strides, or the reason why they do not show it."""
+def _sort_strides(events: Iterable[Event], taken: dict[Foot, list[StrideTaken]]) -> None:
+    for event in events:
+        if isinstance(event, StrideTaken):
+            taken[event.foot].append(event)
+
+
+def fit_heading(foot: Foot, strides: Sequence[StrideTaken], bias_sigma: float) -> HeadingFit | str:
+    """Return the drift of a foot from its strides, or the reason why they do not show it.
+
+    `bias_sigma` is the standard deviation of the gyroscope bias about the vertical during the walk, rad/s: its error is
+    part of the drift on this day, and another one on any other day."""
     legs = _find_legs(strides)
     if len(legs) < MIN_LEGS:
         return f"{len(legs)} straight legs of {MIN_LEG:g} m and more, of which {MIN_LEGS} are needed"
@@ -101,7 +115,8 @@ def fit_heading(foot: Foot, strides: Sequence[StrideTaken]) -> HeadingFit | str:
             return "its legs do not lead there and back along one line"
         directions.append(directions[-1] + step)
     drift, turning, drift_variance, turning_variance = _filter(legs, directions)
-    first = legs[0]
+    first, last = legs[0], legs[-1]
+    stride_time = (last.t - first.t) / (last.strides - first.strides)
     left = [
         direction + drift * (leg.strides - first.strides) + turning * (leg.turn - first.turn)
         for leg, direction in zip(legs, directions, strict=True)
@@ -109,10 +124,10 @@ def fit_heading(foot: Foot, strides: Sequence[StrideTaken]) -> HeadingFit | str:
     heading = HeadingCalibration(
         drift=drift,
         turning=turning,
-        drift_sigma=hypot(sqrt(drift_variance), DAY_DRIFT),
+        drift_sigma=hypot(sqrt(drift_variance), DAY_DRIFT, bias_sigma * stride_time),
         turning_sigma=hypot(sqrt(turning_variance), DAY_TURNING),
     )
-    return HeadingFit(foot, heading, len(legs), legs[-1].t - first.t, _spread(directions), _spread(left))
+    return HeadingFit(foot, heading, len(legs), last.t - first.t, _spread(directions), _spread(left))
 
 
 def _spread(directions: Sequence[float]) -> float:

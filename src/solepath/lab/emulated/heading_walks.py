@@ -43,7 +43,7 @@ SHOE_IMU = Imu("LSM6DSOX with g-effect", LSM6DSOX.acc, evolve(LSM6DSOX.gyro, g_e
 
 CALIBRATION_LAPS, CALIBRATION_LEG, CALIBRATION_SPEED = 5, 15.0, 1.3
 """Number of times that the wearer walks to and fro, length of a leg, m, and speed, m/s: two minutes."""
-CALIBRATION_TURN_RADIUS, CALIBRATION_STAND = 0.6, 5.0
+CALIBRATION_TURN_RADIUS, CALIBRATION_STAND = 0.6, 15.0
 """Radius of the turns at both ends, m, and time of standing before and after the walk, s."""
 OTHER_DAY = 10_000
 """Number that is added to the seed of gait, bias and noise on the day of the calibration walk."""
