@@ -8,10 +8,19 @@ from math import atan2, cos, hypot, pi, radians, sin
 import numpy as np
 import pytest
 
-from solepath.body.fuse.common_error import DRIFT, DRIFT_CHANGE, HEADING_NOISE, LENGTH_ERROR, TURNING, CommonError
+from solepath.body.fuse.common_error import (
+    DRIFT,
+    DRIFT_CHANGE,
+    HEADING_NOISE,
+    LENGTH_ERROR,
+    NO_MOVE,
+    TURNING,
+    CommonError,
+)
 from solepath.body.fuse.straightness import Straightness
 from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.wander import Wander
+from solepath.foot.navigate.bias import Bias
 from solepath.saving import codec as machine
 from solepath.types import Foot
 
@@ -154,32 +163,72 @@ def test_the_covariance_is_that_of_the_equations() -> None:
             assert np.allclose(matrix(error), expected, rtol=1e-9, atol=1e-15)
 
 
+def known_bias(variance: float, t: float, change: float = 0.0) -> Bias:
+    """Return what a rest that ended at `t`, s, has shown; `variance` is in (rad/s)^2, `change` in rad/s."""
+    return Bias((0.0, 0.0, change), (variance, variance), t, change)
+
+
 def test_a_bias_that_is_learnt_again_has_a_new_error() -> None:
     """Of a foot alone, whose rest teaches everything, and of one of two feet, whose other foot has learnt nothing."""
     for alone, left in ((True, 0.0), (False, 0.5)):
         error = CommonError()
         error.share(0, alone)
         for foot in range(1 if alone else 2):
-            error.add_rest(foot, 0.0, 4e-6)
+            error.add_rest(foot, 0.0, known_bias(4e-6, -1.0))
         assert error.bb == pytest.approx(4e-6 if alone else 2e-6)
         for k in range(100):
             error.propagate(1.0 if alone else 0.5, 1.0, 0.0, 1.0, (1.3, 0.0), (1e-4, 0.0, 1e-4))
-            error.add_rest(0, 0.01 * k, 4e-6)
+            assert error.add_rest(0, 0.01 * k, known_bias(4e-6, -1.0)) == NO_MOVE
         with_heading, heading = error.hb, error.hh
         assert with_heading > 0.0
-        error.add_rest(0, 1.0, 1e-12)
+        error.add_rest(0, 1.0, known_bias(1e-12, 1.0))
         assert error.hb == pytest.approx(left * with_heading, rel=0.01, abs=1e-8)
         assert error.bb == pytest.approx(left * left * 4e-6, rel=0.01, abs=1e-9)
-        assert error.hh == heading, "what it has turned, it has turned"
+        assert error.hh < heading, "the rest shows what the bias has turned"
         assert min(np.linalg.eigvalsh(matrix(error))) > -1e-12
+
+
+@pytest.mark.parametrize("alone", [True, False])
+def test_a_rest_after_a_walk_turns_the_track_back_by_what_its_bias_has_turned(alone: bool) -> None:
+    """100 strides straight on with a bias of 1 mrad/s too much, which a long rest shows; of two feet, on both."""
+    error, t, off = CommonError(), 0.0, -1e-3
+    error.drift_variances, error.rr, error.kk = (0.0, 0.0), 0.0, 0.0
+    error.share(0, alone)
+    feet = (0,) if alone else (0, 1)
+    for foot in feet:
+        error.add_rest(foot, 0.0, known_bias(1e-6, 0.0))
+    for k in range(100):
+        t += 1.1
+        error.propagate(1.0 if alone else 0.5, 1.0, 0.0, 1.1, (1.3, 0.0), (1e-4, 0.0, 1e-4))
+        error.add_rest(feet[k % len(feet)], t, known_bias(1e-6, 0.0))
+    turned = 110.0 * off * (1.0 if alone else 0.5)
+    # the bias was too large by 1 mrad/s, the track turned too far to the right
+    moves = [error.add_rest(foot, t, known_bias(1e-10, t, off)) for foot in feet]
+    x, y, heading = (sum(move[axis] for move in moves) for axis in range(3))
+    assert heading == pytest.approx(-turned, rel=0.1)
+    assert y == pytest.approx(-turned * 0.5 * (130.0 if alone else 65.0), rel=0.1)
+    assert error.bias == pytest.approx(0.0, abs=2e-5), "the feet have removed it"
+    assert error.heading_sigma < 0.25 * (110.0 * 1e-3)
+
+
+def test_a_bias_that_is_another_one_turns_nothing_back() -> None:
+    """A jump of 0.3 degrees/s, of which nobody knows when it happened."""
+    error = CommonError()
+    error.share(0, alone=True)
+    error.add_rest(0, 0.0, known_bias(1e-7, 0.0))
+    for _ in range(50):
+        error.propagate(1.0, 1.0, 0.0, 1.1, (1.3, 0.0), (1e-4, 0.0, 1e-4))
+    before = error.hh
+    assert error.add_rest(0, 55.0, known_bias(9e-8, 55.0, 0.005)) == NO_MOVE
+    assert error.hh == before
 
 
 def test_a_foot_that_stands_for_an_hour_is_turned_by_no_bias_that_it_has_learnt_since() -> None:
     error = CommonError()
     error.share(0, alone=True)
-    error.add_rest(0, 0.0, 4e-6)
+    error.add_rest(0, 0.0, known_bias(4e-6, 0.0))
     error.bias = 1e-3
-    error.add_rest(0, 3600.0, 1e-10)
+    error.add_rest(0, 3600.0, known_bias(1e-10, 3600.0))
     assert abs(error.bias) < 1e-5
 
 

@@ -22,7 +22,7 @@ def test_errors_as_large_as_their_covariance_says_have_a_mean_of_1_and_a_median_
 def test_the_first_metres_align_the_track_and_their_error_counts(heading: float) -> None:
     """A straight walk of 40 m whose error at 10 m and at the end is that of its covariance."""
     rng = np.random.default_rng(2)
-    surveyed = np.array([[float(x), 0.0] for x in range(0, 41)])
+    surveyed = np.array([[float(x), 0.0] for x in range(41)])
     c, s = np.cos(heading), np.sin(heading)
     turn = np.array([[c, -s], [s, c]])
     found = []
@@ -39,5 +39,5 @@ def test_the_first_metres_align_the_track_and_their_error_counts(heading: float)
 
 
 def test_a_walk_of_only_the_first_metres_has_no_figure() -> None:
-    surveyed = np.array([[float(x), 0.0] for x in range(0, 11)])
+    surveyed = np.array([[float(x), 0.0] for x in range(11)])
     assert consistency_at_end(surveyed, np.ones((11, 3)), surveyed) == {}

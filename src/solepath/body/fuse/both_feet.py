@@ -27,11 +27,11 @@ from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartInput, PartOutput, Position, Shift
-from .common_error import CommonError, Move
+from .common_error import NO_MOVE, CommonError, Move
 from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, standing_foot
 from .moving_ground import MovingGround
 from .position import MeanOfFeet
-from .straight_ways import NO_MOVE, StraightWays
+from .straight_ways import StraightWays
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
 MAX_TRACK_VALUE = 1e6
@@ -171,7 +171,7 @@ class BothFeet(MeanOfFeet):
             self._restart()
             return ()
         share = self.common.share(index, not self.started or other.unplaced or other.absent)
-        self.common.add_rest(index, event.t_end, after.bias_variance)
+        self._move_both(event.foot, self.common.add_rest(index, event.t_end, after.bias))
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
@@ -206,12 +206,13 @@ class BothFeet(MeanOfFeet):
         if self.settings.straightness and not realigned:
             move, misfit = self.straight_ways.add_stride(event, share, count, (dx, dy), self.common)
             defects.append(misfit)
-            if move != NO_MOVE:
-                self._move_both(event.foot, move)
+            self._move_both(event.foot, move)
         return [*filter(None, defects), *self._shift_foot(index, event.foot, after.takes_shifts)]
 
     def _move_both(self, foot: Foot, move: Move) -> None:
         """Move and turn both tracks about the position of the wearer."""
+        if move == NO_MOVE:
+            return
         (lx, ly, _), (rx, ry, _) = self._end_of(0)[1], self._end_of(1)[1]
         share = 0.5 if not self.common.alone else 1.0 if foot is Foot.LEFT else 0.0
         self._move_tracks((share * lx + (1.0 - share) * rx, share * ly + (1.0 - share) * ry), (move, move))

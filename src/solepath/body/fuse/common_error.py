@@ -16,8 +16,8 @@ a rotation by +90 degrees:
     a = w (n drift + theta turning + T bias),   heading' = heading + a,   e' = e + w (heading + a / 2) c d
 
 where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. Straight ways measure the drift with the bias
-(straightness.py). After a rest at which a foot learns its bias anew, the bias makes another error. The equations are
-linear in the errors; what a heading error of any size does to the position is in `position_covariance`."""
+(straightness.py). A rest at which a foot learns its bias anew measures the bias so far. The equations are linear in the
+errors; what a heading error of any size does to the position is in `position_covariance`."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from collections.abc import Mapping
 from math import exp, fsum, sqrt
 
 from ...calibration import HeadingCalibration
-from ...foot.attitude import BIAS_WANDER
+from ...foot.navigate.bias import BIAS_WANDER, Bias
 from ...types import Foot
 from ...types.attrs import define, field, frozen
 
-DRIFT = 0.0011
+DRIFT = 0.0014
 """Standard deviation of the drift of one foot, rad a stride (3 degrees a minute), unless it was calibrated.
 
 On recordings a foot drifts by 1 to 7 degrees a minute with its bias (`solepath evaluate`, drift of the heading)."""
@@ -41,8 +41,6 @@ DRIFT_CHANGE = 3e-6
 """Random walk of the drift, rad a stride and sqrt(s): the manner of walking changes."""
 HEADING_NOISE = 0.0012
 """Random walk of the heading, rad/sqrt(s): 0.5 degrees in a minute."""
-LEAST_GAIN = 0.01
-"""Least gain of a bias that was learnt anew; a smaller one comes from rounding."""
 GAP_RATE, MAX_GAP_ERROR = 0.3, 0.06
 """Error of the heading after a gap in the samples of a foot: rad per s of the gap, and at the most, rad."""
 LENGTH_ERROR = 0.007
@@ -50,8 +48,14 @@ LENGTH_ERROR = 0.007
 
 Emulated strides are up to 1.6 % too long or too short on average (rms 0.7 %)."""
 
+REST_GATE = 9.0
+"""Largest squared difference of a bias that was learnt anew from the expected one, divided by its variance, that is
+attributed to the time before it."""
+
 Move = tuple[float, float, float]
 """Values to be added to x and y, m, and to the heading of both tracks, rad."""
+NO_MOVE: Move = (0.0, 0.0, 0.0)
+"""The correction of nothing: the tracks stay where they are."""
 
 
 @frozen
@@ -61,7 +65,11 @@ class FootBias:
     t: float
     """End of the stride, s."""
     variance: float
-    """Variance of the bias about the vertical, (rad/s)^2."""
+    """Variance of the bias about the vertical at `t`, (rad/s)^2."""
+    learnt_at: float | None
+    """End of the rest that has shown the bias, s; None before any and after times restart."""
+    change: float
+    """Sum of all changes of the bias about the vertical, rad/s."""
 
 
 @define
@@ -183,49 +191,57 @@ class CommonError:
         It counts as `strides` usual ones, turns by `turn` rad and takes `duration` s."""
         return strides * self.drift + turn * self.turning + duration * self.bias
 
-    def add_rest(self, foot: int, t: float, variance: float) -> None:
-        """Take in the `variance` of the bias of foot 0 (left) or 1, (rad/s)^2, at the end of a stride at `t`, s.
+    def add_rest(self, foot: int, t: float, bias: Bias) -> Move:
+        """Take in the `bias` of foot 0 (left) or 1 at the end of a stride at `t`, s.
 
-        A foot that has learnt its bias anew, with a gain of 1 - q / p for the variance p before and q now, makes
-        another error from now on, which has less to do with the errors so far. That the new bias shows also what the
-        old one has turned is not used: a standing foot sways, and most changes of a bias come from that."""
-        newest, share = self.foot_biases[foot], 1.0 if self.alone else 0.5
-        self.foot_biases[foot] = FootBias(t, variance)
+        A foot that has learnt its bias anew, with a gain of 1 - q / p for the variance p before and q now, has measured
+        by which rate its track turned wrongly until now. Returns what is to be added to x and y, m, and to the heading,
+        rad."""
+        newest, share, variance = self.foot_biases[foot], 1.0 if self.alone else 0.5, bias.variances[0]
         if newest is None:
+            self.foot_biases[foot] = FootBias(t, variance, bias.t, bias.change)
             self.bb += share * share * variance
-            return
+            return NO_MOVE
         wander = BIAS_WANDER * BIAS_WANDER * max(0.0, t - newest.t)
         self.bb += share * share * wander
         before = newest.variance + wander
-        gain = 1.0 - variance / before if before > 0.0 else 0.0
-        if gain < LEAST_GAIN:
-            self.bb += share * share * max(0.0, variance - before)
-            return
-        # the bias of the mean changes by -w gain times that of the foot and noise; the foot's is `part` of the mean's
+        if bias.t == newest.learnt_at or variance >= before:
+            self.foot_biases[foot] = FootBias(t, before, bias.t, newest.change)
+            return NO_MOVE
+        self.foot_biases[foot] = FootBias(t, variance, bias.t, bias.change)
+        change, gain = bias.change - newest.change, 1.0 - variance / before
+        # the error of the foot is `part` of that of the mean, and another one that has nothing to do with it
         other = None if self.alone else self.foot_biases[1 - foot]
         part = 1.0 if other is None else 2.0 * before / (before + other.variance)
-        kept = max(0.0, 1.0 - share * gain * part)
-        self.bias *= kept
-        self.xb *= kept
-        self.yb *= kept
-        self.hb *= kept
-        self.rb *= kept
-        self.kb *= kept
-        self.bb = kept * kept * self.bb + share * share * gain * max(0.0, before - gain * part * part * self.bb)
+        s, z = before / gain, -change / gain - part * self.bias
+        move = NO_MOVE
+        if z * z < REST_GATE * s:
+            column = [part * value for value in (self.xb, self.yb, self.hb, self.rb, self.kb, self.bb)]
+            move = self._correct(column, z, s, 1.0)
+        else:  # it is another bias, and nobody knows since when
+            self.bb += share * share * variance
+        self.bias += share * change  # the foot has removed it
+        return move
 
     def correct_drift(self, z: float, variance: float, weight: float, stride_time: float) -> Move:
         """Correct the errors by a measured drift that differs by `z` rad a stride from the estimate.
 
         `variance` is that of the measurement and `stride_time` the duration of a stride, s, in which the bias adds to
-        the drift; `weight` is the probability that it measures them at all. With the gain K, the errors move by weight
-        K z, and their covariance becomes that of both possibilities together (Bar-Shalom et al. 2001, section 11.6).
-        Returns what is to be added to x and y, m, and to the heading, rad."""
+        the drift; `weight` is the probability that it measures them at all. Returns what is to be added to x and y, m,
+        and to the heading, rad."""
         t = stride_time
-        column = (
+        column = [
             self.xr + t * self.xb, self.yr + t * self.yb, self.hr + t * self.hb, self.rr + t * self.rb,
             self.rk + t * self.kb, self.rb + t * self.bb,
-        )  # fmt: skip
-        s = variance + self.drift_variance(t)
+        ]  # fmt: skip
+        return self._correct(column, z, variance + self.drift_variance(t), weight)
+
+    def _correct(self, column: list[float], z: float, s: float, weight: float) -> Move:
+        """Correct the errors by a measurement with the innovation `z`, its variance `s` and P H' in `column`.
+
+        With the gain K, the errors move by weight K z, and their covariance becomes that of both possibilities
+        together: that the measurement is one, with the probability `weight`, or none (Bar-Shalom et al. 2001, section
+        11.6)."""
         a, b, c, d, e, g = [value / s for value in column]
         # P <- P - weight K S K' + weight (1 - weight) K z z K'
         f = weight * ((1.0 - weight) * z * z - s)

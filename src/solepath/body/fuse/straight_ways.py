@@ -10,11 +10,11 @@ from ...events import Defect, DefectFound, StrideTaken
 from ...types import SITE_OF_FOOT, Foot
 from ...types.attrs import define, evolve, field
 from .calibration_fit import CalibrationFit, DriftHypothesis
-from .common_error import DRIFT, CommonError, Move
+from .common_error import DRIFT, NO_MOVE, CommonError, Move
 from .straightness import Straightness
 
-NO_MOVE: Move = (0.0, 0.0, 0.0)
-"""The correction of nothing: the tracks stay where they are."""
+LONGEST_STRIDE_TIME = 2.0
+"""Longest duration of a stride that walks, s; in a longer one the wearer stood first."""
 
 
 @define
@@ -62,7 +62,7 @@ class StraightWays:
         if event.foot in self.spoiled:
             self.straightness.reset()
             return NO_MOVE, None
-        sigma = sqrt(common.drift_variance(event.t_end - event.t_start))
+        sigma = sqrt(common.drift_variance(min(event.t_end - event.t_start, LONGEST_STRIDE_TIME)))
         found = self.straightness.add_stride(event.t_end, displacement, share, strides, event.heading_change, sigma)
         if found is None:
             return NO_MOVE, None
