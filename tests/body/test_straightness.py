@@ -8,15 +8,8 @@ from math import atan2, cos, hypot, pi, radians, sin
 import numpy as np
 import pytest
 
-from solepath.body.fuse.common_error import (
-    DRIFT,
-    DRIFT_CHANGE,
-    HEADING_NOISE,
-    LENGTH_ERROR,
-    NO_MOVE,
-    TURNING,
-    CommonError,
-)
+from solepath.body.fuse.common_error import DRIFT, DRIFT_CHANGE, HEADING_NOISE, NO_MOVE, TURNING, CommonError
+from solepath.body.fuse.position_covariance import LENGTH_ERROR, position_covariance
 from solepath.body.fuse.straightness import Straightness
 from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.wander import Wander
@@ -256,7 +249,7 @@ def test_a_heading_that_is_far_off_leaves_the_place_on_a_circle_about_where_it_t
     b = np.array([-arm[1], arm[0]])
     error.xh, error.yh = variance * b[0], variance * b[1]
     error.xx, error.xy, error.yy = variance * b[0] ** 2 + 0.5, variance * b[0] * b[1], variance * b[1] ** 2 + 0.25
-    xx, xy, yy = error.position_covariance((0.0, 0.0))
+    xx, xy, yy = position_covariance(error, (0.0, 0.0))
     headings = sigma * rng.standard_normal(200_000)
     off = np.stack([(np.cos(headings) - 1.0) * arm[i] + np.sin(headings) * b[i] for i in range(2)])
     drawn = off @ off.T / len(headings) + np.diag([0.5, 0.25])
@@ -266,7 +259,7 @@ def test_a_heading_that_is_far_off_leaves_the_place_on_a_circle_about_where_it_t
 def test_strides_that_are_all_too_long_leave_the_place_uncertain_along_the_way() -> None:
     error = CommonError()
     error.xx = error.yy = 0.01
-    xx, xy, yy = error.position_covariance((30.0, 40.0))
+    xx, xy, yy = position_covariance(error, (30.0, 40.0))
     assert atan2(xy, xx - 0.01) == pytest.approx(atan2(40.0, 30.0))
     assert xx + yy == pytest.approx(0.02 + (50.0 * LENGTH_ERROR) ** 2)
 

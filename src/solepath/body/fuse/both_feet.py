@@ -31,6 +31,7 @@ from .common_error import NO_MOVE, CommonError, Move
 from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, standing_foot
 from .moving_ground import MovingGround
 from .position import MeanOfFeet
+from .position_covariance import position_covariance
 from .straight_ways import StraightWays
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
@@ -145,8 +146,7 @@ class BothFeet(MeanOfFeet):
         mean = MeanOfFeet.position(self, feet)
         if mean is None or not self.common.started:
             return mean
-        x, y, _ = mean.position
-        xx, xy, yy = self.common.position_covariance((x, y))
+        xx, xy, yy = position_covariance(self.common, mean.position[:2])
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
         xx, yy, zz = xx + FOOTPRINT_VARIANCE, yy + FOOTPRINT_VARIANCE, mean.covariance[5]
         return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, zz), self.common.heading_sigma)
@@ -279,8 +279,7 @@ class BothFeet(MeanOfFeet):
 
     def _shift_foot(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """Return the correction that has accumulated for the foot since its last one, and reset its placement."""
-        this = self.left if index == 0 else self.right
-        stride = self.strides[index]
+        this, stride = self.left if index == 0 else self.right, self.strides[index]
         if stride is not None and self.distance < ALIGNMENT_DISTANCE:
             self.placements[index] = (this.turn, this.offset)
         elif stride is not None and self.settings.feedback and takes_shifts:
