@@ -11,7 +11,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.lab.emulated.heading import HeadingTrack, heading_figures, is_half_hour
 from solepath.lab.emulated.heading_walks import KINDS, heading_route
 from solepath.lab.emulated.walks import STOREYS, four_floors, mean_position, place_figures
-from solepath.lab.measures.drift import drift_of_strides, drift_that_opens
+from solepath.lab.measures.drift import drift_figures, drift_of_strides, drift_that_opens
 from solepath.types import Foot
 
 
@@ -110,4 +110,5 @@ def test_a_drift_is_found_from_surveyed_strides_and_from_a_loop_that_stays_open(
     track = np.column_stack([places.real, places.imag, 0.0 * t])
     assert drift_of_strides(t, track, truth) == pytest.approx(drift, abs=1e-9)
     assert drift_that_opens(t, track) == pytest.approx(drift, rel=0.1, abs=1e-9), "linear in the drift"
+    assert drift_figures(drift, t)["drift_stride"] == pytest.approx(abs(drift) * float(np.mean(np.diff(t))))
     assert drift_of_strides(t[:30], track[:30], truth[:30]) is None, "too short to tell"

@@ -71,7 +71,7 @@ def _is_surveyed(name: str, meta: Meta) -> bool:
 
 TRACK_FIGURES = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
 STRIDE_FIGURES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
-LOOP_FIGURES = ("end_error", "end_error_2d", "end_height", "path", "relative", "drift")
+LOOP_FIGURES = ("end_error", "end_error_2d", "end_height", "path", "relative", "drift", "drift_stride")
 HEEL_STRIKE_FIGURES = (
     "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad",
     "heel_strike_scatter", "heel_strike_off",
@@ -91,7 +91,7 @@ DATASETS = (
     DataSet(
         "gumushane_surveyed", "every footprint surveyed, one shoe", score_surveyed,
         ("position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", "drift",
-         "nees_end", "held_end", *STRIDE_FIGURES, "stride_error_track"),
+         "drift_stride", "nees_end", "held_end", *STRIDE_FIGURES, "stride_error_track"),
         folders=("gumushane_gcp",), has_truth=_is_surveyed,
     ),
     DataSet(
@@ -118,7 +118,10 @@ DATASETS = (
          "end_error_2d", "end_height", "uturn_found", "uturn_angle", "uturn_invented"),
         lists_recordings=False,
     ),
-    DataSet("tripod_treadmill", "a treadmill, both feet", score_treadmill, ("drift", *CONTACT_FIGURES)),
+    DataSet(
+        "tripod_treadmill", "a treadmill, both feet", score_treadmill,
+        ("drift", "drift_left", "drift_right", "drift_stride", *CONTACT_FIGURES),
+    ),
     DataSet(
         "gaitmap_examples", "4 x 10 m, both feet", score_borders,
         (*HEEL_STRIKE_FIGURES, *STRIDE_TIME_FIGURES, *LEG_FIGURES, *BODY_LEG_FIGURES, "leg_spread",

@@ -13,7 +13,7 @@ from ...events import HeelStrike, ToeOff
 from ...types import Foot, Turn
 from ..measures.alignment import at_times
 from ..measures.contacts import force_contacts, merged, switch_contacts
-from ..measures.drift import drift_of_strides
+from ..measures.drift import drift_figures, drift_of_strides
 from ..measures.legs import leg_errors, turn_times
 from ..measures.matching import TOLERANCE, Errors, Matching, interval_errors, match
 from ..measures.score import Figures, Scored
@@ -145,19 +145,23 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
             strike_times, truth["gt_stride_len"][rows][:-1], foot_run.stride_lengths, end_tolerance=-TOLERANCE
         )
     times = {"stride_time": _stride_time_errors(result, heel_strikes)}
-    drifts = [drift for one in result.feet.values() if (drift := _drift_on_belt(one)) is not None]
-    figures: Figures = {"drift": float(np.mean(np.abs(drifts))) if drifts else None}
+    figures: Figures = {}
+    feet = {foot: _drift_on_belt(one) for foot, one in result.feet.items()}
+    for name in ("drift", "drift_stride"):
+        known = [drift for one in feet.values() if (drift := one[name]) is not None]
+        figures[name] = float(np.mean(known)) if known else None
+    figures |= {f"drift_{foot.value}": one["drift"] for foot, one in feet.items()}
     events = _contact_matches(result, heel_strikes, toe_offs)
     return scored(path, result, figures=figures, events=events, strides=strides, errors=times)
 
 
-def _drift_on_belt(run: FootRun) -> float | None:
-    """Return the drift of a foot whose way over the belt is straight, rad/s; None for a short walk."""
+def _drift_on_belt(run: FootRun) -> Figures:
+    """Return the drift of a foot whose way over the belt is straight."""
     t, lengths = [stride.t_end for stride in run.strides], [stride.length for stride in run.strides]
     if len(t) < 2:
-        return None
-    straight = np.column_stack([np.cumsum(lengths), np.zeros(len(t))])
-    return drift_of_strides(np.array(t), at_times(run.t, run.positions, np.array(t)), straight)
+        return drift_figures(None, np.array(t))
+    straight, ends = np.column_stack([np.cumsum(lengths), np.zeros(len(t))]), np.array(t)
+    return drift_figures(drift_of_strides(ends, at_times(run.t, run.positions, ends), straight), ends)
 
 
 def score_switches(path: Path, meta: Meta, settings: RunSettings) -> Scored:

@@ -10,7 +10,7 @@ import numpy as np
 from ...types import Foot
 from ..measures.alignment import at_times, path_length, track_error
 from ..measures.consistency import consistency_at_end
-from ..measures.drift import drift_of_strides, drift_that_opens
+from ..measures.drift import drift_figures, drift_of_strides, drift_that_opens
 from ..measures.legs import leg_errors
 from ..measures.matching import Errors
 from ..measures.score import Figures, Scored
@@ -85,8 +85,8 @@ def _loop_figures(result: RecordingRun, length: float) -> Figures:
         return {}
     figures = _closing_errors(foot.positions[0], foot.positions[-1])
     t = np.array([foot.strides[0].t_start, *(stride.t_end for stride in foot.strides)]) if foot.strides else foot.t
-    drift = drift_that_opens(t, at_times(foot.t, foot.positions, t))
-    return {**figures, "path": length, "relative": (figures["end_error"] or 0.0) / length, "drift": abs(drift)}
+    drift = drift_figures(drift_that_opens(t, at_times(foot.t, foot.positions, t)), t)
+    return {**figures, "path": length, "relative": (figures["end_error"] or 0.0) / length, **drift}
 
 
 def _closing_errors(first: Any, last: Any) -> Figures:
@@ -118,7 +118,7 @@ def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         surveyed = path_length(truth["gt_stride_xy"])
         drift = drift_of_strides(times, at_times(foot.t, foot.positions, times), truth["gt_stride_xy"])
         figures = {
-            "drift": None if drift is None else abs(drift),
+            **drift_figures(drift, times),
             "position_mean": float(np.mean(errors)),
             "position_max": float(np.max(errors)),
             "authors": authors,

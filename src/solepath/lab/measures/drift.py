@@ -10,11 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .alignment import Floats
+from .score import Figures
 
 MIN_STRIDE = 0.5
 """Shortest stride whose direction is compared with the truth, m."""
 MIN_TIME = 50.0
 """Shortest walk whose drift is averaged with that of others, s: in a shorter one, the direction of a stride decides."""
+
+
+def drift_figures(drift: float | None, t: Floats) -> Figures:
+    """Return the size of a drift of a foot, rad/s, and the same for each of its strides, which end at `t` (n,), s."""
+    if drift is None:
+        return {"drift": None, "drift_stride": None}
+    return {"drift": abs(drift), "drift_stride": abs(drift) * float(t[-1] - t[0]) / (len(t) - 1)}
 
 
 def drift_of_strides(t: Floats, places: Floats, truth: NDArray[Any]) -> float | None:

@@ -27,6 +27,10 @@ def _degrees(value: float | None) -> str:
     return number(None if value is None else degrees(value), 1)
 
 
+def _fine_degrees(value: float | None) -> str:
+    return number(None if value is None else degrees(value), 3)
+
+
 def _degrees_a_minute(value: float | None) -> str:
     return _degrees(None if value is None else 60.0 * value)
 
@@ -56,6 +60,9 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "heading_end": ("heading degrees", _degrees),
     "radius_error": ("radius %", _fine_percent),
     "drift": ("drift degrees/min", _degrees_a_minute),
+    "drift_left": ("left", _degrees_a_minute),
+    "drift_right": ("right", _degrees_a_minute),
+    "drift_stride": ("degrees a stride", _fine_degrees),
     **{
         f"{figure}_{t}": (f"{title} {t} s", _two_digits)
         for t in CHECKED_TIMES
