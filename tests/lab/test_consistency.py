@@ -8,7 +8,7 @@ import pytest
 from solepath.lab.measures.consistency import SURVEY_ERROR, consistency, consistency_at_end
 
 
-def test_errors_as_large_as_their_covariance_says_have_a_mean_of_1_and_a_median_of_069() -> None:
+def test_errors_as_large_as_their_covariance_have_a_mean_of_1_and_a_median_of_069() -> None:
     rng = np.random.default_rng(1)
     covariance = np.array([[4.0, 1.5], [1.5, 1.0]])
     found = [consistency(error, covariance) for error in rng.multivariate_normal((0.0, 0.0), covariance, 4000)]

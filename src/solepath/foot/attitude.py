@@ -9,7 +9,7 @@ from __future__ import annotations
 from ..types import Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import GRAVITY, TIE, ZERO, levelling
-from .navigate.bias import BiasFilter, RestSpan
+from .navigate.bias import REST_SPAN, BiasFilter, RestSpan
 
 COARSEST_COUNT = 0.7
 """Upper limit for the value of one accelerometer count, m/s^2; 8 bits for +-8 g give 0.61."""
@@ -29,8 +29,8 @@ SPANS_OF_KNOWN_SCALE, LARGEST_SCALE_CHANGE = 4, 0.02
 """Number of spans of rest after which the scale is known, and largest relative change of the scale from then on.
 
 A larger change comes from an elevator that starts or stops."""
-LEVEL_SPAN, REST_SPAN = 0.25, 0.5
-"""Duration of a span for the first attitude and of a span of rest, s."""
+LEVEL_SPAN = 0.25
+"""Duration of a span for the first attitude, s."""
 LEVEL_ACC_SIGMA = 0.6
 """Largest standard deviation of acc for the first attitude, m/s^2; 8-bit accelerometers flicker by 0.3."""
 LEVEL_GYRO_SIGMA = 0.1
@@ -180,9 +180,14 @@ class Rest:
     """Last acc without calibration, m/s^2."""
 
     def reset(self) -> None:
-        """Discard the current span because times restart; bias and scale stay."""
+        """Discard the current rest because times restart; bias and scale stay."""
         self._start_span(None)
         self.bias_filter.reset()
+
+    def interrupt(self) -> None:
+        """End the current rest because samples are missing."""
+        self._start_span(None)
+        self.bias_filter.end_rest()
 
     def calibrate(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
         """Return acc, m/s^2, and gyro, rad/s, with scale and bias applied."""

@@ -229,6 +229,8 @@ class FootTracker:
         """Report a gap between two samples; return the time to integrate over, s."""
         events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - t_last))
         self.gait.stride.mark_degraded(t)
+        if t - t_last > LONGEST_BRIDGE:
+            self.rest.interrupt()
         if not self.levelled:
             if t - t_last > LONGEST_BRIDGE:
                 self.levelling = Levelling()

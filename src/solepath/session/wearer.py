@@ -161,6 +161,7 @@ class WearerParts:
         self._reset_parts(site)
         if site.foot is not None and site.foot in self.feet:
             self.feet[site.foot].reset()
+            self.feet[site.foot].rest.bias_filter.forget()
 
     def finish(self, now: float) -> list[Event]:
         """Return the events that the parts held back; no more samples come after `now`, s."""

@@ -62,7 +62,7 @@ def stretches(*bends: float) -> CalibrationFit:
     return fit
 
 
-def test_ways_that_weave_say_nothing_against_a_calibration() -> None:
+def test_ways_that_weave_are_no_evidence_against_a_calibration() -> None:
     """Arcs of 600 m radius to the left and to the right in turn: every other one could be the drift of other shoes."""
     assert stretches(*[-0.0022, 0.0022, -0.0015, 0.0023, -0.0020, 0.0021, -0.0023] * 3).count < inf
     assert stretches(*[-0.0022, -0.0020, 0.0012, -0.0021, -0.0023, -0.0019]).count == inf

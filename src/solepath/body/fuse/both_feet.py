@@ -28,17 +28,18 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartInput, PartOutput, Position, Shift
 from .common_error import NO_MOVE, CommonError, Move
-from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, standing_foot
+from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
 from .moving_ground import MovingGround
 from .position import MeanOfFeet
 from .position_covariance import position_covariance
+from .rests import add_rest, has_rested
 from .straight_ways import StraightWays
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
 MAX_TRACK_VALUE = 1e6
 """Largest coordinate of a track, m, and largest variance of a stride, m^2, that are used."""
-MAX_PHASE_TIME = 1.0
-"""Longest stance or swing time over which a drift rate is integrated, s; a foot that stands longer learns its bias."""
+MAX_STANDING = 600.0
+"""Longest time over which the bias of a foot that stands without a rest turns the heading, s."""
 FOOTPRINT_VARIANCE = 1e-4
 """Variance of a foot's position at foot-flat that is added to a stride's variance, m^2."""
 ALIGNMENT_ERROR = (0.15, 0.05)
@@ -51,10 +52,9 @@ GATE_LIMIT, NO_GATE = 16.0, 1e12
 """Largest squared innovation, divided by its variance, of a measurement that is used; `NO_GATE`: always."""
 MAX_STRIDE_LENGTH = 2.5
 """Longest plausible stride, m; the excess of a longer stride inflates the covariance."""
-UNSEEN_DISTANCE = 3.0
-"""Distance that a wearer may have walked while both clocks restarted, m: that of a foot in a gap (propagated.py)."""
-ALIGNMENT_DISTANCE = 5.0
-"""Distance walked after which the tracks count as aligned and corrections go to the feet, m."""
+UNSEEN_DISTANCE, ALIGNMENT_DISTANCE = 3.0, 5.0
+"""Distance that a wearer may walk while both clocks restart, m: that of a foot in a gap (propagated.py), and distance
+walked after which the tracks count as aligned and corrections go to the feet, m."""
 
 
 @frozen
@@ -121,7 +121,7 @@ class BothFeet(MeanOfFeet):
             if isinstance(event, StrideTaken):
                 outputs += self._add_stride(event, view.after)
             elif isinstance(event, SampleGap):
-                self.common.add_gap(event.duration)
+                self.common.add_gap(event.duration, self.is_unseen(event))
         return outputs
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
@@ -168,19 +168,18 @@ class BothFeet(MeanOfFeet):
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
         numbers = (*event.position, *event.displacement, *event.covariance)
         if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
-            self._restart()
-            return ()
+            return self._restart()
         share = self.common.share(index, not self.started or other.unplaced or other.absent)
-        self._move_both(event.foot, self.common.add_rest(index, event.t_end, after.bias))
+        rested = has_rested(self.common, index, after.bias)
+        self._move_both(add_rest(self.common, index, event.t_end, after.bias))
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
-        t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
-        swing = max(0.0, min(event.t_end - t_toe_off, MAX_PHASE_TIME))
-        stance = max(0.0, min(t_toe_off - event.t_start, MAX_PHASE_TIME))
+        stance, swing = phase_times(event)
         # correct the drift of the heading, and the displacement by the drift up to mid-swing
         rate, count = self.errors.rates[index], usual_strides(event.length)
-        drift = self.common.turn_of(count, event.heading_change, stance + swing)
+        duration = stance + swing if rested else min(event.t_end - event.t_start, MAX_STANDING)
+        drift = self.common.turn_of(index, count, event.heading_change, duration)
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
         this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
         dx, dy = dx - mid_turn * dy, dy + mid_turn * dx
@@ -188,7 +187,7 @@ class BothFeet(MeanOfFeet):
         xx, xy, yy = this.turned_covariance(event.covariance)
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
-        self.common.propagate(share, count, event.heading_change, stance + swing, (dx, dy), variance)
+        self.common.propagate(index, count, event.heading_change, duration, (dx, dy), variance)
         if self.started:
             degraded = event.degraded or excess > 0.0
             self.errors.propagate(index, stance, swing, (ex, ey), (dx, dy), variance, degraded)
@@ -204,18 +203,18 @@ class BothFeet(MeanOfFeet):
         defects = [self.ground.add_stride(index, event, after)]
         self.common.inflate(self.ground.variance(event.t_end))
         if self.settings.straightness and not realigned:
-            move, misfit = self.straight_ways.add_stride(event, share, count, (dx, dy), self.common)
+            move, misfit = self.straight_ways.add_stride(index, event, count, (dx, dy), self.common)
             defects.append(misfit)
-            self._move_both(event.foot, move)
+            self._move_both(move)
         return [*filter(None, defects), *self._shift_foot(index, event.foot, after.takes_shifts)]
 
-    def _move_both(self, foot: Foot, move: Move) -> None:
+    def _move_both(self, move: Move) -> None:
         """Move and turn both tracks about the position of the wearer."""
         if move == NO_MOVE:
             return
         (lx, ly, _), (rx, ry, _) = self._end_of(0)[1], self._end_of(1)[1]
-        share = 0.5 if not self.common.alone else 1.0 if foot is Foot.LEFT else 0.0
-        self._move_tracks((share * lx + (1.0 - share) * rx, share * ly + (1.0 - share) * ry), (move, move))
+        left, right = self.common.shares
+        self._move_tracks((left * lx + right * rx, left * ly + right * ry), (move, move))
 
     def _move_tracks(self, centre: tuple[float, float], moves: tuple[Vec3, Vec3]) -> None:
         """Move each track by its x and y, m, and turn it by its third number, rad, about `centre`, m."""
@@ -292,9 +291,10 @@ class BothFeet(MeanOfFeet):
             return [Shift(foot, yaw - this.turn, shift)]
         return ()
 
-    def _restart(self) -> None:
-        """Restart the error filter, because its estimates or a stride have impossible values."""
+    def _restart(self) -> Sequence[PartOutput]:
+        """Restart the error filter, because its estimates or a stride have impossible values; there is no output."""
         self.errors.start()
         self.strides = [None, None]
         self.straight_ways.reset()
         (self.left.turn, self.left.offset), (self.right.turn, self.right.offset) = self.placements
+        return ()

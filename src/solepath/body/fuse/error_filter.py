@@ -22,6 +22,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import exp, hypot
 
+from ...events import StrideTaken
 from ...types import Vec3
 from ...types.attrs import define, field, frozen
 
@@ -42,6 +43,8 @@ DRIFT_RATE, DRIFT_MEMORY = 0.0012, 100.0
 """Standard deviation of a track's heading drift rate, rad/s (0.07 degrees/s), and correlation time, s.
 
 The rate changes with the manner of walking."""
+MAX_PHASE_TIME = 1.0
+"""Longest stance or swing time over which a drift rate is integrated, s; a foot that rests longer learns its bias."""
 HEADING_DRIFT = 0.0015
 """Random walk of the heading error that adds to the drift rate, rad/sqrt(s)."""
 DEGRADED_ERROR = 0.06
@@ -208,6 +211,13 @@ class Measurement:
     """Innovation: the expected difference minus that of the tracks, m."""
     variance: float
     """Variance of the measurement, m^2."""
+
+
+def phase_times(event: StrideTaken) -> tuple[float, float]:
+    """Return the stance time and the swing time of a stride, s, each up to `MAX_PHASE_TIME`."""
+    t_toe_off = event.t_start if event.t_toe_off is None else event.t_toe_off
+    stance, swing = t_toe_off - event.t_start, event.t_end - t_toe_off
+    return max(0.0, min(stance, MAX_PHASE_TIME)), max(0.0, min(swing, MAX_PHASE_TIME))
 
 
 def standing_foot(

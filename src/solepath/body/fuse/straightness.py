@@ -147,7 +147,7 @@ class Straightness:
         `share` of the stride, which counts as `strides` usual ones. `drift_sigma` is the standard deviation of the
         estimated drift, rad a stride, which is already removed from the stride."""
         dx, dy = displacement
-        paused = self.t is not None and not 0.0 <= t - self.t <= MAX_PAUSE
+        paused = self.t is not None and abs(t - self.t) > MAX_PAUSE  # the feet's clocks may be apart
         self.t = t
         if paused or abs(turn) > MAX_FOOT_TURN or hypot(dx, dy) < MIN_ADVANCE:
             return self.break_off(drift_sigma)

@@ -8,17 +8,17 @@ a second, so that the variance of the mean rate is
     2 s^2 (1 - exp(-T / tau)) / T^2,
 
 where s^2 is the variance of the angle and tau the correlation time. A long rest therefore teaches far more than several
-short ones. A Kalman filter takes each rest as one measurement, with one gain about the vertical and one about the
-horizontal axes: a standing foot lies on the ground, so it turns less about the vertical. A foot that trembles has a
-larger s, so that a restless rest teaches little. A foot starts to turn slowly before it leaves the ground; the last
-span of a rest therefore teaches nothing, unless it is the first span of all."""
+short ones. A Kalman filter takes each rest, up to half a minute of it, as one measurement, with one gain about the
+vertical and one about the horizontal axes: a standing foot lies on the ground, so it turns less about the vertical. A
+foot that trembles has a larger s, so that a restless rest teaches little. A foot starts to turn slowly before it leaves
+the ground; the last span of a rest therefore teaches nothing, unless it is the first span of all."""
 
 from __future__ import annotations
 
 from math import exp, fsum
 
 from ...types import Vec3
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import ZERO
 
 FIRST_BIAS = 0.009
@@ -27,12 +27,11 @@ LEAST_REST_ERROR = 0.0009
 """Least standard deviation of the mean rate of a span of rest, rad/s (3 degrees a minute).
 
 On recordings with the same sensor at several rests (gumushane_gcp, openshoe_loops, pyshoe_vicon, felius_2min_walk) the
-mean rate of a span differs from the bias by about the standard deviation of the means of its blocks, or by this. About
-the vertical, that is half of what it is about the other axes."""
+mean rate of a span differs from the bias by about the standard deviation of the means of its blocks, and by this."""
 UNKNOWN_REST_ERROR = 0.02
 """Standard deviation of the mean rate of a span with too few samples to tell, rad/s: the most that counts as rest."""
-SWAY_SPANS = 2.0
-"""Correlation time of the sway, in spans of rest of half a second each (foot/attitude.py): 1 s."""
+REST_SPAN, SWAY_SPANS, MOST_SPANS = 0.5, 2.0, 60
+"""Duration of a span of rest, s, correlation time of the sway, in spans, and most spans that are one measurement."""
 BIAS_ERROR = 1.5e-4
 """Standard deviation of the bias that even a long rest leaves, rad/s (0.5 degrees a minute).
 
@@ -69,6 +68,8 @@ class Bias:
     """End of the newest span of rest that was used, s; None before any and after times restart."""
     change: float = 0.0
     """Sum of all changes of `value` about the vertical, rad/s."""
+    spans: int = 0
+    """Number of spans of rest that were used; 0 for a device of which none was."""
 
 
 @define
@@ -86,14 +87,12 @@ class BiasFilter:
     """Mean over these spans of the variance of the rate of one span, (rad/s)^2, about the axes of `Bias.variances`."""
     newest: RestSpan | None = field(default=None, init=False)
     """Newest span, which is used once the next one is at rest too."""
-    is_known: bool = field(default=False, init=False)
-    """Flag: a span was used."""
 
     def add(self, span: RestSpan) -> None:
         """Add a span of rest that follows the one before without a break."""
         if self.newest is not None:
             self._learn(self.newest)
-        elif not self.is_known:
+        elif not self.bias.spans:
             self._learn(span)
             return
         self.newest = span
@@ -106,9 +105,16 @@ class BiasFilter:
         """Discard the current rest, because times restart; the bias stays."""
         self.end_rest()
         bias = self.bias
-        self.bias = Bias(bias.value, bias.variances, None, bias.change)
+        self.bias = evolve(bias, t=None)
+
+    def forget(self) -> None:
+        """Discard the variances, because the device may be another one; its bias is perhaps the same."""
+        self.reset()
+        self.bias = Bias(self.bias.value)
 
     def _learn(self, span: RestSpan) -> None:
+        if self.count >= MOST_SPANS:  # the bias wanders, so a very long rest is several
+            self.count = 0
         if not self.count:
             self.before, self.rate, self.noise = self.bias, ZERO, (0.0, 0.0)
         before, up = self.before, span.up
@@ -131,7 +137,8 @@ class BiasFilter:
                 seen = fsum([one[axis] for one in spreads]) / (len(spreads) - 1)
             mean = self.noise[axis]
             noises[axis] = mean = mean + k * (LEAST_REST_ERROR * LEAST_REST_ERROR + seen - mean)
-            noise = sway * mean + BIAS_ERROR * BIAS_ERROR
+            wandered = BIAS_WANDER * BIAS_WANDER * n * REST_SPAN / 3.0
+            noise = sway * mean + BIAS_ERROR * BIAS_ERROR + wandered
             known = before.variances[axis] + BIAS_WANDER * BIAS_WANDER * elapsed
             if squares[axis] > LARGEST_SURPRISE * (known + noise):
                 known += squares[axis]
@@ -141,8 +148,8 @@ class BiasFilter:
         about_up = dx * up[0] + dy * up[1] + dz * up[2]
         level, extra = gains[1], (gains[0] - gains[1]) * about_up
         value = (ox + level * dx + extra * up[0], oy + level * dy + extra * up[1], oz + level * dz + extra * up[2])
-        self.bias = Bias(value, (variances[0], variances[1]), span.t, before.change + gains[0] * about_up)
-        self.is_known = True
+        change, spans = before.change + gains[0] * about_up, self.bias.spans + 1
+        self.bias = Bias(value, (variances[0], variances[1]), span.t, change, spans)
 
 
 def _squares(w: Vec3, up: Vec3) -> tuple[float, float]:

@@ -38,7 +38,7 @@ _LESS = (
     "heel_strike_scatter", "heel_strike_off", "toe_off_mad", "toe_off_scatter", "toe_off_off", "stride_time_error",
     "stride_time_error_median", "leg_error", "leg_error_median", "body_leg_error", "body_leg_error_median",
     "leg_spread", "uturn_angle", "uturn_invented", "rides_invented", "level_called", "heading_end", "radius_error",
-    "drift",
+    "drift", "drift_left", "drift_right", "drift_stride",
 )  # fmt: skip
 _NEARER_ZERO = ("heel_strike_bias", "toe_off_bias", "stride_time_bias", "leg_bias", "body_leg_bias")
 _MORE = (
