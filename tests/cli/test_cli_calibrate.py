@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from math import pi
 from pathlib import Path
 
 import numpy as np
@@ -130,6 +131,19 @@ def test_the_drift_is_learnt_from_laps_of_a_square(tmp_path):
     assert set(calibrated(out).drift) == {Foot.RIGHT}
 
 
+def test_the_drift_of_headings_is_learnt_from_a_walk_there_and_back(tmp_path):
+    route = Route().stand(6.0)
+    for leg in range(4):
+        route = route.turn(pi if leg % 2 else -pi, 0.6).walk(9.0) if leg else route.walk(9.0)
+    walk, out = emulate(route.stop(2.0), devices=dict.fromkeys(FEET, Insole()), seed=2), tmp_path / "me.json"
+    result = run("calibrate", "walk", recorded(tmp_path / "walk.jsonl", walk.packets), "--out", out)
+    assert result.returncode == 0 and result.stderr == ""
+    _, _, left, right, _ = result.stdout.splitlines()
+    assert [line.split()[:2] for line in (left, right)] == [["left", "4"], ["right", "4"]]
+    assert set(calibrated(out).headings) == set(Foot)
+    assert all(0.0 < one.drift_sigma < 0.002 for one in calibrated(out).headings.values())
+
+
 def test_the_offset_of_touchdowns_is_learnt_from_a_walk_over_marks(tmp_path):
     walk = emulate(marked(WalkingMode.STRAIGHT, 14), devices=dict.fromkeys(FEET, Insole(rate=50.0)), seed=2)
     recorded(tmp_path / "walk.jsonl", walk.packets)
@@ -156,6 +170,7 @@ def test_unusable_input_is_rejected_in_one_line_and_nothing_is_written(packets, 
         (("square", packets, "--recipe", "default"), "recipe default takes no drift off"),
         (("square", packets, "--recipe", "circle"), "there is no recipe 'circle'"),
         (("newton", odd), "odd.csv, line 1: needs one column counts"),
+        (("walk", packets), "straight legs of 6 m and more, of which 4 are needed"),
         (("modes", packets), "takes two files for each walk"),
         (("modes", packets, odd), "odd.csv, line 1: needs one column foot"),
     ]:

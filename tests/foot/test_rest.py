@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from solepath.foot.attitude import Rest
-from solepath.foot.navigate.bias import BIAS_ERROR
+from solepath.foot.navigate.bias import BIAS_ERROR, FIRST_BIAS, Bias
+from solepath.session import Session
+from solepath.types import Foot, Sample, Site
 from solepath.types.vector import GRAVITY
 
 RATE = 100.0
@@ -96,3 +98,41 @@ def test_a_foot_that_starts_to_turn_before_it_lifts_does_not_make_that_its_bias(
         acc = np.array([0.0, 0.0, GRAVITY]) + (3.0 if k / RATE > 3.5 else 0.01) * rng.standard_normal(3)
         rest.update(k / RATE, tuple(acc.tolist()), tuple(gyro.tolist()))
     assert rest.bias[2] == pytest.approx(BIAS[2], abs=2e-4)
+
+
+def stand(session: Session, start: float, seconds: float, bias: float) -> None:
+    """Feed a left foot that stands, with this bias about the vertical, rad/s."""
+    rng = np.random.default_rng(int(start))
+    for k in range(int(seconds * RATE)):
+        gyro = (0.0, 0.0, bias + 2e-4 * float(rng.standard_normal()))
+        session.feed(Sample(t=start + k / RATE, site=Site.LEFT_FOOT, acc=(0.0, 0.0, GRAVITY), gyro=gyro))
+
+
+def bias_of(session: Session) -> Bias:
+    return session.feet[Foot.LEFT].rest.bias_filter.bias
+
+
+def test_a_gap_ends_a_rest_because_the_bias_may_be_another_one_after_it() -> None:
+    session = Session()
+    stand(session, 0.0, 10.0, 0.001)
+    stand(session, 1800.0, 10.0, 0.0035)
+    assert bias_of(session).value[2] == pytest.approx(0.0035, abs=3e-4)
+
+
+def test_a_rest_of_ten_minutes_follows_a_gyroscope_that_warms_up() -> None:
+    """By 0.1 degrees/s; half of a degree a minute may be left."""
+    rng, rest = np.random.default_rng(4), Rest()
+    for k in range(int(600.0 * 25.0)):
+        bias = 0.001 + 0.00175 * k / (600.0 * 25.0)
+        rest.update(k / 25.0, (0.0, 0.0, GRAVITY), (0.0, 0.0, bias + 2e-4 * float(rng.standard_normal())))
+    assert rest.bias[2] == pytest.approx(0.00275, abs=np.radians(0.6) / 60.0)
+
+
+def test_another_device_at_the_foot_has_an_unknown_bias() -> None:
+    session = Session()
+    stand(session, 0.0, 5.0, 0.001)
+    assert bias_of(session).spans > 5
+    session.bind(Site.LEFT_FOOT, "00:11:22:33:44:55")
+    assert bias_of(session).spans == 0 and bias_of(session).variances == (FIRST_BIAS**2, FIRST_BIAS**2)
+    stand(session, 20.0, 5.0, 0.02)
+    assert bias_of(session).value[2] == pytest.approx(0.02, abs=3e-4)

@@ -15,8 +15,8 @@ from solepath.recording import RecordingError
 
 NEITHER = {
     *(f"{figure}_{t}" for figure in ("nees", "held", "heading_nees") for t in CHECKED_TIMES),
-    "nees_end", "held_end", "path", "authors", "most_frequent", "strides_true", "rides_true", "heel_strike_true", "heel_strike_found",
-    "toe_off_true", "toe_off_found", "stride_longest",
+    "nees_end", "held_end", "path", "authors", "most_frequent", "strides_true", "rides_true", "heel_strike_true",
+    "heel_strike_found", "toe_off_true", "toe_off_found", "stride_longest",
 }  # fmt: skip
 
 OLD = {

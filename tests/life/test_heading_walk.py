@@ -1,7 +1,7 @@
 """A walk there and back shows how the heading of each foot drifts, and every recipe takes it off."""
 
 from functools import cache
-from math import pi
+from math import cos, pi, sin
 
 import numpy as np
 import pytest
@@ -16,6 +16,7 @@ from solepath.lab.emulated.heading_walks import calibration_samples, insoles_of,
 from solepath.session import Session
 from solepath.session.heading_walk import fit_heading, heading_calibration, heading_walk
 from solepath.types import Foot, Sample
+from solepath.types.attrs import evolve
 
 SEED = 101
 """A wearer whose heading drifts by some degrees a minute."""
@@ -28,6 +29,13 @@ def learnt() -> Calibration:
 
 def walk_of(route: Route, seed: int = SEED) -> tuple[Sample, ...]:
     return sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed).samples
+
+
+def there_and_back(stand: float, legs: int, length: float) -> Route:
+    route = Route().stand(stand)
+    for leg in range(legs):
+        route = route.turn(pi if leg % 2 else -pi, 0.6).walk(length, 1.3) if leg else route.walk(length, 1.3)
+    return route.stop(3.0)
 
 
 def test_the_walk_explains_most_of_what_its_legs_are_apart() -> None:
@@ -110,11 +118,24 @@ def test_another_walk_is_no_calibration_for_a_stated_reason(route: Route, reason
 def test_who_stands_longer_before_the_walk_is_surer_of_another_day() -> None:
     sigmas = []
     for seconds in (3.0, 20.0):
-        route = Route().stand(seconds)
-        for leg in range(6):
-            route = route.turn(pi if leg % 2 else -pi, 0.6).walk(25.0, 1.3) if leg else route.walk(25.0, 1.3)
-        sigmas.append([fit.heading.drift_sigma for fit in heading_walk(walk_of(route.stop(3.0)))])
+        fits = heading_walk(walk_of(there_and_back(seconds, 6, 25.0)))
+        sigmas.append([fit.heading.drift_sigma for fit in fits])
     assert all(long < 0.8 * short for short, long in zip(*sigmas, strict=True))
+
+
+def test_a_drift_that_no_calibration_may_hold_is_a_reason() -> None:
+    """Eight legs of five strides, in each of which the track turns by 3.4 degrees."""
+    samples = walk_of(Route().stand(3.0).walk(4.0).stop(2.0))
+    session = Session()
+    one, *_ = (event for sample in samples for event in session.feed(sample) if isinstance(event, StrideTaken))
+    strides, direction, t = [], 0.0, 0.0
+    for leg in range(8):
+        for turn, length in ((pi * (leg % 2 - 0.5) * 2.0, 0.3), *((0.0, 1.3),) * 5):
+            direction += turn - 0.06 * min(1.0, length / 0.8)
+            places = (length * cos(direction), length * sin(direction), 0.0)
+            strides.append(evolve(one, t_start=t, t=t + 1.0, length=length, displacement=places, heading_change=turn))
+            t += 1.0
+    assert str(fit_heading(Foot.LEFT, strides, 1e-3)).startswith("headings.left.drift ")
 
 
 def test_no_stride_shows_nothing() -> None:

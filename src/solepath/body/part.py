@@ -78,7 +78,7 @@ class Position:
     covariance: Covariance3
     """Covariance of `position`: xx, xy, xz, yy, yz, zz, m^2."""
     heading_sigma: float | None = None
-    """Standard deviation of all directions of the track at `t`, rad; None if the recipe does not know it."""
+    """Standard deviation of the angle by which the whole track may be turned, rad; None if it is not known."""
 
 
 PartOutput = Happening | Shift | HeightShift | Replacement

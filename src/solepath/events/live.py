@@ -35,7 +35,7 @@ class WearerMoved(Happening):
     covariance: tuple[float, float, float, float, float, float]
     """Covariance of `position`: xx, xy, xz, yy, yz, zz, m^2."""
     heading_sigma: float | None = None
-    """Standard deviation of all directions of the track at `t`, rad; None if the recipe does not know it."""
+    """Standard deviation of the angle by which the whole track may be turned, rad; None if it is not known."""
     final: bool = False
 
 

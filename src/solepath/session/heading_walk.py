@@ -16,6 +16,7 @@ from ..body.fuse.both_feet import BothFeet
 from ..body.fuse.common_error import DRIFT, HEADING_NOISE, TURNING
 from ..body.fuse.position import MeanOfFeet
 from ..calibration import Calibration, CalibrationError, HeadingCalibration
+from ..calibration.limits import find_fault
 from ..events import Event, StrideTaken
 from ..foot.navigate.bias import FIRST_BIAS
 from ..foot.stride import usual_strides
@@ -127,7 +128,8 @@ def fit_heading(foot: Foot, strides: Sequence[StrideTaken], bias_sigma: float) -
         drift_sigma=hypot(sqrt(drift_variance), DAY_DRIFT, bias_sigma * stride_time),
         turning_sigma=hypot(sqrt(turning_variance), DAY_TURNING),
     )
-    return HeadingFit(foot, heading, len(legs), last.t - first.t, _spread(directions), _spread(left))
+    fault = find_fault(Calibration(headings={foot: heading}))
+    return fault or HeadingFit(foot, heading, len(legs), last.t - first.t, _spread(directions), _spread(left))
 
 
 def _spread(directions: Sequence[float]) -> float:

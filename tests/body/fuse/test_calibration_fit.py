@@ -16,6 +16,7 @@ from solepath.events import Defect, DefectFound
 from solepath.lab.emulated.heading import follow, heading_figures
 from solepath.lab.emulated.heading_walks import calibration_samples, heading_route, insoles_of, wearer_of
 from solepath.session.heading_walk import heading_calibration, heading_walk
+from solepath.types.attrs import evolve
 
 WEARER, ANOTHER = 120, 121
 """Wearers whose drift differs by 3 mrad a stride, 9 degrees a minute."""
@@ -51,6 +52,17 @@ def test_a_calibration_of_other_shoes_is_dropped_and_the_track_turned_back(kind:
     (one,) = misfits(kind, calibration(ANOTHER))
     assert "does not fit this walk" in one.what and not one.spoils
     assert end_error(kind, calibration(ANOTHER)) < 0.05, "0.8 rad of heading would be a fifth of the way or more"
+
+
+def test_a_calibration_that_is_dropped_no_longer_changes_turns_either() -> None:
+    """Its drift is wrong by 6 mrad a stride, and its turns by a twentieth."""
+    wrong = {
+        foot: evolve(one, drift=one.drift + 0.006, turning=one.turning + 0.05)
+        for foot, one in calibration(WEARER).headings.items()
+    }
+    known = Calibration(headings=wrong)
+    assert len(misfits("right_angles", known)) == 1
+    assert end_error("right_angles", known) < 0.05
 
 
 def stretches(*bends: float) -> CalibrationFit:

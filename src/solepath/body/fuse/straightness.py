@@ -10,7 +10,7 @@ straight line by some centimetres, which leaves its curvature uncertain: by 1.3 
 1/km after 60 m. The curvature that remains is that of the drift, of a gentle bend, or of a bend. The probability of
 each follows from the curvature (all three are normal distributions) and from how often each was met before on this
 walk, so that the drift is learnt in corridors, and not in a ring, on a track or on a plaza. A stretch that leaves its
-parabola by more than people wander is none."""
+parabola by more than people wander is not straight."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ class StretchDrift:
 
 @frozen
 class Places:
-    """The places of a stretch as the sums of a parabola through them."""
+    """The sums over the places of a stretch from which a parabola through them is found."""
 
     t: float
     """Time of the newest place, s."""
