@@ -184,7 +184,7 @@ class Rest:
         self._start_span(None)
         self.bias_filter.reset()
 
-    def interrupt(self) -> None:
+    def end_rest(self) -> None:
         """End the current rest because samples are missing."""
         self._start_span(None)
         self.bias_filter.end_rest()

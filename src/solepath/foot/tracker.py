@@ -107,13 +107,12 @@ class FootTracker:
     ) -> FootView:
         """Return the view after `sample`, which caused `events`; `other_t` is `viewed_at` of the other foot, s."""
         corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
-        after, pressed = NOTHING_HAPPENED, None
+        after, pressed, bias = NOTHING_HAPPENED, None, self.rest.bias_filter.bias
         if events:
             layout, error = self.sole.insole.layout, gait.world.rotate_vector(corrector.velocity_error)
             takes_shifts = with_covariance and hasattr(corrector, "shift")
             covariance = gait.covariance(corrector) if with_covariance else None
-            attitude, bias = gait.stride.attitude, rest.bias_filter.bias
-            after = AfterEvents(attitude, layout, other_t, takes_shifts, covariance, bias, error)
+            after = AfterEvents(gait.stride.attitude, layout, other_t, takes_shifts, covariance, bias, error)
         if cells:
             insole = self.sole.insole
             layout = insole.layout
@@ -230,10 +229,9 @@ class FootTracker:
         events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - t_last))
         self.gait.stride.mark_degraded(t)
         if t - t_last > LONGEST_BRIDGE:
-            self.rest.interrupt()
+            self.rest.end_rest()
+            self.levelling = Levelling()
         if not self.levelled:
-            if t - t_last > LONGEST_BRIDGE:
-                self.levelling = Levelling()
             return t - t_last
         if t - t_last <= SHORTEST_FILLED_GAP or sample.acc is None or sample.gyro is None:
             return self.corrector.bridge(t - t_last)

@@ -29,10 +29,10 @@ from ...types.vector import ZERO, sub
 from ..part import PartInput, PartOutput, Position, Shift
 from .common_error import NO_MOVE, CommonError, Move
 from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
+from .learnt_bias import add_rest, has_rested
 from .moving_ground import MovingGround
 from .position import MeanOfFeet
 from .position_covariance import position_covariance
-from .rests import add_rest, has_rested
 from .straight_ways import StraightWays
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 

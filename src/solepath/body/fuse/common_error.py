@@ -19,8 +19,8 @@ e = (x, y) and c, a rotation by +90 degrees:
     a = w (n drift + theta turning + T bias),   heading' = heading + a,   e' = e + w (heading + a / 2) c d
 
 where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. Straight ways measure the drift with the bias
-(straightness.py), rests measure the bias (rests.py). The equations are linear in the errors; what a heading error of
-any size does to the position is in position_covariance.py."""
+(straightness.py), rests measure the bias (learnt_bias.py). The equations are linear in the errors; what a heading error
+of any size does to the position is in position_covariance.py."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class CommonError:
     """Shares of the left and the right foot in the wearer's heading: 1 and 0 if the left foot is alone."""
     started: bool = field(default=False, init=False)
     """Flag: a foot has taken a stride."""
-    rests: list[FootBias | None] = field(factory=lambda: [None, None], init=False)
+    foot_biases: list[FootBias | None] = field(factory=lambda: [None, None], init=False)
     """Bias of the left and the right foot at its newest stride."""
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration]) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 
 from attrs import evolve, frozen
 
+from ...body.fuse.both_feet import BothFeet, BothFeetSettings
 from ...body.fuse.position import MeanOfFeet
 from ...body.height.altitude import Altitude
 from ...body.part import TrackPart
@@ -50,6 +51,7 @@ ABLATED_RECIPES: dict[str, Recipe] = {
     "no tilt aiding": _filter(tilt_rate=0.0),
     "no noise of what lies between samples": _filter(noise_per_difference=0.0),
     "no recovery of a clipped gyroscope": _filter(recover=False),
+    "no straight ways": DEFAULT.exchanged(TrackPart, BothFeet(BothFeetSettings(straightness=False))),
     "each foot by itself": DEFAULT.exchanged(TrackPart, MeanOfFeet()),
     "no heights of elevators and air pressure": DEFAULT.exchanged(Altitude, None),
 }

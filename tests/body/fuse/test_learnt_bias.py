@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from solepath.body.fuse.common_error import FEET, NO_MOVE, CommonError
-from solepath.body.fuse.rests import add_rest, has_rested
+from solepath.body.fuse.learnt_bias import add_rest, has_rested
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import sampled
 from solepath.foot.navigate.bias import FIRST_BIAS, Bias

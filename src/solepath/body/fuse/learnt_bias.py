@@ -1,4 +1,4 @@
-"""What the rests of a foot show of the errors that both tracks share (common_error.py).
+"""Correction of the errors that both tracks share (common_error.py) by a rest at which a foot learns its bias.
 
 A foot that has learnt its bias at a rest, with a gain of 1 - q / p for the variance p before and q now, has measured it
 with the variance p q / (p - q), and with it the rate by which its own strides have turned the heading since the last
@@ -18,7 +18,7 @@ MAX_TURN_BACK = 1.0
 
 def has_rested(error: CommonError, foot: int, bias: Bias) -> bool:
     """Return whether foot 0 (left) or 1 has learnt its bias since its last stride."""
-    newest = error.rests[foot]
+    newest = error.foot_biases[foot]
     return newest is None or bias.spans != newest.spans
 
 
@@ -26,18 +26,18 @@ def add_rest(error: CommonError, foot: int, t: float, bias: Bias) -> Move:
     """Take in the `bias` of foot 0 (left) or 1 at the end of a stride at `t`, s.
 
     Returns what is to be added to x and y, m, and to the heading of both tracks, rad."""
-    newest, row, variance, p = error.rests[foot], FEET[foot] + 2, bias.variances[0], error.covariance
+    newest, row, variance, p = error.foot_biases[foot], FEET[foot] + 2, bias.variances[0], error.covariance
     if newest is None or bias.spans < newest.spans:  # the first stride of this device
-        error.rests[foot] = FootBias(t, variance, bias.spans, bias.change)
+        error.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change)
         _replace_bias(error, foot, variance)
         return NO_MOVE
     wander = BIAS_WANDER * BIAS_WANDER * max(0.0, t - newest.t)
     before = newest.variance + wander
     p[row][row] += wander
     if bias.spans == newest.spans:
-        error.rests[foot] = FootBias(t, before, bias.spans, bias.change)
+        error.foot_biases[foot] = FootBias(t, before, bias.spans, bias.change)
         return NO_MOVE
-    error.rests[foot] = FootBias(t, variance, bias.spans, bias.change)
+    error.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change)
     change, gain = bias.change - newest.change, 1.0 - variance / before
     if gain > 0.0:
         z, noise = -change / gain - error.bias[foot], variance / gain
