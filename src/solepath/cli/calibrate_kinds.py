@@ -234,7 +234,7 @@ def _add_walk(kinds: Any) -> None:
         help="how the heading of each foot drifts, from a walk there and back",
         description="From two minutes to and fro along one straight line of 10 m and more, for instance a corridor: by "
         "how much the track of each foot turns in every stride and for every turn, which is taken off later. Stand for "
-        "fifteen seconds first, walk as usual, and turn now to the left and now to the right.",
+        "fifteen seconds before and after it, walk as usual, and turn now to the left and now to the right.",
         epilog="example: solepath calibrate walk corridor.jsonl --out me.json",
     )
     command.set_defaults(learn=_walk)

@@ -18,7 +18,7 @@ from ..body.fuse.position import MeanOfFeet
 from ..calibration import Calibration, CalibrationError, HeadingCalibration
 from ..calibration.limits import find_fault
 from ..events import Event, StrideTaken
-from ..foot.navigate.bias import FIRST_BIAS
+from ..foot.navigate.bias import BIAS_WANDER, Bias
 from ..foot.stride import usual_strides
 from ..recipes import DEFAULT
 from ..types import Foot, Packet, Sample
@@ -75,17 +75,19 @@ def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | N
     # each foot by itself, without any earlier calibration of its heading
     session = Session(DEFAULT.exchanged(BothFeet, MeanOfFeet()), calibration=evolve(known, headings={}))
     taken: dict[Foot, list[StrideTaken]] = {foot: [] for foot in Foot}
-    bias_sigmas: dict[Foot, float] = {}
+    before: dict[Foot, Bias] = {}
     for one in source:
         _sort_strides(session.feed(one), taken)
         for foot, tracker in session.feet.items():
-            if taken[foot] and foot not in bias_sigmas:
-                bias_sigmas[foot] = sqrt(tracker.rest.bias_filter.bias.variances[0])
+            if taken[foot] and foot not in before:
+                before[foot] = tracker.rest.bias_filter.bias
     _sort_strides(session.finish(), taken)
+    feet = session.feet
     fits: list[HeadingFit] = []
     reasons: list[str] = []
     for foot, strides in taken.items():
-        found = fit_heading(foot, strides, bias_sigmas.get(foot, FIRST_BIAS))
+        after = feet[foot].rest.bias_filter.bias if foot in feet else Bias()
+        found = fit_heading(foot, strides, before.get(foot, Bias()), after)
         if isinstance(found, HeadingFit):
             fits.append(found)
         elif strides:
@@ -101,11 +103,11 @@ def _sort_strides(events: Iterable[Event], taken: dict[Foot, list[StrideTaken]])
             taken[event.foot].append(event)
 
 
-def fit_heading(foot: Foot, strides: Sequence[StrideTaken], bias_sigma: float) -> HeadingFit | str:
+def fit_heading(foot: Foot, strides: Sequence[StrideTaken], before: Bias, after: Bias) -> HeadingFit | str:
     """Return the drift of a foot from its strides, or the reason why they do not show it.
 
-    `bias_sigma` is the standard deviation of the gyroscope bias about the vertical during the walk, rad/s: its error is
-    part of the drift on this day, and another one on any other day."""
+    `before` and `after` are the gyroscope biases that the rests before and after the walk have shown. The error of the
+    bias is part of the drift on this day, and another one on any other day, so it is taken off."""
     legs = _find_legs(strides)
     if len(legs) < MIN_LEGS:
         return f"{len(legs)} straight legs of {MIN_LEG:g} m and more, of which {MIN_LEGS} are needed"
@@ -118,18 +120,30 @@ def fit_heading(foot: Foot, strides: Sequence[StrideTaken], bias_sigma: float) -
     drift, turning, drift_variance, turning_variance = _filter(legs, directions)
     first, last = legs[0], legs[-1]
     stride_time = (last.t - first.t) / (last.strides - first.strides)
+    turned, bias_sigma = _bias_error(before, after, last.t - first.t)
     left = [
         direction + drift * (leg.strides - first.strides) + turning * (leg.turn - first.turn)
         for leg, direction in zip(legs, directions, strict=True)
     ]
     heading = HeadingCalibration(
-        drift=drift,
+        drift=drift - turned * stride_time,
         turning=turning,
         drift_sigma=hypot(sqrt(drift_variance), DAY_DRIFT, bias_sigma * stride_time),
         turning_sigma=hypot(sqrt(turning_variance), DAY_TURNING),
     )
     fault = find_fault(Calibration(headings={foot: heading}))
     return fault or HeadingFit(foot, heading, len(legs), last.t - first.t, _spread(directions), _spread(left))
+
+
+def _bias_error(before: Bias, after: Bias, duration: float) -> tuple[float, float]:
+    """Return the mean rate by which the bias turned the heading in a walk of this duration, s, and its sigma, rad/s.
+
+    With a rest after the walk, the bias of the walk was on average that between both rests."""
+    wander = BIAS_WANDER * sqrt(duration / 3.0)
+    known = sqrt(before.variances[0])
+    if after.spans == before.spans:
+        return 0.0, hypot(known, wander)
+    return -0.5 * (after.change - before.change), hypot(0.5 * known, 0.5 * sqrt(after.variances[0]), 0.5 * wander)
 
 
 def _spread(directions: Sequence[float]) -> float:
