@@ -62,7 +62,7 @@ class BothFeetSettings:
     """The settings of `BothFeet`."""
 
     straightness: bool = True
-    """Flag: the drift of the heading is learnt from straight ways (straightness.py)."""
+    """Flag: straight ways show the drift of the heading, and whether its calibration fits (straight_ways.py)."""
     feedback: bool = True
     """Flag: corrections are returned to the feet."""
     reach: float = 1.5
