@@ -124,6 +124,15 @@ def test_what_a_way_has_shown_turns_the_track_back() -> None:
         assert machine.load(Straightness, machine.save(ignored.straightness)) == learnt.straightness
 
 
+def test_feet_whose_clocks_are_apart_make_stretches_too() -> None:
+    """By 0.8 s, so that every other stride ends before the one before it."""
+    straightness = Straightness()
+    for k in range(30):
+        straightness.add_stride(0.5 * k + (0.8 if k % 2 else 0.0), (1.3, 0.0), 0.5, 1.0, 0.0, DRIFT)
+    one = straightness.break_off(DRIFT)
+    assert one is not None and abs(one.drift) < 1e-6
+
+
 def matrix(error: CommonError) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     """Return the covariance as an array, and test that it is one."""
     found = np.array(error.covariance)

@@ -88,6 +88,16 @@ def test_a_bias_that_has_changed_leaves_the_heading_unsure_and_turns_nothing(cha
     assert error.heading_sigma > max(before, min(1.9, 0.5 * change * 55.0)) and is_covariance(error)
 
 
+def test_a_rest_that_is_too_restless_to_show_anything_changes_nothing() -> None:
+    error = error_of(0, 1)
+    walk(error, 40, 0, 1)
+    before = [list(row) for row in error.covariance]
+    assert add_rest(error, 0, 44.0, bias_of(1.1e-6, 5, 2e-5)) == NO_MOVE
+    after = [list(row) for row in error.covariance]
+    after[FEET[0] + 2][FEET[0] + 2] = before[FEET[0] + 2][FEET[0] + 2]  # it wanders
+    assert after == before and error.bias[0] == 2e-5, "the foot has removed so much more"
+
+
 def test_a_first_rest_amid_the_walk_shows_a_bias_that_is_larger_than_usual() -> None:
     """20 strides with 2.3 degrees/s, and no rest before them."""
     error = CommonError()

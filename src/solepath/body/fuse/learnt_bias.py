@@ -49,6 +49,9 @@ def add_rest(error: CommonError, foot: int, t: float, bias: Bias) -> Move:
             move = error.correct(list(p[row]), z, s, 1.0)
             error.bias[foot] += change  # which the foot has removed
             return move
+    elif change * change <= REST_GATE * p[row][row]:  # the rest was too restless to show anything
+        error.bias[foot] += change
+        return NO_MOVE
     _replace_bias(error, foot, variance, change + error.bias[foot])
     return NO_MOVE
 
