@@ -60,6 +60,7 @@ class Looseness(Part):
     more it swings."""
 
     needs_samples: ClassVar[bool] = True
+    idle = True
 
     left: LandingErrors = field(factory=LandingErrors, init=False)
     right: LandingErrors = field(factory=LandingErrors, init=False)
