@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from math import cos, sin
+
 from solepath import Session
 from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.fuse.common_error import CommonError
+from solepath.body.fuse.straight_ways import StraightWays
+from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import SampledWalk, sampled
-from solepath.events import DefectFound, Event, LiftRidden, StrideTaken
+from solepath.events import Defect, DefectFound, Event, LiftRidden, StrideTaken
 from solepath.lab.emulated.heading_walks import heading_route, insoles_of, wearer_of
+from solepath.types import Foot
+from solepath.types.attrs import evolve
 
 STRONG_LANDING = 10
 """Seed of a wearer whose sensors are cut off in nearly every stride."""
@@ -38,3 +45,20 @@ def test_a_ride_in_a_lift_is_no_moving_ground_and_turns_nothing() -> None:
     here = session.position
     assert here is not None
     assert abs(here.position[1]) < 1.0 and abs(here.position[0] - 60.0) < 1.0
+
+
+def test_a_calibration_is_dropped_although_the_strides_have_no_duration() -> None:
+    """Clocks of the feet that are apart can give stretches that start and end at one time."""
+    walk = sampled(Route().stand(2.0).walk(4.0).stop(1.0), seed=3)
+    stride = next(event for event in fed(walk)[2] if isinstance(event, StrideTaken))
+    ways, common, found = StraightWays(), CommonError(), []
+    known = dict.fromkeys(Foot, HeadingCalibration(0.006, 0.0, 1e-4, 1e-4))
+    common.use_calibration(known)
+    ways.use_calibration(known)
+    for k in range(400):
+        turn = 1.0 if k % 40 == 39 else 0.0
+        one = evolve(stride, t_start=4.0, t_end=5.0, heading_change=turn)
+        direction = 0.003 * (k % 40)
+        _, defect = ways.add_stride(k % 2, one, 1.0, (1.3 * cos(direction), 1.3 * sin(direction)), common)
+        found += [defect] if defect is not None else []
+    assert [one.defect for one in found] == [Defect.CALIBRATION]

@@ -71,7 +71,7 @@ class StraightWays:
             fit = self.fit = self.fit or _first_fit(self.calibrated, common)
             bias_known = evolve(found, variance=found.variance + t * t * common.bias_variance())
             if fit.add(bias_known, found.drift + common.drift_with_bias(t)):
-                return self._drop(self.calibrated, fit.other, common), _misfit(event, fit.other.drift / t)
+                return self._drop(self.calibrated, fit.other, common), _misfit(event, fit.other.drift, t)
         return common.correct_drift(found.drift, found.variance, found.weight, t), None
 
     def _move(self, first: int, share: float, counts: tuple[float, float], displacement: tuple[float, float]) -> None:
@@ -107,7 +107,8 @@ def _first_fit(calibrated: tuple[tuple[float, float], tuple[float, float]], comm
     return CalibrationFit(DriftHypothesis(0.0, known), DriftHypothesis(-drift, usual + known))
 
 
-def _misfit(event: StrideTaken, rate: float) -> DefectFound:
+def _misfit(event: StrideTaken, drift: float, stride_time: float) -> DefectFound:
+    rate = drift / stride_time if stride_time > 0.0 else 0.0  # feet whose clocks are apart may show no time
     what = (
         "the calibration of the heading does not fit this walk: with it, straight ways bend by "
         f"{abs(degrees(60.0 * rate)):.0f} degrees a minute. It is not used any longer. Walk there and back again with "

@@ -104,8 +104,7 @@ class BiasFilter:
     def reset(self) -> None:
         """Discard the current rest, because times restart; the bias stays."""
         self.end_rest()
-        bias = self.bias
-        self.bias = evolve(bias, t=None)
+        self.bias = evolve(self.bias, t=None)
 
     def forget(self) -> None:
         """Discard the variances, because the device may be another one; its bias is perhaps the same."""
