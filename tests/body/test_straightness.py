@@ -47,7 +47,8 @@ class Walked:
             moved = (c * step[0] - q * step[1], q * step[0] + c * step[1])
             self.error.propagate(foot, 1.0, turn, 2.0 * STEP_TIME, moved, (1e-4, 0.0, 1e-4))
             sigma = self.error.drift_variance(2.0 * STEP_TIME) ** 0.5
-            one = self.straightness.add_stride(STEP_TIME * k, moved, 0.5, 1.0, turn, sigma)
+            stretch = self.straightness.add_stride(STEP_TIME * k, moved, 0.5, 1.0, turn)
+            one = None if stretch is None else self.straightness.drift_of(stretch, sigma)
             place = place + 0.5 * np.array(moved)
             true_place = true_place + 0.5 * np.array(
                 [
@@ -128,8 +129,10 @@ def test_feet_whose_clocks_are_apart_make_stretches_too() -> None:
     """By 0.8 s, so that every other stride ends before the one before it."""
     straightness = Straightness()
     for k in range(30):
-        straightness.add_stride(0.5 * k + (0.8 if k % 2 else 0.0), (1.3, 0.0), 0.5, 1.0, 0.0, DRIFT)
-    one = straightness.break_off(DRIFT)
+        straightness.add_stride(0.5 * k + (0.8 if k % 2 else 0.0), (1.3, 0.0), 0.5, 1.0, 0.0)
+    stretch = straightness.break_off()
+    assert stretch is not None
+    one = straightness.drift_of(stretch, DRIFT)
     assert one is not None and abs(one.drift) < 1e-6
 
 

@@ -166,10 +166,8 @@ class Rest:
     """Gyroscope bias by the filter, sensor frame, rad/s."""
     block_end: float = field(default=0.0, init=False)
     """End of the current block, s."""
-    block_start: tuple[int, Vec3] = field(default=(0, ZERO), init=False)
-    """Number of samples, and sum of their rates, of the span before the current block."""
-    blocks: list[Vec3] = field(factory=list, init=False)
-    """Mean rates of the blocks of the span so far, rad/s."""
+    blocks: list[tuple[int, Vec3]] = field(factory=list, init=False)
+    """Number of samples, and sum of their rates, rad/s, of the span up to the end of each of its blocks."""
     scale: float = field(default=1.0, init=False)
     """Factor for acc that makes it read 1 g at rest."""
     count: int = field(default=0, init=False)
@@ -224,16 +222,14 @@ class Rest:
             self.grain = z if z > 0.0 else -z
         if t < self.block_end - TIE:
             return False
-        before, (x, y, z) = self.block_start
-        (gx, gy, gz), k = span.gyro, 1.0 / (span.count - before)
-        self.blocks.append(((gx - x) * k, (gy - y) * k, (gz - z) * k))
-        self.block_start, self.block_end = (span.count, span.gyro), t + REST_BLOCK
+        self.blocks.append((span.count, span.gyro))
+        self.block_end = t + REST_BLOCK
         if self.span_start is None or t - self.span_start < REST_SPAN - TIE or span.count < 4:
             return False
         return self._end_span(t)
 
     def _start_span(self, t: float | None) -> None:
-        self.span, self.span_start, self.blocks, self.block_start = SampleSpan(), t, [], (0, ZERO)
+        self.span, self.span_start, self.blocks = SampleSpan(), t, []
         if t is not None:
             self.block_end = t + REST_BLOCK
 
@@ -258,7 +254,17 @@ class Rest:
         ):
             self.scale += (scale - self.scale) / spans
         k = 1.0 / magnitude if magnitude > 0.0 else 0.0
-        self.bias_filter.add(RestSpan(t, rate, tuple(blocks), (k * ax, k * ay, k * az)))
+        self.bias_filter.add(RestSpan(t, rate, _means_of(blocks), (k * ax, k * ay, k * az)))
         self.bias = self.bias_filter.bias.value
         self.count += 1
         return True
+
+
+def _means_of(blocks: list[tuple[int, Vec3]]) -> tuple[Vec3, ...]:
+    """Return the mean rate of each block, rad/s."""
+    means, before, (x, y, z) = [], 0, ZERO
+    for count, (gx, gy, gz) in blocks:
+        k = 1.0 / (count - before)
+        means.append(((gx - x) * k, (gy - y) * k, (gz - z) * k))
+        before, (x, y, z) = count, (gx, gy, gz)
+    return tuple(means)

@@ -107,15 +107,15 @@ class FootTracker:
     ) -> FootView:
         """Return the view after `sample`, which caused `events`; `other_t` is `viewed_at` of the other foot, s."""
         corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
-        after, pressed, bias = NOTHING_HAPPENED, None, self.rest.bias_filter.bias
+        after, pressed = NOTHING_HAPPENED, None
         if events:
             layout, error = self.sole.insole.layout, gait.world.rotate_vector(corrector.velocity_error)
             takes_shifts = with_covariance and hasattr(corrector, "shift")
             covariance = gait.covariance(corrector) if with_covariance else None
-            after = AfterEvents(gait.stride.attitude, layout, other_t, takes_shifts, covariance, bias, error)
+            attitude, bias = gait.stride.attitude, rest.bias_filter.bias
+            after = AfterEvents(attitude, layout, other_t, takes_shifts, covariance, bias, error)
         if cells:
-            insole = self.sole.insole
-            layout = insole.layout
+            insole, layout = self.sole.insole, self.sole.insole.layout
             newtons = insole.settings.newtons is not None or (layout is not None and layout.scale is not None)
             without_inertial = self.moved_at is None and sample.gyro is None
             centre = insole.centre_of_pressure(cells) if without_inertial else None

@@ -196,9 +196,11 @@ class TrackErrorFilter:
 
     def _joseph(self, gains: list[float], ph: list[float], s: float) -> None:
         """Update the covariance: P <- (1 - K H) P (1 - K H)' + K R K', with P H' and S = H P H' + R."""
+        # P - K (P H')' - P H' K' + K S K' = P + K (S K - P H')' - P H' K'
+        rest = [s * gain - a for gain, a in zip(gains, ph, strict=True)]
         for row, gain, a in zip(self.covariance, gains, ph, strict=True):
             for j in range(STATE_COUNT):
-                row[j] += gain * gains[j] * s - gain * ph[j] - a * gains[j]
+                row[j] += gain * rest[j] - a * gains[j]
 
 
 @frozen

@@ -62,8 +62,11 @@ class StraightWays:
         if event.foot in self.spoiled:
             self.straightness.reset()
             return NO_MOVE, None
+        stretch = self.straightness.add_stride(event.t_end, displacement, share, strides, turn)
+        if stretch is None:
+            return NO_MOVE, None
         sigma = sqrt(common.drift_variance(min(event.t_end - event.t_start, LONGEST_STRIDE_TIME)))
-        found = self.straightness.add_stride(event.t_end, displacement, share, strides, turn, sigma)
+        found = self.straightness.drift_of(stretch, sigma)
         if found is None:
             return NO_MOVE, None
         t = found.stride_time

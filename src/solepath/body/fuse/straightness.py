@@ -119,6 +119,16 @@ class Places:
         return 2.0 * c, max(0.0, square - a * t0 - b * t1 - c * t2) / n
 
 
+@frozen
+class Stretch:
+    """Strides in nearly one direction that have ended."""
+
+    t_start: float
+    """End of the first stride, s."""
+    end: Places
+    """The places, up to the last stride."""
+
+
 @define
 class Straightness:
     """Collects the strides of a stretch, and keeps what was learnt from earlier stretches."""
@@ -139,18 +149,17 @@ class Straightness:
     """Variance of the wandering, m^2, and the number of stretches as which it counts."""
 
     def add_stride(
-        self, t: float, displacement: tuple[float, float], share: float, strides: float, turn: float, drift_sigma: float
-    ) -> StretchDrift | None:
-        """Add a stride that ended at `t`, s; return the drift of the stretch that it has ended, if it shows one.
+        self, t: float, displacement: tuple[float, float], share: float, strides: float, turn: float
+    ) -> Stretch | None:
+        """Add a stride that ended at `t`, s; return the stretch that it has ended, if that is long enough.
 
         `displacement` is in m, world frame, `turn` that of the foot, rad. The mean of both feet moves and drifts by
-        `share` of the stride, which counts as `strides` usual ones. `drift_sigma` is the standard deviation of the
-        estimated drift, rad a stride, which is already removed from the stride."""
+        `share` of the stride, which counts as `strides` usual ones."""
         dx, dy = displacement
         paused = self.t is not None and abs(t - self.t) > MAX_PAUSE  # the feet's clocks may be apart
         self.t = t
         if paused or abs(turn) > MAX_FOOT_TURN or hypot(dx, dy) < MIN_ADVANCE:
-            return self.break_off(drift_sigma)
+            return self.break_off()
         if self.left_out:
             self.left_out -= 1
             return None
@@ -162,19 +171,19 @@ class Straightness:
         if len(self.recent) > DEVIATION_STRIDES:
             deviation = atan2(y - earlier.y, x - earlier.x) - atan2(y, x)
             if abs(wrap_angle(deviation)) > MAX_DEVIATION:  # the wearer has turned off, perhaps some strides ago
-                found = self._end(earlier, drift_sigma)
+                found = self._end(earlier)
                 self.recent, self.left_out = [], DEVIATION_STRIDES // 2
                 return found
         self.recent = [*self.recent[-DEVIATION_STRIDES:], newest.add(t, x, y, share * strides)]
         if x <= MAX_LENGTH:
             return None
-        found = self._end(self.recent[-1], drift_sigma)
+        found = self._end(self.recent[-1])
         self._start(self.direction)
         return found
 
-    def break_off(self, drift_sigma: float) -> StretchDrift | None:
-        """End the stretch at a stride that cannot belong to one; return its drift, if it shows one."""
-        found = self._end(self.recent[-1], drift_sigma) if self.recent else None
+    def break_off(self) -> Stretch | None:
+        """End the stretch at a stride that cannot belong to one; return it, if it is long enough."""
+        found = self._end(self.recent[-1]) if self.recent else None
         self.recent, self.left_out = [], 0
         return found
 
@@ -182,10 +191,12 @@ class Straightness:
         """Discard the stretch, because the clock restarts."""
         self.recent, self.left_out, self.t = [], 0, None
 
-    def _end(self, places: Places, drift_sigma: float) -> StretchDrift | None:
-        length = places.x
-        if places.count < MIN_STRIDES or length < MIN_LENGTH or not places.strides > 0.0:
-            return None
+    def drift_of(self, stretch: Stretch, drift_sigma: float) -> StretchDrift | None:
+        """Return the drift that a stretch shows, and learn from it how this wearer walks; None if nothing fits it.
+
+        `drift_sigma` is the standard deviation of the estimated drift, rad a stride, which is already removed from the
+        strides."""
+        places, length = stretch.end, stretch.end.x
         fit = places.parabola()
         if fit is None:
             return None
@@ -212,7 +223,11 @@ class Straightness:
         if shares[0] > 0.5 and length > 2.0 * MIN_LENGTH:
             seen = max(0.0, mean_square - footfall) / (share * share)
             self.wander = (variance + (seen - variance) / (weight + 1.0), min(weight + 1.0, MAX_WANDER_WEIGHT))
-        return StretchDrift(z, noise, shares[0], max(0.0, (places.t - self.t_start) / places.strides))
+        return StretchDrift(z, noise, shares[0], max(0.0, (places.t - stretch.t_start) / places.strides))
+
+    def _end(self, places: Places) -> Stretch | None:
+        is_long = places.count >= MIN_STRIDES and places.x >= MIN_LENGTH and places.strides > 0.0
+        return Stretch(self.t_start, places) if is_long else None
 
     def _start(self, direction: float) -> None:
         self.direction, self.t_start = direction, self.t or 0.0
