@@ -223,6 +223,9 @@ def test_a_gap_and_a_turn_make_the_heading_less_sure() -> None:
         sigmas.append(error.heading_sigma)
     assert sigmas[0] < sigmas[1] < 0.1 * sigmas[3] and sigmas[1] < sigmas[2] < 0.1 < 1.0 < sigmas[3]
     assert error.covariance[0][0] > 20.0**2, "nobody knows where a wearer went meanwhile"
+    short = CommonError()
+    short.add_gap(0.4, unseen=True)
+    assert short.covariance[0][0] == 0.0 and short.heading_sigma == pytest.approx(0.2), "a stride fills a short gap"
     straight_on, round_about = CommonError(), CommonError()
     for one, turn in ((straight_on, 0.0), (round_about, 2.0 * pi)):
         one.propagate(0, 1.0, turn, 1.0, (1.3, 0.0), (1e-4, 0.0, 1e-4))

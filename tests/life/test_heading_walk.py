@@ -91,15 +91,20 @@ def test_every_recipe_takes_the_drift_off(name: str) -> None:
     assert np.median(more) == pytest.approx(1.0, abs=0.15)
 
 
-def test_turns_to_one_side_only_leave_turns_and_strides_apart_unsure() -> None:
+def test_turns_to_one_side_only_do_not_tell_turns_from_strides() -> None:
     route = Route().stand(5.0)
     for leg in range(8):
         route = route.turn(pi, 0.6).walk(15.0, 1.3) if leg else route.walk(15.0, 1.3)
-    one_side = heading_walk(walk_of(route.stop(3.0)))
-    both_sides = heading_walk(calibration_samples(SEED))
-    for one, two in zip(one_side, both_sides, strict=True):
-        assert one.heading.turning_sigma > 2.0 * two.heading.turning_sigma
-        assert one.heading.drift_sigma > 1.5 * two.heading.drift_sigma
+    with pytest.raises(CalibrationError, match="left foot: .* one side only.*right foot: .* one side only"):
+        heading_walk(walk_of(route.stop(3.0)))
+
+
+def test_a_foot_that_stops_sending_is_a_reason_and_the_other_one_can_be_learnt_alone() -> None:
+    samples = [one for one in calibration_samples(SEED) if one.site is not Site.RIGHT_FOOT or one.t < 40.0]
+    with pytest.raises(CalibrationError, match="right foot: 2 straight legs.*--foot left"):
+        heading_walk(samples)
+    (alone,) = heading_walk([one for one in samples if one.site is Site.LEFT_FOOT])
+    assert alone.foot is Foot.LEFT
 
 
 @pytest.mark.parametrize(

@@ -101,7 +101,7 @@ def _limits(calibration: Calibration) -> Iterator[_Limit]:
         yield f"toe_out.{foot.value}", angle, -1.0, 1.0, " rad"
     for foot, heading in calibration.headings.items():
         yield f"headings.{foot.value}.drift", heading.drift, -0.05, 0.05, " rad"
-        yield f"headings.{foot.value}.turning", heading.turning, -0.2, 0.2, ""
+        yield f"headings.{foot.value}.turning", heading.turning, -0.1, 0.1, ""
         yield f"headings.{foot.value}.drift_sigma", heading.drift_sigma, 1e-6, 0.05, " rad"
         yield f"headings.{foot.value}.turning_sigma", heading.turning_sigma, 1e-6, 0.2, ""
     if calibration.limbs is not None:

@@ -70,7 +70,9 @@ class _Leg:
 
 
 def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | None = None) -> list[HeadingFit]:
-    """Return the drift of each foot that walked there and back. CalibrationError is raised when none did."""
+    """Return the drift of each foot that walked. CalibrationError is raised if a foot did not walk there and back.
+
+    It is also raised if none walked."""
     known = calibration or Calibration()
     # each foot by itself, without any earlier calibration of its heading
     session = Session(DEFAULT.exchanged(BothFeet, MeanOfFeet()), calibration=evolve(known, headings={}))
@@ -92,7 +94,9 @@ def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | N
             fits.append(found)
         elif strides:
             reasons.append(f"{foot.value} foot: {found}")
-    if not fits:
+    if reasons and fits:
+        reasons.append(f"--foot {fits[0].foot.value} learns from the {fits[0].foot.value} foot alone")
+    if reasons or not fits:
         raise CalibrationError("; ".join(reasons) or "no strides")
     return fits
 
@@ -132,6 +136,8 @@ def fit_heading(foot: Foot, strides: Sequence[StrideTaken], before: Bias, after:
         turning_sigma=hypot(sqrt(turning_variance), DAY_TURNING),
     )
     fault = find_fault(Calibration(headings={foot: heading}))
+    if fault is None and heading.drift_sigma >= DRIFT:
+        fault = "the walk is too short, or turns to one side only: it shows less than is known of any foot"
     return fault or HeadingFit(foot, heading, len(legs), last.t - first.t, _spread(directions), _spread(left))
 
 

@@ -50,6 +50,20 @@ def test_a_fixed_sensor_has_not_come_loose(seed: int) -> None:
     assert found(walk(seed).samples)[0] == []
 
 
+@pytest.mark.parametrize("duration", [0.3, 0.5])
+@pytest.mark.parametrize("seed", [2, 3])
+def test_a_gap_in_the_samples_is_no_loose_sensor(seed: int, duration: float) -> None:
+    samples = sampled(ROUTE.turn(pi, 0.6).walk(60, 1.3).stop(2), seed=seed).samples
+    kept = [s for s in samples if s.site.foot is not Foot.LEFT or not 70.0 <= s.t < 70.0 + duration]
+    assert found(tuple(kept))[0] == []
+
+
+def test_feet_that_are_absent_in_turn_are_not_loose() -> None:
+    """Each foot is silent for 15 s of every 30 s."""
+    kept = [s for s in walk(1).samples if (s.t % 30.0 < 15.0) is (s.site.foot is Foot.LEFT) or s.t < 35.0]
+    assert found(tuple(kept))[0] == []
+
+
 def test_nothing_is_learnt_from_the_straight_ways_of_a_loose_sensor() -> None:
     samples, session = loose(walk(2), Foot.LEFT, CAME_LOOSE, 0.6, 2), Session()
     (one,), _ = found(samples, session)

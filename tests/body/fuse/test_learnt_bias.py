@@ -7,7 +7,8 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from solepath.body.fuse.common_error import FEET, NO_MOVE, CommonError
+from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.fuse.common_error import DRIFT, FEET, NO_MOVE, TURNING, CommonError
 from solepath.body.fuse.learnt_bias import add_rest, has_rested
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import sampled
@@ -21,9 +22,9 @@ ON = (1.3, 0.0)
 SURE = (1e-4, 0.0, 1e-4)
 
 
-def bias_of(variance: float, spans: int, change: float = 0.0) -> Bias:
+def bias_of(variance: float, spans: int, change: float = 0.0, device: int = 0) -> Bias:
     """Return what `spans` spans of rest have shown; `variance` is in (rad/s)^2, `change` in rad/s."""
-    return Bias((0.0, 0.0, change), (variance, variance), 0.0, change, spans)
+    return Bias((0.0, 0.0, change), (variance, variance), 0.0, change, spans, device)
 
 
 def error_of(*feet: int) -> CommonError:
@@ -120,13 +121,38 @@ def test_a_clock_that_restarts_and_a_rest_before_the_first_stride_are_no_measure
     assert add_rest(error, 0, 0.0, restarted) == NO_MOVE and error.covariance == before
 
 
-def test_another_device_has_another_bias() -> None:
+def test_another_device_has_another_bias_and_another_drift() -> None:
+    """Which may be the same: it is kept, but it is no surer than that of any device."""
     error = error_of(0, 1)
     walk(error, 40, 0, 1)
-    error.bias[0] = 1e-3
-    assert add_rest(error, 0, 0.0, bias_of(FIRST_BIAS**2, 0)) == NO_MOVE
-    assert error.bias[0] == 0.0
-    assert error.covariance[FEET[0] + 2][FEET[0] + 2] == FIRST_BIAS**2 and is_covariance(error)
+    error.bias[0], error.drift[0] = 1e-3, 2e-3
+    assert add_rest(error, 0, 0.0, bias_of(FIRST_BIAS**2, 0, device=1)) == NO_MOVE
+    assert has_rested(error, 0, bias_of(FIRST_BIAS**2, 0, device=2))
+    p, row = error.covariance, FEET[0]
+    assert error.bias[0] == 0.0 and error.drift[0] == 2e-3
+    assert [p[row + k][row + k] for k in range(3)] == [2.0 * DRIFT**2, 2.0 * TURNING**2, FIRST_BIAS**2]
+    assert not any(p[row][:row]) and is_covariance(error)
+
+
+def test_a_session_whose_devices_were_exchanged_knows_their_drift_no_longer() -> None:
+    walk = sampled(Route().stand(3.0).walk(60.0, 1.3).stop(3.0), wearer=wearer_of(103), insoles=insoles_of(103), seed=3)
+    session = Session()
+    (part,) = [part for part in session._state.wearer.parts if isinstance(part, BothFeet)]
+    for sample in walk.samples:
+        if sample.t >= 30.0 > (session.now or 0.0):
+            part.common.covariance[FEET[0]][FEET[0]] = part.common.covariance[FEET[1]][FEET[1]] = 1e-10
+            session.bind(Site.LEFT_FOOT, "another")
+        session.feed(sample)
+    assert part.common.covariance[FEET[0]][FEET[0]] > DRIFT**2 > 1e-9 > part.common.covariance[FEET[1]][FEET[1]]
+
+
+def test_nobody_knows_where_a_wearer_turned_while_both_clocks_restarted() -> None:
+    walk = sampled(Route().stand(3.0).walk(20.0, 1.3).stop(3.0), seed=3)
+    session = Session()
+    session.feed(walk.samples)
+    session.restart_clock(0.0)
+    session.feed(walk.samples)
+    assert session.position is not None and (session.position.heading_sigma or 0.0) > 1.0
 
 
 def test_feet_that_come_and_go_and_rest_at_random_keep_a_covariance() -> None:

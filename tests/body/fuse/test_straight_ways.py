@@ -6,7 +6,8 @@ from math import cos, sin
 
 from solepath import Session
 from solepath.body.fuse.both_feet import BothFeet
-from solepath.body.fuse.common_error import CommonError
+from solepath.body.fuse.calibration_fit import DriftHypothesis
+from solepath.body.fuse.common_error import NO_MOVE, CommonError
 from solepath.body.fuse.straight_ways import StraightWays
 from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.route import Route
@@ -62,3 +63,14 @@ def test_a_calibration_is_dropped_although_the_strides_have_no_duration() -> Non
         _, defect = ways.add_stride(k % 2, one, 1.0, (1.3 * cos(direction), 1.3 * sin(direction)), common)
         found += [defect] if defect is not None else []
     assert [one.defect for one in found] == [Defect.CALIBRATION]
+
+
+def test_a_calibration_that_has_turned_the_track_far_is_dropped_without_turning_it_back() -> None:
+    """The equations are linear: the covariance says how wrong the track may be instead."""
+    ways, common = StraightWays(), CommonError()
+    known = dict.fromkeys(Foot, HeadingCalibration(0.02, 0.0, 1e-4, 1e-4))
+    common.use_calibration(known)
+    ways.use_calibration(known)
+    ways.moved = [[30.0, 60.0, 100.0] for _ in ways.moved]
+    move = ways._drop(((0.02, 0.0), (0.02, 0.0)), DriftHypothesis(-0.02, 1e-6), common)
+    assert move == NO_MOVE and common.heading_sigma > 1.0 and ways.calibrated is None

@@ -26,6 +26,10 @@ UNUSUAL, USUAL = 2.5, 1.5
 
 On the 46 recordings of both feet that are long enough it reaches 2.1 while that of the other foot is below 1.5."""
 
+MOST_OF_ONE = 3.0
+"""Largest ratio of the square of one stride to that of a loose sensor that counts: at least four strides have to show
+it."""
+
 
 @define
 class LandingErrors:
@@ -39,13 +43,14 @@ class LandingErrors:
     reported: bool = False
 
     def add(self, square: float) -> None:
-        """Add the squared error of a stride, (m/s)^2."""
+        """Add the squared error of a stride, (m/s)^2; one stride alone cannot show a loose sensor."""
         self.count += 1
         if self.count <= FIRST_STRIDES:
             self.usual += (square - self.usual) / self.count
             self.recent = self.usual
         else:
-            self.recent += (square - self.recent) / RECENT_STRIDES
+            most = MOST_OF_ONE * max(UNUSUAL * UNUSUAL * self.usual, LEAST_ERROR * LEAST_ERROR)
+            self.recent += (min(square, most) - self.recent) / RECENT_STRIDES
 
     def exceeds(self, ratio: float) -> bool:
         """Return whether the recent error is more than `ratio` times the usual one."""
@@ -56,8 +61,8 @@ class LandingErrors:
 class Looseness(Part):
     """Reports a sensor that came loose, once for a device; from then on its strides are degraded.
 
-    It needs both feet, and a sensor that was fixed for `FIRST_STRIDES` strides. Latency: 1 to 30 strides, the fewer the
-    more it swings."""
+    It needs both feet, and a sensor that was fixed for `FIRST_STRIDES` strides. Degraded strides do not count. Latency:
+    4 to 30 strides, the fewer the more it swings."""
 
     needs_samples: ClassVar[bool] = True
     idle = True
@@ -69,7 +74,7 @@ class Looseness(Part):
         """Add a stride of the foot; return the event if its sensor came loose."""
         found: list[PartOutput] = []
         for event in view.events:
-            if not isinstance(event, StrideTaken):
+            if not isinstance(event, StrideTaken) or event.degraded:  # as after a gap, whose error is not the sensor's
                 continue
             this, other = self._errors(event.foot), self._errors(OTHER[event.foot])
             x, y, z = view.after.velocity_error

@@ -27,7 +27,7 @@ from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartInput, PartOutput, Position, Shift
-from .common_error import NO_MOVE, CommonError, Move
+from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
 from .learnt_bias import add_rest, has_rested
 from .moving_ground import MovingGround
@@ -139,7 +139,7 @@ class BothFeet(MeanOfFeet):
             self.straight_ways.reset(site.foot)
             self.ground = MovingGround()
             if not was_unknown and self.left.t is self.right.t is None:
-                self.common.inflate(UNSEEN_DISTANCE * UNSEEN_DISTANCE)
+                self.common.inflate(UNSEEN_DISTANCE * UNSEEN_DISTANCE, UNSEEN_TURN)
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """Return the wearer's position, with the covariance at the newest stride; None before any sample."""
@@ -250,7 +250,7 @@ class BothFeet(MeanOfFeet):
         turn, length = event.heading_change, hypot(dx, dy)
         deviation = self.directions[index].add_stride(atan2(dy, dx), turn) if length > MIN_LENGTH else 0.0
         other_stride = self.strides[1 - index]
-        if other_stride is None or other.absent:
+        if other_stride is None or other.absent or other.unplaced:
             return
         ex, ey, _ = this.place(event.position)
         walks_on = length > MIN_LENGTH and abs(turn) < MAX_TURN and abs(deviation) < MAX_DIRECTION_DEVIATION

@@ -28,6 +28,7 @@ from collections.abc import Mapping
 from math import sqrt
 
 from ...calibration import HeadingCalibration
+from ...foot.gaps.gap import LONGEST_FILLED_GAP
 from ...foot.navigate.bias import FIRST_BIAS
 from ...types import Foot
 from ...types.attrs import define, field, frozen
@@ -50,8 +51,12 @@ The noise of a gyroscope makes up to 0.1 of them (its sheet), strides that diffe
 twice as much the ellipses are a tenth wider."""
 GAP_RATE, MAX_GAP_ERROR = 0.3, 0.06
 """Error of the heading after a gap in the samples of a foot: rad per s of the gap, and at the most, rad."""
-UNSEEN_TURN, UNSEEN_SPEED = 1.5, 1.4
-"""Standard deviations of what a wearer does in a gap of all samples: turn, rad, and speed, m/s."""
+UNSEEN_RATE, UNSEEN_TURN, UNSEEN_SPEED = 0.5, 1.5, 1.4
+"""Standard deviations of what a wearer does in a gap of all samples: rate of turning, rad/s (a tenth of the time 1.6
+rad/s, as in a bend of a corridor), turn at the most, rad, and speed, m/s."""
+MAX_TURN_BACK = 1.0
+"""Largest turn by which a rest or a dropped calibration turns both tracks back, rad, because the equations are
+linear."""
 X, Y, HEADING = 0, 1, 2
 """Rows of the position and of the heading."""
 FEET = (3, 6)
@@ -76,6 +81,8 @@ class FootBias:
     """Number of spans of rest so far."""
     change: float
     """Sum of all changes of the bias about the vertical, rad/s."""
+    device: int
+    """Number of times that another device may have been connected."""
 
 
 def _first_covariance() -> list[list[float]]:
@@ -118,6 +125,14 @@ class CommonError:
             if foot in headings:
                 drift, turning = headings[foot].drift_sigma, headings[foot].turning_sigma
                 self.covariance[row][row], self.covariance[row + 1][row + 1] = drift * drift, turning * turning
+
+    def renew(self, foot: int) -> None:
+        """Give drift and turning of foot 0 (left) or 1 the variance of another device, which may be the same."""
+        p = self.covariance
+        for row, usual in ((FEET[foot], DRIFT), (FEET[foot] + 1, TURNING)):
+            for j in range(SIZE):
+                p[row][j] = p[j][row] = 0.0
+            p[row][row] = 2.0 * usual * usual  # the new one and the old one are both off by it
 
     def share(self, foot: int, alone: bool) -> float:
         """Return the share of the next stride of foot 0 (left) or 1 in the heading: all of it if it is `alone`."""
@@ -180,13 +195,13 @@ class CommonError:
     def add_gap(self, duration: float, unseen: bool) -> None:
         """Inflate the covariance by a gap in the samples of a foot, of this duration in s.
 
-        If it is `unseen`, the other foot had no samples either, so the wearer may have turned and walked on."""
-        p = self.covariance
+        If it is `unseen`, the other foot had no samples either, so the wearer may have turned. A stride of a usual walk
+        fills a shorter gap; in a longer one the wearer may have walked anywhere."""
         error = max(self.shares) * min(GAP_RATE * duration, MAX_GAP_ERROR)
         if unseen:
-            error = min(GAP_RATE * duration, UNSEEN_TURN)
-            self.inflate((UNSEEN_SPEED * duration) ** 2)
-        p[HEADING][HEADING] += error * error
+            error = min(UNSEEN_RATE * duration, UNSEEN_TURN)
+        distance = UNSEEN_SPEED * duration if unseen and duration > LONGEST_FILLED_GAP else 0.0
+        self.inflate(distance * distance, error)
 
     def turn_of(self, foot: int, strides: float, turn: float, duration: float) -> float:
         """Return the correction of the heading of foot 0 (left) or 1, rad, over a stride.
@@ -250,7 +265,8 @@ class CommonError:
         x, y, heading = moved
         return (change * x, change * y, change * heading)
 
-    def inflate(self, variance: float) -> None:
-        """Add `variance`, m^2, to that of x and of y."""
+    def inflate(self, variance: float, turn: float = 0.0) -> None:
+        """Add `variance`, m^2, to that of x and of y, and the square of `turn`, rad, to that of the heading."""
         self.covariance[X][X] += variance
         self.covariance[Y][Y] += variance
+        self.covariance[HEADING][HEADING] += turn * turn

@@ -7,19 +7,17 @@ rest. A bias far from the expected one has changed meanwhile, nobody knows when.
 from __future__ import annotations
 
 from ...foot.navigate.bias import BIAS_WANDER, Bias
-from .common_error import FEET, HEADING, NO_MOVE, SIZE, CommonError, FootBias, Move
+from .common_error import FEET, HEADING, MAX_TURN_BACK, NO_MOVE, SIZE, CommonError, FootBias, Move
 
 REST_GATE = 9.0
 """Largest squared difference of a measured bias from the expected one, divided by its variance: above it, the bias has
 changed since the last rest."""
-MAX_TURN_BACK = 1.0
-"""Largest turn of both tracks that a rest causes, rad, because the equations are linear."""
 
 
 def has_rested(error: CommonError, foot: int, bias: Bias) -> bool:
     """Return whether foot 0 (left) or 1 has learnt its bias since its last stride."""
     newest = error.foot_biases[foot]
-    return newest is None or bias.spans != newest.spans
+    return newest is None or (bias.spans, bias.device) != (newest.spans, newest.device)
 
 
 def add_rest(error: CommonError, foot: int, t: float, bias: Bias) -> Move:
@@ -27,17 +25,19 @@ def add_rest(error: CommonError, foot: int, t: float, bias: Bias) -> Move:
 
     Returns what is to be added to x and y, m, and to the heading of both tracks, rad."""
     newest, row, variance, p = error.foot_biases[foot], FEET[foot] + 2, bias.variances[0], error.covariance
-    if newest is None or bias.spans < newest.spans:  # the first stride of this device
-        error.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change)
+    if newest is None or bias.device != newest.device:  # the first stride of this device
+        error.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change, bias.device)
         _replace_bias(error, foot, variance)
+        if newest is not None:
+            error.renew(foot)
         return NO_MOVE
     wander = BIAS_WANDER * BIAS_WANDER * max(0.0, t - newest.t)
     before = newest.variance + wander
     p[row][row] += wander
     if bias.spans == newest.spans:
-        error.foot_biases[foot] = FootBias(t, before, bias.spans, bias.change)
+        error.foot_biases[foot] = FootBias(t, before, bias.spans, bias.change, bias.device)
         return NO_MOVE
-    error.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change)
+    error.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change, bias.device)
     change, gain = bias.change - newest.change, 1.0 - variance / before
     if gain > 0.0:
         z, noise = -change / gain - error.bias[foot], variance / gain

@@ -13,7 +13,6 @@ from math import atan2, cos, fsum, hypot, sin
 from typing import ClassVar, Final
 
 from ...events import SampleGap
-from ...foot.gaps.gap import LONGEST_FILLED_GAP
 from ...foot.view import FootPose, FootView
 from ...foot.world import Covariance3
 from ...types import Foot, Site, Vec3
@@ -157,9 +156,9 @@ class MeanOfFeet(TrackPart):
             placed.t, placed.started_at, placed.absent_for = None, None, 0.0
 
     def is_unseen(self, gap: SampleGap) -> bool:
-        """Return whether the other foot had no samples either in a gap that is too long to be filled."""
+        """Return whether the other foot had no samples either in a gap, or hardly any."""
         other_t = (self.right if gap.site.foot is LEFT else self.left).t
-        return gap.duration > LONGEST_FILLED_GAP and (other_t is None or other_t < gap.t + ABSENCE_TIME)
+        return other_t is None or other_t < gap.t + min(0.5 * gap.duration, ABSENCE_TIME)
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """Return the position of the wearer; None before any sample."""

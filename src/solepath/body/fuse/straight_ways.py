@@ -10,7 +10,7 @@ from ...events import Defect, DefectFound, StrideTaken
 from ...types import SITE_OF_FOOT, Foot
 from ...types.attrs import define, evolve, field
 from .calibration_fit import CalibrationFit, DriftHypothesis
-from .common_error import DRIFT, NO_MOVE, TURNING, CommonError, Move
+from .common_error import DRIFT, MAX_TURN_BACK, NO_MOVE, TURNING, CommonError, Move
 from .straightness import Straightness
 
 LONGEST_STRIDE_TIME = 2.0
@@ -30,6 +30,8 @@ class StraightWays:
     moved: list[list[float]] = field(factory=list, init=False)
     """Derivatives of x and y, m, and of the heading, rad, over the whole walk by the drift and the turning of the left
     foot, then of the right one; empty without a calibration."""
+    devices: int = field(default=0, init=False)
+    """Number of times that another device may have been connected to either foot."""
     spoiled: tuple[Foot, ...] = field(default=(), init=False)
     """Feet whose rates are wrong by another defect, for example because the sensor came loose."""
 
@@ -58,6 +60,9 @@ class StraightWays:
         event if the calibration was dropped. A stride of a foot with a defect ends the stretch, and nothing is learnt
         from it."""
         share, turn = common.shares[foot], event.heading_change
+        devices = sum([one.device for one in common.foot_biases if one is not None])
+        if devices != self.devices:  # a calibration of the old one neither fits nor misfits any longer
+            self.devices, self.calibrated, self.fit, self.moved = devices, None, None, []
         self._move(2 * foot, share, (strides, turn), displacement)
         if event.foot in self.spoiled:
             self.straightness.reset()
@@ -100,6 +105,9 @@ class StraightWays:
                 move = common.replace(foot, error, value, its_variance, self.moved[2 * foot + error])
                 x, y, heading = x + move[0], y + move[1], heading + move[2]
         self.calibrated, self.fit, self.moved = None, None, []
+        if abs(heading) > MAX_TURN_BACK:  # the derivatives do not hold so far: say only how wrong the track may be
+            common.inflate(x * x + y * y, heading)
+            return NO_MOVE
         return (x, y, heading)
 
 

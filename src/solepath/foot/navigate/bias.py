@@ -70,6 +70,8 @@ class Bias:
     """Sum of all changes of `value` about the vertical, rad/s."""
     spans: int = 0
     """Number of spans of rest that were used; 0 for a device of which none was."""
+    device: int = 0
+    """Number of times that another device may have been connected."""
 
 
 @define
@@ -109,7 +111,7 @@ class BiasFilter:
     def forget(self) -> None:
         """Discard the variances, because the device may be another one; its bias is perhaps the same."""
         self.reset()
-        self.bias = Bias(self.bias.value)
+        self.bias = Bias(self.bias.value, device=self.bias.device + 1)
 
     def _learn(self, span: RestSpan) -> None:
         if self.count >= MOST_SPANS:  # the bias wanders, so a very long rest is several
@@ -148,7 +150,7 @@ class BiasFilter:
         level, extra = gains[1], (gains[0] - gains[1]) * about_up
         value = (ox + level * dx + extra * up[0], oy + level * dy + extra * up[1], oz + level * dz + extra * up[2])
         change, spans = before.change + gains[0] * about_up, self.bias.spans + 1
-        self.bias = Bias(value, (variances[0], variances[1]), span.t, change, spans)
+        self.bias = Bias(value, (variances[0], variances[1]), span.t, change, spans, self.bias.device)
 
 
 def _squares(w: Vec3, up: Vec3) -> tuple[float, float]:
