@@ -153,7 +153,7 @@ def test_the_covariance_is_that_of_the_equations() -> None:
         turn = float(rng.normal(0.0, 0.3))
         direction += turn
         foot, alone = int(rng.integers(2)), bool(rng.uniform() < 0.2)
-        dx, dy, share, n = cos(direction), sin(direction), error.share(foot, alone), 0.9
+        dx, dy, share, n = cos(direction), sin(direction), error.start_stride(foot, alone), 0.9
         error.propagate(foot, n, turn, 1.1, (dx, dy), (2e-4, 1e-5, 1e-4))
         one, own = np.eye(9), slice(FEET[foot], FEET[foot] + 3)
         one[2, own] = share * n, share * turn, share * 1.1
@@ -186,7 +186,7 @@ def test_a_foot_without_calibration_makes_two_feet_as_unsure_as_it_is() -> None:
     for foot, sigma in ((0, 1e-4), (1, DRIFT)):
         error = CommonError()
         error.use_calibration({Foot.LEFT: known})
-        error.share(foot, alone=True)
+        error.start_stride(foot, alone=True)
         assert error.drift_variance(0.0) ** 0.5 == pytest.approx(sigma)
 
 
@@ -217,7 +217,7 @@ def test_strides_that_are_all_too_long_leave_the_place_uncertain_along_the_way()
 
 def test_a_gap_and_a_turn_make_the_heading_less_sure() -> None:
     error, sigmas = CommonError(), [0.0]
-    error.share(0, alone=False)
+    error.start_stride(0, alone=False)
     for duration, unseen in ((0.1, False), (3.0, False), (20.0, True)):
         error.add_gap(duration, unseen)
         sigmas.append(error.heading_sigma)

@@ -33,7 +33,7 @@ def error_of(*feet: int) -> CommonError:
     for row in FEET:
         error.covariance[row][row] = error.covariance[row + 1][row + 1] = 0.0
     for foot in feet:
-        error.share(foot, len(feet) == 1)
+        error.start_stride(foot, len(feet) == 1)
         assert add_rest(error, foot, 0.0, bias_of(1e-6, 4)) == NO_MOVE
     return error
 
@@ -42,7 +42,7 @@ def walk(error: CommonError, strides: int, *feet: int) -> float:
     """Walk on; return the duration, s."""
     for k in range(strides):
         foot = feet[k % len(feet)]
-        error.share(foot, len(feet) == 1)
+        error.start_stride(foot, len(feet) == 1)
         error.propagate(foot, 1.0, 0.0, 1.1, ON, SURE)
         assert add_rest(error, foot, 0.0, bias_of(1e-6, 4)) == NO_MOVE
     return 1.1 * strides
@@ -78,7 +78,7 @@ def test_a_rest_of_a_foot_that_has_not_walked_turns_nothing_back() -> None:
 def test_a_bias_that_has_changed_leaves_the_heading_unsure_and_turns_nothing(change: float) -> None:
     """A jump of 0.3 or 2 degrees/s, of which nobody knows when it happened."""
     error = CommonError()
-    error.share(0, alone=True)
+    error.start_stride(0, alone=True)
     add_rest(error, 0, 0.0, bias_of(1e-7, 4))
     for k in range(50):
         error.propagate(0, 1.0, 0.0, 1.1, ON, SURE)
@@ -102,7 +102,7 @@ def test_a_rest_that_is_too_restless_to_show_anything_changes_nothing() -> None:
 def test_a_first_rest_amid_the_walk_shows_a_bias_that_is_larger_than_usual() -> None:
     """20 strides with 2.3 degrees/s, and no rest before them."""
     error = CommonError()
-    error.share(0, alone=True)
+    error.start_stride(0, alone=True)
     add_rest(error, 0, 0.0, bias_of(FIRST_BIAS**2, 0))
     for k in range(20):
         error.propagate(0, 1.0, 0.0, 1.1, ON, SURE)
@@ -160,7 +160,7 @@ def test_feet_that_come_and_go_and_rest_at_random_keep_a_covariance() -> None:
     error, spans, variances = CommonError(), [4, 4], [1e-6, 1e-6]
     for k in range(3000):
         foot = int(rng.integers(2))
-        error.share(foot, bool(rng.uniform() < 0.3))
+        error.start_stride(foot, bool(rng.uniform() < 0.3))
         if rng.uniform() < 0.05:
             spans[foot] += 3
             variances[foot] = float(10.0 ** rng.uniform(-8.0, -5.0))

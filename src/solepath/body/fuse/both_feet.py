@@ -169,7 +169,7 @@ class BothFeet(MeanOfFeet):
         numbers = (*event.position, *event.displacement, *event.covariance)
         if not all([abs(v) < MAX_TRACK_VALUE for v in numbers]) or self.errors.diverged:
             return self._restart()
-        share = self.common.share(index, not self.started or other.unplaced or other.absent)
+        share = self.common.start_stride(index, not self.started or other.unplaced or other.absent)
         rested = has_rested(self.common, index, after.bias)
         self._move_both(add_rest(self.common, index, event.t_end, after.bias))
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)

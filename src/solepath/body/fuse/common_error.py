@@ -19,7 +19,8 @@ e = (x, y) and c, a rotation by +90 degrees:
     a = w (n drift + theta turning + T bias),   heading' = heading + a,   e' = e + w (heading + a / 2) c d
 
 where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. Straight ways measure the drift with the bias
-(straightness.py), rests measure the bias (learnt_bias.py). The equations are linear in the errors; what a heading error
+(straightness.py), rests measure the bias (learnt_bias.py). The drift in which both tracks differ is another matter:
+error_filter.py finds it by comparing the feet. The equations are linear in the errors; what a heading error
 of any size does to the position is in position_covariance.py."""
 
 from __future__ import annotations
@@ -134,8 +135,9 @@ class CommonError:
                 p[row][j] = p[j][row] = 0.0
             p[row][row] = 2.0 * usual * usual  # the new one and the old one are both off by it
 
-    def share(self, foot: int, alone: bool) -> float:
-        """Return the share of the next stride of foot 0 (left) or 1 in the heading: all of it if it is `alone`."""
+    def start_stride(self, foot: int, alone: bool) -> float:
+        """Set the shares for a stride of foot 0 (left) or 1, which has all of the heading if it is `alone`; return its
+        own."""
         self.started = True
         self.shares = ((1.0, 0.0), (0.0, 1.0))[foot] if alone else (0.5, 0.5)
         return self.shares[foot]
