@@ -91,7 +91,7 @@ def test_every_recipe_takes_the_drift_off(name: str) -> None:
     assert np.median(more) == pytest.approx(1.0, abs=0.15)
 
 
-def test_turns_to_one_side_only_do_not_tell_turns_from_strides() -> None:
+def test_turns_to_one_side_only_do_not_separate_turns_from_strides() -> None:
     route = Route().stand(5.0)
     for leg in range(8):
         route = route.turn(pi, 0.6).walk(15.0, 1.3) if leg else route.walk(15.0, 1.3)

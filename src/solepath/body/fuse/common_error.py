@@ -136,8 +136,9 @@ class CommonError:
             p[row][row] = 2.0 * usual * usual  # the new one and the old one are both off by it
 
     def start_stride(self, foot: int, alone: bool) -> float:
-        """Set the shares for a stride of foot 0 (left) or 1, which has all of the heading if it is `alone`; return its
-        own."""
+        """Set the shares for a stride of foot 0 (left) or 1, which has all of the heading if it is `alone`.
+
+        Returns the share of this foot."""
         self.started = True
         self.shares = ((1.0, 0.0), (0.0, 1.0))[foot] if alone else (0.5, 0.5)
         return self.shares[foot]
