@@ -19,6 +19,8 @@ from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.walk import sampled
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, StrideTaken
+from solepath.lab.emulated.heading import yaw_of
+from solepath.lab.emulated.heading_walks import heading_route, insoles_of, wearer_of
 from solepath.saving import codec as machine
 from solepath.session import Session
 from solepath.types import Foot, Sample, Vec3
@@ -182,3 +184,27 @@ def test_a_foot_that_returns_pulls_nothing_before_it_is_aligned() -> None:
             steps.append(0.0 if before is None else dist(here, before))
             before = here
     assert max(steps) < 0.5
+
+
+def test_strides_that_are_usually_degraded_are_compared_and_others_are_not() -> None:
+    error_filter = TrackErrorFilter()
+    assert [error_filter.is_spoilt(0, degraded, False) for degraded in (False, True, False)] == [False, True, False]
+    assert [error_filter.is_spoilt(0, True, False) for _ in range(12)][-1] is False
+    assert error_filter.is_spoilt(0, True, True), "a sensor that came loose is no better for being so all the time"
+    assert error_filter.is_spoilt(1, True, False), "the other foot has its own strides"
+
+
+def test_feet_whose_peaks_are_cut_off_turn_each_other_by_little() -> None:
+    """Of this wearer nearly all strides are degraded, and now and then one is not."""
+    seed = 142
+    route = heading_route("any_angles", seed, lambda length, seconds: seconds >= 105.0)
+    walk = sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed)
+    session = Session()
+    strides = [e for sample in walk.samples for e in session.feed(sample) if isinstance(e, StrideTaken)]
+    assert sum(stride.degraded for stride in strides) > 0.7 * len(strides)
+    (part,) = [part for part in session._state.wearer.parts if isinstance(part, BothFeet)]
+    for foot, track in zip(Foot, (part.left, part.right), strict=True):
+        at = max(stride.t_end for stride in strides if stride.foot is foot)
+        w, x, y, z = walk.truth.pose(foot, at).attitude[0].tolist()
+        off = yaw_of((w, x, y, z)) - yaw_of(session.feet[foot].attitude) - track.turn
+        assert abs(remainder(off, 2.0 * pi)) < 0.08

@@ -28,7 +28,7 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import PartInput, PartOutput, Position, Shift
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
-from .error_filter import WIDTH, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
+from .error_filter import WIDTH, Pair, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
 from .learnt_bias import add_rest, has_rested
 from .moving_ground import MovingGround
 from .position import MeanOfFeet
@@ -188,18 +188,20 @@ class BothFeet(MeanOfFeet):
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
         self.common.propagate(index, count, event.heading_change, duration, (dx, dy), variance)
+        degraded = (
+            self.errors.is_spoilt(index, event.degraded, event.foot in self.straight_ways.spoiled) or excess > 0.0
+        )
         if self.started:
-            degraded = event.degraded or excess > 0.0
             self.errors.propagate(index, stance, swing, (ex, ey), (dx, dy), variance, degraded)
         if excess > 0.0:
             self.errors.inflate(index, excess)
             self.common.inflate(share * share * excess * excess)
         self.distance = min(ALIGNMENT_DISTANCE, self.distance + share * event.length)
-        straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not event.degraded
+        straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not degraded
         self.strides[index] = DirectedStride(event.t_end, own_position, atan2(y, x) if straight else None)
         realigned = self.started and self.distance < ALIGNMENT_DISTANCE and self._realign(index, event)
         if self.started and not realigned:
-            self._compare_feet(index, event, dx, dy, stance, swing)
+            self._compare_feet(index, event, (dx, dy), (stance, swing), degraded)
         defects = [self.ground.add_stride(index, event, after)]
         self.common.inflate(self.ground.variance(event.t_end))
         if self.settings.straightness and not realigned:
@@ -244,19 +246,19 @@ class BothFeet(MeanOfFeet):
         self._keep_placements()
         return True
 
-    def _compare_feet(self, index: int, event: StrideTaken, dx: float, dy: float, stance: float, swing: float) -> None:
-        """Compare the stride (dx, dy), m, of this foot with the position where the other foot stood."""
+    def _compare_feet(self, index: int, event: StrideTaken, moved: Pair, times: Pair, degraded: bool) -> None:
+        """Compare the stride of this foot, which has `moved` it in m, with the position where the other foot stood."""
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
-        turn, length = event.heading_change, hypot(dx, dy)
+        (dx, dy), turn, length = moved, event.heading_change, hypot(*moved)
         deviation = self.directions[index].add_stride(atan2(dy, dx), turn) if length > MIN_LENGTH else 0.0
         other_stride = self.strides[1 - index]
         if other_stride is None or other.absent or other.unplaced:
             return
         ex, ey, _ = this.place(event.position)
         walks_on = length > MIN_LENGTH and abs(turn) < MAX_TURN and abs(deviation) < MAX_DIRECTION_DEVIATION
-        if walks_on and event.t_start < other_stride.t_end < event.t_end and not event.degraded:
+        if walks_on and event.t_start < other_stride.t_end < event.t_end and not degraded:
             qx, qy, _ = other.place(other_stride.end)
-            for one in standing_foot(index, (dx, dy), (ex, ey), (qx, qy), turn, (stance, swing), self.width):
+            for one in standing_foot(index, moved, (ex, ey), (qx, qy), turn, times, self.width):
                 self._correct(self.errors.correct(one.terms, one.z, one.variance, GATE_LIMIT))
             ex, ey, _ = this.place(event.position)
         qx, qy, _ = other.place(other.newest_place)

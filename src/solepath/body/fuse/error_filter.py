@@ -49,11 +49,14 @@ HEADING_DRIFT = 0.0015
 """Random walk of the heading error that adds to the drift rate, rad/sqrt(s)."""
 DEGRADED_ERROR = 0.06
 """Standard deviation of the heading error that a degraded stride adds, rad."""
+USUALLY_DEGRADED, DEGRADED_MEMORY = 0.5, 10.0
+"""Share of a foot's strides above which a degraded one is usual, and number of strides over which it is averaged."""
 LATERAL_ERROR, LONGITUDINAL_ERROR = 0.045, 0.15
 """Standard deviations of the standing foot's position relative to the middle of the other foot's stride, m."""
 TURN_ERROR = 0.12
 """Additional standard deviation of both in a turn, m per m of stride length and rad of turn."""
 
+Pair = tuple[float, float]
 Term = tuple[int, float]
 """Index of a state, and the derivative of the measurement with respect to it."""
 
@@ -74,6 +77,8 @@ class TrackErrorFilter:
     """Point about which heading errors rotate the tracks, m, common frame."""
     rates: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
     """Corrections of the heading rate of the left and the right track, rad/s, positive to the left."""
+    degraded_shares: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
+    """Share of the recent strides of the left and the right foot that were degraded."""
 
     def start(self) -> None:
         """Start with both feet side by side; their mean has no error, because it defines the world frame."""
@@ -154,6 +159,15 @@ class TrackErrorFilter:
         py[y] += yy
         pr[rate] += DRIFT_RATE * DRIFT_RATE * (1.0 - decay * decay)
         self.rates[foot] *= decay
+
+    def is_spoilt(self, foot: int, degraded: bool, defect: bool) -> bool:
+        """Return whether a stride of foot 0 or 1 is worse than the foot's usual ones, or spoilt by a `defect`.
+
+        A sensor whose peaks are cut off has only degraded strides. Each of them is as good as the others, and the feet
+        have to be compared all the same."""
+        share = self.degraded_shares[foot]
+        self.degraded_shares[foot] = share + (float(degraded) - share) / DEGRADED_MEMORY
+        return degraded and (defect or share < USUALLY_DEGRADED)
 
     def inflate(self, foot: int, distance: float) -> None:
         """Inflate the variance of the position of foot 0 or 1 by the square of `distance`, m."""
