@@ -195,16 +195,19 @@ def test_strides_that_are_usually_degraded_are_compared_and_others_are_not() -> 
 
 
 def test_feet_whose_peaks_are_cut_off_turn_each_other_by_little() -> None:
-    """Of this wearer nearly all strides are degraded, and now and then one is not."""
-    seed = 142
-    route = heading_route("any_angles", seed, lambda length, seconds: seconds >= 105.0)
+    """Of this wearer most strides are degraded, and now and then one is not."""
+    seed = 140
+    route = heading_route("any_angles", seed, lambda length, seconds: seconds >= 200.0)
     walk = sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed)
     session = Session()
-    strides = [e for sample in walk.samples for e in session.feed(sample) if isinstance(e, StrideTaken)]
-    assert sum(stride.degraded for stride in strides) > 0.7 * len(strides)
     (part,) = [part for part in session._state.wearer.parts if isinstance(part, BothFeet)]
-    for foot, track in zip(Foot, (part.left, part.right), strict=True):
-        at = max(stride.t_end for stride in strides if stride.foot is foot)
-        w, x, y, z = walk.truth.pose(foot, at).attitude[0].tolist()
-        off = yaw_of((w, x, y, z)) - yaw_of(session.feet[foot].attitude) - track.turn
-        assert abs(remainder(off, 2.0 * pi)) < 0.08
+    first: dict[Foot, float] = {}
+    degraded = []
+    for event in (event for sample in walk.samples if sample.t < 175.0 for event in session.feed(sample)):
+        if isinstance(event, StrideTaken):
+            degraded.append(event.degraded)
+            w, x, y, z = walk.truth.pose(event.foot, event.t_end).attitude[0].tolist()
+            track = part.left if event.foot is Foot.LEFT else part.right
+            off = yaw_of((w, x, y, z)) - yaw_of(session.feet[event.foot].attitude) - track.turn
+            assert abs(remainder(off - first.setdefault(event.foot, off), 2.0 * pi)) < 0.09
+    assert 0.7 * len(degraded) < sum(degraded) < len(degraded)

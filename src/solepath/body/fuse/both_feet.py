@@ -182,8 +182,7 @@ class BothFeet(MeanOfFeet):
         drift = self.common.turn_of(index, count, event.heading_change, duration)
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
         this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
-        dx, dy = dx - mid_turn * dy, dy + mid_turn * dx
-        ex, ey, _ = this.place(own_position)
+        (dx, dy), (ex, ey, _) = (dx - mid_turn * dy, dy + mid_turn * dx), this.place(own_position)
         xx, xy, yy = this.turned_covariance(event.covariance)
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
