@@ -187,9 +187,8 @@ class BothFeet(MeanOfFeet):
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
         self.common.propagate(index, count, event.heading_change, duration, (dx, dy), variance)
-        degraded = (
-            self.errors.is_spoilt(index, event.degraded, event.foot in self.straight_ways.spoiled) or excess > 0.0
-        )
+        defect = event.foot in self.straight_ways.spoiled
+        degraded = self.errors.is_spoilt(index, event.degraded, defect) or excess > 0.0
         if self.started:
             self.errors.propagate(index, stance, swing, (ex, ey), (dx, dy), variance, degraded)
         if excess > 0.0:
