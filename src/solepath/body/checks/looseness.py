@@ -27,8 +27,7 @@ UNUSUAL, USUAL = 2.5, 1.5
 On the 46 recordings of both feet that are long enough it reaches 2.1 while that of the other foot is below 1.5."""
 
 MOST_OF_ONE = 3.0
-"""Largest ratio of the square of one stride to that of a loose sensor that counts: at least four strides have to show
-it."""
+"""Largest share of a loose sensor's mean square error that one stride counts for: at least four have to show it."""
 
 
 @define

@@ -46,18 +46,16 @@ Sheets of gyroscopes give tolerances of the scale of 1 to 3 %, which are two sta
 DRIFT_CHANGE = 4e-6
 """Random walk of the drift of one foot, rad a stride and sqrt(s): the manner of walking changes."""
 HEADING_NOISE = 0.0006
-"""Random walk of the heading, rad/sqrt(s): 0.3 degrees in a minute.
+"""Random walk of the heading, rad/sqrt(s): 0.3 degrees in a minute, of which the gyroscope's noise is 0.1 at most.
 
-The noise of a gyroscope makes up to 0.1 of them (its sheet), strides that differ the rest. Chosen on tuning walks: with
-twice as much the ellipses are a tenth wider."""
+Chosen on tuning walks: with twice as much the ellipses are a tenth wider."""
 GAP_RATE, MAX_GAP_ERROR = 0.3, 0.06
 """Error of the heading after a gap in the samples of a foot: rad per s of the gap, and at the most, rad."""
 UNSEEN_RATE, UNSEEN_TURN, UNSEEN_SPEED = 0.5, 1.5, 1.4
-"""Standard deviations of what a wearer does in a gap of all samples: rate of turning, rad/s (a tenth of the time 1.6
-rad/s, as in a bend of a corridor), turn at the most, rad, and speed, m/s."""
+"""Standard deviations of what a wearer does in a gap of all samples: rate of turning, rad/s (1.6, as in a bend of a
+corridor, for a tenth of the time), turn at the most, rad, and speed, m/s."""
 MAX_TURN_BACK = 1.0
-"""Largest turn by which a rest or a dropped calibration turns both tracks back, rad, because the equations are
-linear."""
+"""Largest turn of both tracks by a rest or a dropped calibration, rad, because the equations are linear."""
 X, Y, HEADING = 0, 1, 2
 """Rows of the position and of the heading."""
 FEET = (3, 6)
@@ -87,18 +85,8 @@ class FootBias:
 
 
 def _first_covariance() -> list[list[float]]:
-    p = [[0.0] * SIZE for _ in range(SIZE)]
-    for row in FEET:
-        p[row][row], p[row + 1][row + 1], p[row + 2][row + 2] = (
-            DRIFT * DRIFT,
-            TURNING * TURNING,
-            FIRST_BIAS * FIRST_BIAS,
-        )
-    return p
-
-
-def _zeros() -> list[float]:
-    return [0.0, 0.0]
+    sigmas = (0.0, 0.0, 0.0, DRIFT, TURNING, FIRST_BIAS, DRIFT, TURNING, FIRST_BIAS)
+    return [[sigma * sigma if j == k else 0.0 for j in range(SIZE)] for k, sigma in enumerate(sigmas)]
 
 
 @define
@@ -107,11 +95,11 @@ class CommonError:
 
     covariance: list[list[float]] = field(factory=_first_covariance, init=False)
     """Covariance of the errors, symmetric; the rows are named above."""
-    drift: list[float] = field(factory=_zeros, init=False)
+    drift: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
     """Estimated drift of the left and the right foot, which is removed from both tracks, rad a stride."""
-    turning: list[float] = field(factory=_zeros, init=False)
+    turning: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
     """Estimated relative error of turns of the left and the right foot, which is removed, no unit."""
-    bias: list[float] = field(factory=_zeros, init=False)
+    bias: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
     """Estimated rate of the heading of the left and the right foot, which is removed, rad/s."""
     shares: tuple[float, float] = field(default=(0.5, 0.5), init=False)
     """Shares of the left and the right foot in the wearer's heading: 1 and 0 if the left foot is alone."""
@@ -200,11 +188,9 @@ class CommonError:
 
         If it is `unseen`, the other foot had no samples either, so the wearer may have turned. A stride of a usual walk
         fills a shorter gap; in a longer one the wearer may have walked anywhere."""
-        error = max(self.shares) * min(GAP_RATE * duration, MAX_GAP_ERROR)
-        if unseen:
-            error = min(UNSEEN_RATE * duration, UNSEEN_TURN)
+        one_foot = max(self.shares) * min(GAP_RATE * duration, MAX_GAP_ERROR)
         distance = UNSEEN_SPEED * duration if unseen and duration > LONGEST_FILLED_GAP else 0.0
-        self.inflate(distance * distance, error)
+        self.inflate(distance * distance, min(UNSEEN_RATE * duration, UNSEEN_TURN) if unseen else one_foot)
 
     def turn_of(self, foot: int, strides: float, turn: float, duration: float) -> float:
         """Return the correction of the heading of foot 0 (left) or 1, rad, over a stride.

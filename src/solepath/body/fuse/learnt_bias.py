@@ -42,9 +42,8 @@ def add_rest(error: CommonError, foot: int, t: float, bias: Bias) -> Move:
     if gain > 0.0:
         z, noise = -change / gain - error.bias[foot], variance / gain
         s = p[row][row] + noise
-        if (
-            z * z > REST_GATE * s and not newest.spans and p[row][row] > 0.0
-        ):  # the bias was not known at all, and is larger than usual
+        if z * z > REST_GATE * s and not newest.spans and p[row][row] > 0.0:
+            # the bias was not known at all, and is larger than usual
             _add_to_bias(error, row, p[row][row] * (z * z / s - 1.0), SIZE)
             s = p[row][row] + noise
         if z * z <= REST_GATE * s and abs(p[HEADING][row] * z) <= MAX_TURN_BACK * s:
