@@ -58,7 +58,7 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "position_end": ("at the end m", _metres),
     "end_relative": ("at the end, of path %", _fine_percent),
     "heading_end": ("heading degrees", _degrees),
-    "radius_error": ("radius %", _fine_percent),
+    "radius_error": ("radius off by %", _fine_percent),
     "drift": ("drift degrees/min", _degrees_a_minute),
     "drift_left": ("left", _degrees_a_minute),
     "drift_right": ("right", _degrees_a_minute),
@@ -66,7 +66,7 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     **{
         f"{figure}_{t}": (f"{title} {t} s", _two_digits)
         for t in CHECKED_TIMES
-        for figure, title in (("nees", "NEES/2"), ("held", "held"), ("heading_nees", "heading"))
+        for figure, title in (("nees", "NEES/2"), ("held", "held"), ("heading_nees", "heading^2/variance"))
     },
     "nees_end": ("NEES/2 at the end", _two_digits),
     "held_end": ("held", _two_digits),
@@ -126,22 +126,27 @@ measures/drift.py. `off` is the median magnitude of the offsets. `uturn_invented
 
 
 def score_table(result: Result) -> str:
-    """Return the title, table of figures, confusion matrix and failures of a data set."""
+    """Return the title, table of figures with a value, confusion matrix and failures of a data set."""
     data_set = result.data_set
-    header = ["recording", *(COLUMNS[key][0] for key in data_set.figures)]
+    known = [score.flat() for score in result.scores]
+    known += [figures for one in result.summaries for figures in (one.mean, one.median, one.together)]
+    keys = [key for key in data_set.figures if any(one.get(key) is not None for one in known)]
+    header = ["recording", *(COLUMNS[key][0] for key in keys)]
     rows: list[Sequence[str]] = []
     if data_set.lists_recordings:
-        rows += [_row(score.recording, score.flat(), data_set.figures) for score in result.scores]
+        rows += [_row(score.recording, score.flat(), keys) for score in result.scores]
         rows.append([])
     for summary in result.summaries:
         name = "" if summary.group == "all" else f" {summary.group}"
         if summary.mean:
-            rows.append(_row(f"mean of {summary.count}{name}", summary.mean | summary.together, data_set.figures))
-            rows.append(_row("median", summary.median, data_set.figures))
+            rows.append(_row(f"mean of {summary.count}{name}", summary.mean | summary.together, keys))
+            rows.append(_row("median", summary.median, keys))
         else:
-            rows.append(_row(f"pooled {summary.count}{name}", summary.together, data_set.figures))
+            rows.append(_row(f"pooled {summary.count}{name}", summary.together, keys))
     wall_time, samples = sum(s.seconds for s in result.scores), sum(s.samples for s in result.scores)
-    speed = f"{samples} samples, {1e6 * wall_time / samples:.1f} us each" if samples else "no samples"
+    speed = f"{samples} samples" if samples else "no samples"
+    if samples and wall_time > 0.0:
+        speed = f"{speed}, {1e6 * wall_time / samples:.1f} us each"
     title = f"{data_set.name}: {data_set.title} ({result.recipe}; {speed})"
     lines = [title, table(header, rows)]
     lines += [_confusion(summary) for summary in result.summaries if summary.group == "all" and summary.confusion]
