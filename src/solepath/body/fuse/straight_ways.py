@@ -30,8 +30,8 @@ class StraightWays:
     moved: list[list[float]] = field(factory=list, init=False)
     """Derivatives of x and y, m, and of the heading, rad, over the whole walk by the drift and the turning of the left
     foot, then of the right one; empty without a calibration."""
-    devices: int = field(default=0, init=False)
-    """Number of times that another device may have been connected to either foot."""
+    devices: tuple[int, ...] = field(default=(0, 0), init=False)
+    """Number of times that another device may have been connected to the left and to the right foot."""
     spoiled: tuple[Foot, ...] = field(default=(), init=False)
     """Feet whose rates are wrong by another defect, for example because the sensor came loose."""
 
@@ -60,7 +60,7 @@ class StraightWays:
         event if the calibration was dropped. A stride of a foot with a defect ends the stretch, and nothing is learnt
         from it."""
         share, turn = common.shares[foot], event.heading_change
-        devices = sum([one.device for one in common.foot_biases if one is not None])
+        devices = tuple([0 if one is None else one.device for one in common.foot_biases])
         if devices != self.devices:  # a calibration of the old one neither fits nor misfits any longer
             self.devices, self.calibrated, self.fit, self.moved = devices, None, None, []
         self._move(2 * foot, share, (strides, turn), displacement)
