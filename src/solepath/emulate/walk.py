@@ -21,6 +21,7 @@ from .radio import CLEAN, Radio
 from .routes.route import Route
 from .sensors.device import Device, device_rng, foot_of
 from .sensors.insole_device import Insole
+from .sensors.magnetic_field import UNDISTURBED, MagneticField
 from .wearers.gait import Wearer
 from .wearers.truth import Truth
 from .wearers.walker import Walker
@@ -44,6 +45,7 @@ def emulate(
     wearer: Wearer | None = None,
     devices: Mapping[Site, Device] | None = None,
     radio: Radio = CLEAN,
+    field: MagneticField = UNDISTURBED,
     seed: int = 1,
 ) -> EmulatedWalk:
     """Return the packets and the truth of a walk on `route`.
@@ -52,7 +54,7 @@ def emulate(
     any other device raises ValueError there."""
     if devices is None:
         devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
-    walker = Walker(route, wearer, seed)
+    walker = Walker(route, wearer, seed, field)
     sites = list(Site)
     packets: list[Packet] = []
     for site in sorted(devices, key=sites.index):
@@ -77,12 +79,17 @@ class SampledWalk:
 
 
 def sampled(
-    route: Route, *, wearer: Wearer | None = None, insoles: Mapping[Site, Insole] | None = None, seed: int = 1
+    route: Route,
+    *,
+    wearer: Wearer | None = None,
+    insoles: Mapping[Site, Insole] | None = None,
+    field: MagneticField = UNDISTURBED,
+    seed: int = 1,
 ) -> SampledWalk:
     """Return the samples, at their true times and without packets, of the walk that `emulate` makes on `route`."""
     if insoles is None:
         insoles = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
-    walker = Walker(route, wearer, seed)
+    walker = Walker(route, wearer, seed, field)
     samples = [
         sample for site, insole in insoles.items() for sample in insole.samples(walker, site, device_rng(seed, site))
     ]

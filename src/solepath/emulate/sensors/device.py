@@ -11,9 +11,12 @@ from attrs import frozen
 from ...link.profile import Profile
 from ...types import Foot, Site
 from ..wearers.curves import Array, Rng
+from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .sensors import Sampling, instants
+from .magnetic_field import MagneticField
+from .parts import TriadErrors
+from .sensors import Sampling, instants, measure
 
 CRYSTAL_PPM = 30.0
 """Standard deviation of a clock's rate error, ppm; usual 32 kHz crystals are within about +-50 ppm."""
@@ -98,12 +101,14 @@ def make_sampling(walker: Walker, clock: DeviceClock, nominal: float, first: flo
     return instants(start, interval, max(2, int((walker.duration - start) / interval)))
 
 
-MAGNETIC_FIELD: Array = np.array([16e-6, 12e-6, -43e-6])
-"""Magnetic field of the earth in the world frame, T: 20 uT horizontal, 43 uT down, as in Central Europe."""
-
-
 def in_sensor_frame(attitude: Array, vector: Array) -> Array:
-    """Return the coordinates q* v q of a world vector v in the sensor frames of attitudes q (N, 4), (N, 3)."""
+    """Return the coordinates q* v q of world vectors v, (3) or (N, 3), in the sensor frames of attitudes q (N, 4)."""
     axis = -attitude[:, 1:]
     twice = 2.0 * np.cross(axis, vector)
     return np.asarray(vector + attitude[:, :1] * twice + np.cross(axis, twice))
+
+
+def measure_field(true: Kinematics, field: MagneticField, sampling: Sampling, chip: TriadErrors, rng: Rng) -> Array:
+    """Return the flux density, (N, 3), T, that a magnetometer with this motion at the fine instants measures."""
+    flux = field.along(sampling.fine_times, true.position)
+    return measure(in_sensor_frame(true.attitude, flux), sampling, chip, rng)

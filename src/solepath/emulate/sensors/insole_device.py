@@ -17,10 +17,10 @@ from ...wire.insole_info import InsoleInfo, build_info
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
-from .device import Notification, draw_clock, foot_of, make_sampling, setup_notifications
+from .device import Notification, device_rng, draw_clock, foot_of, make_sampling, measure_field, setup_notifications
 from .insoles import FULL_COUNT, LOAD_PER_COUNT, heel_array, layout
-from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudeErrors, CellErrors, Imu
-from .sensors import measure_imu, read_attitudes, read_cells, samples_of, take_samples, to_counts
+from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudeErrors, CellErrors, Imu, TriadErrors
+from .sensors import instants, measure_imu, read_attitudes, read_cells, samples_of, take_samples, to_counts
 
 HANDLING_TIME = 1e-3
 """Time from a frame's last sample until the radio has the frame, s."""
@@ -128,6 +128,9 @@ class Insole:
     """Position and attitude of the IMU on the foot."""
     chip: Imu = LSM6DSOX
     """Chip of the IMU, with its errors."""
+    mag: TriadErrors | None = None
+    """Errors of a magnetometer, iron of the shoe included; None without one. Frames have no field for it, so only
+    `samples` has its values."""
     cell_part: CellErrors = RESISTIVE
     """Errors of the cells."""
     ppm: float | None = None
@@ -200,13 +203,20 @@ class Insole:
     def samples(self, walker: Walker, site: Site, rng: Rng) -> list[Sample]:
         """Return the samples of the walk without packets and radio, on the true clock."""
         signal = self.measure(walker, site, rng)
+        mag = None if self.mag is None else self._measure_field(walker, site, self.mag, signal)
         t = signal.first + signal.step * np.arange(len(signal.cells), dtype=np.float64)
         acc = gyro = None
         if signal.imu is not None:
             acc, gyro = signal.imu[:, :3] * ACC_COUNT, signal.imu[:, 3:] * GYRO_COUNT
         quats = None if signal.quats is None else signal.quats / 2.0**14
         cells = (signal.layout.scale or 1.0) * signal.cells
-        return samples_of(site, t, acc, gyro, cells, quats, signal.saturated)
+        return samples_of(site, t, acc, gyro, cells, quats, signal.saturated, mag)
+
+    def _measure_field(self, walker: Walker, site: Site, chip: TriadErrors, signal: InsoleSignal) -> Array:
+        """Return the flux density at the samples, (N, 3), T; its random numbers are apart from those of `measure`."""
+        sampling = instants(signal.first, signal.step, len(signal.cells))
+        kinematics = walker.kinematics(foot_of(site), sampling.fine_times, self.mounting)
+        return measure_field(kinematics, walker.field, sampling, chip, device_rng(walker.seed, site, 9))
 
     @property
     def interval(self) -> int:

@@ -222,11 +222,12 @@ def samples_of(
     pressure: NDArray[Any] | None,
     quat: NDArray[Any] | None = None,
     saturated: NDArray[np.bool_] | None = None,
+    mag: NDArray[Any] | None = None,
 ) -> list[Sample]:
     """Return the samples at times `t`, s, with the rows of the measured values."""
-    vectors = [repeat(None) if one is None else map(tuple, one.tolist()) for one in (acc, gyro, pressure, quat)]
+    vectors = [repeat(None) if one is None else map(tuple, one.tolist()) for one in (acc, gyro, pressure, quat, mag)]
     flags = repeat(False) if saturated is None else saturated.tolist()
     return [
-        Sample(time, site, a, g, p, q, saturated=flag)
-        for time, a, g, p, q, flag in zip(t.tolist(), *vectors, flags, strict=False)
+        Sample(time, site, a, g, p, q, m, saturated=flag)
+        for time, a, g, p, q, m, flag in zip(t.tolist(), *vectors, flags, strict=False)
     ]

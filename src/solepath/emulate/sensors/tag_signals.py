@@ -11,7 +11,8 @@ from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import MAGNETIC_FIELD, DeviceClock, Notification, in_sensor_frame, make_sampling
+from .device import DeviceClock, Notification, make_sampling, measure_field
+from .magnetic_field import MagneticField
 from .parts import BarometerErrors, Imu, TriadErrors
 from .sensors import Sampling, measure, read_barometer, to_counts
 
@@ -72,6 +73,8 @@ class TagMotion:
     """True time between samples, s."""
     kinematics: Kinematics
     """Motion of the tag at the fine instants."""
+    field: MagneticField
+    """Magnetic field in the building."""
 
     def acc(self, chip: Imu, rng: Rng) -> Series:
         """Return the series of the accelerometer, m/s^2."""
@@ -83,9 +86,7 @@ class TagMotion:
 
     def mag(self, chip: TriadErrors, rng: Rng) -> Series:
         """Return the series of the magnetometer, T."""
-        return self._series(
-            measure(in_sensor_frame(self.kinematics.attitude, MAGNETIC_FIELD), self.sampling, chip, rng)
-        )
+        return self._series(measure_field(self.kinematics, self.field, self.sampling, chip, rng))
 
     def _series(self, values: Array) -> Series:
         return Series(float(self.sampling.times[0]), self.step, values)
@@ -108,7 +109,7 @@ class WornTag:
         """Return the motion for a sensor with samples `period` s apart, the first `delay` s after the tag's first."""
         sampling = make_sampling(self.walker, self.clock, period, self.clock.first + delay)
         kinematics = self.walker.kinematics(self.foot, sampling.fine_times, self.mounting)
-        return TagMotion(sampling, self.clock.interval(period), kinematics)
+        return TagMotion(sampling, self.clock.interval(period), kinematics, self.walker.field)
 
     def barometer(self, period: float, chip: BarometerErrors, rng: Rng) -> Series:
         """Return the series of a barometer that measures every `period` s, Pa."""

@@ -9,6 +9,7 @@ import numpy as np
 from ...types import SITE_OF_FOOT, Foot, Layout, Sample
 from ..routes.planner import plan
 from ..routes.route import Route
+from ..sensors.magnetic_field import UNDISTURBED, MagneticField
 from ..sensors.parts import Imu
 from ..sensors.sensors import instants, measure_imu, samples_of
 from .curves import Array
@@ -22,10 +23,15 @@ from .truth import Truth, activities, foot_truth
 
 
 class Walker:
-    """A wearer on a route, without devices; the same seed gives the same walk."""
+    """A wearer on a route, without devices; the same seed gives the same walk.
 
-    def __init__(self, route: Route, wearer: Wearer | None = None, seed: int = 1) -> None:
+    `field` is the magnetic field in the building."""
+
+    def __init__(
+        self, route: Route, wearer: Wearer | None = None, seed: int = 1, field: MagneticField = UNDISTURBED
+    ) -> None:
         self.route = route
+        self.field = field
         self.wearer = wearer or Wearer()
         self.seed = seed
         self.plan = plan(route, self.wearer, np.random.default_rng([seed, 0]))
