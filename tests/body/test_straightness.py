@@ -8,7 +8,7 @@ from math import atan2, cos, hypot, pi, radians, sin
 import numpy as np
 import pytest
 
-from solepath.body.fuse.common_error import DRIFT, DRIFT_CHANGE, FEET, HEADING_NOISE, STRIDE_SHARE, TURNING, CommonError
+from solepath.body.fuse.common_error import DRIFT, DRIFT_CHANGE, FEET, HEADING_NOISE, TURNING, CommonError
 from solepath.body.fuse.position_covariance import LENGTH_ERROR, position_covariance
 from solepath.body.fuse.straightness import Straightness
 from solepath.calibration import HeadingCalibration
@@ -161,7 +161,7 @@ def test_the_covariance_is_that_of_the_equations() -> None:
         middle[2], middle[own] = 1.0, 0.5 * one[2, own]
         one[0], one[1] = one[0] - share * dy * middle, one[1] + share * dx * middle
         expected = one @ expected @ one.T
-        expected[:2, :2] += share * share * STRIDE_SHARE * np.array([[2e-4, 1e-5], [1e-5, 1e-4]])
+        expected[:2, :2] += share * share * np.array([[2e-4, 1e-5], [1e-5, 1e-4]])
         expected[2, 2] += share * 1.1 * HEADING_NOISE**2
         expected[FEET[foot], FEET[foot]] += 1.1 * DRIFT_CHANGE**2
         assert np.allclose(matrix(error), expected, rtol=1e-9, atol=1e-15)

@@ -183,10 +183,10 @@ class BothFeet(MeanOfFeet):
         mid_turn = rate * (stance + 0.5 * swing) + 0.5 * drift
         this.correct(own_position, rate * (stance + swing) + drift, -mid_turn * dy, mid_turn * dx)
         (dx, dy), (ex, ey, _) = (dx - mid_turn * dy, dy + mid_turn * dx), this.place(own_position)
-        xx, xy, yy = variance = this.turned_covariance(event.covariance)
+        xx, xy, yy = this.turned_covariance(event.covariance)
+        variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
         self.common.propagate(index, count, event.heading_change, duration, (dx, dy), variance)
-        variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         defect = event.foot in self.straight_ways.spoiled
         degraded = self.errors.is_spoilt(index, event.degraded, defect) or excess > 0.0
         if self.started:

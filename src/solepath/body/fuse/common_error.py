@@ -49,11 +49,6 @@ HEADING_NOISE = 0.0006
 """Random walk of the heading, rad/sqrt(s): 0.3 degrees in a minute, of which the gyroscope's noise is 0.1 at most.
 
 Chosen on tuning walks: with twice as much the ellipses are a tenth wider."""
-STRIDE_SHARE = 0.5
-"""Share of the variance of a stride, as its foot states it, that is the error of the wearer's way.
-
-On pyshoe_vicon and gumushane_gcp, the lengths of eight strides together vary by half of it, by the median absolute
-deviation; a few strides are far worse, and state a larger variance."""
 GAP_RATE, MAX_GAP_ERROR = 0.3, 0.06
 """Error of the heading after a gap in the samples of a foot: rad per s of the gap, and at the most, rad."""
 UNSEEN_RATE, UNSEEN_TURN, UNSEEN_SPEED = 0.5, 1.5, 1.4
@@ -173,10 +168,10 @@ class CommonError:
         aa = n * a[row] + k * a[row + 1] + t * a[row + 2]
         ah, gx, gy = a[HEADING], g[X], g[Y]
         gg, gh = ph[HEADING] + ah + 0.25 * aa, ph[HEADING] + 1.5 * ah + 0.5 * aa
-        xx, xy, yy = (w * w * STRIDE_SHARE * one for one in variance)
-        px[X] += -2.0 * dy * gx + dy * dy * gg + xx
-        px[Y] += dx * gx - dy * gy - dx * dy * gg + xy
-        py[Y] += 2.0 * dx * gy + dx * dx * gg + yy
+        xx, xy, yy = variance
+        px[X] += -2.0 * dy * gx + dy * dy * gg + w * w * xx
+        px[Y] += dx * gx - dy * gy - dx * dy * gg + w * w * xy
+        py[Y] += 2.0 * dx * gy + dx * dx * gg + w * w * yy
         px[HEADING] += a[X] - dy * gh
         py[HEADING] += a[Y] + dx * gh
         ph[HEADING] += 2.0 * ah + aa + w * HEADING_NOISE * HEADING_NOISE * duration
