@@ -188,10 +188,10 @@ def test_a_foot_that_returns_pulls_nothing_before_it_is_aligned() -> None:
 
 def test_strides_that_are_usually_degraded_are_compared_and_others_are_not() -> None:
     error_filter = TrackErrorFilter()
-    assert [error_filter.is_spoilt(0, degraded, False) for degraded in (False, True, False)] == [False, True, False]
-    assert [error_filter.is_spoilt(0, True, False) for _ in range(12)][-1] is False
-    assert error_filter.is_spoilt(0, True, True), "a sensor that came loose is no better for being so all the time"
-    assert error_filter.is_spoilt(1, True, False), "the other foot has its own strides"
+    assert [error_filter.judge_stride(0, degraded, False) for degraded in (False, True, False)] == [False, True, False]
+    assert [error_filter.judge_stride(0, True, False) for _ in range(12)][-1] is False
+    assert error_filter.judge_stride(0, True, True), "a sensor that came loose is no better for being so all the time"
+    assert error_filter.judge_stride(1, True, False), "the other foot has its own strides"
 
 
 def test_feet_whose_peaks_are_cut_off_turn_each_other_by_little() -> None:

@@ -70,9 +70,7 @@ class _Leg:
 
 
 def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | None = None) -> list[HeadingFit]:
-    """Return the drift of each foot that walked. CalibrationError is raised if a foot did not walk there and back.
-
-    It is also raised if none walked."""
+    """Return the drift of each foot that walked; CalibrationError says why a foot does not show it, or none walked."""
     known = calibration or Calibration()
     # each foot by itself, without any earlier calibration of its heading
     session = Session(DEFAULT.exchanged(BothFeet, MeanOfFeet()), calibration=evolve(known, headings={}))
@@ -95,7 +93,7 @@ def heading_walk(source: Iterable[Packet | Sample], calibration: Calibration | N
         elif strides:
             reasons.append(f"{foot.value} foot: {found}")
     if reasons and fits:
-        reasons.append(f"--foot {fits[0].foot.value} learns from the {fits[0].foot.value} foot alone")
+        reasons.append(f"the {fits[0].foot.value} foot alone shows its drift")
     if reasons or not fits:
         raise CalibrationError("; ".join(reasons) or "no strides")
     return fits

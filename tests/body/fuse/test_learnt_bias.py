@@ -10,12 +10,13 @@ import pytest
 from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.fuse.common_error import DRIFT, FEET, NO_MOVE, TURNING, CommonError
 from solepath.body.fuse.learnt_bias import add_rest, has_rested
+from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import sampled
 from solepath.foot.navigate.bias import FIRST_BIAS, Bias
 from solepath.lab.emulated.heading_walks import insoles_of, wearer_of
 from solepath.session import Session
-from solepath.types import Site
+from solepath.types import Foot, Site
 
 ON = (1.3, 0.0)
 """A stride straight on, m."""
@@ -132,6 +133,15 @@ def test_another_device_has_another_bias_and_another_drift() -> None:
     assert error.bias[0] == 0.0 and error.drift[0] == 2e-3
     assert [p[row + k][row + k] for k in range(3)] == [2.0 * DRIFT**2, 2.0 * TURNING**2, FIRST_BIAS**2]
     assert not any(p[row][:row]) and is_covariance(error)
+
+
+def test_a_device_that_replaced_another_one_before_the_first_stride_is_not_the_calibrated_one_for_certain() -> None:
+    error = CommonError()
+    error.use_calibration(dict.fromkeys(Foot, HeadingCalibration(0.002, 0.0, 1e-4, 1e-3)))
+    for foot, device in enumerate((0, 1)):
+        error.start_stride(foot, alone=False)
+        add_rest(error, foot, 0.0, bias_of(1e-6, 4, device=device))
+    assert [error.covariance[row][row] for row in FEET] == [1e-8, 2.0 * DRIFT**2]
 
 
 def test_a_session_whose_devices_were_exchanged_knows_their_drift_no_longer() -> None:

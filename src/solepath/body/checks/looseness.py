@@ -25,9 +25,10 @@ UNUSUAL, USUAL = 2.5, 1.5
 """Ratios of the error to the usual one, of the loose sensor at least, and of the other foot at most.
 
 On the 46 recordings of both feet that are long enough it reaches 2.1 while that of the other foot is below 1.5."""
-
 MOST_OF_ONE = 3.0
-"""Largest share of a loose sensor's mean square error that one stride counts for: at least four have to show it."""
+"""Largest ratio of the squared error of one stride to the least of a loose sensor that counts.
+
+Four strides or more have to show it then; the one after a gap in the samples ends with any velocity."""
 
 
 @define
@@ -60,8 +61,8 @@ class LandingErrors:
 class Looseness(Part):
     """Reports a sensor that came loose, once for a device; from then on its strides are degraded.
 
-    It needs both feet, and a sensor that was fixed for `FIRST_STRIDES` strides. Degraded strides do not count. Latency:
-    4 to 30 strides, the fewer the more it swings."""
+    It needs both feet, and a sensor that was fixed for `FIRST_STRIDES` strides. Latency: 4 to 30 strides, the fewer the
+    more it swings."""
 
     needs_samples: ClassVar[bool] = True
     idle = True
@@ -73,7 +74,7 @@ class Looseness(Part):
         """Add a stride of the foot; return the event if its sensor came loose."""
         found: list[PartOutput] = []
         for event in view.events:
-            if not isinstance(event, StrideTaken) or event.degraded:  # as after a gap, whose error is not the sensor's
+            if not isinstance(event, StrideTaken):
                 continue
             this, other = self._errors(event.foot), self._errors(OTHER[event.foot])
             x, y, z = view.after.velocity_error

@@ -188,7 +188,7 @@ class BothFeet(MeanOfFeet):
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
         self.common.propagate(index, count, event.heading_change, duration, (dx, dy), variance)
         defect = event.foot in self.straight_ways.spoiled
-        degraded = self.errors.is_spoilt(index, event.degraded, defect) or excess > 0.0
+        degraded = self.errors.judge_stride(index, event.degraded, defect) or excess > 0.0
         if self.started:
             self.errors.propagate(index, stance, swing, (ex, ey), (dx, dy), variance, degraded)
         if excess > 0.0:
@@ -245,7 +245,7 @@ class BothFeet(MeanOfFeet):
         return True
 
     def _compare_feet(self, index: int, event: StrideTaken, moved: Pair, times: Pair, degraded: bool) -> None:
-        """Compare the stride of this foot, which has `moved` it in m, with the position where the other foot stood."""
+        """Compare a stride by `moved`, m, with where the other foot stood; `times` of its stance and swing are in s."""
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
         (dx, dy), turn, length = moved, event.heading_change, hypot(*moved)
         deviation = self.directions[index].add_stride(atan2(dy, dx), turn) if length > MIN_LENGTH else 0.0

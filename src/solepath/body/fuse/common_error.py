@@ -20,8 +20,8 @@ e = (x, y) and c, a rotation by +90 degrees:
 
 where w is 1/2 for a stride of one of two feet, and 1 for a foot alone. Straight ways measure the drift with the bias
 (straightness.py), rests measure the bias (learnt_bias.py). The drift in which both tracks differ is another matter:
-error_filter.py finds it by comparing the feet. The equations are linear in the errors; what a heading error
-of any size does to the position is in position_covariance.py."""
+error_filter.py finds it by comparing the feet. The equations are linear in the errors; what a heading error of any
+size does to the position is in position_covariance.py."""
 
 from __future__ import annotations
 
@@ -126,7 +126,7 @@ class CommonError:
     def start_stride(self, foot: int, alone: bool) -> float:
         """Set the shares for a stride of foot 0 (left) or 1, which has all of the heading if it is `alone`.
 
-        Returns the share of this foot."""
+        Returns the share of this foot, 0.5 or 1."""
         self.started = True
         self.shares = ((1.0, 0.0), (0.0, 1.0))[foot] if alone else (0.5, 0.5)
         return self.shares[foot]

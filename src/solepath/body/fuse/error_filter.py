@@ -50,7 +50,7 @@ HEADING_DRIFT = 0.0015
 DEGRADED_ERROR = 0.06
 """Standard deviation of the heading error that a degraded stride adds, rad."""
 USUALLY_DEGRADED, DEGRADED_MEMORY = 0.5, 10.0
-"""Share of a foot's strides above which a degraded one is usual, and number of strides over which it is averaged."""
+"""Share of a foot's strides above which a degraded one is usual, and strides over which it is averaged (by hand)."""
 LATERAL_ERROR, LONGITUDINAL_ERROR = 0.045, 0.15
 """Standard deviations of the standing foot's position relative to the middle of the other foot's stride, m."""
 TURN_ERROR = 0.12
@@ -160,11 +160,10 @@ class TrackErrorFilter:
         pr[rate] += DRIFT_RATE * DRIFT_RATE * (1.0 - decay * decay)
         self.rates[foot] *= decay
 
-    def is_spoilt(self, foot: int, degraded: bool, defect: bool) -> bool:
-        """Return whether a stride of foot 0 or 1 is worse than the foot's usual ones, or spoilt by a `defect`.
+    def judge_stride(self, foot: int, degraded: bool, defect: bool) -> bool:
+        """Count a stride of foot 0 or 1; return whether it is worse than the foot's usual ones, or has a `defect`.
 
-        A sensor whose peaks are cut off has only degraded strides. Each of them is as good as the others, and the feet
-        have to be compared all the same."""
+        All strides of a sensor whose peaks are cut off are degraded, and have to be compared all the same."""
         share = self.degraded_shares[foot]
         self.degraded_shares[foot] = share + (float(degraded) - share) / DEGRADED_MEMORY
         return degraded and (defect or share < USUALLY_DEGRADED)

@@ -28,7 +28,7 @@ def add_rest(error: CommonError, foot: int, t: float, bias: Bias) -> Move:
     if newest is None or bias.device != newest.device:  # the first stride of this device
         error.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change, bias.device)
         _replace_bias(error, foot, variance)
-        if newest is not None:
+        if bias.device:  # not the first device of this foot
             error.renew(foot)
         return NO_MOVE
     wander = BIAS_WANDER * BIAS_WANDER * max(0.0, t - newest.t)

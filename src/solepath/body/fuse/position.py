@@ -156,7 +156,7 @@ class MeanOfFeet(TrackPart):
             placed.t, placed.started_at, placed.absent_for = None, None, 0.0
 
     def is_unseen(self, gap: SampleGap) -> bool:
-        """Return whether the other foot had no samples either in a gap, or hardly any."""
+        """Return whether the other foot had no samples either in the first half, or the first second, of a gap."""
         other_t = (self.right if gap.site.foot is LEFT else self.left).t
         return other_t is None or other_t < gap.t + min(0.5 * gap.duration, ABSENCE_TIME)
 

@@ -192,7 +192,7 @@ class Straightness:
         self.recent, self.left_out, self.t = [], 0, None
 
     def drift_of(self, stretch: Stretch, drift_sigma: float) -> StretchDrift | None:
-        """Return the drift that a stretch shows, and learn from it how this wearer walks; None if nothing fits it.
+        """Return the drift that a stretch shows, and learn from it how this wearer walks; None without a parabola.
 
         `drift_sigma` is the standard deviation of the estimated drift, rad a stride, which is already removed from the
         strides."""

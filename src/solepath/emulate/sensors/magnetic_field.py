@@ -4,7 +4,8 @@ The field of the earth is the same everywhere; the steel of a building disturbs 
 turns a compass near a floor, so the disturbance is an assumption, with its figures as parameters: the gradient of a
 potential that decays upwards, as that of sources below the floor does, with two lengths of correlation, those of
 furniture and reinforcement and those of girders and machines. Its size varies from place to place, which gives it heavy
-tails; that variation is what is idealised most, because with it the field is no longer quite a gradient.
+tails. What is idealised: with that variation the field is no longer quite a gradient, and it is taken at the floor,
+although a foot in swing is some centimetres above it.
 
 The iron of a shoe is fixed to the sensor, so it is among the errors of a magnetometer (parts.py): magnetised steel adds
 a constant field (hard iron: `bias`), steel that the field magnetises scales and turns it (soft iron: `scale`,
@@ -16,7 +17,7 @@ from functools import cached_property
 from math import pi, sqrt
 
 import numpy as np
-from attrs import field, frozen
+from attrs import frozen
 
 from ...types import Vec3
 from ..wearers.curves import Array, Rng
@@ -27,7 +28,7 @@ Europe."""
 WAVES = 64
 """Number of plane waves of which the disturbance of each length is made."""
 PROBES, PROBED_AREA = 2000, 300.0
-"""Number of random places by which the amplitude of the disturbance is set, and side of their square, m."""
+"""Number of random places by which the amplitude of the disturbance is set, and half the side of their square, m."""
 FIELD_STEP = 0.01
 """Time between the instants at which the field along a way is computed, s; a foot in swing moves by 5 cm in it."""
 
@@ -55,7 +56,7 @@ class Waves:
         return np.asarray(np.cos(self.at(places)).sum(axis=1) * sqrt(2.0 / WAVES))
 
     def gradient(self, places: Array) -> Array:
-        """Return the gradient of a potential that these waves make, (N, 3); its horizontal part has a variance of 1.
+        """Return the gradient at the floor of a potential that these waves make, (N, 3), of a variance of about 1.
 
         Each wave of the potential decays with the height as exp(-k z), by its own wave number k."""
         argument = self.at(places)
@@ -67,7 +68,7 @@ class Waves:
 
 @frozen(eq=False)
 class MagneticField:
-    """The magnetic field over the floor of a building, the same at every height."""
+    """The magnetic field at the floor of a building."""
 
     disturbance: float = 0.0
     """Root mean square by which the disturbance turns the horizontal field, rad."""
@@ -78,14 +79,13 @@ class MagneticField:
     lengths: tuple[float, float] = (1.5, 15.0)
     """Lengths of correlation, m, of both parts of the disturbance, which are equally large (assumed)."""
     variation: float = 0.6
-    """Standard deviation of the logarithm of the size of the disturbance from place to place (assumed).
+    """Standard deviation of the logarithm of the size of the disturbance from place to place, no unit (assumed).
 
     With 0.6 the disturbance is 1.9 times as large as its root mean square in a twentieth of all places, or more."""
-    waves: tuple[Waves, ...] = field(init=False, repr=False)
-    """Waves of both parts of the disturbance, and of the logarithm of its size."""
 
-    @waves.default
-    def _draw(self) -> tuple[Waves, ...]:
+    @cached_property
+    def _waves(self) -> tuple[Waves, ...]:
+        """Waves of both parts of the disturbance, and of the logarithm of its size."""
         rng = np.random.default_rng([self.seed, 31])
         return tuple([Waves.drawn(length, rng) for length in (*self.lengths, self.lengths[1])])
 
@@ -106,7 +106,7 @@ class MagneticField:
         return np.column_stack([np.interp(t, t[rows], axis) for axis in values.T])
 
     def _relative(self, places: Array) -> Array:
-        *parts, size = self.waves
+        *parts, size = self._waves
         both = sum((one.gradient(places) for one in parts), start=np.zeros((len(places), 3))) * sqrt(0.5)
         return np.asarray(both * np.exp(self.variation * size.value(places) - self.variation**2)[:, None])
 
