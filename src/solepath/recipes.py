@@ -170,6 +170,9 @@ PARTS: dict[str, str] = {
 }
 """Module below solepath of each class of parts by its name; a saved state names only these and those of an app."""
 
+AIDS: dict[str, str] = {"Compass": _BODY + "aiding.compass"}
+"""Module below solepath of each class that a part loads when the first sample needs it."""
+
 
 def by_name(name: str) -> Recipe:
     """Return the recipe of this name. Raise ValueError, which lists NAMES, for any other name."""
@@ -182,8 +185,8 @@ def by_name(name: str) -> Recipe:
 
 
 def part_class(name: str) -> type[Any]:
-    """Return the class of this name from PARTS or LINKS. Raise SnapshotError for any other name."""
-    module = PARTS.get(name) or LINKS.get(name)
+    """Return the class of this name from PARTS, AIDS or LINKS. Raise SnapshotError for any other name."""
+    module = PARTS.get(name) or AIDS.get(name) or LINKS.get(name)
     if module is None:
         from .saving.codec import SnapshotError
 

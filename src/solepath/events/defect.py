@@ -48,6 +48,8 @@ class Defect(Enum):
     """The ground carries the wearer, as a moving walkway or an escalator does."""
     CALIBRATION = "calibration of the heading"
     """Straight ways contradict the calibration of the heading: it is of other shoes or sensors, or too old."""
+    COMPASS = "compass"
+    """The magnetic field is none of the earth, or turns with the foot."""
 
 
 @frozen(kw_only=True)

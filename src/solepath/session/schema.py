@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from ..recipes import LINKS, PARTS, part_class
+from ..recipes import AIDS, LINKS, PARTS, part_class
 from ..saving.packed import identify_record
 from ..saving.schema import describe, has_state, record_of
 from .packed import schema
@@ -15,7 +15,7 @@ from .state import VERSION
 def make_schemas() -> dict[str, Any]:
     """Return the version, the schema of a session, and the schemas of links and parts by their packed identity."""
     parts = {}
-    for name in (*LINKS, *PARTS):
+    for name in (*LINKS, *AIDS, *PARTS):
         cls = part_class(name)
         record = record_of(cls, made=name in PARTS and has_state(cls))
         parts[identify_record(record)] = describe(record)

@@ -29,11 +29,10 @@ from ...types.vector import ZERO, sub
 from ..part import PartInput, PartOutput, Position, Shift
 from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import WIDTH, Pair, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
-from .learnt_bias import add_rest, has_rested
-from .moving_ground import MovingGround
+from .learnt_bias import has_rested
 from .position import MeanOfFeet
 from .position_covariance import position_covariance
-from .straight_ways import StraightWays
+from .shared_evidence import SharedEvidence
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
 MAX_TRACK_VALUE = 1e6
@@ -81,8 +80,7 @@ class BothFeet(MeanOfFeet):
     """Covariance of the errors of both tracks, of which only the differences are used."""
     common: CommonError = field(factory=CommonError, init=False)
     """Covariance of the errors that both tracks share."""
-    straight_ways: StraightWays = field(factory=StraightWays, init=False)
-    ground: MovingGround = field(factory=MovingGround, init=False)
+    evidence: SharedEvidence = field(factory=SharedEvidence, init=False)
     started: bool = field(default=False, init=False)
     """Flag: both feet have had samples."""
     distance: float = field(default=0.0, init=False)
@@ -102,13 +100,15 @@ class BothFeet(MeanOfFeet):
             return self
         part = BothFeet(self.settings)
         part.common.use_calibration(calibration.headings)
-        part.straight_ways.use_calibration(calibration.headings)
+        part.evidence.straight_ways.use_calibration(calibration.headings)
         return part
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         was_unplaced = self.left.unplaced or self.right.unplaced
         MeanOfFeet.feed(self, view)
+        if view.sample.mag is not None:
+            self.evidence.add_sample(0 if view.foot is Foot.LEFT else 1, view, view.sample.mag)
         if not self.started and self.left.t is not None and self.right.t is not None:
             self._start()
         if not view.events or (self.left if view.foot is Foot.LEFT else self.right).unplaced:
@@ -127,7 +127,7 @@ class BothFeet(MeanOfFeet):
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive an event; nothing is learnt from the straight ways of a foot that a defect spoils."""
         if isinstance(event, DefectFound):
-            self.straight_ways.add_defect(event)
+            self.evidence.straight_ways.add_defect(event)
         return ()
 
     def reset(self, site: Site) -> None:
@@ -135,9 +135,10 @@ class BothFeet(MeanOfFeet):
         was_unknown = self.left.t is self.right.t is None
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
-            self.strides[0 if site.foot is Foot.LEFT else 1] = None
-            self.straight_ways.reset(site.foot)
-            self.ground = MovingGround()
+            index = 0 if site.foot is Foot.LEFT else 1
+            self.strides[index] = None
+            self.evidence.straight_ways.reset(site.foot)
+            self.evidence.reset(index, self.common)
             if not was_unknown and self.left.t is self.right.t is None:
                 self.common.inflate(UNSEEN_DISTANCE * UNSEEN_DISTANCE, UNSEEN_TURN)
 
@@ -171,7 +172,9 @@ class BothFeet(MeanOfFeet):
             return self._restart()
         share = self.common.start_stride(index, not self.started or other.unplaced or other.absent)
         rested = has_rested(self.common, index, after.bias)
-        self._move_both(add_rest(self.common, index, event.t_end, after.bias))
+        aligned = self.distance >= ALIGNMENT_DISTANCE
+        for move in self.evidence.before_stride(event, index, after, this, self.common, aligned):
+            self._move_both(move)
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
         x, y, _ = event.displacement
         dx, dy = c * x - s * y, s * x + c * y
@@ -187,7 +190,7 @@ class BothFeet(MeanOfFeet):
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
         excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
         self.common.propagate(index, count, event.heading_change, duration, (dx, dy), variance)
-        defect = event.foot in self.straight_ways.spoiled
+        defect = event.foot in self.evidence.straight_ways.spoiled
         degraded = self.errors.judge_stride(index, event.degraded, defect) or excess > 0.0
         if self.started:
             self.errors.propagate(index, stance, swing, (ex, ey), (dx, dy), variance, degraded)
@@ -200,13 +203,9 @@ class BothFeet(MeanOfFeet):
         realigned = self.started and self.distance < ALIGNMENT_DISTANCE and self._realign(index, event)
         if self.started and not realigned:
             self._compare_feet(index, event, (dx, dy), (stance, swing), degraded)
-        defects = [self.ground.add_stride(index, event, after)]
-        self.common.inflate(self.ground.variance(event.t_end))
         if self.settings.straightness and not realigned:
-            move, misfit = self.straight_ways.add_stride(index, event, count, (dx, dy), self.common)
-            defects.append(misfit)
-            self._move_both(move)
-        return [*filter(None, defects), *self._shift_foot(index, event.foot, after.takes_shifts)]
+            self._move_both(self.evidence.after_stride(event, index, count, (dx, dy), self.common))
+        return [*self.evidence.found, *self._shift_foot(index, event.foot, after.takes_shifts)]
 
     def _move_both(self, move: Move) -> None:
         """Move and turn both tracks about the position of the wearer."""
@@ -214,6 +213,7 @@ class BothFeet(MeanOfFeet):
             return
         (lx, ly, _), (rx, ry, _) = self._end_of(0)[1], self._end_of(1)[1]
         left, right = self.common.shares
+        self.evidence.turned(move[2])
         self._move_tracks((left * lx + right * rx, left * ly + right * ry), (move, move))
 
     def _move_tracks(self, centre: tuple[float, float], moves: tuple[Vec3, Vec3]) -> None:
@@ -239,7 +239,7 @@ class BothFeet(MeanOfFeet):
             return False
         align_tracks(track, stride, other_track, other_stride, angle, 0.5 * event.length, side * WALKING_WIDTH)
         self.errors.start()
-        self.straight_ways.reset()
+        self.evidence.straight_ways.reset()
         self.distance, self.directions = 0.0, [WalkingDirection(), WalkingDirection()]
         self._keep_placements()
         return True
@@ -295,6 +295,6 @@ class BothFeet(MeanOfFeet):
         """Restart the error filter, because its estimates or a stride have impossible values; there is no output."""
         self.errors.start()
         self.strides = [None, None]
-        self.straight_ways.reset()
+        self.evidence.straight_ways.reset()
         (self.left.turn, self.left.offset), (self.right.turn, self.right.offset) = self.placements
         return ()

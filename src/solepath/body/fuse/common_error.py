@@ -25,8 +25,8 @@ size does to the position is in position_covariance.py."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from math import sqrt
+from collections.abc import Mapping, Sequence
+from math import fsum, sqrt
 
 from ...calibration import HeadingCalibration
 from ...foot.gaps.gap import LONGEST_FILLED_GAP
@@ -103,6 +103,8 @@ class CommonError:
     """Estimated rate of the heading of the left and the right foot, which is removed, rad/s."""
     shares: tuple[float, float] = field(default=(0.5, 0.5), init=False)
     """Shares of the left and the right foot in the wearer's heading: 1 and 0 if the left foot is alone."""
+    aids: list[float] = field(factory=list, init=False)
+    """Estimates of the quantities of a compass (body/aiding), whose errors have the rows from `SIZE` on."""
     started: bool = field(default=False, init=False)
     """Flag: a foot has taken a stride."""
     foot_biases: list[FootBias | None] = field(factory=lambda: [None, None], init=False)
@@ -115,13 +117,10 @@ class CommonError:
                 drift, turning = headings[foot].drift_sigma, headings[foot].turning_sigma
                 self.covariance[row][row], self.covariance[row + 1][row + 1] = drift * drift, turning * turning
 
-    def renew(self, foot: int) -> None:
+    def renew_foot(self, foot: int) -> None:
         """Give drift and turning of foot 0 (left) or 1 the variance of another device, which may be the same."""
-        p = self.covariance
         for row, usual in ((FEET[foot], DRIFT), (FEET[foot] + 1, TURNING)):
-            for j in range(SIZE):
-                p[row][j] = p[j][row] = 0.0
-            p[row][row] = 2.0 * usual * usual  # the new one and the old one are both off by it
+            self.renew(row, 2.0 * usual * usual)  # the new one and the old one are both off by it
 
     def start_stride(self, foot: int, alone: bool) -> float:
         """Set the shares for a stride of foot 0 (left) or 1, which has all of the heading if it is `alone`.
@@ -176,7 +175,7 @@ class CommonError:
         py[HEADING] += a[Y] + dx * gh
         ph[HEADING] += 2.0 * ah + aa + w * HEADING_NOISE * HEADING_NOISE * duration
         py[X], ph[X], ph[Y] = px[Y], px[HEADING], py[HEADING]
-        for j in range(HEADING + 1, SIZE):
+        for j in range(HEADING + 1, len(p)):
             px[j] -= dy * g[j]
             py[j] += dx * g[j]
             ph[j] += a[j]
@@ -210,32 +209,66 @@ class CommonError:
     def _drift_column(self, stride_time: float) -> list[float]:
         """Return the covariance of the drift with the bias, as straight ways measure it, with all errors."""
         (left, right), (a, b), p, t = self.shares, FEET, self.covariance, stride_time
-        return [left * (p[a][j] + t * p[a + 2][j]) + right * (p[b][j] + t * p[b + 2][j]) for j in range(SIZE)]
+        return [left * (p[a][j] + t * p[a + 2][j]) + right * (p[b][j] + t * p[b + 2][j]) for j in range(len(p))]
 
     def _measured(self, column: list[float], stride_time: float) -> float:
         (left, right), (a, b), t = self.shares, FEET, stride_time
         return left * (column[a] + t * column[a + 2]) + right * (column[b] + t * column[b + 2])
 
-    def correct(self, column: list[float], z: float, s: float, weight: float) -> Move:
+    def correct(self, column: list[float], z: float, s: float, weight: float, considered: int = 0) -> Move:
         """Correct the errors by a measurement with the innovation `z`, its variance `s` and P H' in `column`.
 
         With the gain K, the errors move by weight K z, and their covariance becomes that of both possibilities
         together: that the measurement is one, with the probability `weight`, or none (Bar-Shalom et al. 2001, section
-        11.6)."""
+        11.6). The first `considered` rows keep their errors and covariance, which the others take into account (Schmidt
+        1966)."""
         gain = [value / s for value in column]
         # P <- P - weight K S K' + weight (1 - weight) K z z K'
         f = weight * ((1.0 - weight) * z * z - s)
         p = self.covariance
         for i, one in enumerate(gain):
+            if i < considered:
+                continue
             for j in range(i + 1):
                 p[i][j] += f * one * gain[j]
                 p[j][i] = p[i][j]
         z *= weight
+        for number, one in enumerate(gain[SIZE:]):
+            self.aids[number] += one * z
+        if considered:
+            return NO_MOVE
         for foot, row_of_foot in enumerate(FEET):
             self.drift[foot] += gain[row_of_foot] * z
             self.turning[foot] += gain[row_of_foot + 1] * z
             self.bias[foot] += gain[row_of_foot + 2] * z
         return (gain[X] * z, gain[Y] * z, gain[HEADING] * z)
+
+    def column(self, terms: Sequence[tuple[int, float]]) -> list[float]:
+        """Return the covariance of a sum of errors with all errors; each term has the row and the factor of one."""
+        p = self.covariance
+        first, *others = [(p[row], factor) for row, factor in terms]
+        column = [first[1] * value for value in first[0]]
+        for row, factor in others:
+            column = [value + factor * more for value, more in zip(column, row, strict=True)]
+        return column
+
+    def along(self, column: list[float], terms: Sequence[tuple[int, float]]) -> float:
+        """Return the variance of the sum of errors of which `column` is the covariance with all."""
+        return max(0.0, fsum([factor * column[row] for row, factor in terms]))
+
+    def add_aids(self, estimates: Sequence[float], variances: Sequence[float]) -> None:
+        """Add the rows of the errors of these estimates, with these variances and independent of all others."""
+        self.aids, p = [*self.aids, *estimates], self.covariance
+        for variance in variances:
+            for row in p:
+                row.append(0.0)
+            p.append([*[0.0] * len(p), variance])
+
+    def renew(self, row: int, variance: float) -> None:
+        """Give the error of a row this variance, independent of all others."""
+        for j, other in enumerate(self.covariance):
+            self.covariance[row][j] = other[row] = 0.0
+        self.covariance[row][row] = variance
 
     def replace(self, foot: int, error: int, value: float, variance: float, moved: list[float]) -> Move:
         """Replace the drift (`error` 0) or the turning (1) of foot 0 (left) or 1 by another one with its variance.
@@ -244,9 +277,7 @@ class CommonError:
         what is to be added to them."""
         estimate, p, row = (self.drift, self.turning)[error], self.covariance, FEET[foot] + error
         change, estimate[foot] = value - estimate[foot], value
-        for j in range(SIZE):
-            p[row][j] = p[j][row] = 0.0
-        p[row][row] = variance
+        self.renew(row, variance)
         for i, one in enumerate(moved):
             p[row][i] = p[i][row] = variance * one
             for j, other in enumerate(moved):

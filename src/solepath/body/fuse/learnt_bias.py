@@ -7,7 +7,7 @@ rest. A bias far from the expected one has changed meanwhile, nobody knows when.
 from __future__ import annotations
 
 from ...foot.navigate.bias import BIAS_WANDER, Bias
-from .common_error import FEET, HEADING, MAX_TURN_BACK, NO_MOVE, SIZE, CommonError, FootBias, Move
+from .common_error import FEET, HEADING, MAX_TURN_BACK, NO_MOVE, CommonError, FootBias, Move
 
 REST_GATE = 9.0
 """Largest squared difference of a measured bias from the expected one, divided by its variance: above it, the bias has
@@ -29,7 +29,7 @@ def add_rest(error: CommonError, foot: int, t: float, bias: Bias) -> Move:
         error.foot_biases[foot] = FootBias(t, variance, bias.spans, bias.change, bias.device)
         _replace_bias(error, foot, variance)
         if bias.device:  # not the first device of this foot
-            error.renew(foot)
+            error.renew_foot(foot)
         return NO_MOVE
     wander = BIAS_WANDER * BIAS_WANDER * max(0.0, t - newest.t)
     before = newest.variance + wander
@@ -44,7 +44,7 @@ def add_rest(error: CommonError, foot: int, t: float, bias: Bias) -> Move:
         s = p[row][row] + noise
         if z * z > REST_GATE * s and not newest.spans and p[row][row] > 0.0:
             # the bias was not known at all, and is larger than usual
-            _add_to_bias(error, row, p[row][row] * (z * z / s - 1.0), SIZE)
+            _add_to_bias(error, row, p[row][row] * (z * z / s - 1.0), len(p))
             s = p[row][row] + noise
         if z * z <= REST_GATE * s and abs(p[HEADING][row] * z) <= MAX_TURN_BACK * s:
             move = error.correct(list(p[row]), z, s, 1.0)
@@ -65,9 +65,8 @@ def _replace_bias(error: CommonError, foot: int, variance: float, change: float 
     if p[row][row] > 0.0:
         most = 2.0 * MAX_TURN_BACK * p[row][row] / (abs(p[HEADING][row]) + 1e-12)
         _add_to_bias(error, row, min(change * change / 3.0, most * most), HEADING + 1)
-    for j in range(SIZE):
-        p[row][j] = p[j][row] = 0.0
-    p[row][row], error.bias[foot] = variance, 0.0
+    error.renew(row, variance)
+    error.bias[foot] = 0.0
 
 
 def _add_to_bias(error: CommonError, row: int, variance: float, count: int) -> None:

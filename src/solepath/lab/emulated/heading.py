@@ -14,14 +14,16 @@ figures are
 
 from __future__ import annotations
 
-from math import atan2, cos, pi, sin
+from math import atan2, cos, pi, radians, sin
 from pathlib import Path
 
 import numpy as np
-from attrs import define, field
+from attrs import define, evolve, field, frozen
 
 from ...body.fuse.both_feet import BothFeet
 from ...calibration import merged
+from ...emulate.sensors.magnetic_field import UNDISTURBED, MagneticField
+from ...emulate.sensors.parts import AK8963
 from ...emulate.walk import SampledWalk, sampled
 from ...emulate.wearers.truth import Truth
 from ...events import StrideTaken
@@ -58,6 +60,28 @@ def is_half_hour(length: float, seconds: float) -> bool:
 
 LENGTHS: dict[str, IsComplete] = {"500m": is_500_m, "30min": is_half_hour}
 """Lengths of walks by name."""
+
+
+@frozen
+class Aids:
+    """The help that a session has besides two insoles."""
+
+    name: str = ""
+    """Words for the head of a table."""
+    calibrated: bool = False
+    """Flag: the calibration of a walk there and back on the day before."""
+    disturbance: float | None = None
+    """Disturbance of the field that a magnetometer in each insole measures, rad (magnetic_field.py); None without."""
+
+
+AIDS: dict[str, Aids] = {
+    "": Aids(),
+    "_calibrated": Aids(", calibration walk", True),
+    "_compass20": Aids(", compass disturbed by 20 degrees", False, radians(20.0)),
+    "_compass30": Aids(", compass disturbed by 30 degrees", False, radians(30.0)),
+    "_calibrated_compass20": Aids(", calibration walk, compass disturbed by 20 degrees", True, radians(20.0)),
+}
+"""Help of a session by the end of the name of a data set."""
 
 
 @define
@@ -116,16 +140,18 @@ def _placement(session: Session, foot: Foot) -> float:
 
 
 def score_heading(
-    kind: str, is_complete: IsComplete, calibrated: bool, path: Path, meta: Meta, settings: RunSettings
+    kind: str, is_complete: IsComplete, aids: Aids, path: Path, meta: Meta, settings: RunSettings
 ) -> Scored:
-    """Score a walk of a kind of routes and of the seed in the entry `meta`.
-
-    If it is `calibrated`, the session has the calibration of a walk there and back on the day before."""
+    """Score a walk of a kind of routes and of the seed in the entry `meta`, with this help."""
     seed: int = meta["seed"]
+    insoles, magnetic_field = insoles_of(seed), UNDISTURBED
     route = heading_route(kind, seed, is_complete)
-    walk = sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed)
+    if aids.disturbance is not None:
+        insoles = {site: evolve(insole, mag=AK8963) for site, insole in insoles.items()}
+        magnetic_field = MagneticField(aids.disturbance, seed)
+    walk = sampled(route, wearer=wearer_of(seed), insoles=insoles, seed=seed, field=magnetic_field)
     calibration = settings.calibration
-    if calibrated:
+    if aids.calibrated:
         calibration = merged(calibration, heading_calibration(heading_walk(calibration_samples(seed))))
     session = Session(settings.recipe, calibration=calibration)
     track = follow(session, walk)

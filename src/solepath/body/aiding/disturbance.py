@@ -1,0 +1,73 @@
+"""Size of the disturbance of the magnetic field by a building: usually, and about the newest stances.
+
+Steel makes the disturbance much stronger in some places than in others, so a stretch of clean ones shows the heading
+best. The field of sources below the floor has no divergence and no curl there, so the vertical axis is disturbed as
+much as both horizontal axes together: all three show the size of the disturbance."""
+
+from __future__ import annotations
+
+from ...types.attrs import define, field
+
+FIRST_DISTURBANCE = 7.0
+"""Standard deviation of the disturbance of a horizontal axis before any was seen, uT: 20 degrees of 20 uT."""
+USUAL_MEMORY, NEAR_MEMORY = 300.0, 4.0
+"""Number of stances of both feet, 200 m, over which the usual disturbance is averaged, and number of stances of a foot,
+5 m, over which the near one is."""
+FIRST_STANCES = 20
+"""Number of stances before the first that is averaged, because the field and the iron are not known yet."""
+VERTICAL_MEMORY = 50
+"""Number of stances over which the vertical field of a foot is averaged."""
+LARGEST = 9.0
+"""Largest square of a residual that is averaged, as a multiple of the variance: three standard deviations."""
+USUAL_SHARE = 0.1
+"""Share of the usual variance in that about the newest stances, which few stances show."""
+TAIL = 4.0
+"""Degrees of freedom of the t distribution by which a stance weighs, no unit: heavy tails."""
+STRANGE, MOST_OF_FIELD = 1.5, 0.6
+"""Least disturbance of a place that shows no heading: its variance as a multiple of the usual one, and its standard
+deviation as a share of the horizontal field (31 degrees)."""
+CHANGED = 6.0
+"""Ratio of the near disturbance of a foot to that of the other one, and to the usual one, if its iron has changed."""
+
+
+@define
+class Disturbance:
+    """Variances of the disturbance of a horizontal axis, uT^2."""
+
+    usual: float = field(default=FIRST_DISTURBANCE * FIRST_DISTURBANCE, init=False)
+    near: list[float] = field(factory=lambda: [FIRST_DISTURBANCE * FIRST_DISTURBANCE] * 2, init=False)
+    """Variance about the newest stances of the left and of the right foot, uT^2."""
+    count: int = field(default=0, init=False)
+    """Number of stances so far."""
+    vertical: list[tuple[int, float]] = field(factory=lambda: [(0, 0.0), (0, 0.0)], init=False)
+    """Number of stances and mean vertical field of the left and of the right foot, uT."""
+
+    @property
+    def here(self) -> float:
+        """Variance about the newest stances of both feet, uT^2."""
+        left, right = [min(near, LARGEST * self.usual) for near in self.near]
+        return USUAL_SHARE * self.usual + (1.0 - USUAL_SHARE) * 0.5 * (left + right)
+
+    def add_stance(self, foot: int, residual: tuple[float, float], vertical: float) -> float:
+        """Add a stance of foot 0 (left) or 1 and return its weight, up to 1.
+
+        `residual` is how far the horizontal flux density is from the field, and `vertical` the vertical one, uT."""
+        number, mean = self.vertical[foot]
+        (x, y), z = residual, vertical - mean if number else 0.0
+        number = min(number + 1, VERTICAL_MEMORY)
+        self.vertical[foot] = (number, mean + (vertical - mean) / number)
+        square = 0.25 * (x * x + y * y + z * z)  # of two parts of four in the horizontal axes, and two in the vertical
+        self.count += 1
+        if self.count > FIRST_STANCES:
+            self.usual += (min(square, LARGEST * self.usual) - self.usual) / USUAL_MEMORY
+            self.near[foot] += (square - self.near[foot]) / NEAR_MEMORY
+        return min(1.0, (TAIL + 4.0) / (TAIL + 4.0 * square / self.here))
+
+    def has_changed(self, foot: int) -> bool:
+        """Return whether something magnetic came to foot 0 (left) or 1, or left it: the other foot sees nothing."""
+        return self.near[foot] > CHANGED * max(self.usual, self.near[1 - foot])
+
+    def is_strange(self, field: tuple[float, float]) -> bool:
+        """Return whether this place is too disturbed for a heading; `field` is the horizontal field, uT."""
+        x, y = field
+        return self.here > min(STRANGE * self.usual, MOST_OF_FIELD * MOST_OF_FIELD * (x * x + y * y))

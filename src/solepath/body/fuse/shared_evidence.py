@@ -1,0 +1,98 @@
+"""Evidence of the errors that both tracks share: rests, straight ways, ground that moves, and outside help.
+
+Outside help (body/aiding) is loaded when a session first has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Protocol
+
+from ...events import Defect, DefectFound, StrideTaken
+from ...foot.view import AfterEvents, FootView
+from ...types import SITE_OF_FOOT, Vec3
+from ...types.attrs import define, field
+from .common_error import CommonError, Move
+from .learnt_bias import add_rest
+from .moving_ground import MovingGround
+from .position import PlacedTrack
+from .straight_ways import StraightWays
+
+
+class Aid(Protocol):
+    """Outside help that has rows of its own in the filter of the common errors."""
+
+    def add_sample(self, foot: int, view: FootView, mag: Vec3) -> None:
+        """Add a sample of foot 0 (left) or 1 with the magnetic flux density `mag`, T, sensor frame."""
+
+    def add_stride(self, event: StrideTaken, foot: int, turn: float, error: CommonError) -> tuple[Move, str | None]:
+        """Add what was measured before a stride of foot 0 (left) or 1, whose track is turned by `turn`, rad.
+
+        Returns the correction of both tracks, and a sentence on a fault, once."""
+
+    def turned(self, yaw: float) -> None:
+        """Turn what is in the common frame with both tracks, by `yaw`, rad."""
+
+    def reset(self, foot: int, error: CommonError) -> None:
+        """Forget what depends on the device of foot 0 (left) or 1."""
+
+
+@define
+class SharedEvidence:
+    """The evidence, and the defects that it has shown at the newest stride."""
+
+    straight_ways: StraightWays = field(factory=StraightWays, init=False)
+    ground: MovingGround = field(factory=MovingGround, init=False)
+    compass: Aid | None = field(default=None, init=False)
+    """The compass; None until a sample has a magnetic field."""
+    found: list[DefectFound] = field(factory=list, init=False)
+
+    def add_sample(self, foot: int, view: FootView, mag: Vec3) -> None:
+        """Add a sample of foot 0 (left) or 1 with the magnetic flux density `mag`, T, sensor frame."""
+        if self.compass is None:
+            from ..aiding.compass import Compass
+
+            self.compass = Compass()
+        self.compass.add_sample(foot, view, mag)
+
+    def before_stride(
+        self, event: StrideTaken, foot: int, after: AfterEvents, track: PlacedTrack, error: CommonError, aligned: bool
+    ) -> Iterator[Move]:
+        """Yield the corrections of both tracks by what was seen before a stride of foot 0 (left) or 1.
+
+        Each is made before the next one is asked for. Outside help waits until the tracks are `aligned`."""
+        defect = self.ground.add_stride(foot, event, after)
+        self.found = [] if defect is None else [defect]
+        error.inflate(self.ground.variance(event.t_end))
+        yield add_rest(error, foot, event.t_end, after.bias)
+        if self.compass is not None and aligned:
+            move, fault = self.compass.add_stride(event, foot, track.turn, error)
+            yield move
+            if fault is not None:
+                self.found.append(
+                    DefectFound(
+                        t=event.t, known_at=event.known_at, site=SITE_OF_FOOT[event.foot], defect=Defect.COMPASS,
+                        what=fault, spoils=False,
+                    )
+                )  # fmt: skip
+
+    def after_stride(
+        self, event: StrideTaken, foot: int, strides: float, displacement: tuple[float, float], error: CommonError
+    ) -> Move:
+        """Return the correction of both tracks by a stride of foot 0 (left) or 1 that counts as `strides` usual ones.
+
+        Its `displacement` is in the common frame, m."""
+        move, misfit = self.straight_ways.add_stride(foot, event, strides, displacement, error)
+        if misfit is not None:
+            self.found.append(misfit)
+        return move
+
+    def turned(self, yaw: float) -> None:
+        """Turn what is in the common frame with both tracks, by `yaw`, rad."""
+        if self.compass is not None:
+            self.compass.turned(yaw)
+
+    def reset(self, foot: int, error: CommonError) -> None:
+        """Forget what depends on the clock or the device of foot 0 (left) or 1."""
+        self.ground = MovingGround()
+        if self.compass is not None:
+            self.compass.reset(foot, error)

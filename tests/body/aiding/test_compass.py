@@ -1,0 +1,218 @@
+"""A compass in the feet holds the heading where it can, and moves nothing where it cannot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import cos, degrees, pi, radians, sin
+
+import numpy as np
+import pytest
+from strides import stride
+
+from solepath.body.aiding.compass import SIZE, Compass
+from solepath.body.aiding.disturbance import Disturbance
+from solepath.body.aiding.stance_field import StanceFlux
+from solepath.body.fuse.common_error import FEET, HEADING, CommonError
+from solepath.emulate.sensors.magnetic_field import MagneticField
+from solepath.types import Foot
+
+STEP, STRIDE_TIME = 0.7, 1.1
+"""Advance of the body from the stride of one foot to that of the other, m, and duration of a stride, s."""
+Heading = Callable[[float], float]
+Fault = Callable[[np.ndarray, int, float], np.ndarray]
+
+
+def turning(s: float) -> float:
+    """Return the direction of a way with bends to both sides after s m, rad."""
+    return 2.0 * sin(s / 25.0) + 1.4 * sin(s / 60.0 + 1.0)
+
+
+def straight(s: float) -> float:
+    """Return the direction of a straight way, rad."""
+    return 0.0
+
+
+class Walked:
+    """A wearer whose track drifts by `drift` rad a stride, with a compass at each foot or without.
+
+    `fault` changes what the magnetometer of a foot measures, uT, sensor frame, after some metres."""
+
+    def __init__(
+        self, heading: Heading, length: float, disturbance: float = 20.0, drift: float = 0.002, seed: int = 1,
+        fault: Fault | None = None, compass: bool = True,
+    ) -> None:  # fmt: skip
+        rng = np.random.default_rng(seed)
+        field = MagneticField(radians(disturbance), seed)
+        self.error, self.compass, self.said, self.most_moved = CommonError(), Compass(), list[str](), 0.0
+        self.iron = rng.normal(0.0, 8.0, (2, 3))
+        for row in FEET:  # the bias is known
+            self.error.covariance[row + 2][row + 2] = 0.0
+        self.off = 0.0
+        """Heading error, truth minus track, rad."""
+        place = np.zeros(2)
+        for k in range(int(length / STEP)):
+            s, foot = k * STEP, k % 2
+            event = stride((Foot.LEFT, Foot.RIGHT)[foot], 0.5 * STRIDE_TIME * k, (2.0 * STEP, 0.0, 0.0))
+            self.error.start_stride(foot, False)
+            if compass:
+                b = 1e6 * field.at(place[None, :])[0]
+                true_yaw = heading(s)
+                measured = turned(b, -true_yaw) + self.iron[foot] + rng.normal(0.0, 0.3, 3)
+                if fault is not None:
+                    measured = fault(measured, foot, s)
+                x, y, z = turned(measured, true_yaw - self.off)
+                self.compass.feet[foot] = Ready(StanceFlux((float(x), float(y), float(z)), true_yaw - self.off))
+                (_, _, yaw), sentence = self.compass.add_stride(event, foot, 0.0, self.error)
+                self.compass.turned(yaw)
+                self.off -= yaw
+                self.most_moved = max(self.most_moved, abs(yaw))
+                if sentence is not None:
+                    self.said.append(sentence)
+            turn = heading(s + 2.0 * STEP) - heading(s)
+            self.off += 0.5 * (drift - self.error.turn_of(foot, 1.0, turn, STRIDE_TIME))
+            direction = heading(s + STEP)
+            moved = (2.0 * STEP * cos(direction - self.off), 2.0 * STEP * sin(direction - self.off))
+            self.error.propagate(foot, 1.0, turn, STRIDE_TIME, moved, (1e-4, 0.0, 1e-4))
+            place = place + STEP * np.array([cos(direction), sin(direction)])
+        self.degrees = abs(degrees(self.off))
+
+
+class Ready:
+    """The stance of a foot, as `StanceField` returns it."""
+
+    def __init__(self, stance: StanceFlux) -> None:
+        self.stance: StanceFlux | None = stance
+
+    def take(self) -> StanceFlux | None:
+        stance, self.stance = self.stance, None
+        return stance
+
+
+def turned(vector: np.ndarray, yaw: float) -> np.ndarray:
+    c, s = cos(yaw), sin(yaw)
+    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2]])
+
+
+SEEDS = range(1, 9)
+
+
+def rms(walks: list[Walked]) -> float:
+    return float(np.sqrt(np.mean([walked.degrees**2 for walked in walks])))
+
+
+@pytest.mark.parametrize("disturbance", [20.0, 30.0])
+def test_a_way_that_turns_keeps_its_heading_by_the_compass_and_the_filter_is_as_uncertain_as_it_is(
+    disturbance: float,
+) -> None:
+    with_compass = [Walked(turning, 1500.0, disturbance, seed=seed) for seed in SEEDS]
+    without = Walked(turning, 1500.0, compass=False)
+    assert rms(with_compass) < 0.12 * without.degrees
+    assert not any(walked.said for walked in with_compass)
+    squares = [radians(w.degrees) ** 2 / w.error.covariance[HEADING][HEADING] for w in with_compass]
+    assert 0.2 < np.mean(squares) < 2.5
+
+
+def test_the_iron_of_each_shoe_is_learnt() -> None:
+    for seed in SEEDS:
+        walked = Walked(turning, 1500.0, 12.0, seed=seed)
+        for foot in range(2):
+            learnt = walked.error.aids[4 + 2 * foot : 6 + 2 * foot]
+            assert np.hypot(*(np.array(learnt) - walked.iron[foot, :2])) < 3.0
+
+
+def test_on_a_straight_way_nothing_proves_a_compass_so_it_moves_nothing() -> None:
+    assert Walked(straight, 800.0).most_moved == 0.0
+
+
+MIRRORED = np.array([1.0, -1.0, 1.0])
+
+
+@pytest.mark.parametrize(
+    ("fault", "said"),
+    [
+        (lambda m, foot, s: m * MIRRORED, "mirrored"),
+        (lambda m, foot, s: m[[1, 0, 2]], "exchanged"),
+        (lambda m, foot, s: 1e6 * m, "give tesla"),
+        (lambda m, foot, s: 0.01 * m, "give tesla"),
+        (lambda m, foot, s: m + 500.0, "magnet"),
+    ],
+    ids=["mirrored", "exchanged", "microtesla", "gauss", "magnet in both shoes"],
+)
+def test_a_magnetometer_that_cannot_be_right_moves_nothing_and_that_is_said_once(fault: Fault, said: str) -> None:
+    for seed in SEEDS:
+        walked = Walked(turning, 1000.0, seed=seed, fault=fault)
+        assert walked.most_moved == 0.0
+        sentences = [sentence for sentence in walked.said if said in sentence]
+        assert 1 <= len(sentences) <= 2  # what concerns one foot is said of both
+
+
+@pytest.mark.parametrize("scale", [0.5, 2.0])
+def test_axes_that_are_turned_and_a_wrong_scale_do_no_harm(scale: float) -> None:
+    walks = [
+        Walked(turning, 1500.0, seed=seed, fault=lambda m, _, __: scale * m[[1, 0, 2]] * MIRRORED) for seed in SEEDS
+    ]
+    assert rms(walks) < 0.12 * Walked(turning, 1500.0, compass=False).degrees
+
+
+def test_a_magnet_that_comes_to_one_shoe_is_noticed_and_learnt() -> None:
+    magnet = np.array([60.0, 30.0, 20.0])
+    walks = [
+        Walked(turning, 1500.0, seed=seed, fault=lambda m, foot, s: m + magnet * (foot == 0 and s > 500.0))
+        for seed in SEEDS
+    ]
+    assert all("something magnetic" in " ".join(walked.said) for walked in walks)
+    assert rms(walks) < 0.15 * Walked(turning, 1500.0, compass=False).degrees
+
+
+def test_a_steel_floor_of_150_m_is_said_and_its_field_is_not_believed() -> None:
+    def steel(heading: Heading) -> Fault:
+        return lambda m, _, s: m + turned(np.array([-15.0, 35.0, 15.0]), -heading(s)) * (500.0 < s < 650.0)
+
+    walks = [Walked(turning, 900.0, seed=seed, fault=steel(turning)) for seed in SEEDS]
+    undisturbed = [Walked(turning, 900.0, seed=seed) for seed in SEEDS]
+    assert sum("as over steel" in " ".join(walked.said) for walked in walks) >= len(SEEDS) - 1
+    assert rms(walks) < rms(undisturbed) + 6.0
+
+
+def test_an_unseen_turn_is_found_by_the_compass() -> None:
+    walked = Walked(turning, 1000.0)
+    walked.error.inflate(25.0, 1.5)
+    assert walked.error.covariance[HEADING][HEADING] > 2.0
+    field, off = MagneticField(0.0), radians(100.0)
+    for k in range(64):
+        foot = k % 2
+        b = turned(1e6 * field.at(np.zeros((1, 2)))[0], off) + turned(
+            np.array([*walked.error.aids[4 + 2 * foot : 6 + 2 * foot], 0.0]), 0.3
+        )
+        x, y, z = b.tolist()
+        walked.compass.feet[foot] = Ready(StanceFlux((x, y, z), 0.3))
+        walked.error.start_stride(foot, False)
+        (_, _, yaw), _ = walked.compass.add_stride(
+            stride((Foot.LEFT, Foot.RIGHT)[foot], 2000.0 + k), foot, 0.0, walked.error
+        )
+        off += yaw
+        walked.compass.turned(yaw)
+    assert abs((off + pi) % (2.0 * pi) - pi) < radians(25.0)
+
+
+def test_a_place_is_as_disturbed_as_its_three_axes_show() -> None:
+    rng = np.random.default_rng(3)
+    disturbance = Disturbance()
+    for k in range(600):
+        x, y, z = rng.normal(0.0, (5.0, 5.0, 5.0 * 2.0**0.5))
+        disturbance.add_stance(k % 2, (x, y), -40.0 + z)
+    assert disturbance.usual == pytest.approx(25.0, rel=0.25)
+    assert not disturbance.is_strange((20.0, 0.0)) and disturbance.is_strange((4.0, 0.0))
+    for k in range(12):
+        x, y, z = rng.normal(0.0, (15.0, 15.0, 20.0))
+        disturbance.add_stance(k % 2, (x, y), -40.0 + z)
+    assert disturbance.is_strange((20.0, 0.0))
+
+
+def test_another_device_starts_with_unknown_iron() -> None:
+    walked = Walked(turning, 500.0)
+    row = SIZE + 4
+    assert walked.error.covariance[row][row] < 20.0
+    walked.compass.reset(0, walked.error)
+    assert walked.error.covariance[row][row] == pytest.approx(144.0) and walked.error.aids[4] == 0.0
+    assert walked.error.covariance[row + 2][row + 2] < 20.0
