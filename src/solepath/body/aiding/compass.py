@@ -31,7 +31,7 @@ from ...types.attrs import define, field
 from ..fuse.common_error import HEADING, NO_MOVE, SIZE, CommonError, Move
 from .compass_trust import CompassTrust
 from .disturbance import Disturbance
-from .stance_field import SPACING, STATIONARY, StanceField
+from .stance_field import StanceField
 
 IRON, FIELD = 12.0, 40.0
 """Standard deviations of the hard iron of a shoe and of the field before any stance, for each axis, uT."""
@@ -86,10 +86,8 @@ class Compass:
     """Number of strange blocks in a row."""
 
     def add_sample(self, foot: int, view: FootView, mag: Vec3) -> None:
-        """Add a sample of foot 0 (left) or 1 with the flux density `mag`, T, sensor frame, if the foot stands."""
-        one = self.feet[foot]
-        if view.phase is STATIONARY and (one.t is None or not 0.0 <= view.t - one.t < SPACING):
-            one.add_sample(view, mag)
+        """Add a sample of foot 0 (left) or 1, which stands, with the flux density `mag`, T, sensor frame."""
+        self.feet[foot].add_sample(view, mag)
 
     def add_stride(self, event: StrideTaken, foot: int, turn: float, error: CommonError) -> tuple[Move, str | None]:
         """Add the stance before a stride of foot 0 (left) or 1, whose track is turned by `turn`, rad.

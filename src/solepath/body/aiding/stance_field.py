@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 from ...foot.view import FootView
-from ...types import Phase, Quat, Vec3
+from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, heading_turned, rotate
 
-STATIONARY: Final = Phase.STATIONARY
-"""Local name of `Phase.STATIONARY`, because a look-up in the enum is slow."""
-SPACING = 0.05
-"""Least time between the samples that are used, s: a stance has three to six, and the noise of one is small already."""
 MICRO = 1e6
 """Microteslas of a tesla, as everything in this room is in microteslas."""
 ABSURD_FLUX = 1e4
-"""Largest flux density of an axis, uT, two hundred times that of the earth; more is no number or another unit."""
+"""Largest flux density, uT, two hundred times that of the earth; more is no number or another unit."""
 
 
 class StanceFlux(NamedTuple):
@@ -32,8 +28,6 @@ class StanceFlux(NamedTuple):
 class StanceField:
     """The samples of the newest stance of one foot."""
 
-    t: float | None = field(default=None, init=False)
-    """Time of the newest sample that was used, s; None before any."""
     count: int = field(default=0, init=False)
     sum: Vec3 = field(default=ZERO, init=False)
     """Sum of the flux densities, navigation frame, uT."""
@@ -47,13 +41,13 @@ class StanceField:
     def add_sample(self, view: FootView, mag: Vec3) -> None:
         """Add a sample of a foot that stands, with the flux density `mag`, T, sensor frame."""
         x, y, z = mag
-        flux = rotate(view.attitude, (MICRO * x, MICRO * y, MICRO * z))
-        if not all([-ABSURD_FLUX < value < ABSURD_FLUX for value in flux]):
-            flux = (ABSURD_FLUX, 0.0, 0.0)
-        (sx, sy, sz), (x, y, z) = self.sum, flux
+        x, y, z = rotate(view.attitude, (MICRO * x, MICRO * y, MICRO * z))
+        if not x * x + y * y + z * z < ABSURD_FLUX * ABSURD_FLUX:
+            x, y, z = ABSURD_FLUX, 0.0, 0.0
+        sx, sy, sz = self.sum
         if view.north is not None:
             self.north = view.north
-        self.t, self.count, self.sum, self.attitude = view.t, self.count + 1, (sx + x, sy + y, sz + z), view.attitude
+        self.count, self.sum, self.attitude = self.count + 1, (sx + x, sy + y, sz + z), view.attitude
 
     def take(self) -> StanceFlux | None:
         """Return the stance that has ended and forget its samples; None if it had none."""

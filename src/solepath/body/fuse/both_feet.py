@@ -32,7 +32,7 @@ from .error_filter import WIDTH, Pair, TrackErrorFilter, feet_apart, moves_of, p
 from .learnt_bias import has_rested
 from .position import MeanOfFeet
 from .position_covariance import position_covariance
-from .shared_evidence import SharedEvidence
+from .shared_evidence import STATIONARY, SharedEvidence
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
 MAX_TRACK_VALUE = 1e6
@@ -107,8 +107,8 @@ class BothFeet(MeanOfFeet):
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         was_unplaced = self.left.unplaced or self.right.unplaced
         MeanOfFeet.feed(self, view)
-        if view.sample.mag is not None:
-            self.evidence.add_sample(0 if view.foot is Foot.LEFT else 1, view, view.sample.mag)
+        if view.sample.mag is not None and view.phase is STATIONARY:
+            self.evidence.add_stance_sample(view, view.sample.mag)
         if not self.started and self.left.t is not None and self.right.t is not None:
             self._start()
         if not view.events or (self.left if view.foot is Foot.LEFT else self.right).unplaced:
@@ -135,10 +135,8 @@ class BothFeet(MeanOfFeet):
         was_unknown = self.left.t is self.right.t is None
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
-            index = 0 if site.foot is Foot.LEFT else 1
-            self.strides[index] = None
-            self.evidence.straight_ways.reset(site.foot)
-            self.evidence.reset(index, self.common)
+            self.strides[0 if site.foot is Foot.LEFT else 1] = None
+            self.evidence.reset(site.foot, self.common)
             if not was_unknown and self.left.t is self.right.t is None:
                 self.common.inflate(UNSEEN_DISTANCE * UNSEEN_DISTANCE, UNSEEN_TURN)
 

@@ -5,11 +5,11 @@ Outside help (body/aiding) is loaded when a session first has it."""
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Protocol
+from typing import Final, Protocol
 
 from ...events import Defect, DefectFound, StrideTaken
 from ...foot.view import AfterEvents, FootView
-from ...types import SITE_OF_FOOT, Vec3
+from ...types import SITE_OF_FOOT, Foot, Phase, Vec3
 from ...types.attrs import define, field
 from .common_error import CommonError, Move
 from .learnt_bias import add_rest
@@ -17,12 +17,19 @@ from .moving_ground import MovingGround
 from .position import PlacedTrack
 from .straight_ways import StraightWays
 
+LEFT: Final = Foot.LEFT
+"""Local name of `Foot.LEFT`, because a look-up in the enum is slow."""
+STATIONARY: Final = Phase.STATIONARY
+"""Local name of `Phase.STATIONARY`."""
+SPACING = 0.05
+"""Least time between samples of a stance that the compass has, s: three to six in one, whose noise is small already."""
+
 
 class Aid(Protocol):
     """Outside help that has rows of its own in the filter of the common errors."""
 
     def add_sample(self, foot: int, view: FootView, mag: Vec3) -> None:
-        """Add a sample of foot 0 (left) or 1 with the magnetic flux density `mag`, T, sensor frame."""
+        """Add a sample of foot 0 (left) or 1, which stands, with the flux density `mag`, T, sensor frame."""
 
     def add_stride(self, event: StrideTaken, foot: int, turn: float, error: CommonError) -> tuple[Move, str | None]:
         """Add what was measured before a stride of foot 0 (left) or 1, whose track is turned by `turn`, rad.
@@ -44,10 +51,16 @@ class SharedEvidence:
     ground: MovingGround = field(factory=MovingGround, init=False)
     compass: Aid | None = field(default=None, init=False)
     """The compass; None until a sample has a magnetic field."""
+    measured_at: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
+    """Time of the newest sample that the compass has of the left and of the right foot, s."""
     found: list[DefectFound] = field(factory=list, init=False)
 
-    def add_sample(self, foot: int, view: FootView, mag: Vec3) -> None:
-        """Add a sample of foot 0 (left) or 1 with the magnetic flux density `mag`, T, sensor frame."""
+    def add_stance_sample(self, view: FootView, mag: Vec3) -> None:
+        """Add a sample of a foot that stands, with the magnetic flux density `mag`, T, sensor frame."""
+        foot = 0 if view.foot is LEFT else 1
+        if 0.0 <= view.t - self.measured_at[foot] < SPACING:
+            return
+        self.measured_at[foot] = view.t
         if self.compass is None:
             from ..aiding.compass import Compass
 
@@ -91,8 +104,9 @@ class SharedEvidence:
         if self.compass is not None:
             self.compass.turned(yaw)
 
-    def reset(self, foot: int, error: CommonError) -> None:
-        """Forget what depends on the clock or the device of foot 0 (left) or 1."""
+    def reset(self, foot: Foot, error: CommonError) -> None:
+        """Forget what depends on the clock or the device of a foot."""
+        self.straight_ways.reset(foot)
         self.ground = MovingGround()
         if self.compass is not None:
-            self.compass.reset(foot, error)
+            self.compass.reset(0 if foot is LEFT else 1, error)

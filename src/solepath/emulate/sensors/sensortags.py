@@ -88,7 +88,8 @@ class CC2650:
         rows = zip(
             counts(gyro, self.chip.gyro, GYRO_COUNT, config.gyro_axes),
             counts(acc, self.chip.acc, config.range * GRAVITY / 32768, config.acc_axes),
-            counts(mag, AK8963, AK8963_COUNT, (config.mag,) * 3),
+            # the chip's own axes: (y, x, -z) in those of accelerometer and gyroscope (protocol/cc2650.md)
+            counts(mag[:, [1, 0, 2]] * [1.0, 1.0, -1.0], AK8963, AK8963_COUNT, (config.mag,) * 3),
             strict=True,
         )
         return [cc2650.DRIVER.write("cc2650/movement", {"gyro": g, "acc": a, "mag": m}) for g, a, m in rows]

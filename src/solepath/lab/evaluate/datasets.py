@@ -13,7 +13,7 @@ from attrs import frozen
 
 from ...recipes import Recipe
 from ..emulated.heading import AIDS, CHECKED_TIMES, LENGTHS, score_heading
-from ..emulated.heading_walks import KINDS
+from ..emulated.heading_walks import KINDS, WITH_COMPASS
 from ..emulated.walks import score_floors
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
@@ -176,6 +176,7 @@ EMULATED = (
         for length, is_complete in LENGTHS.items()
         for kind in KINDS
         for suffix, aids in AIDS.items()
+        if aids.disturbance is None or kind in WITH_COMPASS
     ),
     DataSet(
         "emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_floors,

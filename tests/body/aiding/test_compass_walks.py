@@ -1,0 +1,77 @@
+"""A compass in emulated walks of whole sessions: samples or packets in, the heading held."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import hypot, pi, radians
+from typing import Any
+
+import pytest
+from attrs import evolve
+
+from solepath import DefectFound, Session
+from solepath.body.aiding.compass import Compass
+from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.fuse.common_error import HEADING
+from solepath.emulate import CC2650, Insole, Route, emulate, sampled
+from solepath.emulate.sensors.magnetic_field import MagneticField
+from solepath.emulate.sensors.parts import AK8963
+from solepath.emulate.walk import SampledWalk
+from solepath.types import Site
+
+FIELD = MagneticField(radians(20.0), seed=4)
+FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+
+
+@cache
+def arcs() -> SampledWalk:
+    """Return a walk of 250 m over arcs to both sides, with a magnetometer in both insoles."""
+    route = Route(speed=1.3).stand(2.0).walk(3.0)
+    for angle in (pi, -1.5 * pi, pi, -pi, 1.2 * pi):
+        route = route.turn(angle, 14.0)
+    insoles = {site: Insole(cells=24, mag=AK8963) for site in FEET}
+    return sampled(route.stop(2.0), insoles=insoles, field=FIELD, seed=3)
+
+
+def track_of(session: Session) -> BothFeet:
+    return next(part for part in session._state.wearer.parts if isinstance(part, BothFeet))
+
+
+def test_a_compass_makes_the_heading_of_arcs_more_certain_and_is_saved_with_the_session() -> None:
+    samples = list(arcs().samples)
+    plain, with_compass = Session(), Session()
+    plain.feed([evolve(sample, mag=None) for sample in samples])
+    half = len(samples) // 2
+    events = with_compass.feed(samples[:half])
+    restored = Session.unpack(with_compass.pack())
+    again: Any = Session.restore(with_compass.snapshot())
+    rest = with_compass.feed(samples[half:])
+    assert restored.feed(samples[half:]) == rest == again.feed(samples[half:])
+    assert not [event for event in events + rest if isinstance(event, DefectFound)]
+    compass = track_of(with_compass).evidence.compass
+    assert isinstance(compass, Compass) and compass.trust.is_proven
+    sigma, without = (track_of(one).common.covariance[HEADING][HEADING] ** 0.5 for one in (with_compass, plain))
+    assert sigma < 0.8 * without
+
+
+def test_without_a_magnetic_field_there_is_no_compass_and_with_one_the_feet_are_the_same() -> None:
+    samples = list(arcs().samples)[:6000]
+    plain, with_compass = Session(), Session()
+    assert plain.feed([evolve(sample, mag=None) for sample in samples]) == with_compass.feed(samples)
+    assert track_of(plain).evidence.compass is None
+
+
+@pytest.mark.parametrize("rate", [10.0, 50.0])
+def test_the_field_of_a_sensortag_is_that_of_the_earth_in_the_world_frame(rate: float) -> None:
+    route = Route(speed=1.2).stand(2.0).walk(12.0).turn(0.5 * pi, 3.0).walk(12.0).turn(0.5 * pi, 3.0).walk(12.0)
+    devices = {site: CC2650(rate=rate) for site in FEET}
+    session = Session()
+    session.feed(emulate(route.stop(2.0), devices=devices, field=MagneticField(), seed=2).packets)
+    common = track_of(session).common
+    bx, by = common.aids[:2]
+    assert hypot(bx, by) == pytest.approx(20.0, abs=9.0)  # the iron is not well known after two turns
+    compass = track_of(session).evidence.compass
+    assert isinstance(compass, Compass)
+    assert compass.trust.evidence > 0.0
+    for _, vertical in compass.disturbance.vertical:
+        assert vertical == pytest.approx(-43.0, abs=20.0)
