@@ -116,7 +116,8 @@ class Part(Protocol):
     def ready(self) -> None:
         """Load the files that the part needs; called for a new wearer and for a wearer restored from a saved state.
 
-        `feed` and `receive` must import nothing and open no file."""
+        `feed` and `receive` must import nothing and open no file, but for what the first sample or event of a new kind
+        needs (a compass, a reported position)."""
         return
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:

@@ -7,7 +7,7 @@ Latency is `known_at` minus `t`; the docstring of each event states it."""
 from __future__ import annotations
 
 from .activity import ActivityChanged, FlightClimbed, LiftRidden, TurnMade
-from .body import StrideFused, TouchedDown, WalkingModeChanged
+from .body import PositionRejected, StrideFused, TouchedDown, TrackNode, TrackRevised, WalkingModeChanged
 from .defect import Defect, DefectFound
 from .foot import FootFlat, HeelOff, HeelStrike, StrideFeatures, StrideTaken, ToeOff
 from .gait_cycle import GaitCycleMeasured
@@ -23,6 +23,7 @@ from .link import (
     PacketRejected,
     PacketsDropped,
     PacketsLost,
+    PositionReported,
     Rejection,
     SampleGap,
     SampleRejected,
@@ -40,6 +41,7 @@ __all__ = [
     "FootFlat", "FootResumed", "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike",
     "InsoleNeverUnloads", "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble",
     "LiveEvent", "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed", "Rejection",
+    "PositionRejected", "PositionReported", "TrackNode", "TrackRevised",
     "SampleGap", "SampleRejected", "StrideFeatures", "StrideTaken", "StreamRestarted", "StreamResumed",
     "StreamStale", "StrideFused", "GaitCycleMeasured", "ToeOff", "TouchedDown", "TurnMade", "WalkingModeChanged",
     "WearEvent", "WearerMoved",
@@ -61,12 +63,13 @@ LinkEvent = (
     | StreamRestarted
     | LinkTrouble
     | LayoutKnown
+    | PositionReported
     | BatteryLevel
     | KeysChanged
     | Limitation
 )
 """Events of links and sensors."""
-BodyEvent = GaitCycleMeasured | StrideFused | TouchedDown | WalkingModeChanged
+BodyEvent = GaitCycleMeasured | PositionRejected | StrideFused | TouchedDown | TrackRevised | WalkingModeChanged
 """Events measured from both feet."""
 ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
 """Events of the wearer's activity."""

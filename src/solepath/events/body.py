@@ -36,6 +36,47 @@ class StrideFused(Happening):
     """Position at the end of the chosen foot's calibrated path, world frame, m."""
 
 
+@frozen
+class TrackNode:
+    """A position of the wearer in the past."""
+
+    t: float
+    """Time, s."""
+    x: float
+    """Position in the world frame, m."""
+    y: float
+    """Position in the world frame, m."""
+
+
+@frozen(kw_only=True)
+class TrackRevised(Happening):
+    """A position that a person has reported has corrected the track: where the wearer is and was.
+
+    It is reported with the PositionReported. Earlier positions (WearerMoved, StrideTaken) were off in the way that the
+    nodes show; from now on, positions and strides are corrected."""
+
+    by: tuple[float, float]
+    """Correction of the position at `t`, x and y in the world frame, m."""
+    turn: float
+    """Correction of the heading at `t`, rad, counter-clockwise positive."""
+    nodes: tuple[TrackNode, ...]
+    """Revised path since the position that was reported before, or since the start: at most 41 nodes."""
+
+
+@frozen(kw_only=True)
+class PositionRejected(Happening):
+    """A position that a person has reported contradicts the track, which therefore stays as it is.
+
+    It is reported with the PositionReported."""
+
+    distance: float
+    """Distance of the reported position from the track, m."""
+    sigma: float
+    """Standard deviation of that distance, m."""
+    what: str
+    """Sentences for the person who reported it."""
+
+
 @frozen(kw_only=True)
 class TouchedDown(Happening):
     """A foot touched down and bears load; the other foot's position is measured from it until that foot touches down.

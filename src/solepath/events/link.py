@@ -160,6 +160,20 @@ class StreamRestarted(Happening):
 
 
 @frozen(kw_only=True)
+class PositionReported(Happening):
+    """A person has reported where the wearer is at `t`; what the track makes of it follows at once.
+
+    That is TrackRevised, or PositionRejected."""
+
+    site: Site
+    """Any site of the session."""
+    position: tuple[float, float] | None
+    """Position, x and y in the world frame, m; None where the walk started."""
+    sigma: float
+    """Standard deviation of the position on each axis, m."""
+
+
+@frozen(kw_only=True)
 class LinkTrouble(Happening):
     """The receiver cannot work, and a person has to help.
 

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from ..events import Connected, Disconnected, LinkEvent, LinkTrouble, PacketsDropped, Rejection, StreamRestarted
+from ..events import (
+    Connected,
+    Disconnected,
+    LinkEvent,
+    LinkTrouble,
+    PacketsDropped,
+    PositionReported,
+    Rejection,
+    StreamRestarted,
+)
 from ..types import Packet
 from ..wire.error import WireError
 from ..wire.fields import parse_text
-from ..wire.receiver import parse_connected, parse_dropped, parse_nothing
+from ..wire.receiver import parse_connected, parse_dropped, parse_nothing, parse_position
 
 
 def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
@@ -32,6 +41,9 @@ def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
             return [PacketsDropped(t=t, known_at=t, site=site, count=parse_dropped(packet.data))]
         case "receiver/restarted":
             return [StreamRestarted(t=t, known_at=t, site=site, channel=parse_text(packet.data))]
+        case "receiver/position":
+            frame = parse_position(packet.data)
+            return [PositionReported(t=t, known_at=t, site=site, position=frame.position, sigma=frame.sigma)]
         case "receiver/trouble":
             return [LinkTrouble(t=t, known_at=t, site=site, what=parse_text(packet.data))]
     raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 from ..body.gait.means import GaitParameters
 from ..body.part import Position
 from ..calibration import Calibration
-from ..events import Event, Placed
+from ..events import Event, Placed, PositionReported
 from ..foot.phase import SUPPORT
 from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
-from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
+from ..types import SITE_OF_FOOT, Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.plain import flag, text
 from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
 from .state import SessionState
@@ -107,6 +107,24 @@ class Session:
     def restart_clock(self, now: float) -> list[Event]:
         """Continue on a clock that restarted or was set, and is now at `now`, s; return a ClockReset of each site."""
         return [] if self._state.finished else self._state.restart_clock(check_now(now))
+
+    def here(self, position: tuple[float, float] | None = None, sigma: float = 1.0) -> list[Event]:
+        """Report where the wearer is now, and return the events: TrackRevised or PositionRejected.
+
+        `position` is x and y in the world frame, m, and `sigma` its standard deviation on each axis, m. Without a
+        position, the wearer is back where the walk started. Only the recipe `default` uses it. An app that records its
+        packets feeds a packet `receiver/position` instead (protocol/receiver.md), which has the same effect. Raises
+        ValueError for impossible numbers and before the first sample."""
+        from ..wire.receiver import PositionFrame, build_position, parse_position
+
+        state = self._state
+        if state.now is None or state.finished:
+            raise ValueError("the session has no samples yet, or is finished")
+        frame = parse_position(build_position(PositionFrame(position, sigma)))
+        site = SITE_OF_FOOT[next(iter(state.wearer.feet), Foot.LEFT)]
+        now = state.now
+        event = PositionReported(t=now, known_at=now, site=site, position=frame.position, sigma=frame.sigma)
+        return state.wearer.receive(site, event)
 
     def finish(self) -> list[Event]:
         """Return the events that were held back; the session can still be read, but not fed."""

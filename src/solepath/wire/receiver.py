@@ -4,7 +4,7 @@ The values of receiver/restarted (the name of a channel) and receiver/trouble (a
 
 from __future__ import annotations
 
-from construct import Int8sl, Int32ul, Struct, Terminated
+from construct import Float32l, Float64l, Int8sl, Int32ul, Struct, Terminated
 
 from ..events import Rejection
 from ..types.attrs import frozen
@@ -18,6 +18,10 @@ MAX_NAME_SIZE = 248
 
 _SIGNAL = Struct("signal" / Int8sl)
 _COUNT = Struct("count" / Int32ul, Terminated)
+_SIGMA = Struct("sigma" / Float32l)
+_POSITION = Struct("x" / Float64l, "y" / Float64l, Terminated)
+MAX_COORDINATE, MAX_SIGMA = 1e6, 1e4
+"""Largest size of a coordinate and largest standard deviation of a position that a person reports, m."""
 
 
 @frozen
@@ -65,6 +69,41 @@ def build_dropped(count: int) -> bytes:
     if count < 1:
         raise ValueError(f"{count} packets dropped")
     return build_whole(_COUNT, {"count": count})
+
+
+@frozen
+class PositionFrame:
+    """A position that a person has reported: x and y in the world frame, m (None: where the walk started)."""
+
+    position: tuple[float, float] | None
+    sigma: float
+    """Standard deviation of the position on each axis, m."""
+
+
+def parse_position(data: bytes) -> PositionFrame:
+    """Return the content of receiver/position; WireError when the bytes do not fit."""
+    data = bytes(data)
+    sigma: float = parse_whole(_SIGMA, data[:4]).sigma
+    position = None
+    if len(data) > 4:
+        parsed = parse_whole(_POSITION, data[4:])
+        position = (parsed.x, parsed.y)
+    if not 0.0 < sigma <= MAX_SIGMA or not all([abs(value) <= MAX_COORDINATE for value in position or ()]):
+        raise malformed(f"a position {position} m with a standard deviation of {sigma} m")
+    return PositionFrame(position, sigma)
+
+
+def build_position(frame: PositionFrame) -> bytes:
+    """Return the bytes of a reported position; ValueError when its numbers are not possible."""
+    data = build_whole(_SIGMA, {"sigma": frame.sigma})
+    if frame.position is not None:
+        x, y = frame.position
+        data += build_whole(_POSITION, {"x": x, "y": y})
+    try:
+        parse_position(data)
+    except WireError as error:
+        raise ValueError(str(error)) from error
+    return data
 
 
 def parse_nothing(data: bytes) -> None:

@@ -88,6 +88,7 @@ FORMATS = {
     "receiver-connected": record(receiver.ConnectionFrame, receiver.parse_connected, receiver.build_connected),
     "receiver-disconnected": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
     "receiver-dropped": single("count", receiver.parse_dropped, receiver.build_dropped),
+    "receiver-position": record(receiver.PositionFrame, receiver.parse_position, receiver.build_position),
     "receiver-restarted": single("words", parse_text, build_text),
     "receiver-tick": Format(receiver.parse_nothing, lambda _: b"", lambda _: {}, lambda _: None),
     "receiver-trouble": single("words", parse_text, build_text),

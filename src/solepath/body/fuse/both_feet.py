@@ -8,11 +8,10 @@ the heading among them (straightness.py). A foot alone has no other errors than 
 
 In the first metres, the comparison aligns the two tracks, whatever the directions of the first strides are
 (walking_direction.py), and leaves the feet unchanged. From then on, corrections go to the feet, to each at its own
-foot-flat (`Shift`). Live position and later strides of both feet then have the same heading. A stride that was reported
-is not changed.
+foot-flat (`Shift`). Live position and later strides of both feet then have the same heading.
 
-The corrections are divided between the feet by their variances; both feet then have equal weight in the mean. A foot
-that loses its signal and returns is treated as in `MeanOfFeet`."""
+Corrections are divided between the feet by their variances; both feet have equal weight in the mean. A foot that loses
+its signal and returns is treated as in `MeanOfFeet`."""
 
 from __future__ import annotations
 
@@ -20,7 +19,7 @@ from collections.abc import Mapping, Sequence
 from math import atan2, cos, hypot, sin
 
 from ...calibration import Calibration
-from ...events import DefectFound, SampleGap, StrideTaken
+from ...events import DefectFound, PositionReported, SampleGap, StrideTaken
 from ...foot.stride import usual_strides
 from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import Foot, Site, Vec3
@@ -72,8 +71,7 @@ class BothFeetSettings:
 class BothFeet(MeanOfFeet):
     """The mean position of two feet whose headings and positions correct each other, or the position of a foot alone.
 
-    Latency: none. `position` uses at once what a stride says about the other foot, and at the end of a straight way
-    what that way says about both. A foot itself is corrected at its next foot-flat, if its corrector accepts shifts."""
+    Latency: none; a foot itself is corrected at its next foot-flat, if its corrector accepts shifts."""
 
     settings: BothFeetSettings = BothFeetSettings()
     errors: TrackErrorFilter = field(factory=TrackErrorFilter, init=False)
@@ -125,9 +123,12 @@ class BothFeet(MeanOfFeet):
         return outputs
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Receive an event; nothing is learnt from the straight ways of a foot that a defect spoils."""
+        """Receive an event: a position that a person reports, or a defect that spoils the straight ways of a foot."""
         if isinstance(event, DefectFound):
             self.evidence.straight_ways.add_defect(event)
+        elif isinstance(event, PositionReported) and self.common.started:
+            place = self.middle(self.common.shares)
+            return self.evidence.use_position(event, place, self.common, self._move_both)
         return ()
 
     def reset(self, site: Site) -> None:
@@ -201,8 +202,8 @@ class BothFeet(MeanOfFeet):
         realigned = self.started and self.distance < ALIGNMENT_DISTANCE and self._realign(index, event)
         if self.started and not realigned:
             self._compare_feet(index, event, (dx, dy), (stance, swing), degraded)
-        if self.settings.straightness and not realigned:
-            self._move_both(self.evidence.after_stride(event, index, count, (dx, dy), self.common))
+        place, straight = self.middle(self.common.shares), self.settings.straightness and not realigned
+        self._move_both(self.evidence.after_stride(event, index, count, (dx, dy), self.common, place, straight))
         return [*self.evidence.found, *self._shift_foot(index, event.foot, after.takes_shifts)]
 
     def _move_both(self, move: Move) -> None:
@@ -290,7 +291,7 @@ class BothFeet(MeanOfFeet):
         return ()
 
     def _restart(self) -> Sequence[PartOutput]:
-        """Restart the error filter, because its estimates or a stride have impossible values; there is no output."""
+        """Restart the error filter, because its estimates or a stride have impossible values."""
         self.errors.start()
         self.strides = [None, None]
         self.evidence.straight_ways.reset()

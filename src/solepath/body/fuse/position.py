@@ -117,6 +117,12 @@ class MeanOfFeet(TrackPart):
     Each has a flag for the left foot, the unplaced foot's position on its own track, and the other foot's position in
     the common frame, m."""
 
+    def middle(self, shares: tuple[float, float]) -> tuple[float, float]:
+        """Return the newest place between both feet, m, common frame; each foot counts with its share."""
+        (lx, ly, _), (rx, ry, _) = [track.place(track.newest_place) for track in (self.left, self.right)]
+        left, right = shares
+        return (left * lx + right * rx, left * ly + right * ry)
+
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add one sample of a foot and detect an absent or returned foot; returns no output."""
         t, is_left = view.t, view.foot is LEFT

@@ -4,14 +4,15 @@ Outside help (body/aiding) is loaded when a session first has it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Final, Protocol
 
-from ...events import Defect, DefectFound, StrideTaken
+from ...events import Defect, DefectFound, PositionRejected, PositionReported, StrideTaken, TrackRevised
 from ...foot.view import AfterEvents, FootView
 from ...types import SITE_OF_FOOT, Foot, Phase, Vec3
 from ...types.attrs import define, field
-from .common_error import CommonError, Move
+from ..aiding.walked_path import WalkedPath
+from .common_error import NO_MOVE, CommonError, Move
 from .learnt_bias import add_rest
 from .moving_ground import MovingGround
 from .position import PlacedTrack
@@ -21,6 +22,8 @@ LEFT: Final = Foot.LEFT
 """Local name of `Foot.LEFT`, because a look-up in the enum is slow."""
 STATIONARY: Final = Phase.STATIONARY
 """Local name of `Phase.STATIONARY`."""
+Pair = tuple[float, float]
+"""A position or a displacement in the horizontal plane, m."""
 SPACING = 0.05
 """Least time between samples of a stance that the compass has, s: three to six in one, whose noise is small already."""
 
@@ -53,6 +56,8 @@ class SharedEvidence:
     """The compass; None until a sample has a magnetic field."""
     measured_at: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
     """Time of the newest sample that the compass has of the left and of the right foot, s."""
+    path: WalkedPath = field(factory=WalkedPath, init=False)
+    """Path of the wearer so far."""
     found: list[DefectFound] = field(factory=list, init=False)
 
     def add_stance_sample(self, view: FootView, mag: Vec3) -> None:
@@ -89,15 +94,30 @@ class SharedEvidence:
                 )  # fmt: skip
 
     def after_stride(
-        self, event: StrideTaken, foot: int, strides: float, displacement: tuple[float, float], error: CommonError
-    ) -> Move:
+        self, event: StrideTaken, foot: int, strides: float, displacement: Pair, error: CommonError,
+        place: Pair, straight: bool,
+    ) -> Move:  # fmt: skip
         """Return the correction of both tracks by a stride of foot 0 (left) or 1 that counts as `strides` usual ones.
 
-        Its `displacement` is in the common frame, m."""
+        Its `displacement` and the wearer's `place` after it are in the common frame, m; `straight` says whether it may
+        be part of a straight way."""
+        self.path.add_stride(event.t_end, place, error.shares[foot] * event.length)
+        if not straight:
+            return NO_MOVE
         move, misfit = self.straight_ways.add_stride(foot, event, strides, displacement, error)
         if misfit is not None:
             self.found.append(misfit)
         return move
+
+    def use_position(
+        self, event: PositionReported, place: Pair, error: CommonError, move_both: Callable[[Move], None]
+    ) -> list[TrackRevised | PositionRejected]:
+        """Correct both tracks with `move_both` by a reported position, or reject it.
+
+        `place` is where the wearer is according to the track, m, common frame."""
+        from ..aiding.reported_position import use_position
+
+        return [use_position(event, place, error, self.path, move_both)]
 
     def turned(self, yaw: float) -> None:
         """Turn what is in the common frame with both tracks, by `yaw`, rad."""

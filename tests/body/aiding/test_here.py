@@ -1,0 +1,144 @@
+"""A person says where they are: the track is corrected and revised, or the place is refused."""
+
+from __future__ import annotations
+
+from functools import cache
+from math import hypot, pi
+
+import numpy as np
+import pytest
+
+from solepath import Packet, Session, Site, recipes
+from solepath.body.aiding.walked_path import MOST_NODES, WalkedPath
+from solepath.emulate import Route, sampled
+from solepath.emulate.walk import SampledWalk
+from solepath.events import PositionRejected, PositionReported, StrideTaken, TrackNode, TrackRevised
+from solepath.lab.emulated.heading_walks import insoles_of
+from solepath.types import Foot
+from solepath.wire.receiver import PositionFrame, build_position
+
+
+@cache
+def loop() -> SampledWalk:
+    """Return a walk of 180 m round a lake, back to where it began, and 40 m on, by feet that drift."""
+    route = Route(speed=1.4).stand(2.0).walk(15.0).turn(pi, 24.0).walk(15.0).turn(pi, 24.0)
+    return sampled(route.walk(40.0).stop(2.0), insoles=insoles_of(9), seed=9)
+
+
+def fed(walk: SampledWalk, until: float, session: Session | None = None, since: float = 0.0) -> Session:
+    session = Session() if session is None else session
+    session.feed([sample for sample in walk.samples if since <= sample.t < until])
+    return session
+
+
+def middle(walk: SampledWalk, t: float) -> tuple[float, float]:
+    """Return where the wearer truly is, in the session's world frame."""
+    places = [walk.truth.pose(foot, t).position[0, :2] - walk.truth.pose(foot, 0.0).position[0, :2] for foot in Foot]
+    x, y = 0.5 * (places[0] + places[1])
+    return float(x), float(y)
+
+
+def error(walk: SampledWalk, session: Session) -> float:
+    assert session.position is not None
+    x, y = middle(walk, session.position.t)
+    return hypot(session.position.position[0] - x, session.position.position[1] - y)
+
+
+def test_a_return_corrects_place_and_heading_and_the_strides_after_it() -> None:
+    walk, back = loop(), back_time(loop())
+    corrected, plain = fed(walk, back), fed(walk, back)
+    before = error(walk, plain)
+    assert corrected.position is not None
+    sigma = corrected.position.heading_sigma
+    _, revised = corrected.here(middle(walk, back), sigma=0.3)
+    assert isinstance(revised, TrackRevised)
+    assert before > 1.0 and error(walk, corrected) < 0.3 * before
+    assert corrected.position is not None and corrected.position.heading_sigma is not None and sigma is not None
+    assert corrected.position.heading_sigma < 0.7 * sigma
+    end = walk.truth.duration
+    fed(walk, end, corrected, back)
+    fed(walk, end, plain, back)
+    assert error(walk, corrected) < 0.5 * error(walk, plain)
+
+
+def back_time(walk: SampledWalk) -> float:
+    """Return when the wearer is closest to the start after the loops, s."""
+    times = np.arange(0.6 * walk.truth.duration, walk.truth.duration, 0.1)
+    return float(times[int(np.argmin([hypot(*middle(walk, float(t))) for t in times]))])
+
+
+def test_the_path_so_far_is_revised_towards_the_truth() -> None:
+    walk, back = loop(), back_time(loop())
+    session = Session()
+    was: list[tuple[float, float, float]] = []
+    for sample in walk.samples:
+        if sample.t >= back:
+            break
+        if any(isinstance(event, StrideTaken) for event in session.feed(sample)) and session.position is not None:
+            was.append((session.position.t, *session.position.position[:2]))
+    revised = session.here(middle(walk, back), sigma=0.3)[1]
+    assert isinstance(revised, TrackRevised) and 10 < len(revised.nodes) <= MOST_NODES + 1
+    assert [node.t for node in revised.nodes] == sorted(node.t for node in revised.nodes)
+
+    def rms(path: list[tuple[float, float, float]]) -> float:
+        """Return the distance from the truth after the best turn about the start, since the first heading is off."""
+        found = np.array([complex(x, y) for _, x, y in path])
+        true = np.array([complex(*middle(walk, t)) for t, _, _ in path])
+        turn = np.sum(true * found.conj())
+        return float(np.sqrt(np.mean(np.abs(found * turn / abs(turn) - true) ** 2)))
+
+    late = [(node.t, node.x, node.y) for node in revised.nodes]
+    assert rms(late) < 0.6 * rms(was)
+
+
+@pytest.mark.parametrize("angle", [0.0, 2.0, 4.0])
+def test_a_place_that_is_20_m_off_is_refused_in_words_and_changes_nothing(angle: float) -> None:
+    walk, back = loop(), back_time(loop())
+    session = fed(walk, back)
+    saved = session.pack()
+    x, y = middle(walk, back)
+    reported, rejected = session.here((x + 20.0 * np.cos(angle), y + 20.0 * np.sin(angle)), sigma=0.5)
+    assert isinstance(reported, PositionReported) and isinstance(rejected, PositionRejected)
+    assert 12.0 < rejected.distance < 28.0 and "the track stays as it is" in rejected.what
+    assert session.pack() == saved
+
+
+def test_a_packet_of_the_receiver_does_the_same_and_a_saved_session_too() -> None:
+    walk = loop()
+    one, other = fed(walk, 60.0), fed(walk, 60.0)
+    again = Session.unpack(one.pack())
+    assert one.now is not None
+    events = one.here(sigma=50.0)
+    data = build_position(PositionFrame(None, 50.0))
+    assert other.feed(Packet(one.now, Site.LEFT_FOOT, "receiver/position", data)) == events == again.here(sigma=50.0)
+    assert isinstance(events[1], TrackRevised)
+    assert fed(walk, 90.0, one, 60.0).position == fed(walk, 90.0, again, 60.0).position
+
+
+def test_before_the_first_stride_a_place_says_nothing_and_impossible_ones_are_errors() -> None:
+    session = Session()
+    with pytest.raises(ValueError, match="no samples"):
+        session.here()
+    fed(loop(), 1.0, session)
+    assert [type(event) for event in session.here()] == [PositionReported]
+    for position, sigma in (((float("nan"), 0.0), 1.0), ((0.0, 2e6), 1.0), (None, 0.0), (None, -1.0)):
+        with pytest.raises(ValueError, match="position"):
+            session.here(position, sigma)
+
+
+def test_a_recipe_without_that_track_reports_the_place_alone() -> None:
+    session = fed(loop(), 20.0, Session(recipes.by_name("shoe-sensing")))
+    assert [type(event) for event in session.here()] == [PositionReported]
+
+
+def test_a_path_keeps_few_nodes_however_long_it_is_and_ends_where_it_was_corrected_to() -> None:
+    path = WalkedPath()
+    for k in range(20_000):
+        path.add_stride(float(k), (0.7 * k, 0.0), 0.7)
+    assert 20 <= len(path.nodes) <= MOST_NODES
+    nodes = path.revise(20_000.0, (14_000.0, 0.0), (14_000.0, 500.0), 0.05)
+    assert nodes[-1] == TrackNode(20_000.0, 14_000.0, 500.0) and nodes[0].y == 0.0
+    assert all(0.0 <= node.y <= 520.0 for node in nodes)
+    path.add_stride(20_001.0, (14_001.0, 500.0), 400.0)
+    later = path.revise(20_002.0, (14_002.0, 500.0), (14_002.0, 501.0), 0.0)
+    assert later[0] == nodes[-1], "what a report has settled stays"
