@@ -41,7 +41,7 @@ class TrackNode:
     """A position of the wearer in the past."""
 
     t: float
-    """Time, s."""
+    """Time at which the wearer was there, s."""
     x: float
     """Position in the world frame, m."""
     y: float

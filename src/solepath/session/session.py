@@ -109,12 +109,9 @@ class Session:
         return [] if self._state.finished else self._state.restart_clock(check_now(now))
 
     def here(self, position: tuple[float, float] | None = None, sigma: float = 1.0) -> list[Event]:
-        """Report where the wearer is now, and return the events: TrackRevised or PositionRejected.
+        """Report that the wearer is now at x, y in the world frame, m (None: at the start), each with this `sigma`, m.
 
-        `position` is x and y in the world frame, m, and `sigma` its standard deviation on each axis, m. Without a
-        position, the wearer is back where the walk started. Only the recipe `default` uses it. An app that records its
-        packets feeds a packet `receiver/position` instead (protocol/receiver.md), which has the same effect. Raises
-        ValueError for impossible numbers and before the first sample."""
+        Returns PositionReported, and TrackRevised or PositionRejected. Raises ValueError for impossible numbers."""
         from ..wire.receiver import PositionFrame, build_position, parse_position
 
         state = self._state

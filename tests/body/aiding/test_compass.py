@@ -43,7 +43,7 @@ class Walked:
     ) -> None:  # fmt: skip
         rng = np.random.default_rng(seed)
         field = MagneticField(radians(disturbance), seed)
-        self.error, self.compass, self.said, self.most_moved = CommonError(), Compass(), list[str](), 0.0
+        self.error, self.compass, self.faults, self.most_moved = CommonError(), Compass(), list[str](), 0.0
         self.iron = rng.normal(0.0, 8.0, (2, 3))
         for row in FEET:  # the bias is known
             self.error.covariance[row + 2][row + 2] = 0.0
@@ -67,7 +67,7 @@ class Walked:
                 self.off -= yaw
                 self.most_moved = max(self.most_moved, abs(yaw))
                 if sentence is not None:
-                    self.said.append(sentence)
+                    self.faults.append(sentence)
             turn = heading(s + 2.0 * STEP) - heading(s)
             self.off += 0.5 * (drift - self.error.turn_of(foot, 1.0, turn, STRIDE_TIME))
             direction = heading(s + STEP)
@@ -107,7 +107,7 @@ def test_a_way_that_turns_keeps_its_heading_by_the_compass_and_the_filter_is_as_
     with_compass = [Walked(turning, 1500.0, disturbance, seed=seed) for seed in SEEDS]
     without = Walked(turning, 1500.0, compass=False)
     assert rms(with_compass) < 0.12 * without.degrees
-    assert not any(walked.said for walked in with_compass)
+    assert not any(walked.faults for walked in with_compass)
     squares = [radians(w.degrees) ** 2 / w.error.covariance[HEADING][HEADING] for w in with_compass]
     assert 0.2 < np.mean(squares) < 2.5
 
@@ -128,7 +128,7 @@ MIRRORED = np.array([1.0, -1.0, 1.0])
 
 
 @pytest.mark.parametrize(
-    ("fault", "said"),
+    ("fault", "words"),
     [
         (lambda m, foot, s: m * MIRRORED, "mirrored"),
         (lambda m, foot, s: m[[1, 0, 2]], "exchanged"),
@@ -138,12 +138,12 @@ MIRRORED = np.array([1.0, -1.0, 1.0])
     ],
     ids=["mirrored", "exchanged", "microtesla", "gauss", "magnet in both shoes"],
 )
-def test_a_magnetometer_that_cannot_be_right_moves_nothing_and_that_is_said_once(fault: Fault, said: str) -> None:
+def test_a_magnetometer_that_cannot_be_right_moves_nothing_and_is_reported_once(fault: Fault, words: str) -> None:
     for seed in SEEDS:
         walked = Walked(turning, 1000.0, seed=seed, fault=fault)
         assert walked.most_moved == 0.0
-        sentences = [sentence for sentence in walked.said if said in sentence]
-        assert 1 <= len(sentences) <= 2  # what concerns one foot is said of both
+        sentences = [sentence for sentence in walked.faults if words in sentence]
+        assert 1 <= len(sentences) <= 2  # what concerns one foot is reported of both
 
 
 @pytest.mark.parametrize("scale", [0.5, 2.0])
@@ -160,17 +160,17 @@ def test_a_magnet_that_comes_to_one_shoe_is_noticed_and_learnt() -> None:
         Walked(turning, 1500.0, seed=seed, fault=lambda m, foot, s: m + magnet * (foot == 0 and s > 500.0))
         for seed in SEEDS
     ]
-    assert all("something magnetic" in " ".join(walked.said) for walked in walks)
+    assert all("something magnetic" in " ".join(walked.faults) for walked in walks)
     assert rms(walks) < 0.15 * Walked(turning, 1500.0, compass=False).degrees
 
 
-def test_a_steel_floor_of_150_m_is_said_and_its_field_is_not_believed() -> None:
+def test_a_steel_floor_of_150_m_is_reported_and_its_field_is_not_used() -> None:
     def steel(heading: Heading) -> Fault:
         return lambda m, _, s: m + turned(np.array([-15.0, 35.0, 15.0]), -heading(s)) * (500.0 < s < 650.0)
 
     walks = [Walked(turning, 900.0, seed=seed, fault=steel(turning)) for seed in SEEDS]
     undisturbed = [Walked(turning, 900.0, seed=seed) for seed in SEEDS]
-    assert sum("as over steel" in " ".join(walked.said) for walked in walks) >= len(SEEDS) - 1
+    assert sum("as over steel" in " ".join(walked.faults) for walked in walks) >= len(SEEDS) - 1
     assert rms(walks) < rms(undisturbed) + 6.0
 
 

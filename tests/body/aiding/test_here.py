@@ -92,7 +92,7 @@ def test_the_path_so_far_is_revised_towards_the_truth() -> None:
 
 
 @pytest.mark.parametrize("angle", [0.0, 2.0, 4.0])
-def test_a_place_that_is_20_m_off_is_refused_in_words_and_changes_nothing(angle: float) -> None:
+def test_a_place_that_is_20_m_off_is_rejected_with_a_reason_and_changes_nothing(angle: float) -> None:
     walk, back = loop(), back_time(loop())
     session = fed(walk, back)
     saved = session.pack()
@@ -115,7 +115,7 @@ def test_a_packet_of_the_receiver_does_the_same_and_a_saved_session_too() -> Non
     assert fed(walk, 90.0, one, 60.0).position == fed(walk, 90.0, again, 60.0).position
 
 
-def test_before_the_first_stride_a_place_says_nothing_and_impossible_ones_are_errors() -> None:
+def test_before_the_first_stride_a_place_has_no_effect_and_impossible_ones_are_errors() -> None:
     session = Session()
     with pytest.raises(ValueError, match="no samples"):
         session.here()
