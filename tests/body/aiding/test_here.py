@@ -115,6 +115,17 @@ def test_a_packet_of_the_receiver_does_the_same_and_a_saved_session_too() -> Non
     assert fed(walk, 90.0, one, 60.0).position == fed(walk, 90.0, again, 60.0).position
 
 
+@pytest.mark.parametrize("sigma", [1e-30, 1e4])
+def test_a_place_that_is_reported_again_and_again_is_used_each_time(sigma: float) -> None:
+    session = fed(loop(), 40.0)
+    assert session.position is not None
+    place = session.position.position[:2]
+    for _ in range(30):
+        assert isinstance(session.here(place, sigma)[1], TrackRevised)
+    xx, xy, _, yy, _, _ = session.position.covariance
+    assert xx > 0.0 and yy > 0.0 and xx * yy >= xy * xy
+
+
 def test_before_the_first_stride_a_place_has_no_effect_and_impossible_ones_are_errors() -> None:
     session = Session()
     with pytest.raises(ValueError, match="no samples"):

@@ -13,6 +13,8 @@ from .walked_path import WalkedPath
 POSITION_GATE = 11.8
 """Largest squared distance of a reported position from the track, divided by its variance: 99.7 % of right ones (chi
 square, two degrees of freedom)."""
+LEAST_SIGMA = 0.05
+"""Least standard deviation of a report, m: the middle between two feet is known no better."""
 Pair = tuple[float, float]
 """A position or a displacement in the horizontal plane, m."""
 
@@ -26,19 +28,20 @@ def use_position(
     z' S^-1 z < POSITION_GATE, where S is the covariance of the position (position_covariance.py) with that of the
     report. A report also corrects the heading, the drift and the bias, in so far as they have moved the wearer."""
     x, y = event.position or (0.0, 0.0)
-    zx, zy, r, p = x - was[0], y - was[1], event.sigma * event.sigma, error.covariance
+    sigma = max(event.sigma, LEAST_SIGMA)
+    zx, zy, r, p = x - was[0], y - was[1], sigma * sigma, error.covariance
     xx, xy, yy = position_covariance(error, was)
     sx, sy = xx + r, yy + r
     determinant = sx * sy - xy * xy
     square = (zx * zx * sy - 2.0 * zx * zy * xy + zy * zy * sx) / determinant
     distance = sqrt(zx * zx + zy * zy)
     if square > POSITION_GATE:
-        sigma = distance / sqrt(square)
+        off = distance / sqrt(square)
         what = (
-            f"this is {distance:.0f} m from where the track is, which is known to {sigma:.0f} m there: the track stays "
+            f"this is {distance:.0f} m from where the track is, which is known to {off:.0f} m there: the track stays "
             "as it is. If the place is right, the track is wrong; start a new session there"
         )
-        return PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=sigma, what=what)
+        return PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=off, what=what)
     # what the linear covariance lacks, because of large headings and of lengths, counts as an error of the report
     more_x, more_y = max(0.0, xx - p[X][X]), max(0.0, yy - p[Y][Y])
     first = error.correct(list(p[X]), zx, p[X][X] + more_x + r, 1.0)
