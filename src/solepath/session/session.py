@@ -111,7 +111,8 @@ class Session:
     def here(self, position: tuple[float, float] | None = None, sigma: float = 1.0) -> list[Event]:
         """Report that the wearer is now at x, y in the world frame, m (None: at the start), each with this `sigma`, m.
 
-        Returns PositionReported, and TrackRevised or PositionRejected. Raises ValueError for impossible numbers."""
+        Returns PositionReported and, with the recipe `default` after a first stride, TrackRevised or PositionRejected.
+        Raises ValueError for impossible numbers."""
         from ..wire.receiver import PositionFrame, build_position, parse_position
 
         state = self._state

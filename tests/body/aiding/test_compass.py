@@ -11,10 +11,11 @@ from strides import stride
 
 from solepath.body.aiding.compass import SIZE, Compass
 from solepath.body.aiding.disturbance import Disturbance
-from solepath.body.aiding.stance_field import StanceFlux
+from solepath.body.aiding.stance_field import StanceField
 from solepath.body.fuse.common_error import FEET, HEADING, CommonError
 from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.types import Foot
+from solepath.types.vector import IDENTITY, from_yaw
 
 STEP, STRIDE_TIME = 0.7, 1.1
 """Advance of the body from the stride of one foot to that of the other, m, and duration of a stride, s."""
@@ -40,9 +41,10 @@ class Walked:
     def __init__(
         self, heading: Heading, length: float, disturbance: float = 20.0, drift: float = 0.002, seed: int = 1,
         fault: Fault | None = None, compass: bool = True,
+        lengths: tuple[float, float] = (1.5, 15.0),
     ) -> None:  # fmt: skip
         rng = np.random.default_rng(seed)
-        field = MagneticField(radians(disturbance), seed)
+        field = MagneticField(radians(disturbance), seed, lengths=lengths)
         self.error, self.compass, self.faults, self.most_moved = CommonError(), Compass(), list[str](), 0.0
         self.iron = rng.normal(0.0, 8.0, (2, 3))
         for row in FEET:  # the bias is known
@@ -60,8 +62,8 @@ class Walked:
                 measured = turned(b, -true_yaw) + self.iron[foot] + rng.normal(0.0, 0.3, 3)
                 if fault is not None:
                     measured = fault(measured, foot, s)
-                x, y, z = turned(measured, true_yaw - self.off)
-                self.compass.feet[foot] = Ready(StanceFlux((float(x), float(y), float(z)), true_yaw - self.off))
+                yaw = true_yaw - self.off
+                self.compass.feet[foot] = stance(turned(measured, yaw), yaw)
                 (_, _, yaw), sentence = self.compass.add_stride(event, foot, 0.0, self.error)
                 self.compass.turned(yaw)
                 self.off -= yaw
@@ -77,15 +79,12 @@ class Walked:
         self.degrees = abs(degrees(self.off))
 
 
-class Ready:
-    """The stance of a foot, as `StanceField` returns it."""
-
-    def __init__(self, stance: StanceFlux) -> None:
-        self.stance: StanceFlux | None = stance
-
-    def take(self) -> StanceFlux | None:
-        stance, self.stance = self.stance, None
-        return stance
+def stance(flux: np.ndarray, yaw: float) -> StanceField:
+    """Return the field of a foot that stood level, turned by `yaw`, rad, and measured `flux`, uT, world frame."""
+    x, y, z = flux.tolist()
+    one = StanceField()
+    one.count, one.sum, one.attitude, one.first = 1, (x, y, z), from_yaw(yaw), IDENTITY
+    return one
 
 
 def turned(vector: np.ndarray, yaw: float) -> np.ndarray:
@@ -110,6 +109,21 @@ def test_a_way_that_turns_keeps_its_heading_by_the_compass_and_the_filter_is_as_
     assert not any(walked.faults for walked in with_compass)
     squares = [radians(w.degrees) ** 2 / w.error.covariance[HEADING][HEADING] for w in with_compass]
     assert 0.2 < np.mean(squares) < 2.5
+
+
+@pytest.mark.parametrize("lengths", [(0.7, 6.0), (3.0, 30.0)], ids=["a shorter disturbance", "a longer one"])
+def test_a_building_whose_disturbance_has_other_lengths_than_expected_shows_the_heading_too(
+    lengths: tuple[float, float],
+) -> None:
+    walks = [Walked(turning, 1500.0, seed=seed, lengths=lengths) for seed in SEEDS]
+    assert rms(walks) < 0.2 * Walked(turning, 1500.0, compass=False).degrees
+    assert not any(walked.faults for walked in walks)
+
+
+def test_without_any_disturbance_nothing_is_strange_and_no_iron_has_changed() -> None:
+    walks = [Walked(turning, 3000.0, 0.0, seed=seed) for seed in SEEDS]
+    assert rms(walks) < 3.0
+    assert not any(walked.faults for walked in walks)
 
 
 def test_the_iron_of_each_shoe_is_learnt() -> None:
@@ -184,8 +198,7 @@ def test_an_unseen_turn_is_found_by_the_compass() -> None:
         b = turned(1e6 * field.at(np.zeros((1, 2)))[0], off) + turned(
             np.array([*walked.error.aids[4 + 2 * foot : 6 + 2 * foot], 0.0]), 0.3
         )
-        x, y, z = b.tolist()
-        walked.compass.feet[foot] = Ready(StanceFlux((x, y, z), 0.3))
+        walked.compass.feet[foot] = stance(b, 0.3)
         walked.error.start_stride(foot, False)
         (_, _, yaw), _ = walked.compass.add_stride(
             stride((Foot.LEFT, Foot.RIGHT)[foot], 2000.0 + k), foot, 0.0, walked.error

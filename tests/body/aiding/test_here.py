@@ -50,8 +50,12 @@ def test_a_return_corrects_place_and_heading_and_the_strides_after_it() -> None:
     before = error(walk, plain)
     assert corrected.position is not None
     sigma = corrected.position.heading_sigma
+    was = corrected.position.position
     _, revised = corrected.here(middle(walk, back), sigma=0.3)
     assert isinstance(revised, TrackRevised)
+    assert corrected.position is not None
+    moved = [after - before for after, before in zip(corrected.position.position[:2], was[:2], strict=True)]
+    assert revised.by == pytest.approx(moved)
     assert before > 1.0 and error(walk, corrected) < 0.3 * before
     assert corrected.position is not None and corrected.position.heading_sigma is not None and sigma is not None
     assert corrected.position.heading_sigma < 0.7 * sigma

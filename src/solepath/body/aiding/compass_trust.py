@@ -24,7 +24,7 @@ OUTLIERS = 0.2
 LEAST_TURN = 0.8
 """Least turn of a foot that is evaluated, rad: theta of 46 degrees."""
 PROOF, DISPROOF, MOST = 6.0, -9.0, 12.0
-"""Log-likelihood ratios that prove a compass (400 to 1) and that disprove it (1 to 8000), and the largest size."""
+"""Log-likelihood ratios that prove a compass (400 to 1: four turns) or disprove it (1 to 8000), and the largest."""
 LEAST_FLUX, MOST_FLUX = 12.0, 200.0
 """Range of the flux density near floors, uT: the field of the earth has 22 to 67 (IGRF), which steel weakens or adds
 to."""

@@ -17,6 +17,8 @@ FIRST_STANCES = 20
 """Number of stances before the first that is averaged, because the field and the iron are not known yet."""
 VERTICAL_MEMORY = 50
 """Number of stances over which the vertical field of a foot is averaged."""
+LEAST = 0.1
+"""Least square of a residual that is averaged, uT^2: the noise of a magnetometer, 0.3 uT (MAG3110)."""
 LARGEST = 9.0
 """Largest square of a residual that is averaged, as a multiple of the variance: three standard deviations."""
 USUAL_SHARE = 0.1
@@ -59,6 +61,7 @@ class Disturbance:
         square = 0.25 * (x * x + y * y + z * z)  # of two parts of four in the horizontal axes, and two in the vertical
         self.count += 1
         if self.count > FIRST_STANCES:
+            square = max(square, LEAST)
             self.usual += (min(square, LARGEST * self.usual) - self.usual) / USUAL_MEMORY
             self.near[foot] += (square - self.near[foot]) / NEAR_MEMORY
         return min(1.0, (TAIL + 4.0) / (TAIL + 4.0 * square / self.here))
@@ -67,7 +70,7 @@ class Disturbance:
         """Return whether something magnetic came to foot 0 (left) or 1, or left it: the other foot sees nothing."""
         return self.near[foot] > CHANGED * max(self.usual, self.near[1 - foot])
 
-    def is_strange(self, field: tuple[float, float]) -> bool:
-        """Return whether this place is too disturbed for a heading; `field` is the horizontal field, uT."""
-        x, y = field
+    def is_strange(self, horizontal: tuple[float, float]) -> bool:
+        """Return whether this place is too disturbed for a heading; `horizontal` is the horizontal field, uT."""
+        x, y = horizontal
         return self.here > min(STRANGE * self.usual, MOST_OF_FIELD * MOST_OF_FIELD * (x * x + y * y))

@@ -20,14 +20,18 @@ Pair = tuple[float, float]
 
 
 def use_position(
-    event: PositionReported, was: Pair, error: CommonError, path: WalkedPath, move_both: Callable[[Move], None]
+    event: PositionReported,
+    place: Callable[[], Pair],
+    error: CommonError,
+    path: WalkedPath,
+    move_both: Callable[[Move], None],
 ) -> TrackRevised | PositionRejected:
     """Correct both tracks with `move_both` by a reported position, and revise the path; or reject the position.
 
-    `was` is where the wearer is now according to the track, m, common frame. The innovation gate is
+    `place` returns where the wearer is according to the track, m, common frame. The innovation gate is
     z' S^-1 z < POSITION_GATE, where S is the covariance of the position (position_covariance.py) with that of the
     report. A report also corrects the heading, the drift and the bias, in so far as they have moved the wearer."""
-    x, y = event.position or (0.0, 0.0)
+    (x, y), was = event.position or (0.0, 0.0), place()
     sigma = max(event.sigma, LEAST_SIGMA)
     zx, zy, r, p = x - was[0], y - was[1], sigma * sigma, error.covariance
     xx, xy, yy = position_covariance(error, was)
@@ -38,7 +42,7 @@ def use_position(
     if square > POSITION_GATE:
         off = distance / sqrt(square)
         what = (
-            f"this is {distance:.0f} m from where the track is, which is known to {off:.0f} m there: the track stays "
+            f"this is {distance:.0f} m from where the track is, which is known to {off:.1f} m there: the track stays "
             "as it is. If the place is right, the track is wrong; start a new session there"
         )
         return PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=off, what=what)
@@ -46,9 +50,9 @@ def use_position(
     more_x, more_y = max(0.0, xx - p[X][X]), max(0.0, yy - p[Y][Y])
     first = error.correct(list(p[X]), zx, p[X][X] + more_x + r, 1.0)
     move_both(first)
-    second = error.correct(list(p[Y]), zy - first[Y], p[Y][Y] + more_y + r, 1.0)
+    second = error.correct(list(p[Y]), y - place()[1], p[Y][Y] + more_y + r, 1.0)
     move_both(second)
-    turn = first[HEADING] + second[HEADING]
-    by = (first[X] + second[X], first[Y] + second[Y])
-    nodes = path.revise(event.t, was, (was[0] + by[0], was[1] + by[1]), turn)
+    turn, now = first[HEADING] + second[HEADING], place()
+    by = (now[0] - was[0], now[1] - was[1])
+    nodes = path.revise(event.t, was, now, turn)
     return TrackRevised(t=event.t, known_at=event.known_at, by=by, turn=turn, nodes=nodes)

@@ -22,8 +22,8 @@ class WalkedPath:
     """Least distance from a node to the next one, m."""
     walked: float = field(default=0.0, init=False)
     """Distance walked since the newest node, m."""
-    known: float | None = field(default=None, init=False)
-    """Time of the newest position that was reported, s, up to which the path stays as it is; None before any."""
+    settled: int = field(default=0, init=False)
+    """Number of the node of the newest position that was reported, up to which the path stays; 0 before any."""
 
     def add_stride(self, t: float, position: tuple[float, float], length: float) -> None:
         """Add the wearer's position after a stride that moved the wearer by `length`, m."""
@@ -33,8 +33,8 @@ class WalkedPath:
         self.nodes.append(TrackNode(t, *position))
         self.walked = 0.0
         if len(self.nodes) > MOST_NODES:
-            known = self.known
-            self.nodes = [node for k, node in enumerate(self.nodes) if k % 2 == 0 or node.t == known]
+            kept = [k for k in range(len(self.nodes)) if k % 2 == 0 or k == self.settled]
+            self.nodes, self.settled = [self.nodes[k] for k in kept], kept.index(self.settled)
             self.spacing *= 2.0
 
     def revise(
@@ -45,10 +45,7 @@ class WalkedPath:
         The heading there was corrected by `turn`, rad. An error of the heading grows with the distance walked, so the
         path is bent more and more; what is left of the correction is distributed along it. Returns the revised nodes,
         the last of which is the one at `t`, s."""
-        first = next(
-            (k for k, node in enumerate(self.nodes) if self.known is None or node.t >= self.known), len(self.nodes)
-        )
-        old = [*self.nodes[first:], TrackNode(t, *was)]
+        old = [*self.nodes[self.settled :], TrackNode(t, *was)]
         pieces = [(b.x - a.x, b.y - a.y) for a, b in zip(old, old[1:], strict=False)]
         lengths = [hypot(*piece) for piece in pieces]
         whole, so_far = max(fsum(lengths), 1e-9), 0.0
@@ -66,6 +63,6 @@ class WalkedPath:
             TrackNode(node.t, px + share * left_x, py + share * left_y)
             for node, (px, py), share in zip(old, bent, shares, strict=True)
         ]
-        self.nodes[first:] = revised
-        self.known, self.walked = t, 0.0
+        self.nodes[self.settled :] = revised
+        self.settled, self.walked = len(self.nodes) - 1, 0.0
         return tuple(revised)

@@ -16,6 +16,7 @@ its signal and returns is treated as in `MeanOfFeet`."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from math import atan2, cos, hypot, sin
 
 from ...calibration import Calibration
@@ -127,7 +128,7 @@ class BothFeet(MeanOfFeet):
         if isinstance(event, DefectFound):
             self.evidence.straight_ways.add_defect(event)
         elif isinstance(event, PositionReported) and self.common.started:
-            place = self.middle(self.common.shares)
+            place = partial(self.middle, self.common.shares)
             return self.evidence.use_position(event, place, self.common, self._move_both)
         return ()
 

@@ -1,6 +1,6 @@
 """Evidence of the errors that both tracks share: rests, straight ways, ground that moves, and outside help.
 
-Outside help (body/aiding) is loaded when a session first has it."""
+The compass, and what uses a reported position, are loaded when a session first has them (body/aiding)."""
 
 from __future__ import annotations
 
@@ -29,7 +29,9 @@ SPACING = 0.05
 
 
 class Aid(Protocol):
-    """Outside help that has rows of its own in the filter of the common errors."""
+    """Outside help that has rows of its own in the filter of the common errors.
+
+    It is a protocol, so that its class (`recipes.AIDS`) is loaded only when it is needed."""
 
     def add_sample(self, foot: int, view: FootView, mag: Vec3) -> None:
         """Add a sample of foot 0 (left) or 1, which stands, with the flux density `mag`, T, sensor frame."""
@@ -110,11 +112,11 @@ class SharedEvidence:
         return move
 
     def use_position(
-        self, event: PositionReported, place: Pair, error: CommonError, move_both: Callable[[Move], None]
+        self, event: PositionReported, place: Callable[[], Pair], error: CommonError, move_both: Callable[[Move], None]
     ) -> list[TrackRevised | PositionRejected]:
         """Correct both tracks with `move_both` by a reported position, or reject it.
 
-        `place` is where the wearer is according to the track, m, common frame."""
+        `place` returns where the wearer is according to the track, m, common frame."""
         from ..aiding.reported_position import use_position
 
         return [use_position(event, place, error, self.path, move_both)]

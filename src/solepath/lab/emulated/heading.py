@@ -63,8 +63,8 @@ LENGTHS: dict[str, IsComplete] = {"500m": is_500_m, "30min": is_half_hour}
 
 
 @frozen
-class Aids:
-    """The help that a session has besides two insoles."""
+class Equipment:
+    """The help that a wearer has besides two insoles."""
 
     name: str = ""
     """Words for the head of a table."""
@@ -74,14 +74,14 @@ class Aids:
     """Disturbance of the field that a magnetometer in each insole measures, rad (magnetic_field.py); None without."""
 
 
-AIDS: dict[str, Aids] = {
-    "": Aids(),
-    "_calibrated": Aids(", calibration walk", True),
-    "_compass20": Aids(", compass disturbed by 20 degrees", False, radians(20.0)),
-    "_compass30": Aids(", compass disturbed by 30 degrees", False, radians(30.0)),
-    "_calibrated_compass20": Aids(", calibration walk, compass disturbed by 20 degrees", True, radians(20.0)),
+EQUIPMENT: dict[str, Equipment] = {
+    "": Equipment(),
+    "_calibrated": Equipment(", calibration walk", True),
+    "_compass20": Equipment(", compass disturbed by 20 degrees", False, radians(20.0)),
+    "_compass30": Equipment(", compass disturbed by 30 degrees", False, radians(30.0)),
+    "_calibrated_compass20": Equipment(", calibration walk, compass disturbed by 20 degrees", True, radians(20.0)),
 }
-"""Help of a session by the end of the name of a data set."""
+"""Equipment of a wearer by the end of the name of a data set."""
 
 
 @define
@@ -140,18 +140,18 @@ def _placement(session: Session, foot: Foot) -> float:
 
 
 def score_heading(
-    kind: str, is_complete: IsComplete, aids: Aids, path: Path, meta: Meta, settings: RunSettings
+    kind: str, is_complete: IsComplete, equipment: Equipment, path: Path, meta: Meta, settings: RunSettings
 ) -> Scored:
-    """Score a walk of a kind of routes and of the seed in the entry `meta`, with this help."""
+    """Score a walk of a kind of routes and of the seed in the entry `meta`, with this equipment."""
     seed: int = meta["seed"]
     insoles, magnetic_field = insoles_of(seed), UNDISTURBED
     route = heading_route(kind, seed, is_complete)
-    if aids.disturbance is not None:
+    if equipment.disturbance is not None:
         insoles = {site: evolve(insole, mag=AK8963) for site, insole in insoles.items()}
-        magnetic_field = MagneticField(aids.disturbance, seed)
+        magnetic_field = MagneticField(equipment.disturbance, seed)
     walk = sampled(route, wearer=wearer_of(seed), insoles=insoles, seed=seed, field=magnetic_field)
     calibration = settings.calibration
-    if aids.calibrated:
+    if equipment.calibrated:
         calibration = merged(calibration, heading_calibration(heading_walk(calibration_samples(seed))))
     session = Session(settings.recipe, calibration=calibration)
     track = follow(session, walk)

@@ -12,7 +12,7 @@ from pathlib import Path
 from attrs import frozen
 
 from ...recipes import Recipe
-from ..emulated.heading import AIDS, CHECKED_TIMES, LENGTHS, score_heading
+from ..emulated.heading import CHECKED_TIMES, EQUIPMENT, LENGTHS, score_heading
 from ..emulated.heading_walks import KINDS, WITH_COMPASS
 from ..emulated.walks import score_floors
 from ..measures.confusion import CLASSES
@@ -170,13 +170,14 @@ HEADING_FIGURES = (
 EMULATED = (
     *(
         DataSet(
-            f"emulated_{kind}_{length}{suffix}", f"{kind.replace('_', ' ')}, {length}, insoles on both feet{aids.name}",
-            partial(score_heading, kind, is_complete, aids), HEADING_FIGURES, has_pressure=True,
+            f"emulated_{kind}_{length}{suffix}",
+            f"{kind.replace('_', ' ')}, {length}, insoles on both feet{equipment.name}",
+            partial(score_heading, kind, is_complete, equipment), HEADING_FIGURES, has_pressure=True,
         )
         for length, is_complete in LENGTHS.items()
         for kind in KINDS
-        for suffix, aids in AIDS.items()
-        if aids.disturbance is None or kind in WITH_COMPASS
+        for suffix, equipment in EQUIPMENT.items()
+        if equipment.disturbance is None or kind in WITH_COMPASS
     ),
     DataSet(
         "emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_floors,
