@@ -163,12 +163,16 @@ class StreamRestarted(Happening):
 class PositionReported(Happening):
     """A person has reported where the wearer is at `t`; what the track makes of it follows at once.
 
-    That is TrackRevised, or PositionRejected."""
+    That is TrackRevised or PositionRejected; nothing follows if a named place is noted for the first time."""
 
     site: Site
     """Any site of the session."""
     position: tuple[float, float] | None
-    """Position, x and y in the world frame, m; None where the walk started."""
+    """Position, x and y, m; None at a named place, or where the walk started."""
+    place: str = ""
+    """Name of the place, which has the same position whenever it is reported; "" without one."""
+    level: str = ""
+    """Level of the floor plan, whose frame `position` is in; "" if it is in the world frame."""
     sigma: float
     """Standard deviation of the position on each axis, m."""
 

@@ -12,10 +12,10 @@ from ..events import (
     Rejection,
     StreamRestarted,
 )
-from ..types import Packet
+from ..types import Packet, Site
 from ..wire.error import WireError
 from ..wire.fields import parse_text
-from ..wire.receiver import parse_connected, parse_dropped, parse_nothing, parse_position
+from ..wire.receiver import PositionFrame, parse_connected, parse_dropped, parse_nothing, parse_position
 
 
 def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
@@ -42,8 +42,14 @@ def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
         case "receiver/restarted":
             return [StreamRestarted(t=t, known_at=t, site=site, channel=parse_text(packet.data))]
         case "receiver/position":
-            frame = parse_position(packet.data)
-            return [PositionReported(t=t, known_at=t, site=site, position=frame.position, sigma=frame.sigma)]
+            return [reported_position(parse_position(packet.data), t, site)]
         case "receiver/trouble":
             return [LinkTrouble(t=t, known_at=t, site=site, what=parse_text(packet.data))]
     raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
+
+
+def reported_position(frame: PositionFrame, t: float, site: Site) -> PositionReported:
+    """Return the event of a position that a person reports at `t`, s."""
+    return PositionReported(
+        t=t, known_at=t, site=site, position=frame.position, place=frame.place, level=frame.level, sigma=frame.sigma
+    )

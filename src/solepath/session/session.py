@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..body.gait.means import GaitParameters
 from ..body.part import Position
 from ..calibration import Calibration
-from ..events import Event, Placed, PositionReported
+from ..events import Event, Placed
 from ..foot.phase import SUPPORT
 from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder, is_address
@@ -108,21 +108,23 @@ class Session:
         """Continue on a clock that restarted or was set, and is now at `now`, s; return a ClockReset of each site."""
         return [] if self._state.finished else self._state.restart_clock(check_now(now))
 
-    def here(self, position: tuple[float, float] | None = None, sigma: float = 1.0) -> list[Event]:
-        """Report that the wearer is now at x, y in the world frame, m (None: at the start), each with this `sigma`, m.
+    def here(
+        self, where: tuple[float, float] | str | None = None, sigma: float = 1.0, *, level: str = ""
+    ) -> list[Event]:
+        """Report where the wearer is, to `sigma`, m: x and y, m, the name of a place, or None for the start.
 
-        Returns PositionReported and, with the recipe `default` after a first stride, TrackRevised or PositionRejected.
-        Raises ValueError for impossible numbers."""
+        With a `level`, x and y are in the plan's frame. Returns PositionReported and what follows. Raises ValueError
+        for impossible values."""
+        from ..link.receiver import reported_position
         from ..wire.receiver import PositionFrame, build_position, parse_position
 
         state = self._state
-        if state.now is None or state.finished:
-            raise ValueError("the session has no samples yet, or is finished")
-        frame = parse_position(build_position(PositionFrame(position, sigma)))
+        if state.now is None or state.finished or where == "":
+            raise ValueError("a place needs a name, and a session that has samples and is not finished")
+        position, place = (None, where) if isinstance(where, str) else (where, "")
+        frame = parse_position(build_position(PositionFrame(position, sigma, place, level)))
         site = SITE_OF_FOOT[next(iter(state.wearer.feet), Foot.LEFT)]
-        now = state.now
-        event = PositionReported(t=now, known_at=now, site=site, position=frame.position, sigma=frame.sigma)
-        return state.wearer.receive(site, event)
+        return state.wearer.receive(site, reported_position(frame, state.now, site))
 
     def finish(self) -> list[Event]:
         """Return the events that were held back; the session can still be read, but not fed."""

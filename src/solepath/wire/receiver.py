@@ -4,12 +4,12 @@ The values of receiver/restarted (the name of a channel) and receiver/trouble (a
 
 from __future__ import annotations
 
-from construct import Float32l, Float64l, Int8sl, Int32ul, Struct, Terminated
+from construct import Float32l, Float64l, Int8sl, Int8ul, Int32ul, Struct, Terminated
 
 from ..events import Rejection
 from ..types.attrs import frozen
 from .error import WireError
-from .fields import build_whole, malformed, parse_whole
+from .fields import build_whole, malformed, parse_text, parse_whole
 
 UNKNOWN_SIGNAL = 127
 """Signal strength that means unknown, as in the Bluetooth HCI; no receiver measures 127 dBm."""
@@ -18,10 +18,13 @@ MAX_NAME_SIZE = 248
 
 _SIGNAL = Struct("signal" / Int8sl)
 _COUNT = Struct("count" / Int32ul, Terminated)
-_SIGMA = Struct("sigma" / Float32l)
-_POSITION = Struct("x" / Float64l, "y" / Float64l, Terminated)
+_SIGMA = Struct("sigma" / Float32l, "kind" / Int8ul)
+_POSITION = Struct("x" / Float64l, "y" / Float64l)
+_START, _WORLD, _PLAN, _PLACE = range(4)
 MAX_COORDINATE, MAX_SIGMA = 1e6, 1e4
 """Largest size of a coordinate and largest standard deviation of a position that a person reports, m."""
+MAX_PLACE_SIZE = 64
+"""Largest size of the name of a place or a level, bytes."""
 
 
 @frozen
@@ -73,34 +76,61 @@ def build_dropped(count: int) -> bytes:
 
 @frozen
 class PositionFrame:
-    """A position that a person has reported: x and y in the world frame, m (None: where the walk started)."""
+    """The position that a person reports: x and y, the place of a name, or where the walk started."""
 
     position: tuple[float, float] | None
+    """Coordinates x and y, m; None at a named place, or where the walk started."""
     sigma: float
     """Standard deviation of the position on each axis, m."""
+    place: str = ""
+    """Name of the place; "" without one."""
+    level: str = ""
+    """Level of the floor plan, whose frame `position` is in; "" for the world frame."""
 
 
 def parse_position(data: bytes) -> PositionFrame:
     """Return the content of receiver/position; WireError when the bytes do not fit."""
     data = bytes(data)
-    sigma: float = parse_whole(_SIGMA, data[:4]).sigma
-    position = None
-    if len(data) > 4:
-        parsed = parse_whole(_POSITION, data[4:])
-        position = (parsed.x, parsed.y)
-    if not 0.0 < sigma <= MAX_SIGMA or not all([abs(value) <= MAX_COORDINATE for value in position or ()]):
-        raise malformed(f"a position {position} m with a standard deviation of {sigma} m")
-    return PositionFrame(position, sigma)
+    head, rest = parse_whole(_SIGMA, data[:5]), data[5:]
+    sigma: float = head.sigma
+    position: tuple[float, float] | None = None
+    place = level = ""
+    if head.kind in (_WORLD, _PLAN):
+        parsed = parse_whole(_POSITION, rest[:16])
+        position, rest = (parsed.x, parsed.y), rest[16:]
+        if not all([abs(value) <= MAX_COORDINATE for value in position]):
+            raise malformed(f"a position {position} m")
+    elif head.kind not in (_START, _PLACE):
+        raise malformed(f"a position of kind {head.kind}")
+    if head.kind == _PLAN:
+        level, rest = _parse_name(rest), b""
+    elif head.kind == _PLACE:
+        place, rest = _parse_name(rest), b""
+    parse_nothing(rest)
+    if not 0.0 < sigma <= MAX_SIGMA:
+        raise malformed(f"a position with a standard deviation of {sigma} m")
+    return PositionFrame(position, sigma, place, level)
+
+
+def _parse_name(data: bytes) -> str:
+    if len(data) > MAX_PLACE_SIZE:
+        raise WireError(Rejection.OVERSIZED, f"a name of {len(data)} bytes, at most {MAX_PLACE_SIZE}")
+    return parse_text(data)
 
 
 def build_position(frame: PositionFrame) -> bytes:
-    """Return the bytes of a reported position; ValueError when its numbers are not possible."""
-    data = build_whole(_SIGMA, {"sigma": frame.sigma})
-    if frame.position is not None:
-        x, y = frame.position
-        data += build_whole(_POSITION, {"x": x, "y": y})
+    """Return the bytes of a reported position; ValueError when its values are not possible."""
+    kind, data = _START, b""
+    if frame.place:
+        kind, data = _PLACE, frame.place.encode("utf-8")
+    elif frame.position is not None:
+        (x, y), level = frame.position, frame.level.encode("utf-8")
+        kind, data = _PLAN if level else _WORLD, build_whole(_POSITION, {"x": x, "y": y}) + level
+    data = build_whole(_SIGMA, {"sigma": frame.sigma, "kind": kind}) + data
     try:
-        parse_position(data)
+        parsed = parse_position(data)
+        if (parsed.position, parsed.place, parsed.level) != (frame.position, frame.place, frame.level):
+            raise malformed("a position has x and y, or the name of a place, and only x and y have a level")
     except WireError as error:
         raise ValueError(str(error)) from error
     return data

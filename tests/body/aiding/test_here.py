@@ -143,7 +143,7 @@ def test_a_place_that_is_reported_again_and_again_is_used_each_time(sigma: float
 
 def test_before_the_first_stride_a_place_has_no_effect_and_impossible_ones_are_errors() -> None:
     session = Session()
-    with pytest.raises(ValueError, match="no samples"):
+    with pytest.raises(ValueError, match="has samples"):
         session.here()
     fed(loop(), 1.0, session)
     assert [type(event) for event in session.here()] == [PositionReported]
