@@ -10,6 +10,7 @@ import pytest
 
 from solepath import Packet, Session, Site, recipes
 from solepath.body.aiding.walked_path import MOST_NODES, WalkedPath
+from solepath.body.fuse.common_error import CommonError
 from solepath.emulate import Route, sampled
 from solepath.emulate.walk import SampledWalk
 from solepath.events import PositionRejected, PositionReported, StrideTaken, TrackNode, TrackRevised
@@ -110,12 +111,12 @@ def test_the_path_so_far_is_revised_towards_the_truth() -> None:
 def test_a_place_that_is_20_m_off_is_rejected_with_a_reason_and_changes_nothing(angle: float) -> None:
     walk, back = loop(), back_time(loop())
     session = session_back()
-    saved = session.pack()
+    saved = session.position
     x, y = middle(walk, back)
     reported, rejected = session.here((x + 20.0 * np.cos(angle), y + 20.0 * np.sin(angle)), sigma=0.5)
     assert isinstance(reported, PositionReported) and isinstance(rejected, PositionRejected)
     assert 12.0 < rejected.distance < 28.0 and "the track stays as it is" in rejected.what
-    assert session.pack() == saved
+    assert session.position == saved
 
 
 def test_a_packet_of_the_receiver_does_the_same_and_a_saved_session_too() -> None:
@@ -162,9 +163,86 @@ def test_a_path_keeps_few_nodes_however_long_it_is_and_ends_where_it_was_correct
     for k in range(20_000):
         path.add_stride(float(k), (0.7 * k, 0.0), 0.7)
     assert 20 <= len(path.nodes) <= MOST_NODES
-    nodes = path.revise(20_000.0, (14_000.0, 0.0), (14_000.0, 500.0), 0.05)
+    error = CommonError()
+    nodes = path.revise(20_000.0, (14_000.0, 0.0), (14_000.0, 500.0), 0.05, error, True)
     assert nodes[-1] == TrackNode(20_000.0, 14_000.0, 500.0) and nodes[0].y == 0.0
     assert all(0.0 <= node.y <= 520.0 for node in nodes)
     path.add_stride(20_001.0, (14_001.0, 500.0), 400.0)
-    later = path.revise(20_002.0, (14_002.0, 500.0), (14_002.0, 501.0), 0.0)
+    later = path.revise(20_002.0, (14_002.0, 500.0), (14_002.0, 501.0), 0.0, error, True)
     assert later[0] == nodes[-1], "what a report has settled stays"
+
+
+@cache
+def passing_times() -> tuple[float, float]:
+    """Return when the wearer of the loop is 10 m from the start, and when they pass the same place again, s."""
+    walk = loop()
+    first = next(t for t in np.arange(0.0, 30.0, 0.05) if middle(walk, float(t))[0] > 10.0)
+    x, y = middle(walk, float(first))
+    times = np.arange(first + 60.0, walk.truth.duration, 0.05)
+    again = min(times, key=lambda t: hypot(middle(walk, float(t))[0] - x, middle(walk, float(t))[1] - y))
+    return float(first), float(again)
+
+
+def test_a_place_with_a_name_is_noted_and_corrects_the_track_when_the_wearer_is_there_again() -> None:
+    walk, (first, again) = loop(), passing_times()
+    session, plain = fed(walk, first), fed(walk, again)
+    assert [type(event) for event in session.here("the old gate", 0.2)] == [PositionReported]
+    session = Session.unpack(fed(walk, again, session, first).pack())
+    gap = hypot(*np.subtract(middle(walk, first), middle(walk, again)))
+    assert gap < 0.3, "the wearer passes the same place"
+    reported, revised = session.here("the old gate", 0.3)
+    assert isinstance(reported, PositionReported) and reported.place == "the old gate"
+    assert isinstance(revised, TrackRevised) and error(walk, session) < 0.4 * error(walk, plain)
+    end = walk.truth.duration
+    fed(walk, end, session, again)
+    fed(walk, end, plain, again)
+    assert error(walk, session) < 0.6 * error(walk, plain)
+
+
+def test_a_named_place_where_the_wearer_cannot_be_is_rejected_by_its_name() -> None:
+    walk, (first, _) = loop(), passing_times()
+    session = fed(walk, first)
+    session.here("gate", 0.2)
+    fed(walk, first + 25.0, session, first)
+    rejected = session.here("gate", 0.2)[1]
+    assert isinstance(rejected, PositionRejected) and "where gate was before" in rejected.what
+
+
+def test_places_are_forgotten_in_the_order_of_their_last_visit() -> None:
+    session = fed(loop(), 40.0)
+    assert session.now is not None
+    for name in "abcdefgh":
+        session.here(name)
+    assert len(session.here("a")) == 2, "it is noted"
+    session.here("i")
+    assert len(session.here("a")) == 2 and len(session.here("b")) == 1, "b was visited before all others"
+
+
+def test_two_rejected_places_that_agree_with_the_way_between_them_are_believed() -> None:
+    walk, session = loop(), fed(loop(), 60.0)
+    off = np.array([30.0, -20.0])
+
+    def report(session: Session, t: float, more: tuple[float, float] = (0.0, 0.0)) -> list[object]:
+        x, y = np.array(middle(walk, t)) + off + more
+        return [type(event) for event in session.here((float(x), float(y)), 0.5)]
+
+    assert report(session, 60.0) == [PositionReported, PositionRejected]
+    assert report(session, 60.0) == [PositionReported, PositionRejected], "on the spot it confirms nothing"
+    again = fed(walk, 80.0, Session.unpack(session.pack()), 60.0)
+    assert report(again, 80.0, (-14.0, 25.0)) == [PositionReported, PositionRejected], "another place, no confirmation"
+    fed(walk, 80.0, session, 60.0)
+    assert report(session, 80.0) == [PositionReported, TrackRevised]
+    fed(walk, 100.0, session, 80.0)
+    assert session.position is not None
+    x, y = np.array(middle(walk, 100.0)) + off - session.position.position[:2]
+    assert hypot(x, y) < 3.0
+    assert report(session, 100.0) == [PositionReported, TrackRevised]
+
+
+def test_a_place_without_a_name_or_with_too_long_a_one_is_an_error() -> None:
+    session = fed(loop(), 5.0)
+    for place in ("", "x" * 65):
+        with pytest.raises(ValueError):
+            session.here(place)
+    with pytest.raises(ValueError, match="level"):
+        session.here("gate", level="0")

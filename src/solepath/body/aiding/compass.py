@@ -53,8 +53,8 @@ LONG_STRANGE, MOST_STRANGE = 20, 40
 another one: steel floors end before."""
 Pair = tuple[float, float]
 """A vector in the horizontal plane, or a cosine and a sine."""
-B, D, H = SIZE, SIZE + 2, (SIZE + 4, SIZE + 6)
-"""First rows of b, of d, and of h of the left and of the right foot."""
+B, D, H, ROWS = 0, 2, (4, 6), 8
+"""First rows of b, of d, and of h of the left and of the right foot, from the compass's first row on; their number."""
 
 
 @define
@@ -84,6 +84,8 @@ class Compass:
     """Distance walked since the newest comparison, m."""
     strange: int = field(default=0, init=False)
     """Number of strange blocks in a row."""
+    first: int = field(default=-1, init=False)
+    """First row of the compass among the common errors; -1 before any stance."""
 
     def add_sample(self, foot: int, view: FootView, mag: Vec3) -> None:
         """Add a sample of foot 0 (left) or 1, which stands, with the flux density `mag`, T, sensor frame."""
@@ -108,12 +110,12 @@ class Compass:
 
     def _add_stance(self, foot: int, yaw: float, flux: Vec3, error: CommonError) -> None:
         (x, y, z), c, s = flux, cos(yaw), sin(yaw)
-        if not error.aids:
+        if self.first < 0:
             variances = [FIELD * FIELD] * 2 + [0.5 * self.disturbance.usual] * 2 + [IRON * IRON] * 4
-            error.add_aids((x, y, *[0.0] * 6), variances)
-        iron = H[foot]
+            self.first = error.add_aids((x, y, *[0.0] * 6), variances)
+        iron = self.first + H[foot]
         px, py = _without_iron((x, y), (c, s), iron, error)
-        bx, by = error.aids[0], error.aids[1]
+        bx, by = error.aids[self.first - SIZE : self.first - SIZE + 2]
         kappa = 0.5 * (bx * bx + by * by) / (self.disturbance.usual + error.covariance[iron][iron])
         self.trust.add_direction(foot, atan2(py, px), yaw, kappa)
         zx, zy = px - bx, py - by
@@ -135,39 +137,41 @@ class Compass:
         """Compare the block of a foot with the estimates, and start the next one."""
         block, self.blocks[foot], here = self.blocks[foot], Block(), self.disturbance.here
         self._fade(error)
-        k, iron, distance = 1.0 / block.weight, H[foot], max(block.distance, LEAST_STEP * block.count)
+        k, first, distance = 1.0 / block.weight, self.first, max(block.distance, LEAST_STEP * block.count)
+        iron = first + H[foot]
         mean, yaw = (k * block.flux[0], k * block.flux[1]), (k * block.yaw[0], k * block.yaw[1])
-        is_strange = self.disturbance.is_strange((error.aids[0], error.aids[1]))
+        bx, by = error.aids[first - SIZE : first - SIZE + 2]
+        is_strange = self.disturbance.is_strange((bx, by))
         self.strange = self.strange + 1 if is_strange else 0
         if self.strange == LONG_STRANGE:
             self.trust.note(foot, "strange")
         elif self.strange >= MOST_STRANGE:
             self.strange = 0
-            self._renew(B, _without_iron(mean, yaw, iron, error), FIELD * FIELD, error)
-            self._renew(D, (0.0, 0.0), 0.5 * self.disturbance.usual, error)
+            self._renew(first + B, _without_iron(mean, yaw, iron, error), FIELD * FIELD, error)
+            self._renew(first + D, (0.0, 0.0), 0.5 * self.disturbance.usual, error)
             return NO_MOVE
-        considered = 0 if self.trust.is_proven and not is_strange else SIZE
+        rows = None if self.trust.is_proven and not is_strange else range(first, first + ROWS)
         noise = 0.5 * here * max(1.0, SHORT * block.count / distance) * k
         # along the field
-        (px, py), (vx, vy) = _without_iron(mean, yaw, iron, error), _field(error)
+        (px, py), (vx, vy) = _without_iron(mean, yaw, iron, error), _field(first, error)
         size = max(LEAST_SIZE, hypot(vx, vy))
-        terms = _terms((vx / size, vy / size), yaw, iron)
+        terms = _terms((vx / size, vy / size), yaw, first, iron)
         column = error.column(terms)
-        x, y, heading = error.correct(column, hypot(px, py) - size, noise + error.along(column, terms), 1.0, considered)
+        x, y, heading = error.correct(column, hypot(px, py) - size, noise + error.along(column, terms), 1.0, rows)
         # across it, after the correction along it
-        (px, py), (vx, vy) = _without_iron(mean, yaw, iron, error), _field(error)
+        (px, py), (vx, vy) = _without_iron(mean, yaw, iron, error), _field(first, error)
         size = max(LEAST_SIZE, hypot(vx, vy))
         angle = atan2(vx * py - vy * px, vx * px + vy * py) + heading
-        terms = [*_terms((-vy / size, vx / size), yaw, iron), (HEADING, -size)]
+        terms = [*_terms((-vy / size, vx / size), yaw, first, iron), (HEADING, -size)]
         column = error.column(terms)
-        more = error.correct(column, size * angle, noise + error.along(column, terms), 1.0, considered)
+        more = error.correct(column, size * angle, noise + error.along(column, terms), 1.0, rows)
         return (x + more[0], y + more[1], heading + more[2])
 
     def _fade(self, error: CommonError) -> None:
         """Let d become another disturbance over the distance since the newest comparison."""
         keep, p = exp(-2.0 * self.distance / LONG), error.covariance
         self.distance = 0.0
-        for row in (D, D + 1):
+        for row in (self.first + D, self.first + D + 1):
             for j in range(len(p)):
                 p[row][j] *= keep
                 p[j][row] = p[row][j]
@@ -191,20 +195,20 @@ class Compass:
         """Forget the iron of the shoe of foot 0 (left) or 1, and its stance: another device may be worn."""
         self.feet[foot], self.blocks[foot] = StanceField(), Block()
         self.trust.reset(foot)
-        if error.aids:
-            self._renew(H[foot], (0.0, 0.0), IRON * IRON, error)
+        if self.first >= 0:
+            self._renew(self.first + H[foot], (0.0, 0.0), IRON * IRON, error)
 
 
-def _field(error: CommonError) -> Pair:
-    """Return the estimate of b + d, uT."""
-    bx, by, dx, dy = error.aids[:4]
+def _field(first: int, error: CommonError) -> Pair:
+    """Return the estimate of b + d, uT, of a compass whose rows begin at `first`."""
+    bx, by, dx, dy = error.aids[first - SIZE : first - SIZE + H[0]]
     return (bx + dx, by + dy)
 
 
-def _terms(u: Pair, yaw: Pair, iron: int) -> list[tuple[int, float]]:
+def _terms(u: Pair, yaw: Pair, first: int, iron: int) -> list[tuple[int, float]]:
     """Return how the errors of b, d and h, whose rows begin at `iron`, add to the flux density along a unit vector."""
-    (x, y), (c, s) = u, yaw
-    return [(B, x), (B + 1, y), (D, x), (D + 1, y), (iron, x * c + y * s), (iron + 1, y * c - x * s)]
+    (x, y), (c, s), b, d = u, yaw, first + B, first + D
+    return [(b, x), (b + 1, y), (d, x), (d + 1, y), (iron, x * c + y * s), (iron + 1, y * c - x * s)]
 
 
 def _without_iron(flux: Pair, yaw: Pair, iron: int, error: CommonError) -> Pair:

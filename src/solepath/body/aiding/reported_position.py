@@ -3,56 +3,139 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import sqrt
+from math import hypot, sqrt
 
 from ...events import PositionRejected, PositionReported, TrackRevised
-from ..fuse.common_error import HEADING, CommonError, Move, X, Y
+from ...types.attrs import frozen
+from ..fuse.common_error import HEADING, CommonError, Move, X
 from ..fuse.position_covariance import position_covariance
 from .walked_path import WalkedPath
 
 POSITION_GATE = 11.8
 """Largest squared distance of a reported position from the track, divided by its variance: 99.7 % of right ones (chi
 square, two degrees of freedom)."""
+AGREEMENT_GATE, LEAST_WAY = 6.0, 10.0
+"""The same for the way from a rejected position to the next one, if both are believed: 95 % of right ones. And the
+least length of that way, m: a report that is repeated on the spot confirms nothing."""
 LEAST_SIGMA = 0.05
 """Least standard deviation of a report, m: the middle between two feet is known no better."""
+REJECTED = ""
+"""Name of the place where the newest rejected position was reported; no other place has an empty name."""
 Pair = tuple[float, float]
 """A position or a displacement in the horizontal plane, m."""
 
 
-def use_position(
-    event: PositionReported,
-    place: Callable[[], Pair],
-    error: CommonError,
-    path: WalkedPath,
-    move_both: Callable[[Move], None],
-) -> TrackRevised | PositionRejected:
-    """Correct both tracks with `move_both` by a reported position, and revise the path; or reject the position.
+@frozen
+class ReportedPosition:
+    """A report, and the tracks that it corrects.
 
-    `place` returns where the wearer is according to the track, m, common frame. The innovation gate is
-    z' S^-1 z < POSITION_GATE, where S is the covariance of the position (position_covariance.py) with that of the
-    report. A report also corrects the heading, the drift and the bias, in so far as they have moved the wearer."""
-    (x, y), was = event.position or (0.0, 0.0), place()
-    sigma = max(event.sigma, LEAST_SIGMA)
-    zx, zy, r, p = x - was[0], y - was[1], sigma * sigma, error.covariance
-    xx, xy, yy = position_covariance(error, was)
-    sx, sy = xx + r, yy + r
-    determinant = sx * sy - xy * xy
-    square = (zx * zx * sy - 2.0 * zx * zy * xy + zy * zy * sx) / determinant
-    distance = sqrt(zx * zx + zy * zy)
-    if square > POSITION_GATE:
-        off = distance / sqrt(square)
+    A place with a new name is noted. When the name comes again, the wearer is at the same position, so the errors of
+    the track now and then differ by as much as the track does. Every other report is a position. It also corrects the
+    heading, the drift and the bias, in so far as they have moved the wearer. The innovation gate is
+    z' S^-1 z < POSITION_GATE, where S is the covariance of the way (position_covariance.py) with that of the report.
+
+    A rejected position is noted as a place. If the next one is rejected too, but the way between them is that of the
+    track, both are right, and the track was lost before the first: the variance of the track there and here grows by
+    the square of the distance, and both positions are used."""
+
+    event: PositionReported
+    place: Callable[[], Pair]
+    """Function that returns where the wearer is according to the track, m, common frame."""
+    error: CommonError
+    path: WalkedPath
+    move_both: Callable[[Move], None]
+    """Function that corrects both tracks."""
+
+    def use(self) -> list[TrackRevised | PositionRejected]:
+        """Correct the tracks and revise the path, or reject the position; a new place is noted without an event."""
+        event, error, path, was = self.event, self.error, self.path, self.place()
+        variance = max(event.sigma, LEAST_SIGMA) ** 2
+        named = path.visit(event.place) if event.place else None
+        if event.place and named is None:
+            path.note(event.place, event.t, was, variance, error)
+            return []
+        target = (event.position or (0.0, 0.0)) if named is None else path.estimate(named, error)
+        off, turn = _minus(target, was), 0.0
+        square = self._square(off, variance, named)
+        if square > POSITION_GATE:
+            rejected = None if named is not None else path.visit(REJECTED)
+            if rejected is None or not self._confirms(target, variance, rejected):
+                if named is None:
+                    path.note(REJECTED, event.t, was, variance, error)
+                    path.rejected = target
+                return [self._rejection(hypot(*off), square)]
+            self._raise_variance(rejected, off[0] * off[0] + off[1] * off[1])
+            turn += self._correct(path.rejected, rejected, None, LEAST_SIGMA * LEAST_SIGMA, (0.0, 0.0))
+        more = self._beyond_linear(named)
+        turn += self._correct(target, X, named, variance, more)
+        now = self.place()
+        nodes = path.revise(event.t, was, now, turn, error, settles=named is None)
+        by = _minus(now, was)
+        return [TrackRevised(t=event.t, known_at=event.known_at, by=by, turn=turn, nodes=nodes)]
+
+    def _covariance(self, since: int | None) -> tuple[float, float, float]:
+        """Return the covariance of the way from the known position, or from the place whose rows begin at `since`."""
+        start = self.path.known if since is None else self.path.estimate(since, self.error)
+        return position_covariance(self.error, _minus(self.place(), start), since)
+
+    def _square(self, off: Pair, variance: float, since: int | None) -> float:
+        """Return the squared innovation `off`, m, divided by its variance."""
+        (zx, zy), (xx, xy, yy) = off, self._covariance(since)
+        sx, sy = xx + variance, yy + variance
+        return (zx * zx * sy - 2.0 * zx * zy * xy + zy * zy * sx) / (sx * sy - xy * xy)
+
+    def _beyond_linear(self, since: int | None) -> Pair:
+        """Return what the linear variances of x and y lack, because of large headings and of lengths, m^2."""
+        xx, _, yy = self._covariance(since)
+        terms = [[(X + axis, 1.0), *([] if since is None else [(since + axis, -1.0)])] for axis in (0, 1)]
+        linear = [self.error.along(self.error.column(one), one) for one in terms]
+        return (max(0.0, xx - linear[0]), max(0.0, yy - linear[1]))
+
+    def _confirms(self, target: Pair, variance: float, rejected: int) -> bool:
+        """Return whether the way from the rejected position to this one is that of the track."""
+        way = _minus(self.place(), self.path.estimate(rejected, self.error))
+        said = _minus(target, self.path.rejected)
+        return hypot(*way) > LEAST_WAY and self._square(_minus(said, way), variance, rejected) < AGREEMENT_GATE
+
+    def _raise_variance(self, first: int, variance: float) -> None:
+        """Raise the variance of the wearer's position together with that of the place whose rows begin at `first`."""
+        p = self.error.covariance
+        for axis in (0, 1):
+            for i in (X + axis, first + axis):
+                for j in (X + axis, first + axis):
+                    p[i][j] += variance
+
+    def _correct(self, target: Pair, of: int, since: int | None, variance: float, more: Pair) -> float:
+        """Correct all errors by a measured position and return the correction of the heading, rad.
+
+        It is that of the wearer or of a place, whose rows begin at `of`, with this `variance`, m^2, and with `more` on
+        each axis that counts as an error of the report. With `since`, the wearer is at that place."""
+        error, path, turn = self.error, self.path, 0.0
+        for axis in (0, 1):
+            terms = [(of + axis, 1.0), *([] if since is None else [(since + axis, -1.0)])]
+            column = error.column(terms)
+            is_at = self.place() if of == X else path.estimate(of, error)
+            z = (target if since is None else path.estimate(since, error))[axis] - is_at[axis]
+            move = error.correct(column, z, error.along(column, terms) + more[axis] + variance, 1.0)
+            self.move_both(move)
+            turn += move[HEADING]
+        return turn
+
+    def _rejection(self, distance: float, square: float) -> PositionRejected:
+        event, off = self.event, distance / sqrt(square)
+        where = f"where {event.place} was before" if event.place else "where the track is"
+        other = ""
+        if self.path.known_at is not None:
+            other = f"The position reported {event.t - self.path.known_at:.0f} s before, which fits the track, "
+            other += "contradicts it too. "
         what = (
-            f"this is {distance:.0f} m from where the track is, which is known to {off:.1f} m there: the track stays "
-            "as it is. If the place is right, the track is wrong; start a new session there"
+            f"this is {distance:.0f} m from {where}, which is known to {off:.1f} m: the track stays as it is. {other}"
+            f"If it is right, report another place {LEAST_WAY:.0f} m on: two that agree are believed"
         )
+        if event.place:
+            what = f"this is {distance:.0f} m from {where}, which is known to {off:.1f} m: the track stays as it is"
         return PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=off, what=what)
-    # what the linear covariance lacks, because of large headings and of lengths, counts as an error of the report
-    more_x, more_y = max(0.0, xx - p[X][X]), max(0.0, yy - p[Y][Y])
-    first = error.correct(list(p[X]), zx, p[X][X] + more_x + r, 1.0)
-    move_both(first)
-    second = error.correct(list(p[Y]), y - place()[1], p[Y][Y] + more_y + r, 1.0)
-    move_both(second)
-    turn, now = first[HEADING] + second[HEADING], place()
-    by = (now[0] - was[0], now[1] - was[1])
-    nodes = path.revise(event.t, was, now, turn)
-    return TrackRevised(t=event.t, known_at=event.known_at, by=by, turn=turn, nodes=nodes)
+
+
+def _minus(a: Pair, b: Pair) -> Pair:
+    return (a[0] - b[0], a[1] - b[1])

@@ -147,7 +147,8 @@ class BothFeet(MeanOfFeet):
         mean = MeanOfFeet.position(self, feet)
         if mean is None or not self.common.started:
             return mean
-        xx, xy, yy = position_covariance(self.common, mean.position[:2])
+        (x, y, _), (kx, ky) = mean.position, self.evidence.path.known
+        xx, xy, yy = position_covariance(self.common, (x - kx, y - ky))
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
         xx, yy, zz = xx + FOOTPRINT_VARIANCE, yy + FOOTPRINT_VARIANCE, mean.covariance[5]
         return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, zz), self.common.heading_sigma)

@@ -104,7 +104,7 @@ class CommonError:
     shares: tuple[float, float] = field(default=(0.5, 0.5), init=False)
     """Shares of the left and the right foot in the wearer's heading: 1 and 0 if the left foot is alone."""
     aids: list[float] = field(factory=list, init=False)
-    """Estimates of the quantities of a compass (body/aiding), whose errors have the rows from `SIZE` on."""
+    """Estimates of a compass and of named places (body/aiding), whose errors have the rows from `SIZE` on."""
     started: bool = field(default=False, init=False)
     """Flag: a foot has taken a stride."""
     foot_biases: list[FootBias | None] = field(factory=lambda: [None, None], init=False)
@@ -215,27 +215,26 @@ class CommonError:
         (left, right), (a, b), t = self.shares, FEET, stride_time
         return left * (column[a] + t * column[a + 2]) + right * (column[b] + t * column[b + 2])
 
-    def correct(self, column: list[float], z: float, s: float, weight: float, considered: int = 0) -> Move:
+    def correct(self, column: list[float], z: float, s: float, weight: float, rows: range | None = None) -> Move:
         """Correct the errors by a measurement with the innovation `z`, its variance `s` and P H' in `column`.
 
         With the gain K, the errors move by weight K z, and their covariance becomes that of both possibilities
         together: that the measurement is one, with the probability `weight`, or none (Bar-Shalom et al. 2001, section
-        11.6). The first `considered` rows keep their errors and covariance, which the others take into account (Schmidt
+        11.6). If `rows` are given, the others keep their errors and covariance, which these take into account (Schmidt
         1966)."""
-        gain = [value / s for value in column]
         # P <- P - weight K S K' + weight (1 - weight) K z z K'
-        f = weight * ((1.0 - weight) * z * z - s)
-        p = self.covariance
-        for i, one in enumerate(gain):
-            if i < considered:
-                continue
-            for j in range(i + 1):
+        f, p = weight * ((1.0 - weight) * z * z - s), self.covariance
+        gain, chosen = [value / s for value in column], range(len(p)) if rows is None else rows
+        others = [j for j in range(len(p)) if j not in chosen]
+        z *= weight
+        for i in chosen:
+            one = gain[i]
+            for j in (*range(chosen.start, i + 1), *others):
                 p[i][j] += f * one * gain[j]
                 p[j][i] = p[i][j]
-        z *= weight
-        for number, one in enumerate(gain[SIZE:]):
-            self.aids[number] += one * z
-        if considered:
+            if i >= SIZE:
+                self.aids[i - SIZE] += one * z
+        if rows is not None:
             return NO_MOVE
         for foot, row_of_foot in enumerate(FEET):
             self.drift[foot] += gain[row_of_foot] * z
@@ -256,13 +255,16 @@ class CommonError:
         """Return the variance of the sum of errors of which `column` is the covariance with all."""
         return max(0.0, fsum([factor * column[row] for row, factor in terms]))
 
-    def add_aids(self, estimates: Sequence[float], variances: Sequence[float]) -> None:
-        """Add the rows of the errors of these estimates, with these variances and independent of all others."""
+    def add_aids(self, estimates: Sequence[float], variances: Sequence[float]) -> int:
+        """Add the rows of the errors of these estimates, with these variances and independent of all others.
+
+        Returns the first of them."""
         self.aids, p = [*self.aids, *estimates], self.covariance
         for variance in variances:
             for row in p:
                 row.append(0.0)
             p.append([*[0.0] * len(p), variance])
+        return len(p) - len(variances)
 
     def renew(self, row: int, variance: float) -> None:
         """Give the error of a row this variance, independent of all others."""
@@ -277,10 +279,12 @@ class CommonError:
         what is to be added to them."""
         estimate, p, row = (self.drift, self.turning)[error], self.covariance, FEET[foot] + error
         change, estimate[foot] = value - estimate[foot], value
+        slopes = [one / max(p[row][row], 1e-18) for one in p[row][SIZE:]]  # what this error has done to the estimates of aids
+        self.aids = [aid + change * slope for aid, slope in zip(self.aids, slopes, strict=True)]
         self.renew(row, variance)
-        for i, one in enumerate(moved):
+        for i, one in [*enumerate(moved), *enumerate(slopes, SIZE)]:
             p[row][i] = p[i][row] = variance * one
-            for j, other in enumerate(moved):
+            for j, other in [*enumerate(moved), *enumerate(slopes, SIZE)]:
                 p[i][j] += variance * (one * other)
         x, y, heading = moved
         return (change * x, change * y, change * heading)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import exp
 
-from .common_error import HEADING, CommonError
+from .common_error import HEADING, CommonError, X, Y
 
 LENGTH_ERROR = 0.007
 """Standard deviation of the relative error that all strides have in common, no unit.
@@ -12,14 +12,22 @@ LENGTH_ERROR = 0.007
 Emulated strides are up to 1.6 % too long or too short on average (rms 0.7 %)."""
 
 
-def position_covariance(error: CommonError, from_start: tuple[float, float]) -> tuple[float, float, float]:
+def position_covariance(
+    error: CommonError, displacement: tuple[float, float], since: int | None = None
+) -> tuple[float, float, float]:
     """Return the covariance of the position: xx, xy, yy, m^2.
 
-    `from_start` is the displacement from the first position, m. The heading error h moves the position by h b + z, with
+    `displacement` is that from the first position, m; or from a place whose errors have the rows from `since` on, and
+    then the covariance is that of the displacement. The heading error h moves the position by h b + z, with
     b = P_eh / P_hh and z independent of h. For a small h that is a turn of the arm a = -c b by h, and a large one turns
     it too, by (R(h) - 1) a. With h normal and v its variance, E (cos h - 1)^2 = 3/2 - 2 exp(-v/2) + exp(-2v)/2 and
     E sin^2 h = (1 - exp(-2v))/2."""
-    (xx, xy, xh, *_), (_, yy, yh, *_), (_, _, v, *_) = error.covariance[: HEADING + 1]
+    p = error.covariance
+    xx, xy, xh, yy, yh, v = p[X][X], p[X][Y], p[X][HEADING], p[Y][Y], p[Y][HEADING], p[HEADING][HEADING]
+    if since is not None:
+        k, j = since, since + 1
+        xx, yy = xx - 2.0 * p[X][k] + p[k][k], yy - 2.0 * p[Y][j] + p[j][j]
+        xy, xh, yh = xy - p[X][j] - p[Y][k] + p[k][j], xh - p[k][HEADING], yh - p[j][HEADING]
     if v > 1e-9:
         bx, by = xh / v, yh / v
         half, twice = exp(-0.5 * v), exp(-2.0 * v)
@@ -29,7 +37,7 @@ def position_covariance(error: CommonError, from_start: tuple[float, float]) -> 
         xx += across * bx * bx + along * by * by
         xy += (across - along) * bx * by
         yy += across * by * by + along * bx * bx
-    px, py = LENGTH_ERROR * from_start[0], LENGTH_ERROR * from_start[1]
+    px, py = LENGTH_ERROR * displacement[0], LENGTH_ERROR * displacement[1]
     xx, xy, yy = max(0.0, xx) + px * px, xy + px * py, max(0.0, yy) + py * py
     bound = (xx * yy) ** 0.5  # |xy| exceeds it only by rounding
     return (xx, min(max(xy, -bound), bound), yy)

@@ -114,12 +114,12 @@ class SharedEvidence:
     def use_position(
         self, event: PositionReported, place: Callable[[], Pair], error: CommonError, move_both: Callable[[Move], None]
     ) -> list[TrackRevised | PositionRejected]:
-        """Correct both tracks with `move_both` by a reported position, or reject it.
+        """Correct both tracks with `move_both` by a reported position, reject it, or note a new place without an event.
 
         `place` returns where the wearer is according to the track, m, common frame."""
-        from ..aiding.reported_position import use_position
+        from ..aiding.reported_position import ReportedPosition
 
-        return [use_position(event, place, error, self.path, move_both)]
+        return ReportedPosition(event, place, error, self.path, move_both).use()
 
     def turned(self, yaw: float) -> None:
         """Turn what is in the common frame with both tracks, by `yaw`, rad."""
