@@ -215,11 +215,14 @@ def test_a_place_is_as_disturbed_as_its_three_axes_show() -> None:
         x, y, z = rng.normal(0.0, (5.0, 5.0, 5.0 * 2.0**0.5))
         disturbance.add_stance(k % 2, (x, y), -40.0 + z)
     assert disturbance.usual == pytest.approx(25.0, rel=0.25)
-    assert not disturbance.is_strange((20.0, 0.0)) and disturbance.is_strange((4.0, 0.0))
+    for k in range(12):
+        x, y, z = rng.normal(0.0, (3.0, 3.0, 4.0))
+        disturbance.add_stance(k % 2, (x, y), -40.0 + z)
+    assert disturbance.judge((20.0, 0.0)) == (True, False) and disturbance.judge((4.0, 0.0)) == (False, True)
     for k in range(12):
         x, y, z = rng.normal(0.0, (15.0, 15.0, 20.0))
         disturbance.add_stance(k % 2, (x, y), -40.0 + z)
-    assert disturbance.is_strange((20.0, 0.0))
+    assert disturbance.judge((20.0, 0.0)) == (False, True)
 
 
 def test_another_device_starts_with_unknown_iron() -> None:

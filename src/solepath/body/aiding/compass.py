@@ -16,9 +16,9 @@ where c is a rotation by +90 degrees. The means over `BLOCK` stances of a foot a
 as lengths and angles, which holds for any psi. d is a Gauss-Markov process of the distance walked; s is white over more
 than its length. How large both are follows from the residuals (disturbance.py).
 
-Only a proven compass moves the track (compass_trust.py), and only in a place that is not strange. Otherwise its own
-rows are learnt, and everything else is only considered (Schmidt 1966). A field that stays strange is another one, which
-is learnt from then on."""
+Only a proven compass moves the track (compass_trust.py), and only in a place that is no more disturbed than usual.
+Otherwise its own rows are learnt, and everything else is only considered (Schmidt 1966). A field that stays strange is
+another one, which is learnt from then on."""
 
 from __future__ import annotations
 
@@ -35,11 +35,15 @@ from .stance_field import StanceField
 
 IRON, FIELD = 12.0, 40.0
 """Standard deviations of the hard iron of a shoe and of the field before any stance, for each axis, uT."""
-SHORT, LONG = 0.5 * sqrt(2.0 * pi) * 1.5, 0.5 * sqrt(2.0 * pi) * 15.0
-"""Distances over which the correlation of both parts of the disturbance sums up to 1, m, in one direction.
+SHORT, LONG = 0.5 * sqrt(2.0 * pi) * 1.5, 0.25 * sqrt(2.0 * pi) * 15.0
+"""Distances over which the correlation of both parts of the disturbance sums up to 1, m.
 
-A part with the correlation exp(-x^2 / (2 L^2)) across the way has sqrt(2 pi) L; along the way, a field without curl has
-0. L of 1.5 and 15 m is assumed (emulate/sensors/magnetic_field.py)."""
+A part with the correlation exp(-x^2 / (2 L^2)) across the way has sqrt(2 pi) L, and along the way, a field without curl
+has 0; L of 1.5 and 15 m is assumed (emulate/sensors/magnetic_field.py). The long part has half as much as that: a
+disturbance that is thought to last longer than it does looks like a drift of the feet."""
+SHARE = 0.75
+"""Variance of each part of the disturbance, as a share of the size of both: a half, times 1.5, because its size is that
+of few stances, and because a way that is walked again has the same disturbance again."""
 BLOCK = 8
 """Number of stances of a foot that are compared at once: 10 m, no more than `LONG`."""
 LEAST_STEP = 0.05
@@ -111,7 +115,7 @@ class Compass:
     def _add_stance(self, foot: int, yaw: float, flux: Vec3, error: CommonError) -> None:
         (x, y, z), c, s = flux, cos(yaw), sin(yaw)
         if self.first < 0:
-            variances = [FIELD * FIELD] * 2 + [0.5 * self.disturbance.usual] * 2 + [IRON * IRON] * 4
+            variances = [FIELD * FIELD] * 2 + [SHARE * self.disturbance.usual] * 2 + [IRON * IRON] * 4
             self.first = error.add_aids((x, y, *[0.0] * 6), variances)
         iron = self.first + H[foot]
         px, py = _without_iron((x, y), (c, s), iron, error)
@@ -141,17 +145,17 @@ class Compass:
         iron = first + H[foot]
         mean, yaw = (k * block.flux[0], k * block.flux[1]), (k * block.yaw[0], k * block.yaw[1])
         bx, by = error.aids[first - SIZE : first - SIZE + 2]
-        is_strange = self.disturbance.is_strange((bx, by))
+        shows_heading, is_strange = self.disturbance.judge((bx, by))
         self.strange = self.strange + 1 if is_strange else 0
         if self.strange == LONG_STRANGE:
             self.trust.note(foot, "strange")
         elif self.strange >= MOST_STRANGE:
             self.strange = 0
             self._renew(first + B, _without_iron(mean, yaw, iron, error), FIELD * FIELD, error)
-            self._renew(first + D, (0.0, 0.0), 0.5 * self.disturbance.usual, error)
+            self._renew(first + D, (0.0, 0.0), SHARE * self.disturbance.usual, error)
             return NO_MOVE
-        rows = None if self.trust.is_proven and not is_strange else range(first, first + ROWS)
-        noise = 0.5 * here * max(1.0, SHORT * block.count / distance) * k
+        rows = None if self.trust.is_proven and shows_heading else range(first, first + ROWS)
+        noise = SHARE * here * max(1.0, SHORT * block.count / distance) * k
         # along the field
         (px, py), (vx, vy) = _without_iron(mean, yaw, iron, error), _field(first, error)
         size = max(LEAST_SIZE, hypot(vx, vy))
@@ -175,7 +179,7 @@ class Compass:
             for j in range(len(p)):
                 p[row][j] *= keep
                 p[j][row] = p[row][j]
-            p[row][row] = keep * p[row][row] + 0.5 * self.disturbance.here * (1.0 - keep * keep)
+            p[row][row] = keep * p[row][row] + SHARE * self.disturbance.here * (1.0 - keep * keep)
             error.aids[row - SIZE] *= keep
 
     def _renew(self, row: int, values: Pair, variance: float, error: CommonError) -> None:

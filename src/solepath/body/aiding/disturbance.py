@@ -25,9 +25,11 @@ USUAL_SHARE = 0.1
 """Share of the usual variance in that about the newest stances, which few stances show."""
 TAIL = 4.0
 """Degrees of freedom of the t distribution by which a stance weighs, no unit: heavy tails."""
-STRANGE, MOST_OF_FIELD = 1.5, 0.6
-"""Least disturbance of a place that shows no heading: its variance as a multiple of the usual one, and its standard
-deviation as a share of the horizontal field (31 degrees)."""
+MOST_OF_FIELD = 0.5
+"""Largest disturbance of a place that shows the heading, as a share of the horizontal field: 26 degrees."""
+STRANGE, STRANGE_FIELD = 1.5, 0.6
+"""Least disturbance of a strange place: its variance as a multiple of the usual one, or its standard deviation as a
+share of the horizontal field (31 degrees)."""
 CHANGED = 6.0
 """Ratio of the near disturbance of a foot to that of the other one, and to the usual one, if its iron has changed."""
 
@@ -70,7 +72,11 @@ class Disturbance:
         """Return whether something magnetic came to foot 0 (left) or 1, or left it: the other foot sees nothing."""
         return self.near[foot] > CHANGED * max(self.usual, self.near[1 - foot])
 
-    def is_strange(self, horizontal: tuple[float, float]) -> bool:
-        """Return whether this place is too disturbed for a heading; `horizontal` is the horizontal field, uT."""
-        x, y = horizontal
-        return self.here > min(STRANGE * self.usual, MOST_OF_FIELD * MOST_OF_FIELD * (x * x + y * y))
+    def judge(self, horizontal: tuple[float, float]) -> tuple[bool, bool]:
+        """Return whether this place shows the heading, and whether it is strange; `horizontal` is the field, uT.
+
+        It shows the heading if it is no more disturbed than usual."""
+        (x, y), here = horizontal, self.here
+        square = x * x + y * y
+        shows = here <= min(self.usual, MOST_OF_FIELD * MOST_OF_FIELD * square)
+        return shows, here > min(STRANGE * self.usual, STRANGE_FIELD * STRANGE_FIELD * square)

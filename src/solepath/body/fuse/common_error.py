@@ -279,7 +279,8 @@ class CommonError:
         what is to be added to them."""
         estimate, p, row = (self.drift, self.turning)[error], self.covariance, FEET[foot] + error
         change, estimate[foot] = value - estimate[foot], value
-        slopes = [one / max(p[row][row], 1e-18) for one in p[row][SIZE:]]  # what this error has done to the estimates of aids
+        # slopes: what this error has done to the estimates of aids
+        slopes = [one / max(p[row][row], 1e-18) for one in p[row][SIZE:]]
         self.aids = [aid + change * slope for aid, slope in zip(self.aids, slopes, strict=True)]
         self.renew(row, variance)
         for i, one in [*enumerate(moved), *enumerate(slopes, SIZE)]:
