@@ -13,6 +13,7 @@ from typing import ClassVar, Protocol, Self
 from ..calibration import Calibration
 from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, TurnMade
 from ..events.happening import Happening
+from ..floorplan.plan import Start
 from ..foot.view import FootPose, FootView
 from ..foot.world import Covariance3
 from ..types import Activity, Foot, Layout, Sample, Site, Vec3
@@ -118,6 +119,10 @@ class Part(Protocol):
 
         `feed` and `receive` must import nothing and open no file, but for what the first sample or event of a new kind
         needs (a compass, a reported position)."""
+        return
+
+    def set_out(self, start: Start) -> None:
+        """Take the wearer's first place on the floor plan; called once, before any sample, if the app gives one."""
         return
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:

@@ -218,7 +218,7 @@ def test_places_are_forgotten_in_the_order_of_their_last_visit() -> None:
     assert len(session.here("a")) == 2 and len(session.here("b")) == 1, "b was visited before all others"
 
 
-def test_two_rejected_places_that_agree_with_the_way_between_them_are_believed() -> None:
+def test_two_rejected_places_that_agree_with_the_way_between_them_are_used() -> None:
     walk, session = loop(), fed(loop(), 60.0)
     off = np.array([30.0, -20.0])
 

@@ -94,8 +94,8 @@ class ReportedPosition:
     def _confirms(self, target: Pair, variance: float, rejected: int) -> bool:
         """Return whether the way from the rejected position to this one is that of the track."""
         way = _minus(self.place(), self.path.estimate(rejected, self.error))
-        said = _minus(target, self.path.rejected)
-        return hypot(*way) > LEAST_WAY and self._square(_minus(said, way), variance, rejected) < AGREEMENT_GATE
+        other = _minus(target, self.path.rejected)
+        return hypot(*way) > LEAST_WAY and self._square(_minus(other, way), variance, rejected) < AGREEMENT_GATE
 
     def _raise_variance(self, first: int, variance: float) -> None:
         """Raise the variance of the wearer's position together with that of the place whose rows begin at `first`."""

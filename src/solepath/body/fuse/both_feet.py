@@ -21,6 +21,7 @@ from math import atan2, cos, hypot, sin
 
 from ...calibration import Calibration
 from ...events import DefectFound, PositionReported, SampleGap, StrideTaken
+from ...floorplan.plan import Start
 from ...foot.stride import usual_strides
 from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import Foot, Site, Vec3
@@ -31,7 +32,6 @@ from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import WIDTH, Pair, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
 from .learnt_bias import has_rested
 from .position import MeanOfFeet
-from .position_covariance import position_covariance
 from .shared_evidence import STATIONARY, SharedEvidence
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
@@ -98,9 +98,12 @@ class BothFeet(MeanOfFeet):
         if not calibration.headings:
             return self
         part = BothFeet(self.settings)
-        part.common.use_calibration(calibration.headings)
-        part.evidence.straight_ways.use_calibration(calibration.headings)
+        part.evidence.use_calibration(calibration.headings, part.common)
         return part
+
+    def set_out(self, start: Start) -> None:
+        """Take the wearer's first place on the floor plan, where a person may report positions from then on."""
+        self.evidence.set_out(start)
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
@@ -147,11 +150,10 @@ class BothFeet(MeanOfFeet):
         mean = MeanOfFeet.position(self, feet)
         if mean is None or not self.common.started:
             return mean
-        (x, y, _), (kx, ky) = mean.position, self.evidence.path.known
-        xx, xy, yy = position_covariance(self.common, (x - kx, y - ky))
+        xx, xy, yy = self.evidence.covariance(mean.position, self.common)
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
-        xx, yy, zz = xx + FOOTPRINT_VARIANCE, yy + FOOTPRINT_VARIANCE, mean.covariance[5]
-        return Position(mean.t, mean.position, (xx, xy, 0.0, yy, 0.0, zz), self.common.heading_sigma)
+        covariance = (xx + FOOTPRINT_VARIANCE, xy, 0.0, yy + FOOTPRINT_VARIANCE, 0.0, mean.covariance[5])
+        return Position(mean.t, mean.position, covariance, self.common.heading_sigma)
 
     def _start(self) -> None:
         self.started, self.width = True, WALKING_WIDTH
@@ -177,9 +179,8 @@ class BothFeet(MeanOfFeet):
         for move in self.evidence.before_stride(event, index, after, this, self.common, aligned):
             self._move_both(move)
         own_position, c, s = event.position, cos(this.turn), sin(this.turn)
-        x, y, _ = event.displacement
+        (x, y, _), (stance, swing) = event.displacement, phase_times(event)
         dx, dy = c * x - s * y, s * x + c * y
-        stance, swing = phase_times(event)
         # correct the drift of the heading, and the displacement by the drift up to mid-swing
         rate, count = self.errors.rates[index], usual_strides(event.length)
         duration = stance + swing if rested else min(event.t_end - event.t_start, MAX_STANDING)
@@ -189,15 +190,13 @@ class BothFeet(MeanOfFeet):
         (dx, dy), (ex, ey, _) = (dx - mid_turn * dy, dy + mid_turn * dx), this.place(own_position)
         xx, xy, yy = this.turned_covariance(event.covariance)
         variance = (xx + FOOTPRINT_VARIANCE, xy, yy + FOOTPRINT_VARIANCE)
-        excess = max(0.0, event.length - MAX_STRIDE_LENGTH)
         self.common.propagate(index, count, event.heading_change, duration, (dx, dy), variance)
-        defect = event.foot in self.evidence.straight_ways.spoiled
+        excess, defect = max(0.0, event.length - MAX_STRIDE_LENGTH), event.foot in self.evidence.straight_ways.spoiled
         degraded = self.errors.judge_stride(index, event.degraded, defect) or excess > 0.0
         if self.started:
             self.errors.propagate(index, stance, swing, (ex, ey), (dx, dy), variance, degraded)
-        if excess > 0.0:
-            self.errors.inflate(index, excess)
-            self.common.inflate(share * share * excess * excess)
+        self.errors.inflate(index, excess)
+        self.common.inflate(share * share * excess * excess)
         self.distance = min(ALIGNMENT_DISTANCE, self.distance + share * event.length)
         straight = hypot(x, y) > MIN_LENGTH and abs(event.heading_change) < MAX_TURN and not degraded
         self.strides[index] = DirectedStride(event.t_end, own_position, atan2(y, x) if straight else None)

@@ -4,18 +4,22 @@ The compass, and what uses a reported position, are loaded when a session first 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from math import cos, sin
 from typing import Final, Protocol
 
+from ...calibration import HeadingCalibration
 from ...events import Defect, DefectFound, PositionRejected, PositionReported, StrideTaken, TrackRevised
+from ...floorplan.plan import Start
 from ...foot.view import AfterEvents, FootView
 from ...types import SITE_OF_FOOT, Foot, Phase, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, evolve, field
 from ..aiding.walked_path import WalkedPath
 from .common_error import NO_MOVE, CommonError, Move
 from .learnt_bias import add_rest
 from .moving_ground import MovingGround
 from .position import PlacedTrack
+from .position_covariance import position_covariance
 from .straight_ways import StraightWays
 
 LEFT: Final = Foot.LEFT
@@ -60,7 +64,19 @@ class SharedEvidence:
     """Time of the newest sample that the compass has of the left and of the right foot, s."""
     path: WalkedPath = field(factory=WalkedPath, init=False)
     """Path of the wearer so far."""
+    plan_start: tuple[float, float, float] | None = field(default=None, init=False)
+    """Wearer's first place on the floor plan, m, and first heading there, rad; None if they are not known."""
     found: list[DefectFound] = field(factory=list, init=False)
+
+    def use_calibration(self, headings: Mapping[Foot, HeadingCalibration], error: CommonError) -> None:
+        """Use what a calibration walk has shown of the heading of each foot, before any stride."""
+        error.use_calibration(headings)
+        self.straight_ways.use_calibration(headings)
+
+    def set_out(self, start: Start) -> None:
+        """Take the wearer's first place on the floor plan."""
+        if start.heading is not None:
+            self.plan_start = (*start.place, start.heading)
 
     def add_stance_sample(self, view: FootView, mag: Vec3) -> None:
         """Add a sample of a foot that stands, with the magnetic flux density `mag`, T, sensor frame."""
@@ -116,10 +132,22 @@ class SharedEvidence:
     ) -> list[TrackRevised | PositionRejected]:
         """Correct both tracks with `move_both` by a reported position, reject it, or note a new place without an event.
 
-        `place` returns where the wearer is according to the track, m, common frame."""
+        `place` returns where the wearer is according to the track, m, common frame. A position on the floor plan is
+        used if the first heading there is known."""
+        if event.level and event.position is not None:
+            if self.plan_start is None:
+                return []
+            x0, y0, heading = self.plan_start
+            x, y, c, s = event.position[0] - x0, event.position[1] - y0, cos(heading), sin(heading)
+            event = evolve(event, position=(c * x + s * y, c * y - s * x))
         from ..aiding.reported_position import ReportedPosition
 
         return ReportedPosition(event, place, error, self.path, move_both).use()
+
+    def covariance(self, position: Vec3, error: CommonError) -> tuple[float, float, float]:
+        """Return the covariance of the wearer's `position`, m, common frame: xx, xy, yy, m^2."""
+        x, y = self.path.known
+        return position_covariance(error, (position[0] - x, position[1] - y))
 
     def turned(self, yaw: float) -> None:
         """Turn what is in the common frame with both tracks, by `yaw`, rad."""

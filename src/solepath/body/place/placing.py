@@ -13,7 +13,16 @@ from collections.abc import Sequence
 from math import fsum, hypot, isfinite, pi
 from typing import ClassVar
 
-from ...events import Event, Placed, PlaceLost, StrideTaken, TurnMade, WearerMoved
+from ...events import (
+    Event,
+    Placed,
+    PlaceLost,
+    PositionReported,
+    StrideTaken,
+    TrackRevised,
+    TurnMade,
+    WearerMoved,
+)  # fmt: skip
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...types.attrs import NOT_SAVED, define, field
@@ -22,6 +31,7 @@ from .arrivals import spread_rows, start_error
 from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
 from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
 from .reference import LevelChangePossible, LevelReached
+from .reported import turn_rows, use_report
 from .rows import ONE_CANDIDATE_SPREAD, Row, candidates_of, effective_count, round_rows
 
 ROWS_PER_CANDIDATE = 30
@@ -88,7 +98,23 @@ class Placing(LevelChanges):
         elif isinstance(event, WearerMoved) and self.plan is not None:
             events, self.pending_events = self.pending_events, []
             return self.follow(self.plan, events, event)
+        elif isinstance(event, PositionReported) and event.position is not None and event.level and self.plan:
+            rows, rejected = use_report(
+                self.plan, self.rows, event, event.position, self.scatter, self.settings.max_rows
+            )
+            self.set_rows(rows)
+            return [] if rejected is None else [rejected]
+        elif isinstance(event, TrackRevised):
+            self._revise_track(event)
         return ()
+
+    def _revise_track(self, event: TrackRevised) -> None:
+        """Move and turn what belongs to the track with it; the rows stay where they are on the plan."""
+        (x, y, z), (dx, dy) = self.last_place, event.by
+        self.last_place = (x + dx, y + dy, z)
+        self.references.move(event.by)
+        self.stride_scale.forget()
+        self.rows = round_rows(turn_rows(self.rows, event.turn))
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
         """Update the rows with events after which the wearer is at `here`, and return the place; never raises."""
@@ -127,6 +153,9 @@ class Placing(LevelChanges):
 
     def _start(self, plan: IndexedPlan, here: WearerMoved, known_at: float, outputs: list[Event]) -> None:
         start = self.start
+        if self.rows:
+            self.last_place = here.position
+            return  # a person has said where the wearer is
         if start is None:
             what = "no start was given, so the place is not known before the first stairs or lift"
             if not plan.plan.connectors:

@@ -115,6 +115,17 @@ class References:
             after = before
         return (0.0, 0.0, 0.0) if after is None else after[1:]
 
+    def move(self, by: tuple[float, float]) -> None:
+        """Move all positions that are kept by x and y, m, because the track was revised."""
+        dx, dy = by
+        self.track = deque([(t, x + dx, y + dy, z) for t, x, y, z in self.track])
+        if self.passage is not None:
+            x, y, z = self.passage.start
+            self.passage.start = (x + dx, y + dy, z)
+            if self.passage.end is not None:
+                x, y, z = self.passage.end
+                self.passage.end = (x + dx, y + dy, z)
+
     def path_since(self, t: float) -> list[Vec3]:
         """Return the position of the track at `t`, s, and all later positions that are kept, m."""
         return [self.position_at(t), *(position[1:] for position in self.track if position[0] > t)]

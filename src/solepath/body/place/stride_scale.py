@@ -53,3 +53,7 @@ class StrideScale:
             self.left = side
         else:
             self.right = side
+
+    def forget(self) -> None:
+        """Forget the last strides, whose positions no longer belong to the track."""
+        self.left = self.right = None

@@ -1,0 +1,114 @@
+"""A person says where they are on the floor plan: the hypotheses of the place are weighed, and the track is corrected."""
+
+from __future__ import annotations
+
+from math import cos, dist, hypot, inf, pi, sin
+
+import pytest
+from floors import HIGH, LOW, OFFICE, RIGHT, Method, Pedestrian, follow, lost, placed
+
+from solepath import Session, Site
+from solepath.emulate.routes.building import BUILDING
+from solepath.emulate.routes.ways import corridor
+from solepath.emulate.walk import sampled
+from solepath.events import Event, Placed, PositionRejected, PositionReported, TrackRevised
+from solepath.floorplan.plan import Point, Start
+
+
+def reported(t: float, place: Point, sigma: float = 1.0, level: str = "0") -> PositionReported:
+    return PositionReported(t=t, known_at=t, site=Site.LEFT_FOOT, position=place, level=level, sigma=sigma)
+
+
+def off(part: Method, place: Point) -> float:
+    return inf if part.place is None else dist(part.place.position[:2], place)
+
+
+def test_who_says_where_they_are_is_found_without_a_start(part: Method) -> None:
+    part.plan = OFFICE
+    pedestrian = Pedestrian(3, "0", (12.0, LOW))
+    assert not part.receive(reported(0.0, pedestrian.place))
+    pedestrian.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
+    events = follow(part, pedestrian.received)
+    assert lost(events) == [] and off(part, pedestrian.place) < 1.0
+    assert all(dist(one.position[:2], (12.0, LOW)) < 3.0 for one in placed(events)[:1])
+
+
+def test_a_report_decides_between_places_that_the_walls_do_not_tell_apart(part: Method) -> None:
+    pedestrian = Pedestrian(4, "0", (12.0, LOW))
+    part.plan = OFFICE
+    part.set_out(Start("0", (14.0, LOW), None, 6.0))
+    pedestrian.walk((16.0, LOW))
+    follow(part, pedestrian.received)
+    assert part.place is not None and (before := part.place.spread) > 1.5
+    assert not part.receive(reported(pedestrian.t, pedestrian.place, 0.5))
+    pedestrian.received.clear()
+    pedestrian.walk((17.0, LOW))
+    follow(part, pedestrian.received)
+    assert part.place.spread < 0.6 * before and off(part, pedestrian.place) < 2.5
+
+
+def test_a_place_where_the_track_cannot_have_led_is_rejected_and_a_second_one_is_used(part: Method) -> None:
+    pedestrian = Pedestrian(5, "0", (12.0, LOW)).known_to(part)
+    part.plan = OFFICE
+    pedestrian.walk((20.0, LOW))
+    follow(part, pedestrian.received)
+    (rejected,) = part.receive(reported(pedestrian.t, (20.0, HIGH)))
+    assert isinstance(rejected, PositionRejected) and rejected.distance > 10.0 and "away" in rejected.what
+    pedestrian.received.clear()
+    pedestrian.walk((21.0, LOW))
+    follow(part, pedestrian.received)
+    assert off(part, pedestrian.place) < 1.0, "one report moves nothing"
+    elsewhere = (pedestrian.place[0], pedestrian.place[1] + HIGH - LOW)
+    assert not part.receive(reported(pedestrian.t, elsewhere))
+    pedestrian.received.clear()
+    pedestrian.walk((24.0, LOW))
+    follow(part, pedestrian.received)
+    assert off(part, (24.0, HIGH)) < 2.0
+
+
+@pytest.mark.parametrize(("level", "place", "word"), [("7", (12.0, LOW), "no level"), ("0", (900.0, LOW), "nowhere")])
+def test_a_place_that_is_not_on_the_plan_is_rejected_with_the_reason(
+    part: Method, level: str, place: Point, word: str
+) -> None:
+    part.plan = OFFICE
+    (rejected,) = part.receive(reported(1.0, place, level=level))
+    assert isinstance(rejected, PositionRejected) and word in rejected.what and not part.rows
+
+
+def test_a_revision_of_the_track_moves_nobody_on_the_plan(part: Method) -> None:
+    pedestrian = Pedestrian(6, "0", (12.0, LOW)).known_to(part)
+    part.plan = OFFICE
+    pedestrian.walk((20.0, LOW))
+    follow(part, pedestrian.received)
+    by, turn = (-9.0, 14.0), 0.7
+    part.receive(TrackRevised(t=pedestrian.t, known_at=pedestrian.t, by=by, turn=turn, nodes=()))
+    x, y, z = pedestrian.track
+    pedestrian.track = (x + by[0], y + by[1], z)
+    pedestrian.turned += turn
+    pedestrian.received.clear()
+    pedestrian.walk((28.0, LOW))
+    events = follow(part, pedestrian.received)
+    assert lost(events) == [] and off(part, pedestrian.place) < 1.0
+
+
+def test_a_session_on_a_plan_corrects_track_and_place_by_a_position_on_a_level() -> None:
+    walk = corridor()
+    samples = sampled(walk.route)
+    session = Session(poses=True, floorplan=BUILDING, start=walk.start)
+    until = 40.0
+    events = session.feed([sample for sample in samples.samples if sample.t < until])
+    newest = [event for event in events if isinstance(event, Placed)][-1]
+    x, y, _ = newest.position
+    answer: list[Event] = session.here((x + 0.5, y), 1.0, level=newest.level)
+    assert isinstance(answer[0], PositionReported) and isinstance(answer[1], TrackRevised)
+    assert session.position is not None and walk.start.heading is not None
+    (sx, sy), c, s = walk.start.place, cos(walk.start.heading), sin(walk.start.heading)
+    px, py = session.position.position[:2]
+    on_plan = (sx + c * px - s * py, sy + s * px + c * py)
+    assert hypot(on_plan[0] - x - 0.5, on_plan[1] - y) < 1.0
+    saved = Session.unpack(session.pack(), floorplan=BUILDING)
+    rest = [sample for sample in samples.samples if until <= sample.t < until + 10.0]
+    assert saved.feed(rest) == session.feed(rest)
+    unknown = session.here((x, y), level="attic")
+    assert isinstance(unknown[-1], PositionRejected)
+    assert abs(answer[1].turn) < pi
