@@ -15,6 +15,7 @@ from ....types import Foot, Layout, Phase, Vec3
 from ....types.attrs import NOT_SAVED
 from ...observer import FootCounts
 from ..messages import rounded, rounded_all
+from .bending import Bend
 from .lists import RecentItems, WalkedTrack
 
 PHASE_HISTORY = 20.0
@@ -85,6 +86,13 @@ class FootScene:
         """Add a stride that ended."""
         if event.final:
             self.track.add_position(event.t, event.position)
+
+    def revise(self, bend: Bend, by: tuple[float, float]) -> None:
+        """Bend the track, and move the live position by `by`, m."""
+        self.track.replace(bend.apply(self.track.points))
+        if self.position is not None:
+            x, y, z = self.position
+            self.position = (x + by[0], y + by[1], z)
 
     def set_layout(self, layout: Layout) -> bool:
         """Set the positions of the cells; return whether they are new."""
