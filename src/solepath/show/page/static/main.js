@@ -1,7 +1,7 @@
 // Receives messages and draws pictures: each change is drawn with the browser's next frame, and nothing else is drawn.
 //
-// For tests: window.solepath = {frames, messages, state}: number of frames drawn, number of messages received, and the
-// state that results from them (state.js).
+// For tests: window.solepath = {frames, messages, state, track}: number of frames drawn, number of messages received, the
+// state that results from them (state.js), and its drawing (track.js).
 
 import { ActivityPanel } from "./activity.js";
 import { Announcer } from "./announce.js";
@@ -35,7 +35,7 @@ const redraw = () => mark("theme");
 
 const pace = new Pace();
 const announcer = new Announcer();
-const track = new Track(redraw);
+const track = (seen.track = new Track(redraw));
 const ribbon = new Ribbon(redraw);
 const playback = new Playback((command) => connection.send(command));
 const looking = new Looking(track, redraw);
