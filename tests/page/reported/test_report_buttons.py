@@ -212,7 +212,7 @@ async def test_a_phone_has_room_for_the_buttons(chromium: Browser) -> None:
         assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= PHONE_WIDTH
 
 
-async def test_a_page_without_a_connection_says_that_nothing_was_reported(chromium: Browser) -> None:
+async def test_a_page_without_a_connection_shows_that_nothing_was_reported(chromium: Browser) -> None:
     reports = Reports()
     async with open_page(chromium, scene_after(10.0), reports.take) as (view, page):
         await view.until(SETTLED)

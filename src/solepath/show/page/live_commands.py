@@ -1,4 +1,4 @@
-"""What a page may command while it shows a live session: a person reports where the wearer is."""
+"""Commands that a page may send while it shows a live session: a person reports where the wearer is."""
 
 from __future__ import annotations
 
