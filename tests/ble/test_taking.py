@@ -20,7 +20,7 @@ from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.types import Packet
-from solepath.wire.receiver import parse_dropped
+from solepath.wire.receiver import PositionFrame, build_position, parse_dropped
 
 
 @cache
@@ -54,6 +54,25 @@ def test_what_an_app_is_too_slow_for_goes_from_the_oldest_on_and_is_counted() ->
         assert [packet.t for packet in mine] == sorted(packet.t for packet in mine)
         setup = ["receiver/connected", *INSOLE.reads, "insole/control", "receiver/dropped"]
         assert [packet.channel for packet in mine][: len(setup)] == setup
+
+
+@virtually
+async def test_a_reported_position_comes_in_its_turn_also_when_an_app_is_too_slow() -> None:
+    position, packets = PositionFrame((1.0, 2.0), 0.5), list[Packet]()
+    devices = Devices([ONE], backend=logged_radio(strap()).backend, capacity=5)
+    with pytest.raises(RuntimeError, match="in use"):
+        devices.report_position(position)
+    async with devices:
+        await asyncio.sleep(10.0)
+        devices.report_position(position)
+        reported_at = now()
+        with pytest.raises(ValueError, match="position"):
+            devices.report_position(PositionFrame((1.0, 2.0), -1.0))
+        await asyncio.sleep(10.0)
+    packets = [packet async for packet in devices]
+    assert [packet.t for packet in packets] == sorted(packet.t for packet in packets)
+    (report,) = [packet for packet in packets if packet.channel == "receiver/position"]
+    assert report == Packet(reported_at, PELVIS, "receiver/position", build_position(position))
 
 
 @virtually

@@ -187,7 +187,7 @@ def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):
 
     async def look(page: Watcher) -> None:
         await page.until(lambda frame: len(frame["links"]) == 2 and frame["feet"]["left"] is not None)
-        assert (page.scene["source"], page.scene["control"]) == ("live", False)
+        assert (page.scene["source"], page.scene["control"]) == ("live", True)
         await page.until(all_are("ok"))
         await page.until(lambda frame: frame["feet"]["right"] is not None and frame["feet"]["right"]["force"] > 100.0)
         walking.send_signal(signal.SIGSTOP)  # from nobody anything comes

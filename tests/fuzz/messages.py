@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from random import Random
+from typing import Any
 
 from changes import NUMBERS, changed_bytes, changed_value
 
-from solepath.show.page.messages import TAKES_VALUE, CommandError, parse_command
+from solepath.show.page.messages import HERE, TAKES_VALUE, CommandError, parse_command
 
 MESSAGES = 500
 """Number of messages of a round."""
@@ -17,7 +18,10 @@ def run(seed: int) -> tuple[int, int]:
     """Parse some mutated messages; return their number, and how many of them were commands."""
     random, commands = Random(seed), 0
     for _ in range(MESSAGES):
-        message = {"do": random.choice(list(TAKES_VALUE)), "value": random.choice((0.5, 1, 7.25, *NUMBERS))}
+        numbers = [random.choice((0.5, 1, 7.25, *NUMBERS)) for _ in range(3)]
+        message: dict[str, Any] = {"do": random.choice(list(TAKES_VALUE)), "value": numbers[0]}
+        if not random.randrange(3):
+            message = {"do": HERE, "sigma": numbers[0], "at": numbers[1:], "level": "0"}
         changed = changed_value(message, random) if random.randrange(3) else message
         text = json.dumps(changed, default=str)
         if random.randrange(2):
@@ -27,7 +31,9 @@ def run(seed: int) -> tuple[int, int]:
         try:
             command = parse_command(text)
             commands += 1
-            if (command.value is not None) is not TAKES_VALUE[command.do]:
+            if (command.value is not None) is not TAKES_VALUE.get(command.do, False):
+                raise AssertionError(f"{command} of {text!r}")
+            if (command.position is not None) is not (command.do == HERE):
                 raise AssertionError(f"{command} of {text!r}")
         except CommandError as error:
             if len(str(error).splitlines()) != 1:

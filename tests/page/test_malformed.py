@@ -16,12 +16,14 @@ from served import LOGGER, check_watching, fetch_reply, frame_of, handshake, ope
 
 from solepath.show.page.messages import CommandError, parse_command
 from solepath.show.page.server import client_errors
+from solepath.wire.receiver import build_position
 
 
 @settings(max_examples=100)
 @given(st.one_of(st.text(), st.dictionaries(
-    st.sampled_from(["do", "value", "to"]),
-    st.none() | st.booleans() | st.floats() | st.integers() | st.sampled_from(["play", "seek", "speed"]),
+    st.sampled_from(["do", "value", "to", "sigma", "at", "level"]),
+    st.none() | st.booleans() | st.floats() | st.integers() | st.sampled_from(["play", "seek", "speed", "here"])
+    | st.lists(st.floats(), max_size=3),
 ).map(json.dumps)))  # fmt: skip
 def test_any_text_is_a_command_or_none(text: str) -> None:
     try:
@@ -29,7 +31,10 @@ def test_any_text_is_a_command_or_none(text: str) -> None:
     except CommandError as error:
         assert str(error) and "\n" not in str(error)
     else:
-        assert command.do in ("play", "pause", "speed", "seek")
+        assert command.do in ("play", "pause", "speed", "seek", "here")
+        if command.do == "here":
+            assert build_position(command.position) and command.value is None
+            return
         message = {"do": command.do} if command.value is None else {"do": command.do, "value": command.value}
         assert parse_command(json.dumps(message)) == command
 

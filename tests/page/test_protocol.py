@@ -64,4 +64,4 @@ def test_the_protocol_states_the_bounds_of_the_speed() -> None:
 def test_the_commands_of_the_protocol_are_commands() -> None:
     table = PAGE.split("| message | meaning |\n", 1)[1].split("\n\n", 1)[0]
     commands = [parse_command(text) for text in re.findall(r"^\| `(.*?)` \|", table, re.MULTILINE)]
-    assert [command.do for command in commands] == ["play", "pause", "speed", "seek"]
+    assert [command.do for command in commands] == ["play", "pause", "speed", "seek", "here", "here", "here"]

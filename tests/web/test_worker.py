@@ -109,6 +109,26 @@ def test_messages_are_a_scene_and_then_what_changed(worker: Worker) -> None:
     assert json.loads(worker.heartbeat())["type"] == "frame"
 
 
+def test_a_position_that_is_reported_during_a_walk_is_shown_and_recorded_and_none_is_after_its_end(
+    worker: Worker,
+) -> None:
+    worker.command('{"do": "here", "sigma": 1}')  # there is no walk yet
+    assert json.loads(worker.message() or "")["control"] is False
+    worker.start_walk("a walk")
+    lines = walk(worker, PACKETS)
+    assert json.loads(worker.message() or "")["control"] is True
+    worker.command('{"do": "here", "sigma": 5}')
+    worker.command('{"do": "pause"}')
+    worker.command('{"do": "here", "sigma": 1, "at": [1, 2], "level": "0"}')  # there is no plan
+    (line,) = worker.take_lines().splitlines()
+    assert json.loads(line)["channel"] == "receiver/position" and line not in lines
+    assert [mark[1:4] for mark in shown(worker)["reports"]] == [[None, 0.0, 0.0]]
+    worker.finish_walk()
+    assert json.loads(worker.message() or "")["control"] is False
+    worker.command('{"do": "here", "sigma": 5}')
+    assert worker.take_lines() == b""
+
+
 def test_a_recording_is_played_and_may_be_controlled(worker: Worker) -> None:
     recorded(Path("walk.jsonl"), insoles().packets)
     assert call(worker, "open", "walk.jsonl") == {"kind": "recording", "notes": []}

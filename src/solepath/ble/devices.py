@@ -12,6 +12,7 @@ from collections.abc import AsyncIterator, Iterable
 from ..link.setup.config import DeviceConfig, check_configs
 from ..link.setup.roster import Roster
 from ..types import Packet
+from ..wire.receiver import PositionFrame, build_position
 from .connection import Connection, ConnectionState
 from .inbox import Emitter, Inbox
 from .scanning import NATIVE, Backend, Scanner, make_scanner
@@ -75,6 +76,15 @@ class Devices:
     def connections(self) -> tuple[Connection, ...]:
         """Read-only connections in the order of the configs: site, state, address, name, signal."""
         return tuple(self._connections)
+
+    def report_position(self, position: PositionFrame) -> None:
+        """Add a packet receiver/position after those that have arrived: a person reports where the wearer is, now.
+
+        Raises ValueError for impossible values, and RuntimeError outside `async with`."""
+        if not self._in_use:
+            raise RuntimeError("a position is reported among the packets of devices in use: async with Devices(...)")
+        now, site = asyncio.get_running_loop().time(), self._connections[0].site
+        self._inbox.put(Packet(now, site, "receiver/position", build_position(position)), False)
 
     async def __aenter__(self) -> Devices:
         if self._in_use:

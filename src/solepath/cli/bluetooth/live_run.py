@@ -19,6 +19,7 @@ from ...recipes import Recipe
 from ...recording import printable
 from ...session import Session
 from ...show.observer import Observer
+from ...show.page.live_commands import position_of
 from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
@@ -60,7 +61,9 @@ async def listen(
         if address is not None:
             floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)
             scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, observer=observer)
-            await stack.enter_async_context(serve_page(scene, address))
+            await stack.enter_async_context(
+                serve_page(scene, address, lambda command: packets.report_position(position_of(command, floor_plan)))
+            )
         live = LiveSession(session, observer if scene is None else scene, files)
         end_hint = "Ctrl-C ends" if seconds is None else f"{seconds:g} s"
         try:

@@ -10,8 +10,12 @@ from typing import Any
 
 from attrs import frozen
 
+from ...wire.receiver import PositionFrame, build_position
+
 TAKES_VALUE = {"play": False, "pause": False, "speed": True, "seek": True}
-"""Commands of a page; True for a command with a value."""
+"""Commands of a page that plays a recording; True for a command with a value."""
+HERE = "here"
+"""Command of a page that shows a live session: a person reports where the wearer is."""
 MIN_SPEED, MAX_SPEED = 0.1, 32.0
 """Bounds of the speed at which a recording is played, in multiples of real time."""
 MAX_MESSAGE_SIZE = 4096
@@ -32,11 +36,12 @@ class CommandError(ValueError):
 class Command:
     """A checked request of a page (protocol/page.md), made by `parse_command`.
 
-    `do` is "play", "pause", "speed" or "seek". `value` is the speed in multiples of real time, or the time to seek, s,
-    on the recording's clock; it is None for "play" and "pause"."""
+    `do` is "play", "pause", "speed", "seek" or "here". `value` is the speed in multiples of real time, or the time to
+    seek, s, on the recording's clock; it is None for all others. `position` is what "here" reports, else None."""
 
     do: str
     value: float | None = None
+    position: PositionFrame | None = None
 
 
 def parse_command(text: str) -> Command:
@@ -50,6 +55,8 @@ def parse_command(text: str) -> Command:
     if not isinstance(message, dict):
         raise CommandError("a message is no JSON object")
     do = message.get("do")
+    if do == HERE:
+        return Command(HERE, position=_reported_position(message))
     if not isinstance(do, str) or do not in TAKES_VALUE:
         raise CommandError("a message asks for nothing that there is")
     if message.keys() != ({"do", "value"} if TAKES_VALUE[do] else {"do"}):
@@ -57,11 +64,28 @@ def parse_command(text: str) -> Command:
     if not TAKES_VALUE[do]:
         return Command(do)
     value = message["value"]
-    if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
+    if not _is_number(value):
         raise CommandError(f"a message to {do} has a value that is no number")
     if do == "speed" and not MIN_SPEED <= value <= MAX_SPEED:
         raise CommandError(f"a message asks for another speed than {MIN_SPEED:g} to {MAX_SPEED:g}")
     return Command(do, float(value))
+
+
+def _reported_position(message: dict[str, Any]) -> PositionFrame:
+    """Return the position that a message reports: the start, a place in the world frame, or one on a level."""
+    if not {"sigma"} <= message.keys() - {"do"} <= {"sigma", "at", "level"}:
+        raise CommandError("a message with a position has other members than it should")
+    sigma, at, level = message["sigma"], message.get("at", []), message.get("level", "")
+    if not isinstance(at, list) or len(at) != (2 if "at" in message else 0) or not all(map(_is_number, [sigma, *at])):
+        raise CommandError("a message with a position has a value that is no number")
+    if not isinstance(level, str) or ("level" in message and not (level and at)):
+        raise CommandError("a message with a position has a level that is none")
+    position = PositionFrame((float(at[0]), float(at[1])) if at else None, float(sigma), level=level)
+    try:
+        build_position(position)
+    except ValueError:
+        raise CommandError("a message has a position that cannot be") from None
+    return position
 
 
 def encode(message: dict[str, Any]) -> str:
@@ -105,9 +129,10 @@ def _unique_members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return message
 
 
-def _is_finite(value: float) -> bool:
+def _is_number(value: Any) -> bool:
+    """Return whether a value of JSON is a number that a float can hold."""
     try:
-        return isfinite(value)
+        return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)
     except OverflowError:
         return False
 

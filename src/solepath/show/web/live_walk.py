@@ -14,7 +14,8 @@ from ...saving.codec import SnapshotError
 from ...session import Session
 from ...session.host import TICK_INTERVAL
 from ...session.json_host import JsonHost
-from ...types import Packet
+from ...types import Packet, Site
+from ...wire.receiver import PositionFrame, build_position
 from ..page.scene.saved_scene import restore_scene, save_scene
 from ..page.scene.scales import newtons_of
 from ..page.scene.scene import Scene
@@ -83,6 +84,13 @@ class LiveWalk:
             self._lines.append(format_packet(packet))
         elif self.session.now is not None:
             self.scene.tick(self.session.now)
+
+    def report_position(self, position: PositionFrame) -> None:
+        """Add a packet receiver/position: a person reports where the wearer is at the newest known time."""
+        now, sites = self.session.now, self.scene.observer.links
+        if now is not None and not self.finished:
+            packet = Packet(now, next(iter(sites), Site.LEFT_FOOT), "receiver/position", build_position(position))
+            self._observe(packet, self.session.feed(packet))
 
     def advance(self, now: float) -> None:
         """Let time pass until `now`, s; a time before the newest packet changes nothing."""

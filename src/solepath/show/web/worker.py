@@ -6,6 +6,7 @@ chosen by hand and not swept."""
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 from types import GeneratorType
@@ -20,7 +21,8 @@ from ...recording import RecordingError, read_packets
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...session.json_host import filters
-from ..page.messages import encode, parse_command
+from ..page.live_commands import position_of
+from ..page.messages import CommandError, encode, parse_command
 from ..page.player.player import Player
 from ..page.scene.scales import newtons_of
 from ..page.scene.scene import Cursor, Scene
@@ -79,7 +81,7 @@ class Worker:
             message = changes
         self._sent_scene = scene
         if message["type"] == "scene":
-            message["control"] = self.player is not None
+            message["control"] = self.player is not None or (self.walk is not None and not self.walk.finished)
         return encode(message)
 
     def heartbeat(self) -> str:
@@ -131,6 +133,7 @@ class Worker:
         """End the walk; the page goes on to show the end of it."""
         if self.walk is not None:
             self.walk.finish()
+            self._sent_scene = None  # the page learns that it has nothing to control any more
 
     # --- recordings and other files
 
@@ -172,9 +175,13 @@ class Worker:
         self.player = Player(recording.items, session, scene, self.plan)
 
     def command(self, text: str) -> None:
-        """Execute a command of the page (protocol/page.md), if there is something to play."""
-        if self.player is not None:
-            self.player.command(parse_command(text))
+        """Execute a command of the page (protocol/page.md), if it is one for what is played or measured by now."""
+        command = parse_command(text)
+        with suppress(CommandError):
+            if self.player is not None:
+                self.player.command(command)
+            elif self.walk is not None:
+                self.walk.report_position(position_of(command, None if self.walk.plan is None else self.walk.plan.plan))
 
     def play(self, seconds: float, budget: float) -> None:
         """Let wall time pass for the recording, s, and compute what is due, for `budget` s at most."""

@@ -22,7 +22,7 @@ from ....events import Event
 from ....floorplan.index import IndexedPlan
 from ....session import Session
 from ....types import Packet, Sample
-from ..messages import MAX_SPEED, MIN_SPEED, Command
+from ..messages import HERE, MAX_SPEED, MIN_SPEED, Command, CommandError
 from ..scene.scene import Scene
 from .packed_items import PackedItems
 from .playback import Playback
@@ -84,7 +84,11 @@ class Player:
         self._save(start)
 
     def command(self, command: Command) -> None:
-        """Execute a command of the page; a value out of range is replaced by the nearest in range."""
+        """Execute a command of the page; a value out of range is replaced by the nearest in range.
+
+        CommandError is raised for a position that a person reports: nothing is received while a recording plays."""
+        if command.do == HERE:
+            raise CommandError("a browser reported a position, and a recording is played")
         match command.do:
             case "play":
                 self.play()

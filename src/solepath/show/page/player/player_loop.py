@@ -24,7 +24,7 @@ class PlayerLoop:
         self._command_received = asyncio.Event()
 
     def command(self, command: Command) -> None:
-        """Execute a command and wake the loop."""
+        """Execute a command and wake the loop; raise CommandError for one that a player has not."""
         self.player.command(command)
         self._command_received.set()
 

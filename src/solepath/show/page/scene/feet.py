@@ -15,6 +15,7 @@ from ....types import Foot, Layout, Phase, Vec3
 from ....types.attrs import NOT_SAVED
 from ...observer import FootCounts
 from ..messages import rounded, rounded_all
+from .bending import Bend
 from .lists import RecentItems, WalkedTrack
 
 PHASE_HISTORY = 20.0
@@ -39,6 +40,10 @@ class FootScene:
     """Start of each recent phase, s, and its name; None for a time in which the foot sends nothing."""
     position: Vec3 | None = field(default=None, init=False)
     track: WalkedTrack = field(factory=WalkedTrack, init=False)
+    lag: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    """Correction by a reported position that the foot's own events have only after its next stride, m, world frame."""
+    lag_ends: bool = field(default=False, init=False)
+    """True after that stride: the live position of its last sample is the last one without the correction."""
     layout: Layout | None = field(default=None, init=False)
     cells: tuple[float, ...] | None = field(default=None, init=False)
     """Newest values of the cells; None while there are none."""
@@ -53,11 +58,13 @@ class FootScene:
 
     def add_position(self, event: FootMoved) -> None:
         """Add a live position."""
-        self.position = event.position
+        self.position = self._corrected(event.position)
+        if self.lag_ends:
+            self.lag, self.lag_ends = (0.0, 0.0), False
         if event.phase is not self.phase:
             self.start_phase(event.t, event.phase)
         if not self.track.count:
-            self.track.add_position(event.t, event.position)
+            self.track.add_position(event.t, self.position)
 
     def add_pressure(self, event: FootPressed) -> None:
         """Add the cells of one sample."""
@@ -84,7 +91,19 @@ class FootScene:
     def add_stride(self, event: StrideTaken) -> None:
         """Add a stride that ended."""
         if event.final:
-            self.track.add_position(event.t, event.position)
+            self.track.add_position(event.t, self._corrected(event.position))
+            self.lag_ends = True
+
+    def _corrected(self, position: Vec3) -> Vec3:
+        return (position[0] + self.lag[0], position[1] + self.lag[1], position[2])
+
+    def revise(self, bend: Bend, by: tuple[float, float]) -> None:
+        """Bend the track, and move the foot by `by`, m, until it has that correction itself."""
+        self.track.replace(bend.apply(self.track.points))
+        self.lag = (self.lag[0] + by[0], self.lag[1] + by[1])
+        if self.position is not None:
+            x, y, z = self.position
+            self.position = (x + by[0], y + by[1], z)
 
     def set_layout(self, layout: Layout) -> bool:
         """Set the positions of the cells; return whether they are new."""

@@ -69,6 +69,13 @@ class WalkedTrack(ThinnedTrack[TrackPoint]):
             self._last = position
             self.add((rounded(t), *rounded_all(position)))
 
+    def replace(self, points: list[TrackPoint]) -> None:
+        """Replace all points by as many others; every watcher then needs the whole list."""
+        self.points = points
+        self._recent.clear()
+        last = [value for value in points[-1][1:] if value is not None] if points else []
+        self._last = (last[0], last[1], last[2]) if len(last) == 3 else None
+
 
 @define
 class RecentItems(Generic[T]):

@@ -25,9 +25,11 @@ from ....events import (
     LinkTrouble,
     PacketsDropped,
     PlaceLost,
+    PositionRejected,
     StreamRestarted,
     StreamResumed,
     StreamStale,
+    TrackRevised,
     TurnMade,
 )
 from ....recording import printable
@@ -35,6 +37,7 @@ from ....types import SITE_OF_FOOT, Turn
 from ...observer import Observer
 from ..messages import rounded
 from .lists import RecentItems
+from .reports import outcome_words
 
 MAX_LINES = 50
 LOW_BATTERY = 0.15
@@ -81,7 +84,7 @@ class SceneLog:
 def sentence(event: Event) -> tuple[str, str] | None:
     """Return (kind, sentence) for an event that has a line in the log; None for any other.
 
-    `kind` is "link", "wear", "gait" or "place"."""
+    `kind` is "link", "wear", "gait", "place" or "here"."""
     line = _link(event) or _wear(event) or _gait(event)
     return None if line is None else (line[0], printable(line[1], 300))
 
@@ -142,5 +145,7 @@ def _gait(event: Event) -> tuple[str, str] | None:
             return "gait", f"a lift {'up' if up else 'down'}{height_text}"
         case PlaceLost(what=what):
             return "place", what
+        case TrackRevised() | PositionRejected():
+            return "here", outcome_words(event)
         case _:
             return None

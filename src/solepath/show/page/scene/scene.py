@@ -22,23 +22,30 @@ from ....events import (
     LayoutKnown,
     Placed,
     PlaceLost,
+    PositionRejected,
+    PositionReported,
     StrideTaken,
     ToeOff,
+    TrackRevised,
     WearerMoved,
 )
 from ....floorplan.plan import FloorPlan
 from ....foot.phase import EVENT_OF_PHASE, SUPPORT
+from ....recording import printable
 from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
 from ....types.attrs import NOT_SAVED
 from ...observer import REJECTIONS, FootCounts, Observer
+from ...valid import has_valid_numbers
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
+from .bending import bend_of
 from .feet import FootScene
 from .gait import SceneGaitMeans, ScenePace, activity_frame
+from .growing import GrowingLists
 from .links import feet_silent_since, link_frame
-from .lists import WalkedTrack
 from .log import SceneLog
 from .plan_drawing import draw_plan
+from .reports import SceneReports, report_words
 from .scales import Scales
 from .wearer import WearerScene
 
@@ -49,10 +56,10 @@ VERSION = 1
 class Cursor:
     """The record of what a watcher has been sent.
 
-    `layout_count` is that of the scene that was sent whole. `numbers` holds for each list of the scene how many items
+    `whole_count` is that of the scene that was sent whole. `numbers` holds for each list of the scene how many items
     had been added to it, `values` for each other key the value that was sent last."""
 
-    layout_count: int
+    whole_count: int
     numbers: dict[str, int]
     values: dict[str, Any]
 
@@ -81,8 +88,9 @@ class Scene:
     pace: ScenePace = field(factory=ScenePace, init=False)
     scales: Scales = field(factory=Scales, init=False)
     log: SceneLog = field(factory=SceneLog, init=False)
-    layout_count: int = field(default=0, init=False)
-    """Number of layouts that became known; a watcher that was sent fewer needs the whole scene again."""
+    reports: SceneReports = field(factory=SceneReports, init=False)
+    whole_count: int = field(default=0, init=False)
+    """Number of layouts that became known and of revised tracks; after each a watcher needs the whole scene again."""
     drawing: EncodedOnce | None = field(default=None, init=False, metadata=NOT_SAVED)
     """Drawing of the plan, made once; None without a plan."""
 
@@ -157,7 +165,7 @@ class Scene:
     def _layout_known(self, event: LayoutKnown) -> None:
         foot = event.site.foot
         if foot is not None and self.feet[foot].set_layout(event.layout):
-            self.layout_count += 1
+            self.whole_count += 1
             self.scales.set_layout(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
 
     def _reset(self, event: ClockReset) -> None:
@@ -169,13 +177,27 @@ class Scene:
         if level is not None:
             self.log.add(event.t, "place", f"on {self._level_name(level)}")
 
+    def _reported(self, event: PositionReported) -> None:
+        moved = self.wearer.moved
+        self.reports.add(event, None if moved is None else moved.position[:2])
+        self.log.add(event.t, "here", printable(report_words(event, self._level_name(event.level)), 300))
+
+    def _revised(self, event: TrackRevised) -> None:
+        self.reports.settle(event)
+        if has_valid_numbers(event):
+            bend = bend_of(event, self.wearer.track.points)
+            for foot_scene in self.feet.values():
+                foot_scene.revise(bend, event.by)
+            self.wearer.revise(event, bend)
+            self.whole_count += 1
+
     def _level_name(self, level: str) -> str:
         names = [] if self.plan is None else [known.name for known in self.plan.levels if known.id == level]
         return names[0] if names and names[0] else f"level {level}"
 
     def whole_message(self) -> tuple[dict[str, Any], Cursor]:
         """Return the message "scene" with everything, and the cursor from which `message_since` continues."""
-        values = self._values()
+        values, lists = self._values(), self._lists()
         message = {
             "type": "scene",
             "v": VERSION,
@@ -185,44 +207,29 @@ class Scene:
             "control": False,
             "plan": self.drawing,
             "layouts": {foot.value: one.layout_message(foot in self.newtons) for foot, one in self.feet.items()},
-            "tracks": {name: list(track.points) for name, track in self._tracks().items()},
-            "places": list(self.wearer.places.points),
-            "phases": {foot.value: list(one.phases.items) for foot, one in self.feet.items()},
-            "log": list(self.log.lines.items),
-            "frame": {
-                "type": "frame",
-                "t": self._t(),
-                **values,
-                "phases": {"left": [], "right": []},
-                "tracks": {"left": [], "right": [], "wearer": []},
-                "places": [],
-                "log": [],
-            },
+            **lists.whole(),
+            "frame": {"type": "frame", "t": self._t(), **values, **lists.empty()},
         }
-        return message, Cursor(self.layout_count, self._numbers(), values)
+        return message, Cursor(self.whole_count, lists.numbers(), values)
 
     def message_since(self, cursor: Cursor) -> tuple[dict[str, Any] | None, Cursor]:
         """Return the message "frame" with what has changed since `cursor`, and the next cursor.
 
-        The message is None when nothing has changed. It is "scene" for a watcher that is too far behind or has an old
-        layout."""
-        if cursor.layout_count != self.layout_count:
+        The message is None when nothing has changed. It is "scene" for a watcher that is too far behind, or has an old
+        layout or a track that was revised since."""
+        if cursor.whole_count != self.whole_count:
             return self.whole_message()
-        values, numbers, sent = self._values(), self._numbers(), cursor.numbers
+        values, lists = self._values(), self._lists()
         message = {key: value for key, value in values.items() if value != cursor.values[key]}
-        if numbers != sent:
-            tracks = {name: track.since(sent[name]) for name, track in self._tracks().items()}
-            places = self.wearer.places.since(sent["places"])
-            if places is None or None in tracks.values():
+        numbers = lists.numbers()
+        if numbers != cursor.numbers:
+            news = lists.since(cursor.numbers)
+            if news is None:
                 return self.whole_message()
-            phases = {foot.value: one.phases.since(sent[f"phases {foot}"]) for foot, one in self.feet.items()}
-            message |= _filled("tracks", {name: points for name, points in tracks.items() if points})
-            message |= _filled("phases", {name: started for name, started in phases.items() if started})
-            message |= _filled("places", places)
-            message |= _filled("log", self.log.lines.since(sent["log"]))
+            message |= news
         if not message:
             return None, cursor
-        return {"type": "frame", "t": self._t(), **message}, Cursor(self.layout_count, numbers, values)
+        return {"type": "frame", "t": self._t(), **message}, Cursor(self.whole_count, numbers, values)
 
     def heartbeat_message(self) -> dict[str, Any]:
         """Return the message "frame" with nothing but the time."""
@@ -231,13 +238,13 @@ class Scene:
     def _t(self) -> float:
         return rounded(self.now) or 0.0
 
-    def _tracks(self) -> dict[str, WalkedTrack]:
-        return {**{foot.value: one.track for foot, one in self.feet.items()}, "wearer": self.wearer.track}
-
-    def _numbers(self) -> dict[str, int]:
-        numbers = {name: track.count for name, track in self._tracks().items()}
-        numbers |= {f"phases {foot}": one.phases.count for foot, one in self.feet.items()}
-        return numbers | {"places": self.wearer.places.count, "log": self.log.lines.count}
+    def _lists(self) -> GrowingLists:
+        return GrowingLists(
+            {**{foot.value: one.track for foot, one in self.feet.items()}, "wearer": self.wearer.track},
+            {foot.value: one.phases for foot, one in self.feet.items()},
+            self.wearer.places,
+            {"log": self.log.lines, "reports": self.reports.marks},
+        )
 
     def _values(self) -> dict[str, Any]:
         now, observer = self.now, self.observer
@@ -283,11 +290,10 @@ HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
     WearerMoved: lambda scene, event: scene.wearer.add_position(event),
     Placed: Scene._placed,
     PlaceLost: lambda scene, event: scene.wearer.forget_level(),
+    PositionReported: Scene._reported,
+    TrackRevised: Scene._revised,
+    PositionRejected: lambda scene, event: scene.reports.settle(event),
     LayoutKnown: Scene._layout_known,
     ClockReset: Scene._reset,
 }
 """Function that changes the scene at each event; the observer and the log get every event besides."""
-
-
-def _filled(key: str, value: Any) -> dict[str, Any]:
-    return {key: value} if value else {}

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from attrs import define, field
+from attrs import define, evolve, field
 
-from ....events import Candidate, Placed, WearerMoved
+from ....events import Candidate, Placed, TrackRevised, WearerMoved
 from ....types.attrs import NOT_SAVED
 from ..messages import rounded, rounded_all
+from .bending import Bend
 from .lists import ThinnedTrack, WalkedTrack
 
 MAX_CANDIDATES = 40
@@ -24,6 +25,8 @@ class WearerScene:
     `track` has a point for each stride. `places` has a point for each place whose candidates are all on one level."""
 
     moved: WearerMoved | None = None
+    is_revised: bool = False
+    """True from a revision of the track until the next stride: the covariance is then not known."""
     track: WalkedTrack = field(factory=WalkedTrack)
     places: ThinnedTrack[PlacePoint] = field(factory=ThinnedTrack)
     level: str | None = None
@@ -32,8 +35,17 @@ class WearerScene:
 
     def add_position(self, event: WearerMoved) -> None:
         """Add the position of the wearer after a stride."""
-        self.moved = event
+        self.moved, self.is_revised = event, False
         self.track.add_position(event.t, event.position)
+
+    def revise(self, event: TrackRevised, bend: Bend) -> None:
+        """Bend the track, and go to the end of the revised path."""
+        self.track.replace(bend.apply(self.track.points))
+        if self.moved is None or not event.nodes:
+            return
+        position = (event.nodes[-1].x, event.nodes[-1].y, self.moved.position[2])
+        self.moved, self.is_revised = evolve(self.moved, t=event.t, known_at=event.known_at, position=position), True
+        self.track.add_position(event.t, position)
 
     def add_place(self, event: Placed) -> str | None:
         """Add a place on the plan; return its level if that is new and shared by all candidates, else None."""
@@ -58,7 +70,7 @@ class WearerScene:
         return {
             "t": rounded(moved.t),
             "position": rounded_all(moved.position),
-            "covariance": rounded_all(moved.covariance, 6),
+            "covariance": None if self.is_revised else rounded_all(moved.covariance, 6),
         }
 
     def place_frame(self, place: Placed | None) -> dict[str, Any] | None:

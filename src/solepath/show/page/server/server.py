@@ -41,7 +41,8 @@ class Page:
 
     `host` is where the page listens; if other machines can reach it, watchers need the token. `port` 0 means any free
     port; None means 8765 or, when that is taken, any free port. `token` is random when it is None. `commands` is called
-    with each command of a watcher who has the token; it is None where there is nothing to play.
+    with each command of a watcher who has the token, and raises CommandError for one that it does not take, which ends
+    the connection; None stands for a page without commands.
 
     A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MAX_WATCHERS.
     A watcher without the token makes room for one who has it, and an idle connection for a new one: nobody without the

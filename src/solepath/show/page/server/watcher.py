@@ -172,7 +172,10 @@ class Watcher:
             return WSCloseCode.POLICY_VIOLATION, f"a browser without the token requested to {command.do}"
         if self._page.commands is None:
             return WSCloseCode.POLICY_VIOLATION, f"a browser requested to {command.do}, and there is nothing to play"
-        self._page.commands(command)
+        try:
+            self._page.commands(command)
+        except CommandError as error:
+            return WSCloseCode.POLICY_VIOLATION, f"{error}: its connection is closed"
         return None
 
 

@@ -1,9 +1,11 @@
-// Announcements for a screen reader: activity, lost and restored links, the level, and the page's own connection.
+// Announcements for a screen reader: activity, lost and restored links, the level, reported positions and what came of
+// them, and the page's own connection.
 
 import { nameOf } from "./position.js";
 import { capital, activityText } from "./words.js";
 
 const JOIN_TIME = 1500; // ms; what comes within this time is announced together
+const RECENT = 5; // s; an older line of the log is not announced: a seek went past it
 
 export class Announcer {
   #waiting = [];
@@ -12,6 +14,7 @@ export class Announcer {
   #activity = null;
   #level = null;
   #decided = false;
+  #report = null; // newest line of the log on a reported position; "" for none, null before the first log
 
   constructor() {
     this.element = document.getElementById("announcer");
@@ -43,11 +46,23 @@ export class Announcer {
         if (how === "ok") this.#broken.delete(site);
       }
     }
+    if (changed.has("log")) this.#reports(state, announce);
     if (changed.has("place") && state.place) {
       const { decided } = state.place;
       if (decided && (state.place.level !== this.#level || !this.#decided))
         announce(`On ${nameOf(state.plan, state.place.level)}`);
       [this.#level, this.#decided] = [state.place.level, decided];
     }
+  }
+
+  // A scene brings the whole log again: only the lines after the one that was the newest are new.
+  #reports({ log, t: now }, announce) {
+    const lines = log.filter(([, kind]) => kind === "here");
+    const keys = lines.map((line) => line.join(" "));
+    if (this.#report !== null) {
+      const known = keys.lastIndexOf(this.#report);
+      for (const [t, , words] of lines.slice(known + 1)) if (t > now - RECENT) announce(capital(words));
+    }
+    this.#report = keys.at(-1) ?? "";
   }
 }

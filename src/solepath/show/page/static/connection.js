@@ -18,6 +18,7 @@ export const WORDS = {
   lost: "The connection to solepath is lost",
   again: "Connected again",
   retry: "Try now",
+  watchOnly: "This page may watch only. To report where you are, open the whole address that solepath printed: it holds the key.",
 };
 
 export class Connection {
@@ -40,8 +41,11 @@ export class Connection {
     this.#open();
   }
 
+  // Returns false while there is no connection: then nothing is sent.
   send(command) {
-    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(command));
+    if (this.#socket?.readyState !== WebSocket.OPEN) return false;
+    this.#socket.send(JSON.stringify(command));
+    return true;
   }
 
   // Try now, instead of at the end of the wait.

@@ -1,7 +1,7 @@
 // Receives messages and draws pictures: each change is drawn with the browser's next frame, and nothing else is drawn.
 //
-// For tests: window.solepath = {frames, messages, state}: number of frames drawn, number of messages received, and the
-// state that results from them (state.js).
+// For tests: window.solepath = {frames, messages, state, track}: number of frames drawn, number of messages received, the
+// state that results from them (state.js), and its drawing (track.js).
 
 import { ActivityPanel } from "./activity.js";
 import { Announcer } from "./announce.js";
@@ -9,6 +9,7 @@ import { keepClear } from "./clearance.js";
 import { Connection, WORDS } from "./connection.js";
 import { Gait } from "./gait.js";
 import { Height } from "./height.js";
+import { Here } from "./here.js";
 import { Links } from "./links.js";
 import { Log } from "./log.js";
 import { Looking } from "./looking.js";
@@ -34,10 +35,17 @@ const redraw = () => mark("theme");
 
 const pace = new Pace();
 const announcer = new Announcer();
-const track = new Track(redraw);
+const track = (seen.track = new Track(redraw));
 const ribbon = new Ribbon(redraw);
 const playback = new Playback((command) => connection.send(command));
 const looking = new Looking(track, redraw);
+const here = new Here(
+  track,
+  (command) => connection.send(command),
+  (words) => announcer.announce(words),
+  redraw,
+  WORDS.watchOnly,
+);
 const panels = [
   new Soles(redraw),
   ribbon,
@@ -48,6 +56,7 @@ const panels = [
   new Links(),
   new Log(),
   playback,
+  here,
   new Seeking((words) => announcer.announce(words)),
 ];
 
@@ -149,7 +158,7 @@ document.addEventListener("keydown", (event) => {
   const { target, key } = event;
   if (target.matches("select, textarea, input:not([type=range])")) return;
   if (key === " " && target.closest("button, summary")) return; // on a button the space bar presses it
-  if (playback.key(key, event.shiftKey) || looking.key(key)) event.preventDefault();
+  if (playback.key(key, event.shiftKey) || looking.key(key) || here.key(key)) event.preventDefault();
 });
 setInterval(() => mark("second"), 1000);
 keepClear();

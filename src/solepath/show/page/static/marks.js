@@ -93,6 +93,30 @@ export function drawDot(context, [x, y]) {
   context.stroke();
 }
 
+// A position that a person reported: a diamond, or a cross where it contradicts the track.
+export function drawReport(context, [x, y], used) {
+  const path = new Path2D();
+  const size = 5;
+  if (used === false) {
+    segment(path, x - size, y - size, x + size, y + size);
+    segment(path, x - size, y + size, x + size, y - size);
+  } else {
+    path.moveTo(x, y - size);
+    for (const [dx, dy] of [[size, 0], [0, size], [-size, 0]]) path.lineTo(x + dx, y + dy);
+    path.closePath();
+    context.fillStyle = theme.colours.inset;
+    context.fill(path);
+  }
+  stroke(context, path, 2, theme.colours.candidate);
+}
+
+// The place that is reported without a pointer: the middle of the drawing.
+export function drawCross(context, [x, y]) {
+  const path = new Path2D();
+  for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) segment(path, x + 5 * dx, y + 5 * dy, x + 16 * dx, y + 16 * dy);
+  stroke(context, path, 2, theme.colours.ink);
+}
+
 export function drawEllipse(context, [x, y], { long, wide, angle }, scale) {
   context.beginPath();
   context.ellipse(x, y, Math.min(MAX_RADIUS, long * scale), Math.min(MAX_RADIUS, wide * scale), -angle, 0, 2 * Math.PI);

@@ -4,6 +4,7 @@
 const MAX_POINTS = 2000; // points of a track
 const PHASE_HISTORY = 20; // s of phases
 const MAX_LOG_LINES = 50; // sentences of the log
+const MAX_REPORTS = 100; // marks of reported positions
 const MAX_TRAIL_POINTS = 240; // points of a centre of pressure's path
 export const FEET = ["left", "right"];
 
@@ -39,6 +40,7 @@ export class State {
     this.thinned = 0; // how often a track lost points, after which it must be drawn again
     this.places = [];
     this.log = [];
+    this.reports = []; // {level: null in the world frame, x, y, used: null while nothing came of it}
     this.wearer = null;
     this.place = null;
     this.activity = null;
@@ -65,9 +67,9 @@ export class State {
     this.control = message.control === true;
     this.plan = plan(message.plan);
     for (const foot of FEET) this.layouts[foot] = layout(record(message.layouts)[foot]);
-    const { tracks, places, phases, log } = message;
-    this.#frame({ ...record(message.frame), tracks, places, phases, log }); // the lists of the scene itself are whole
-    return new Set(["scene", "feet", "phases", "tracks", "places", "log", "links", ...Object.keys(READERS)]);
+    const { tracks, places, phases, log, reports } = message; // the lists of the scene itself are whole
+    this.#frame({ ...record(message.frame), tracks, places, phases, log, reports });
+    return new Set(["scene", "feet", "phases", "tracks", "places", "log", "reports", "links", ...Object.keys(READERS)]);
   }
 
   #frame(message) {
@@ -102,6 +104,12 @@ export class State {
       this.log.push([number(t) ?? this.t, text(kind), text(words)]);
       if (this.log.length > MAX_LOG_LINES) this.log.shift();
       changed.add("log");
+    }
+    for (const [, level, x, y, used] of list(message.reports).filter(Array.isArray)) {
+      if (!numbers([x, y], 2)) continue;
+      this.reports.push({ level: level === null ? null : text(level), x, y, used: used === true || used === false ? used : null });
+      if (this.reports.length > MAX_REPORTS) this.reports.shift();
+      changed.add("reports");
     }
     for (const [name, read] of Object.entries(READERS)) {
       if (!(name in message)) continue;

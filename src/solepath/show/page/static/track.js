@@ -5,10 +5,12 @@ import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import {
   axes,
   drawCandidates,
+  drawCross,
   drawDot,
   drawEllipse,
   drawFoot,
   drawGrid,
+  drawReport,
   drawRing,
   drawRuler,
   drawSpread,
@@ -31,7 +33,8 @@ const SLOW_INTERVAL = 200; // ms between pictures with reduced motion
 const LINE_WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
 export class Track {
-  uses = ["tracks", "places", "feet", "wearer", "place", "scene", "theme"];
+  uses = ["tracks", "places", "reports", "feet", "wearer", "place", "scene", "theme"];
+  pointing = false; // true while a person chooses a place on the drawing
   level = null; // chosen by hand; null follows the wearer
   byItself = null; // chosen by hand: true without the plan, false on it; null on it once there is a place
 
@@ -80,16 +83,19 @@ export class Track {
     const box = onPlan && this.extent ? this.extent : this.#box(state);
     this.view.fit(box, width - this.margins[0], height - this.margins[1], onPlan ? 0 : 0.14);
     const { x, y, scale } = this.view.at(now);
-    const px = ([mx, my]) => [
-      width / 2 - this.view.aside + (mx - x) * scale,
-      height / 2 - this.view.above - (my - y) * scale,
-    ];
+    const middle = [width / 2 - this.view.aside, height / 2 - this.view.above];
+    const px = ([mx, my]) => [middle[0] + (mx - x) * scale, middle[1] - (my - y) * scale];
 
+    this.shownPart = { x, y, scale, middle, level: level?.id ?? null };
     this.#still(state, level, px, scale, `${x} ${y}`);
     const context = this.surface.start();
     if (this.layer.width > 0 && this.layer.height > 0) context.drawImage(this.layer, 0, 0, width, height);
     if (onPlan) this.#place(context, state, level, px, scale);
     else this.#now(context, state, px, scale);
+    for (const one of state.reports) {
+      if (one.level === this.shownPart.level) drawReport(context, px([one.x, one.y]), one.used);
+    }
+    if (this.pointing) drawCross(context, middle);
     drawRuler(context, this.surface, scale);
 
     const view = onPlan ? "plan" : "track";
@@ -97,6 +103,13 @@ export class Track {
     setData(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
     setData(this.section, { view });
     return "done";
+  }
+
+  // What is drawn at a point of the canvas, px, or at the cross: {at: [x, y] in m, level: null alone, scale: px per m}.
+  placeAt(point) {
+    const { x, y, scale, middle, level } = this.shownPart;
+    const [px, py] = point ?? middle;
+    return { at: [x + (px - middle[0]) / scale, y - (py - middle[1]) / scale], level, scale };
   }
 
   onPlan({ plan, place, places }) {

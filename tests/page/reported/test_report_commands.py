@@ -1,0 +1,133 @@
+"""Tests how a position that a person reports on the page gets to the session: command, access, packet, recording."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from commands import run
+from programs import TAKES, emulator, started
+from served import LOGGER, TOKEN, close_code, scene_of, served
+from walks import insoles
+from watchers import ANYWHERE, Watcher, address, watch
+
+from solepath import Session, Site
+from solepath.emulate.routes.building import BUILDING
+from solepath.recording import read_packets
+from solepath.show.page.live_commands import position_of
+from solepath.show.page.messages import CommandError, parse_command
+from solepath.show.page.player.packed_items import PackedItems
+from solepath.show.page.player.player import Player
+from solepath.show.page.scene.scene import Scene
+from solepath.wire.receiver import PositionFrame, parse_position
+
+HERE = '{"do":"here","sigma":0.5,"at":[3.25,-1.5]}'
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"do":"here"}', '{"do":"here","value":1}', '{"do":"here","sigma":0}', '{"do":"here","sigma":-1}',
+        '{"do":"here","sigma":1e-99}', '{"do":"here","sigma":1e5}', '{"do":"here","sigma":true}',
+        '{"do":"here","sigma":"1"}', '{"do":"here","sigma":NaN}', '{"do":"here","sigma":1,"at":null}',
+        '{"do":"here","sigma":1,"at":[]}', '{"do":"here","sigma":1,"at":[1]}', '{"do":"here","sigma":1,"at":[1,2,3]}',
+        '{"do":"here","sigma":1,"at":[1,"2"]}', '{"do":"here","sigma":1,"at":[1,2e6]}',
+        '{"do":"here","sigma":1,"at":[1,1' + "0" * 999 + "]}", '{"do":"here","sigma":1,"level":"0"}',
+        '{"do":"here","sigma":1,"at":[1,2],"level":""}', '{"do":"here","sigma":1,"at":[1,2],"level":0}',
+        '{"do":"here","sigma":1,"at":[1,2],"level":"\\ud800"}', '{"do":"play","sigma":1}',
+        '{"do":"here","sigma":1,"at":[1,2],"level":"' + "x" * 65 + '"}', '{"do":"here","sigma":1,"place":"door"}',
+        '{"do":"here","sigma":1,"at":{"0":1,"1":2}}', '{"do":"here","sigma":1,"sigma":1}',
+    ],
+)  # fmt: skip
+def test_a_malformed_position_is_no_command(text: str) -> None:
+    with pytest.raises(CommandError):
+        parse_command(text)
+
+
+def test_a_command_holds_the_position_that_it_reports() -> None:
+    assert parse_command('{"do":"here","sigma":1}').position == PositionFrame(None, 1.0)
+    assert parse_command(HERE).position == PositionFrame((3.25, -1.5), 0.5)
+    level = BUILDING.levels[0].id
+    command = parse_command(json.dumps({"do": "here", "sigma": 2, "at": [1, 2], "level": level}))
+    assert position_of(command, BUILDING) == PositionFrame((1.0, 2.0), 2.0, level=level)
+
+
+async def test_who_has_the_token_reports_a_position_and_nobody_else_does(caplog: pytest.LogCaptureFixture) -> None:
+    reported: list[PositionFrame] = []
+    async with served(commands=lambda command: reported.append(position_of(command, None))) as (_, client, url):
+        async with client.ws_connect(f"{url}ws") as watching:
+            assert (await scene_of(watching))["control"] is False
+            await watching.send_str(HERE)
+            assert await close_code(watching) == 1008
+        assert reported == [] and [one.name for one in caplog.records] == [LOGGER]
+        async with client.ws_connect(f"{url}ws?token={TOKEN}") as watching:
+            assert (await scene_of(watching))["control"] is True
+            await watching.send_str(HERE)
+            await watching.send_str('{"do":"dance"}')
+            assert await close_code(watching) == 1008
+    assert reported == [PositionFrame((3.25, -1.5), 0.5)]
+
+
+@pytest.mark.parametrize(
+    "text", ['{"do":"pause"}', '{"do":"seek","value":1}', '{"do":"here","sigma":1,"at":[1,2],"level":"no such level"}']
+)
+async def test_a_live_session_takes_no_other_commands_and_no_other_levels(text: str) -> None:
+    reported: list[PositionFrame] = []
+    async with (
+        served(commands=lambda command: reported.append(position_of(command, BUILDING))) as (_, client, url),
+        client.ws_connect(f"{url}ws?token={TOKEN}") as watching,
+    ):
+        await scene_of(watching)
+        await watching.send_str(text)
+        assert await close_code(watching) == 1008
+    assert reported == []
+
+
+async def test_a_recording_that_is_played_takes_no_position() -> None:
+    packets, session = PackedItems(insoles().packets), Session(poses=True, pressures=True)
+    player = Player(packets, session, Scene("a walk", "default", "recording"))
+    async with (
+        served(scene=player.scene, commands=player.command) as (_, client, url),
+        client.ws_connect(f"{url}ws?token={TOKEN}") as watching,
+    ):
+        await scene_of(watching)
+        await watching.send_str(HERE)
+        assert await close_code(watching) == 1008
+
+
+def test_a_position_that_is_reported_to_live_sensors_is_in_the_recording_and_a_replay_gives_the_same_events(
+    tmp_path: Path,
+) -> None:
+    pytest.importorskip("aiohttp")
+    pytest.importorskip("bumble")
+
+    async def report(page: Watcher) -> None:
+        await page.until(lambda frame: frame["feet"]["left"] is not None and frame["feet"]["left"]["strides"] >= 2)
+        assert (page.scene["source"], page.scene["control"], page.scene["reports"]) == ("live", True, [])
+        x, y, _ = page.frame["wearer"]["position"]
+        await page.socket.send_str(json.dumps({"do": "here", "sigma": 1, "at": [x + 0.2, y]}))
+        await page.until(lambda frame: len(page.scene["reports"]) == 1)
+        await page.socket.send_str('{"do":"here","sigma":0.1,"at":[200,0]}')
+        await page.until(lambda frame: any("position rejected" in line[2] for line in frame.get("log", [])))
+
+    recording, live, again = tmp_path / "walk.jsonl", tmp_path / "live", tmp_path / "again"
+    with emulator("--distance", 6) as (_, where):
+        named = ("--left", "solepath L", "--right", "solepath R", "--via", where)
+        with started("live", *named, *ANYWHERE, "--record", recording, "--out", live, "--duration", 60) as process:
+            watch(address(process), report)
+            process.terminate()
+            _, err = process.communicate(timeout=TAKES)
+    assert (process.returncode, err) == (0, "")
+    packets = list(read_packets(recording))
+    first, second = (packet for packet in packets if packet.channel == "receiver/position")
+    assert parse_position(second.data) == PositionFrame((200.0, 0.0), pytest.approx(0.1))
+    assert [packet.t for packet in packets] == sorted(packet.t for packet in packets)
+    run("track", recording, "--out", again)
+    events = (live / "events.jsonl").read_text("utf-8")
+    assert events == (again / "events.jsonl").read_text("utf-8")
+    names = [json.loads(line)["event"] for line in events.splitlines()]
+    assert [name for name in names if name in ("PositionReported", "TrackRevised", "PositionRejected")] == [
+        "PositionReported", "TrackRevised", "PositionReported", "PositionRejected",
+    ]  # fmt: skip
+    assert first.site is Site.LEFT_FOOT and first.device == ""
