@@ -1,4 +1,4 @@
-"""A person says where they are on the floor plan: the hypotheses of the place are weighed, and the track is corrected."""
+"""A person says where they are on the floor plan: its hypotheses are weighed, and the track is corrected."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def off(part: Method, place: Point) -> float:
     return inf if part.place is None else dist(part.place.position[:2], place)
 
 
-def test_who_says_where_they_are_is_found_without_a_start(part: Method) -> None:
+def test_a_report_finds_a_wearer_without_a_start(part: Method) -> None:
     part.plan = OFFICE
     pedestrian = Pedestrian(3, "0", (12.0, LOW))
     assert not part.receive(reported(0.0, pedestrian.place))
@@ -33,7 +33,7 @@ def test_who_says_where_they_are_is_found_without_a_start(part: Method) -> None:
     assert all(dist(one.position[:2], (12.0, LOW)) < 3.0 for one in placed(events)[:1])
 
 
-def test_a_report_decides_between_places_that_the_walls_do_not_tell_apart(part: Method) -> None:
+def test_a_report_decides_between_places_that_walls_cannot(part: Method) -> None:
     pedestrian = Pedestrian(4, "0", (12.0, LOW))
     part.plan = OFFICE
     part.set_out(Start("0", (14.0, LOW), None, 6.0))

@@ -8,16 +8,18 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import ClassVar, Protocol, Self
+from typing import TYPE_CHECKING, ClassVar, Protocol, Self
 
 from ..calibration import Calibration
 from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, TurnMade
 from ..events.happening import Happening
-from ..floorplan.plan import Start
 from ..foot.view import FootPose, FootView
 from ..foot.world import Covariance3
 from ..types import Activity, Foot, Layout, Sample, Site, Vec3
 from ..types.attrs import frozen
+
+if TYPE_CHECKING:
+    from ..floorplan.plan import Start
 
 
 @frozen

@@ -9,6 +9,7 @@ from ...events import PositionRejected, PositionReported, TrackRevised
 from ...types.attrs import frozen
 from ..fuse.common_error import HEADING, CommonError, Move, X
 from ..fuse.position_covariance import position_covariance
+from .path_revision import estimate, note_place, revise_path, visit
 from .walked_path import WalkedPath
 
 POSITION_GATE = 11.8
@@ -50,18 +51,18 @@ class ReportedPosition:
         """Correct the tracks and revise the path, or reject the position; a new place is noted without an event."""
         event, error, path, was = self.event, self.error, self.path, self.place()
         variance = max(event.sigma, LEAST_SIGMA) ** 2
-        named = path.visit(event.place) if event.place else None
+        named = visit(path, event.place) if event.place else None
         if event.place and named is None:
-            path.note(event.place, event.t, was, variance, error)
+            note_place(path, event.place, event.t, was, variance, error)
             return []
-        target = (event.position or (0.0, 0.0)) if named is None else path.estimate(named, error)
+        target = (event.position or (0.0, 0.0)) if named is None else estimate(named, error)
         off, turn = _minus(target, was), 0.0
         square = self._square(off, variance, named)
         if square > POSITION_GATE:
-            rejected = None if named is not None else path.visit(REJECTED)
+            rejected = None if named is not None else visit(path, REJECTED)
             if rejected is None or not self._confirms(target, variance, rejected):
                 if named is None:
-                    path.note(REJECTED, event.t, was, variance, error)
+                    note_place(path, REJECTED, event.t, was, variance, error)
                     path.rejected = target
                 return [self._rejection(hypot(*off), square)]
             self._raise_variance(rejected, off[0] * off[0] + off[1] * off[1])
@@ -69,13 +70,13 @@ class ReportedPosition:
         more = self._beyond_linear(named)
         turn += self._correct(target, X, named, variance, more)
         now = self.place()
-        nodes = path.revise(event.t, was, now, turn, error, settles=named is None)
+        nodes = revise_path(path, event.t, was, now, turn, error, settles=named is None)
         by = _minus(now, was)
         return [TrackRevised(t=event.t, known_at=event.known_at, by=by, turn=turn, nodes=nodes)]
 
     def _covariance(self, since: int | None) -> tuple[float, float, float]:
         """Return the covariance of the way from the known position, or from the place whose rows begin at `since`."""
-        start = self.path.known if since is None else self.path.estimate(since, self.error)
+        start = self.path.known if since is None else estimate(since, self.error)
         return position_covariance(self.error, _minus(self.place(), start), since)
 
     def _square(self, off: Pair, variance: float, since: int | None) -> float:
@@ -93,7 +94,7 @@ class ReportedPosition:
 
     def _confirms(self, target: Pair, variance: float, rejected: int) -> bool:
         """Return whether the way from the rejected position to this one is that of the track."""
-        way = _minus(self.place(), self.path.estimate(rejected, self.error))
+        way = _minus(self.place(), estimate(rejected, self.error))
         other = _minus(target, self.path.rejected)
         return hypot(*way) > LEAST_WAY and self._square(_minus(other, way), variance, rejected) < AGREEMENT_GATE
 
@@ -110,12 +111,12 @@ class ReportedPosition:
 
         It is that of the wearer or of a place, whose rows begin at `of`, with this `variance`, m^2, and with `more` on
         each axis that counts as an error of the report. With `since`, the wearer is at that place."""
-        error, path, turn = self.error, self.path, 0.0
+        error, turn = self.error, 0.0
         for axis in (0, 1):
             terms = [(of + axis, 1.0), *([] if since is None else [(since + axis, -1.0)])]
             column = error.column(terms)
-            is_at = self.place() if of == X else path.estimate(of, error)
-            z = (target if since is None else path.estimate(since, error))[axis] - is_at[axis]
+            is_at = self.place() if of == X else estimate(of, error)
+            z = (target if since is None else estimate(since, error))[axis] - is_at[axis]
             move = error.correct(column, z, error.along(column, terms) + more[axis] + variance, 1.0)
             self.move_both(move)
             turn += move[HEADING]

@@ -21,7 +21,6 @@ from math import atan2, cos, hypot, sin
 
 from ...calibration import Calibration
 from ...events import DefectFound, PositionReported, SampleGap, StrideTaken
-from ...floorplan.plan import Start
 from ...foot.stride import usual_strides
 from ...foot.view import AfterEvents, FootPose, FootView
 from ...types import Foot, Site, Vec3
@@ -101,10 +100,6 @@ class BothFeet(MeanOfFeet):
         part.evidence.use_calibration(calibration.headings, part.common)
         return part
 
-    def set_out(self, start: Start) -> None:
-        """Take the wearer's first place on the floor plan, where a person may report positions from then on."""
-        self.evidence.set_out(start)
-
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         was_unplaced = self.left.unplaced or self.right.unplaced
@@ -132,7 +127,7 @@ class BothFeet(MeanOfFeet):
             self.evidence.straight_ways.add_defect(event)
         elif isinstance(event, PositionReported) and self.common.started:
             place = partial(self.middle, self.common.shares)
-            return self.evidence.use_position(event, place, self.common, self._move_both)
+            return self.evidence.use_position(event, place, self.plan_start, self.common, self._move_both)
         return ()
 
     def reset(self, site: Site) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import atan2, cos, fsum, hypot, sin
-from typing import ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from ...events import SampleGap
 from ...foot.view import FootPose, FootView
@@ -19,6 +19,9 @@ from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub, turned
 from ..part import PartOutput, Position, TrackPart
+
+if TYPE_CHECKING:
+    from ...floorplan.plan import Start
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
@@ -111,11 +114,18 @@ class MeanOfFeet(TrackPart):
     right: PlacedTrack = field(factory=PlacedTrack, init=False)
     placed_last: Foot | None = field(default=None, init=False)
     """The foot that was last aligned with the other foot; None before any."""
+    plan_start: tuple[float, float, float] | None = field(default=None, init=False)
+    """Wearer's first place on the floor plan, m, and first heading there, rad; None if they are not known."""
     return_strides: list[tuple[bool, Vec3, Vec3]] = field(factory=list, init=False)
     """Newest strides of both feet while a foot is unplaced.
 
     Each has a flag for the left foot, the unplaced foot's position on its own track, and the other foot's position in
     the common frame, m."""
+
+    def set_out(self, start: Start) -> None:
+        """Take the wearer's first place on the floor plan, in whose frame a person may report positions."""
+        if start.heading is not None:
+            self.plan_start = (*start.place, start.heading)
 
     def middle(self, shares: tuple[float, float]) -> tuple[float, float]:
         """Return the newest place between both feet, m, common frame; each foot counts with its share."""

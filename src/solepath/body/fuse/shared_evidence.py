@@ -10,7 +10,6 @@ from typing import Final, Protocol
 
 from ...calibration import HeadingCalibration
 from ...events import Defect, DefectFound, PositionRejected, PositionReported, StrideTaken, TrackRevised
-from ...floorplan.plan import Start
 from ...foot.view import AfterEvents, FootView
 from ...types import SITE_OF_FOOT, Foot, Phase, Vec3
 from ...types.attrs import define, evolve, field
@@ -64,19 +63,12 @@ class SharedEvidence:
     """Time of the newest sample that the compass has of the left and of the right foot, s."""
     path: WalkedPath = field(factory=WalkedPath, init=False)
     """Path of the wearer so far."""
-    plan_start: tuple[float, float, float] | None = field(default=None, init=False)
-    """Wearer's first place on the floor plan, m, and first heading there, rad; None if they are not known."""
     found: list[DefectFound] = field(factory=list, init=False)
 
     def use_calibration(self, headings: Mapping[Foot, HeadingCalibration], error: CommonError) -> None:
         """Use what a calibration walk has shown of the heading of each foot, before any stride."""
         error.use_calibration(headings)
         self.straight_ways.use_calibration(headings)
-
-    def set_out(self, start: Start) -> None:
-        """Take the wearer's first place on the floor plan."""
-        if start.heading is not None:
-            self.plan_start = (*start.place, start.heading)
 
     def add_stance_sample(self, view: FootView, mag: Vec3) -> None:
         """Add a sample of a foot that stands, with the magnetic flux density `mag`, T, sensor frame."""
@@ -128,16 +120,17 @@ class SharedEvidence:
         return move
 
     def use_position(
-        self, event: PositionReported, place: Callable[[], Pair], error: CommonError, move_both: Callable[[Move], None]
-    ) -> list[TrackRevised | PositionRejected]:
+        self, event: PositionReported, place: Callable[[], Pair], plan_start: tuple[float, float, float] | None,
+        error: CommonError, move_both: Callable[[Move], None],
+    ) -> list[TrackRevised | PositionRejected]:  # fmt: skip
         """Correct both tracks with `move_both` by a reported position, reject it, or note a new place without an event.
 
         `place` returns where the wearer is according to the track, m, common frame. A position on the floor plan is
-        used if the first heading there is known."""
+        used if the first place, m, and the first heading, rad, are known there (`plan_start`)."""
         if event.level and event.position is not None:
-            if self.plan_start is None:
+            if plan_start is None:
                 return []
-            x0, y0, heading = self.plan_start
+            x0, y0, heading = plan_start
             x, y, c, s = event.position[0] - x0, event.position[1] - y0, cos(heading), sin(heading)
             event = evolve(event, position=(c * x + s * y, c * y - s * x))
         from ..aiding.reported_position import ReportedPosition

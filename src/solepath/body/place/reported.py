@@ -15,7 +15,7 @@ REPORT_GATE = 11.8
 """Largest squared distance of a report from the nearest row, divided by its variance: 99.7 % of right ones."""
 ROW_SIGMA = 1.0
 """Standard deviation of the place of a row on each axis, m, because there are few rows."""
-DOUBTED_SHARE = 0.1
+OTHER_SHARE = 0.1
 """Share of the weight of all rows that a report gets which no row agrees with; the next report decides."""
 
 
@@ -42,7 +42,7 @@ def use_report(
         return [(*row[:4], k * row[4], *row[5:]) for row, k in zip(there, weights, strict=True)], None
     weight = fsum([row[4] for row in rows])
     heading = atan2(fsum([row[4] * row[3] for row in rows]), fsum([row[4] * row[2] for row in rows]))
-    added = spread_rows(scatter, plan, level, place, sigma, heading, KNOWN_ROWS, 0, DOUBTED_SHARE * weight)
+    added = spread_rows(scatter, plan, level, place, sigma, heading, KNOWN_ROWS, 0, OTHER_SHARE * weight)
     where = f"the nearest is {distance:.0f} m away" if there else "none is on this level"
     what = (
         f"the track may have led to several places on the plan, but not to this one: {where}. If it is right, report "
