@@ -165,11 +165,11 @@ def test_a_path_keeps_few_nodes_however_long_it_is_and_ends_where_it_was_correct
         path.add_stride(float(k), (0.7 * k, 0.0), 0.7)
     assert 20 <= len(path.nodes) <= MOST_NODES
     error = CommonError()
-    nodes = revise_path(path, 20_000.0, (14_000.0, 0.0), (14_000.0, 500.0), 0.05, error, True)
+    nodes = revise_path(path, 20_000.0, (14_000.0, 0.0), (14_000.0, 500.0), (0.01, 1.0), error, True)
     assert nodes[-1] == TrackNode(20_000.0, 14_000.0, 500.0) and nodes[0].y == 0.0
     assert all(0.0 <= node.y <= 520.0 for node in nodes)
     path.add_stride(20_001.0, (14_001.0, 500.0), 400.0)
-    later = revise_path(path, 20_002.0, (14_002.0, 500.0), (14_002.0, 501.0), 0.0, error, True)
+    later = revise_path(path, 20_002.0, (14_002.0, 500.0), (14_002.0, 501.0), (0.01, 1.0), error, True)
     assert later[0] == nodes[-1], "what a report has settled stays"
 
 

@@ -67,10 +67,10 @@ class ReportedPosition:
                 return [self._rejection(hypot(*off), square)]
             self._raise_variance(rejected, off[0] * off[0] + off[1] * off[1])
             turn += self._correct(path.rejected, rejected, None, LEAST_SIGMA * LEAST_SIGMA, (0.0, 0.0))
-        more = self._beyond_linear(named)
+        heading, more = error.covariance[HEADING][HEADING], self._beyond_linear(named)
         turn += self._correct(target, X, named, variance, more)
         now = self.place()
-        nodes = revise_path(path, event.t, was, now, turn, error, settles=named is None)
+        nodes = revise_path(path, event.t, was, now, (heading, variance), error, settles=named is None)
         by = _minus(now, was)
         return [TrackRevised(t=event.t, known_at=event.known_at, by=by, turn=turn, nodes=nodes)]
 

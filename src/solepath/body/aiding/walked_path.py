@@ -38,6 +38,8 @@ class WalkedPath:
     """Newest position that was reported, m; that of the start before any."""
     known_at: float | None = field(default=None, init=False)
     """Time of that report, s; None before any."""
+    heading_variance: float = field(default=0.0, init=False)
+    """Variance of the heading there, rad^2."""
     places: dict[str, NotedPlace] = field(factory=dict, init=False)
     """Noted places by their names, the newest visited last."""
     rejected: Pair = field(default=(0.0, 0.0), init=False)

@@ -14,7 +14,7 @@ figures are
 
 from __future__ import annotations
 
-from math import atan2, cos, pi, radians, sin
+from math import atan2, cos, inf, pi, radians, sin
 from pathlib import Path
 
 import numpy as np
@@ -106,11 +106,13 @@ def yaw_of(q: Quat) -> float:
     return atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z))
 
 
-def follow(session: Session, walk: SampledWalk) -> HeadingTrack:
-    """Return the wearer's track in a session that receives all samples of a walk."""
+def follow(session: Session, walk: SampledWalk, until: float = inf) -> HeadingTrack:
+    """Return the wearer's track in a session that receives the samples of a walk before `until`, s."""
     track, truth, errors = HeadingTrack(), walk.truth, dict.fromkeys(Foot, 0.0)
     counts = dict.fromkeys(Foot, 0)
     for sample in walk.samples:
+        if sample.t >= until:
+            break
         for event in session.feed(sample):
             if not isinstance(event, StrideTaken):
                 continue
@@ -144,18 +146,25 @@ def score_heading(
 ) -> Scored:
     """Score a walk of a kind of routes and of the seed in the entry `meta`, with this equipment."""
     seed: int = meta["seed"]
-    insoles, magnetic_field = insoles_of(seed), UNDISTURBED
-    route = heading_route(kind, seed, is_complete)
-    if equipment.disturbance is not None:
-        insoles = {site: evolve(insole, mag=AK8963) for site, insole in insoles.items()}
-        magnetic_field = MagneticField(equipment.disturbance, seed)
-    walk = sampled(route, wearer=wearer_of(seed), insoles=insoles, seed=seed, field=magnetic_field)
+    walk = emulated_walk(kind, is_complete, seed, equipment.disturbance)
     calibration = settings.calibration
     if equipment.calibrated:
         calibration = merged(calibration, heading_calibration(heading_walk(calibration_samples(seed))))
     session = Session(settings.recipe, calibration=calibration)
     track = follow(session, walk)
     return Scored(path.stem, figures=heading_figures(track, walk.truth, kind in ONE_SIDED), samples=len(walk.samples))
+
+
+def emulated_walk(kind: str, is_complete: IsComplete, seed: int, disturbance: float | None = None) -> SampledWalk:
+    """Return the walk of a kind of routes and of a seed.
+
+    With a `disturbance`, rad, each insole has a magnetometer in a field that is disturbed so much."""
+    insoles, magnetic_field = insoles_of(seed), UNDISTURBED
+    if disturbance is not None:
+        insoles = {site: evolve(insole, mag=AK8963) for site, insole in insoles.items()}
+        magnetic_field = MagneticField(disturbance, seed)
+    route = heading_route(kind, seed, is_complete)
+    return sampled(route, wearer=wearer_of(seed), insoles=insoles, seed=seed, field=magnetic_field)
 
 
 def heading_figures(track: HeadingTrack, truth: Truth, one_sided: bool = False) -> Figures:
@@ -168,8 +177,8 @@ def heading_figures(track: HeadingTrack, truth: Truth, one_sided: bool = False) 
     turn = float(headings[0])
     c, s = cos(turn), sin(turn)
     rotation = np.array([[c, -s], [s, c]])
-    errors = np.array(track.places) @ rotation.T - _middle(truth, t) + _middle(truth, np.zeros(1))
-    whole = _middle(truth, np.arange(0.0, truth.duration, 0.5))
+    errors = np.array(track.places) @ rotation.T - middle(truth, t) + middle(truth, np.zeros(1))
+    whole = middle(truth, np.arange(0.0, truth.duration, 0.5))
     path, end = float(distances(whole)[-1]), float(np.hypot(*errors[-1]))
     figures: Figures = {
         "position_end": end,
@@ -198,6 +207,6 @@ def yaws(truth: Truth, t: Floats) -> Floats:
     return np.asarray(np.arctan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z)))
 
 
-def _middle(truth: Truth, t: Floats) -> Floats:
+def middle(truth: Truth, t: Floats) -> Floats:
     """Return the true middle of both sensors at times `t`, s, (N, 2), m."""
     return np.asarray(0.5 * sum(truth.pose(foot, t).position[:, :2] for foot in Foot), dtype=np.float64)

@@ -38,12 +38,12 @@ _LESS = (
     "heel_strike_scatter", "heel_strike_off", "toe_off_mad", "toe_off_scatter", "toe_off_off", "stride_time_error",
     "stride_time_error_median", "leg_error", "leg_error_median", "body_leg_error", "body_leg_error_median",
     "leg_spread", "uturn_angle", "uturn_invented", "rides_invented", "level_called", "heading_end", "radius_error",
-    "drift", "drift_left", "drift_right", "drift_stride",
+    "drift", "drift_left", "drift_right", "drift_stride", "end_without", "end_return", "way_places",
 )  # fmt: skip
 _NEARER_ZERO = ("heel_strike_bias", "toe_off_bias", "stride_time_bias", "leg_bias", "body_leg_bias")
 _MORE = (
     "strides_found", "heel_strike_f1", "toe_off_f1", "authors_beaten", "uturn_found", "accuracy", "rides_found",
-    "stairs_called", "stairs_direction", *(f"f1_{activity.value.lower()}" for activity in CLASSES),
+    "stairs_called", "stairs_direction", "refused_first", "refused_later", "used", *(f"f1_{activity.value.lower()}" for activity in CLASSES),
 )  # fmt: skip
 BETTER: dict[str, Better] = {
     **dict.fromkeys(_LESS, Better.LESS),

@@ -14,6 +14,7 @@ from attrs import frozen
 from ...recipes import Recipe
 from ..emulated.heading import CHECKED_TIMES, EQUIPMENT, LENGTHS, score_heading
 from ..emulated.heading_walks import KINDS, WITH_COMPASS
+from ..emulated.reports import score_reports
 from ..emulated.walks import score_floors
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
@@ -167,6 +168,9 @@ HEADING_FIGURES = (
     "end_relative", "position_end", "heading_end", "radius_error", "path",
     *(f"{figure}_{t}" for t in CHECKED_TIMES for figure in ("nees", "held", "heading_nees")),
 )  # fmt: skip
+REPORT_FIGURES = (
+    "end_without", "end_return", "way_places", "nees_return", "held_return", "refused_first", "refused_later", "used",
+)  # fmt: skip
 EMULATED = (
     *(
         DataSet(
@@ -178,6 +182,13 @@ EMULATED = (
         for kind in KINDS
         for suffix, equipment in EQUIPMENT.items()
         if equipment.disturbance is None or kind in WITH_COMPASS
+    ),
+    *(
+        DataSet(
+            f"emulated_{kind}_30min_here", f"{kind.replace('_', ' ')}, 30min, a person who says where they are",
+            partial(score_reports, kind), REPORT_FIGURES, has_pressure=True,
+        )
+        for kind in WITH_COMPASS
     ),
     DataSet(
         "emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", score_floors,

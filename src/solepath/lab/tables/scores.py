@@ -68,6 +68,14 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
         for t in CHECKED_TIMES
         for figure, title in (("nees", "NEES/2"), ("held", "held"), ("heading_nees", "heading^2/variance"))
     },
+    "end_without": ("without a place m", _metres),
+    "end_return": ("with one m", _metres),
+    "way_places": ("along the way with three m", _metres),
+    "nees_return": ("NEES/2 with one", _two_digits),
+    "held_return": ("held", _two_digits),
+    "refused_first": ("20 m off, refused %", percent),
+    "refused_later": ("after another %", percent),
+    "used": ("right, used %", percent),
     "nees_end": ("NEES/2 at the end", _two_digits),
     "held_end": ("held", _two_digits),
     "height_end": ("height at end m", _metres),
