@@ -12,6 +12,7 @@ from solepath.emulate.routes.route import Route, Stairs, TurnAction
 from solepath.emulate.wearers.walker import Walker
 from solepath.lab.emulated.heading import EQUIPMENT, HeadingTrack, heading_figures, is_half_hour, score_heading
 from solepath.lab.emulated.heading_walks import KINDS, heading_route
+from solepath.lab.emulated.reports import score_reports
 from solepath.lab.emulated.walks import STOREYS, four_floors, mean_position, place_figures
 from solepath.lab.evaluate.run import RunSettings
 from solepath.lab.measures.drift import drift_figures, drift_of_strides, drift_that_opens
@@ -129,3 +130,15 @@ def test_the_data_sets_with_a_compass_have_one():
         for name in ("", "_compass20", "_compass30")
     ]
     assert len(set(ends)) == 3
+
+
+def test_places_that_a_person_reports_are_scored_by_what_they_are_worth():
+    def short(length, seconds):
+        return length >= 200.0
+
+    figures = score_reports(
+        "right_angles", short, (60.0, 80.0, 120.0), Path("4"), {"seed": 4}, RunSettings(recipes.DEFAULT)
+    ).figures
+    assert figures["used"] == figures["refused_first"] == figures["refused_later"] == 1.0
+    assert 0.0 < figures["end_return"] != figures["end_without"] and figures["way_places"] < 3.0
+    assert 0.0 < figures["nees_return"] < 6.0

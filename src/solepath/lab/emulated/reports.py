@@ -29,12 +29,13 @@ from ..evaluate.run import Meta, RunSettings
 from ..measures.alignment import Floats
 from ..measures.consistency import consistency
 from ..measures.score import Figures, Scored
-from .heading import LENGTHS, emulated_walk, follow, middle
+from .heading import emulated_walk, follow, middle
+from .heading_walks import IsComplete
 
 REPORT_SIGMA, WRONG = 1.0, 20.0
 """Standard deviation of a place on each axis, m, and distance of one that is wrong, m."""
-FIRST, RETURN, SECOND = 600.0, 900.0, 1200.0
-"""Times of the places, s."""
+TIMES = (600.0, 900.0, 1200.0)
+"""Times of the first place, of the one place, and of the second place, s."""
 FIRST_STRIDES = 20.0
 """Time by which both feet have taken strides, s."""
 
@@ -74,10 +75,13 @@ class Reported:
         return Reported(Session.unpack(self.session.pack(), self.session.recipe), list(self.points), list(self.used))
 
 
-def score_reports(kind: str, path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score a walk of half an hour of a kind of routes and of the seed in the entry `meta`."""
+def score_reports(
+    kind: str, is_complete: IsComplete, times: tuple[float, float, float], path: Path, meta: Meta, settings: RunSettings
+) -> Scored:
+    """Score a walk of a kind of routes and of the seed in the entry `meta`, with places at these `times`, s."""
     seed: int = meta["seed"]
-    walk, rng = emulated_walk(kind, LENGTHS["30min"], seed), np.random.default_rng([seed, 40])
+    walk, rng = emulated_walk(kind, is_complete, seed), np.random.default_rng([seed, 40])
+    first, once, second = times
     end = walk.truth.duration + 1.0
     turn = follow(Session(settings.recipe), walk, FIRST_STRIDES).headings[0]
     c, s = cos(turn), sin(turn)
@@ -97,19 +101,19 @@ def score_reports(kind: str, path: Path, meta: Meta, settings: RunSettings) -> S
         return np.asarray(points[:, 1:] - truth_at(points[:, 0]))
 
     plain = Reported(Session(settings.recipe, calibration=settings.calibration))
-    plain.feed(walk, 0.0, FIRST)
-    places, refused_first = plain.copy(), plain.refuses(place(FIRST, WRONG))
-    plain.feed(walk, FIRST, RETURN)
+    plain.feed(walk, 0.0, first)
+    places, refused_first = plain.copy(), plain.refuses(place(first, WRONG))
+    plain.feed(walk, first, once)
     back = plain.copy()
-    plain.feed(walk, RETURN, end)
-    back.report(place(RETURN))
-    back.feed(walk, RETURN, end)
-    places.report(place(FIRST))
-    places.feed(walk, FIRST, SECOND)
-    refused_later = places.refuses(place(SECOND, WRONG))
-    places.report(place(SECOND))
-    places.feed(walk, SECOND, end)
-    places.report(place(places.points[-1][0] or SECOND))
+    plain.feed(walk, once, end)
+    back.report(place(once))
+    back.feed(walk, once, end)
+    places.report(place(first))
+    places.feed(walk, first, second)
+    refused_later = places.refuses(place(second, WRONG))
+    places.report(place(second))
+    places.feed(walk, second, end)
+    places.report(place(places.points[-1][0] or second))
     here = back.session.position
     if here is None:
         return Scored(path.stem, samples=len(walk.samples))

@@ -14,7 +14,7 @@ from attrs import frozen
 from ...recipes import Recipe
 from ..emulated.heading import CHECKED_TIMES, EQUIPMENT, LENGTHS, score_heading
 from ..emulated.heading_walks import KINDS, WITH_COMPASS
-from ..emulated.reports import score_reports
+from ..emulated.reports import TIMES, score_reports
 from ..emulated.walks import score_floors
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
@@ -186,7 +186,7 @@ EMULATED = (
     *(
         DataSet(
             f"emulated_{kind}_30min_here", f"{kind.replace('_', ' ')}, 30min, a person who says where they are",
-            partial(score_reports, kind), REPORT_FIGURES, has_pressure=True,
+            partial(score_reports, kind, LENGTHS["30min"], TIMES), REPORT_FIGURES, has_pressure=True,
         )
         for kind in WITH_COMPASS
     ),
