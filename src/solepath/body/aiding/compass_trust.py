@@ -93,8 +93,11 @@ class CompassTrust:
         """Return a sentence on a new fault of the magnetometer of foot 0 (left) or 1; None usually.
 
         `flux` is the newest flux density, uT."""
+        outside = self.feet[foot].outside >= TOO_STRONG
+        if not outside and self.evidence > DISPROOF and self.pending is None:
+            return None
         size = sqrt(flux[0] ** 2 + flux[1] ** 2 + flux[2] ** 2)
-        if self.feet[foot].outside >= TOO_STRONG:
+        if outside:
             self.note(foot, "unit" if size >= ABSURD_FLUX or size < WEAKEST else "strength")
         elif self.evidence <= DISPROOF:
             self.note(foot, "axes")

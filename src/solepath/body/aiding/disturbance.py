@@ -49,8 +49,10 @@ class Disturbance:
     @property
     def here(self) -> float:
         """Variance about the newest stances of both feet, uT^2."""
-        left, right = [min(near, LARGEST * self.usual) for near in self.near]
-        return USUAL_SHARE * self.usual + (1.0 - USUAL_SHARE) * 0.5 * (left + right)
+        (left, right), usual = self.near, self.usual
+        largest = LARGEST * usual
+        both = (left if left < largest else largest) + (right if right < largest else largest)
+        return USUAL_SHARE * usual + (1.0 - USUAL_SHARE) * 0.5 * both
 
     def add_stance(self, foot: int, residual: tuple[float, float], vertical: float) -> float:
         """Add a stance of foot 0 (left) or 1 and return its weight, up to 1.

@@ -31,7 +31,7 @@ from .common_error import NO_MOVE, UNSEEN_TURN, CommonError, Move
 from .error_filter import WIDTH, Pair, TrackErrorFilter, feet_apart, moves_of, phase_times, standing_foot
 from .learnt_bias import has_rested
 from .position import MeanOfFeet
-from .shared_evidence import STATIONARY, SharedEvidence
+from .shared_evidence import SPACING, STATIONARY, SharedEvidence
 from .walking_direction import DirectedStride, TrackDivergence, WalkingDirection, align_tracks
 
 MAX_TRACK_VALUE = 1e6
@@ -104,8 +104,9 @@ class BothFeet(MeanOfFeet):
         """Add one sample of a foot as `MeanOfFeet` does; return the foot's correction after a stride."""
         was_unplaced = self.left.unplaced or self.right.unplaced
         MeanOfFeet.feed(self, view)
-        if view.sample.mag is not None and view.phase is STATIONARY:
-            self.evidence.add_stance_sample(view, view.sample.mag)
+        mag = view.sample.mag if view.phase is STATIONARY else None
+        if mag is not None and not 0.0 <= view.t - self.evidence.measured_at < SPACING:
+            self.evidence.add_stance_sample(view, mag)
         if not self.started and self.left.t is not None and self.right.t is not None:
             self._start()
         if not view.events or (self.left if view.foot is Foot.LEFT else self.right).unplaced:

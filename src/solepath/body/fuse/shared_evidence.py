@@ -27,8 +27,8 @@ STATIONARY: Final = Phase.STATIONARY
 """Local name of `Phase.STATIONARY`."""
 Pair = tuple[float, float]
 """A position or a displacement in the horizontal plane, m."""
-SPACING = 0.05
-"""Least time between samples of a stance that the compass has, s: three to six in one, whose noise is small already."""
+SPACING = 0.2
+"""Least time between samples of both feet that the compass has, s: one to three in a stance, whose noise is small."""
 
 
 class Aid(Protocol):
@@ -59,8 +59,8 @@ class SharedEvidence:
     ground: MovingGround = field(factory=MovingGround, init=False)
     compass: Aid | None = field(default=None, init=False)
     """The compass; None until a sample has a magnetic field."""
-    measured_at: list[float] = field(factory=lambda: [0.0, 0.0], init=False)
-    """Time of the newest sample that the compass has of the left and of the right foot, s."""
+    measured_at: float = field(default=0.0, init=False)
+    """Time of the newest sample that the compass has, s."""
     path: WalkedPath = field(factory=WalkedPath, init=False)
     """Path of the wearer so far."""
     found: list[DefectFound] = field(factory=list, init=False)
@@ -72,15 +72,12 @@ class SharedEvidence:
 
     def add_stance_sample(self, view: FootView, mag: Vec3) -> None:
         """Add a sample of a foot that stands, with the magnetic flux density `mag`, T, sensor frame."""
-        foot = 0 if view.foot is LEFT else 1
-        if 0.0 <= view.t - self.measured_at[foot] < SPACING:
-            return
-        self.measured_at[foot] = view.t
+        self.measured_at = view.t
         if self.compass is None:
             from ..aiding.compass import Compass
 
             self.compass = Compass()
-        self.compass.add_sample(foot, view, mag)
+        self.compass.add_sample(0 if view.foot is LEFT else 1, view, mag)
 
     def before_stride(
         self, event: StrideTaken, foot: int, after: AfterEvents, track: PlacedTrack, error: CommonError, aligned: bool
