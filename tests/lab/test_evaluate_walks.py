@@ -139,6 +139,6 @@ def test_places_that_a_person_reports_are_scored_by_what_they_are_worth():
     figures = score_reports(
         "right_angles", short, (60.0, 80.0, 120.0), Path("4"), {"seed": 4}, RunSettings(recipes.DEFAULT)
     ).figures
-    assert figures["used"] == figures["refused_first"] == figures["refused_later"] == 1.0
+    assert figures["used"] == figures["rejected_first"] == figures["rejected_later"] == 1.0
     assert 0.0 < figures["end_return"] != figures["end_without"] and figures["way_places"] < 3.0
     assert 0.0 < figures["nees_return"] < 6.0

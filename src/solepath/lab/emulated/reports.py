@@ -8,7 +8,7 @@ direction, and is reported to a copy of a session. The figures are
 - `end_without`, `end_return`: distance from the truth at the end without a place, and with the one after 15 minutes, m
 - `way_places`: mean distance from the truth along the way with three places, after the last revision, m
 - `nees_return`, `held_return`: NEES/2 at the end after the one place (consistency.py), and 1 if the ellipse held
-- `refused_first`, `refused_later`: 1 if a place that is wrong is refused after 10 minutes without any other, and 10
+- `rejected_first`, `rejected_later`: 1 if a place that is wrong is rejected after 10 minutes without any other, and 10
   minutes after a right one
 - `used`: share of right places that are used"""
 
@@ -64,7 +64,7 @@ class Reported:
                 self.points = bend_of(event, self.points).apply(self.points)
         self.used.append(any(isinstance(event, TrackRevised) for event in events))
 
-    def refuses(self, place: tuple[float, float]) -> float:
+    def rejects(self, place: tuple[float, float]) -> float:
         """Return 1 if a copy of the session rejects a place, m, otherwise 0."""
         return float(
             any(isinstance(event, PositionRejected) for event in self.copy().session.here(place, REPORT_SIGMA))
@@ -102,7 +102,7 @@ def score_reports(
 
     plain = Reported(Session(settings.recipe, calibration=settings.calibration))
     plain.feed(walk, 0.0, first)
-    places, refused_first = plain.copy(), plain.refuses(place(first, WRONG))
+    places, rejected_first = plain.copy(), plain.rejects(place(first, WRONG))
     plain.feed(walk, first, once)
     back = plain.copy()
     plain.feed(walk, once, end)
@@ -110,7 +110,7 @@ def score_reports(
     back.feed(walk, once, end)
     places.report(place(first))
     places.feed(walk, first, second)
-    refused_later = places.refuses(place(second, WRONG))
+    rejected_later = places.rejects(place(second, WRONG))
     places.report(place(second))
     places.feed(walk, second, end)
     places.report(place(places.points[-1][0] or second))
@@ -125,8 +125,8 @@ def score_reports(
         "way_places": float(np.mean(np.hypot(*errors(places).T))),
         "nees_return": nees,
         "held_return": held,
-        "refused_first": refused_first,
-        "refused_later": refused_later,
+        "rejected_first": rejected_first,
+        "rejected_later": rejected_later,
         "used": float(np.mean(back.used + places.used)),
     }
     return Scored(path.stem, figures=figures, samples=len(walk.samples))

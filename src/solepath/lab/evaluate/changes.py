@@ -44,7 +44,7 @@ _NEARER_ZERO = ("heel_strike_bias", "toe_off_bias", "stride_time_bias", "leg_bia
 _MORE = (
     "strides_found", "heel_strike_f1", "toe_off_f1", "authors_beaten", "uturn_found", "accuracy", "rides_found",
     "stairs_called", "stairs_direction",
-    "refused_first", "refused_later", "used", *(f"f1_{activity.value.lower()}" for activity in CLASSES),
+    "rejected_first", "rejected_later", "used", *(f"f1_{activity.value.lower()}" for activity in CLASSES),
 )  # fmt: skip
 BETTER: dict[str, Better] = {
     **dict.fromkeys(_LESS, Better.LESS),

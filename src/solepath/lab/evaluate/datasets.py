@@ -169,7 +169,7 @@ HEADING_FIGURES = (
     *(f"{figure}_{t}" for t in CHECKED_TIMES for figure in ("nees", "held", "heading_nees")),
 )  # fmt: skip
 REPORT_FIGURES = (
-    "end_without", "end_return", "way_places", "nees_return", "held_return", "refused_first", "refused_later", "used",
+    "end_without", "end_return", "way_places", "nees_return", "held_return", "rejected_first", "rejected_later", "used",
 )  # fmt: skip
 EMULATED = (
     *(
