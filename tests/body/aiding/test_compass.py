@@ -188,6 +188,16 @@ def test_a_steel_floor_of_150_m_is_reported_and_its_field_is_not_used() -> None:
     assert rms(walks) < rms(undisturbed) + 6.0
 
 
+def test_the_steel_of_a_lift_does_not_turn_the_track() -> None:
+    def lift(measured: np.ndarray, foot: int, s: float) -> np.ndarray:
+        return measured + (np.array([-30.0, 25.0, 30.0]) if 700.0 < s < 708.0 else 0.0)
+
+    with_lift = [Walked(turning, 1500.0, seed=seed, fault=lift) for seed in SEEDS]
+    without = [Walked(turning, 1500.0, seed=seed) for seed in SEEDS]
+    assert rms(with_lift) < 1.3 * rms(without)
+    assert not any(walked.faults for walked in with_lift)
+
+
 def test_an_unseen_turn_is_found_by_the_compass() -> None:
     walked = Walked(turning, 1000.0)
     walked.error.inflate(25.0, 1.5)

@@ -129,6 +129,7 @@ class Compass:
         if self.disturbance.has_changed(foot):
             self.trust.note(foot, "changed")
             self.disturbance.near[foot], self.blocks[foot] = self.disturbance.near[1 - foot], Block()
+            self.disturbance.changed[foot] = 0
             hx, hy = error.aids[iron - SIZE], error.aids[iron - SIZE + 1]
             self._renew(iron, (hx + c * zx + s * zy, hy + c * zy - s * zx), IRON * IRON, error)
             return

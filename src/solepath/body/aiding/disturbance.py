@@ -41,6 +41,8 @@ class Disturbance:
     usual: float = field(default=FIRST_DISTURBANCE * FIRST_DISTURBANCE, init=False)
     near: list[float] = field(factory=lambda: [FIRST_DISTURBANCE * FIRST_DISTURBANCE] * 2, init=False)
     """Variance about the newest stances of the left and of the right foot, uT^2."""
+    changed: list[int] = field(factory=lambda: [0, 0], init=False)
+    """Number of stances in a row of the left and of the right foot that show a change of its iron."""
     count: int = field(default=0, init=False)
     """Number of stances so far."""
     vertical: list[tuple[int, float]] = field(factory=lambda: [(0, 0.0), (0, 0.0)], init=False)
@@ -71,8 +73,12 @@ class Disturbance:
         return min(1.0, (TAIL + 4.0) / (TAIL + 4.0 * square / self.here))
 
     def has_changed(self, foot: int) -> bool:
-        """Return whether something magnetic came to foot 0 (left) or 1, or left it: the other foot sees nothing."""
-        return self.near[foot] > CHANGED * max(self.usual, self.near[1 - foot])
+        """Return whether something magnetic came to foot 0 (left) or 1, or left it: the other foot sees nothing.
+
+        Call it after each stance; two of a foot must show it, because one foot is the first to step into a lift."""
+        shows = self.near[foot] > CHANGED * max(self.usual, self.near[1 - foot])
+        self.changed[foot] = self.changed[foot] + 1 if shows else 0
+        return self.changed[foot] >= 2
 
     def judge(self, horizontal: tuple[float, float]) -> tuple[bool, bool]:
         """Return whether this place shows the heading, and whether it is strange; `horizontal` is the field, uT.
