@@ -1,6 +1,8 @@
-"""Path of the wearer so far in a few nodes, and the places on it that a person has named."""
+"""Path of the wearer so far in a few nodes, where it begins on a floor plan, and the places that a person has named."""
 
 from __future__ import annotations
+
+from math import cos, sin
 
 from ...events import TrackNode
 from ...types.attrs import define, evolve, field, frozen
@@ -21,6 +23,25 @@ class NotedPlace:
     """First of its two rows among the errors."""
     node: int
     """Number of its node on the path."""
+
+
+@frozen
+class PlanStart:
+    """The wearer's first place on the floor plan, plan frame, and the first heading, which is the world's x axis."""
+
+    x: float
+    """Place, m."""
+    y: float
+    """Place, m."""
+    heading: float
+    """Angle from the plan's x axis to the world's, rad."""
+    spread: float
+    """Uncertainty of the place, m (rms)."""
+
+    def to_world(self, position: tuple[float, float]) -> tuple[float, float]:
+        """Return a position on the plan in the world frame, both in m."""
+        x, y, c, s = position[0] - self.x, position[1] - self.y, cos(self.heading), sin(self.heading)
+        return (c * x + s * y, c * y - s * x)
 
 
 @define

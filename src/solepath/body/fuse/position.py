@@ -18,6 +18,7 @@ from ...foot.world import Covariance3
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub, turned
+from ..aiding.walked_path import PlanStart
 from ..part import PartOutput, Position, TrackPart
 
 if TYPE_CHECKING:
@@ -114,8 +115,8 @@ class MeanOfFeet(TrackPart):
     right: PlacedTrack = field(factory=PlacedTrack, init=False)
     placed_last: Foot | None = field(default=None, init=False)
     """The foot that was last aligned with the other foot; None before any."""
-    plan_start: tuple[float, float, float] | None = field(default=None, init=False)
-    """Wearer's first place on the floor plan, m, and first heading there, rad; None if they are not known."""
+    plan_start: PlanStart | None = field(default=None, init=False)
+    """Wearer's first place on the floor plan; None if it or the first heading is not known there."""
     return_strides: list[tuple[bool, Vec3, Vec3]] = field(factory=list, init=False)
     """Newest strides of both feet while a foot is unplaced.
 
@@ -125,7 +126,7 @@ class MeanOfFeet(TrackPart):
     def set_out(self, start: Start) -> None:
         """Take the wearer's first place on the floor plan, in whose frame a person may report positions."""
         if start.heading is not None:
-            self.plan_start = (*start.place, start.heading)
+            self.plan_start = PlanStart(*start.place, start.heading, start.spread)
 
     def middle(self, shares: tuple[float, float]) -> tuple[float, float]:
         """Return the newest place between both feet, m, common frame; each foot counts with its share."""

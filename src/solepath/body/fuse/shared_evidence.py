@@ -5,7 +5,7 @@ The compass, and what uses a reported position, are loaded when a session first 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from math import cos, sin
+from math import sqrt
 from typing import Final, Protocol
 
 from ...calibration import HeadingCalibration
@@ -13,7 +13,7 @@ from ...events import Defect, DefectFound, PositionRejected, PositionReported, S
 from ...foot.view import AfterEvents, FootView
 from ...types import SITE_OF_FOOT, Foot, Phase, Vec3
 from ...types.attrs import define, evolve, field
-from ..aiding.walked_path import WalkedPath
+from ..aiding.walked_path import PlanStart, WalkedPath
 from .common_error import NO_MOVE, CommonError, Move
 from .learnt_bias import add_rest
 from .moving_ground import MovingGround
@@ -29,6 +29,10 @@ Pair = tuple[float, float]
 """A position or a displacement in the horizontal plane, m."""
 SPACING = 0.2
 """Least time between samples of both feet that the compass has, s: one to three in a stance, whose noise is small."""
+
+
+START_HEADING = 0.14
+"""Standard deviation of the first heading on a floor plan, rad: up to 0.24 rad either way (place/arrivals.py)."""
 
 
 class Aid(Protocol):
@@ -117,19 +121,20 @@ class SharedEvidence:
         return move
 
     def use_position(
-        self, event: PositionReported, place: Callable[[], Pair], plan_start: tuple[float, float, float] | None,
+        self, event: PositionReported, place: Callable[[], Pair], plan_start: PlanStart | None,
         error: CommonError, move_both: Callable[[Move], None],
     ) -> list[TrackRevised | PositionRejected]:  # fmt: skip
         """Correct both tracks with `move_both` by a reported position, reject it, or note a new place without an event.
 
         `place` returns where the wearer is according to the track, m, common frame. A position on the floor plan is
-        used if the first place, m, and the first heading, rad, are known there (`plan_start`)."""
+        used if the first place and the first heading are known there (`plan_start`); what they may be off by counts as
+        an error of the report."""
         if event.level and event.position is not None:
             if plan_start is None:
                 return []
-            x0, y0, heading = plan_start
-            x, y, c, s = event.position[0] - x0, event.position[1] - y0, cos(heading), sin(heading)
-            event = evolve(event, position=(c * x + s * y, c * y - s * x))
+            x, y = plan_start.to_world(event.position)
+            sigma = sqrt(event.sigma**2 + 0.5 * plan_start.spread**2 + START_HEADING**2 * (x * x + y * y))
+            event = evolve(event, position=(x, y), sigma=sigma)
         from ..aiding.reported_position import ReportedPosition
 
         return ReportedPosition(event, place, error, self.path, move_both).use()
