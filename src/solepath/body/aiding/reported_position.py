@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import hypot, sqrt
+from math import exp, hypot, sqrt
 
 from ...events import PositionRejected, PositionReported, TrackRevised
 from ...types.attrs import frozen
@@ -66,9 +66,10 @@ class ReportedPosition:
                     path.rejected = target
                 return [self._rejection(hypot(*off), square)]
             self._raise_variance(rejected, off[0] * off[0] + off[1] * off[1])
-            turn += self._correct(path.rejected, rejected, None, LEAST_SIGMA * LEAST_SIGMA, (0.0, 0.0))
-        heading, more = error.covariance[HEADING][HEADING], self._beyond_linear(named)
-        turn += self._correct(target, X, named, variance, more)
+            turn += self._correct(path.rejected, rejected, None, LEAST_SIGMA * LEAST_SIGMA)
+        heading = error.covariance[HEADING][HEADING]
+        self._spread(named)
+        turn += self._correct(target, X, named, variance)
         now = self.place()
         nodes = revise_path(path, event.t, was, now, (heading, variance), error, settles=named is None)
         by = _minus(now, was)
@@ -85,12 +86,30 @@ class ReportedPosition:
         sx, sy = xx + variance, yy + variance
         return (zx * zx * sy - 2.0 * zx * zy * xy + zy * zy * sx) / (sx * sy - xy * xy)
 
-    def _beyond_linear(self, since: int | None) -> Pair:
-        """Return what the linear variances of x and y lack, because of large headings and of lengths, m^2."""
-        xx, _, yy = self._covariance(since)
-        terms = [[(X + axis, 1.0), *([] if since is None else [(since + axis, -1.0)])] for axis in (0, 1)]
-        linear = [self.error.along(self.error.column(one), one) for one in terms]
-        return (max(0.0, xx - linear[0]), max(0.0, yy - linear[1]))
+    def _spread(self, since: int | None) -> None:
+        """Give the position the moments that it has with a heading error h of any size, and with lengths that are off.
+
+        The way from the known position, or from the place whose rows begin at `since`, is off by b h + z, with
+        b = P_eh / P_hh; beyond small errors by b sin h, and by as much as position_covariance.py has. With h normal,
+        E (sin h) q = E h q exp(-P_hh / 2) for every q that is normal with it."""
+        p, v = self.error.covariance, max(self.error.covariance[HEADING][HEADING], 1e-12)
+        xx, xy, yy = self._covariance(since)
+        less = (1.0 - exp(-0.5 * v)) / v
+        heading, rows = list(p[HEADING]), []
+        for axis in (0, 1):
+            base = [0.0] * len(p) if since is None else list(p[since + axis])
+            way = [one - of_place for one, of_place in zip(p[X + axis], base, strict=True)]
+            arm = less * way[HEADING]
+            rows.append((base, [one - arm * with_heading for one, with_heading in zip(way, heading, strict=True)]))
+        own = ((xx, xy), (xy, yy))
+        for axis, (base, way) in enumerate(rows):
+            for j in range(HEADING, len(p)):
+                p[X + axis][j] = p[j][X + axis] = base[j] + way[j]
+        for i, j in ((0, 0), (0, 1), (1, 1)):
+            value = own[i][j]
+            if since is not None:  # e = place + way
+                value += rows[i][1][since + j] + rows[j][1][since + i] + p[since + i][since + j]
+            p[X + i][X + j] = p[X + j][X + i] = value
 
     def _confirms(self, target: Pair, variance: float, rejected: int) -> bool:
         """Return whether the way from the rejected position to this one is that of the track."""
@@ -106,18 +125,18 @@ class ReportedPosition:
                 for j in (X + axis, first + axis):
                     p[i][j] += variance
 
-    def _correct(self, target: Pair, of: int, since: int | None, variance: float, more: Pair) -> float:
+    def _correct(self, target: Pair, of: int, since: int | None, variance: float) -> float:
         """Correct all errors by a measured position and return the correction of the heading, rad.
 
-        It is that of the wearer or of a place, whose rows begin at `of`, with this `variance`, m^2, and with `more` on
-        each axis that counts as an error of the report. With `since`, the wearer is at that place."""
+        It is that of the wearer or of a place, whose rows begin at `of`, with this `variance`, m^2. With `since`, the
+        wearer is at that place."""
         error, turn = self.error, 0.0
         for axis in (0, 1):
             terms = [(of + axis, 1.0), *([] if since is None else [(since + axis, -1.0)])]
             column = error.column(terms)
             is_at = self.place() if of == X else estimate(of, error)
             z = (target if since is None else estimate(since, error))[axis] - is_at[axis]
-            move = error.correct(column, z, error.along(column, terms) + more[axis] + variance, 1.0)
+            move = error.correct(column, z, error.along(column, terms) + variance, 1.0)
             self.move_both(move)
             turn += move[HEADING]
         return turn
