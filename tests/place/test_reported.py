@@ -54,16 +54,26 @@ def test_a_place_where_the_track_cannot_have_led_is_rejected_and_a_second_one_is
     follow(part, pedestrian.received)
     (rejected,) = part.receive(reported(pedestrian.t, (20.0, HIGH)))
     assert isinstance(rejected, PositionRejected) and rejected.distance > 10.0 and "away" in rejected.what
+    (again,) = part.receive(reported(pedestrian.t, (20.0, HIGH)))
+    assert isinstance(again, PositionRejected), "on the spot it confirms nothing"
     pedestrian.received.clear()
-    pedestrian.walk((21.0, LOW))
+    pedestrian.walk((31.0, LOW))
     follow(part, pedestrian.received)
     assert off(part, pedestrian.place) < 1.0, "one report moves nothing"
     elsewhere = (pedestrian.place[0], pedestrian.place[1] + HIGH - LOW)
     assert not part.receive(reported(pedestrian.t, elsewhere))
     pedestrian.received.clear()
-    pedestrian.walk((24.0, LOW))
+    pedestrian.walk((34.0, LOW))
     follow(part, pedestrian.received)
-    assert off(part, (24.0, HIGH)) < 2.0
+    assert off(part, (34.0, HIGH)) < 2.0
+
+
+def test_before_the_first_position_the_start_of_the_app_counts(part: Method) -> None:
+    pedestrian = Pedestrian(7, "0", (12.0, LOW)).known_to(part)
+    part.plan = OFFICE
+    assert not part.receive(reported(0.0, (12.0, LOW))) and not part.rows
+    pedestrian.walk((14.0, LOW))
+    assert {len(one.candidates) for one in placed(follow(part, pedestrian.received))} == {1}
 
 
 @pytest.mark.parametrize(("level", "place", "word"), [("7", (12.0, LOW), "no level"), ("0", (900.0, LOW), "nowhere")])

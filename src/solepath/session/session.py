@@ -20,7 +20,7 @@ from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..types import SITE_OF_FOOT, Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.plain import flag, text
-from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
+from .arguments import ItemError, check_calibration, check_now, check_pair, check_start, index_floorplan
 from .state import SessionState
 from .wearer import WearerParts, WearerSettings, sort_by_key
 
@@ -121,10 +121,10 @@ class Session:
         from ..wire.receiver import PositionFrame, build_position, parse_position
 
         state = self._state
-        if state.now is None or state.finished or where == "":
+        if state.now is None or state.finished or (isinstance(where, str) and not where):
             raise ValueError("a place needs a name, and a session that has samples and is not finished")
-        position, place = (None, where) if isinstance(where, str) else (where, "")
-        frame = parse_position(build_position(PositionFrame(position, sigma, place, level)))
+        position, place = (None, where) if isinstance(where, str) else (check_pair(where), "")
+        frame = parse_position(build_position(PositionFrame(position, sigma, place, text(level))))
         site = SITE_OF_FOOT[next(iter(state.wearer.feet), Foot.LEFT)]
         return state.wearer.receive(site, reported_position(frame, state.now, site))
 

@@ -2,48 +2,16 @@
 
 from __future__ import annotations
 
-from functools import cache
-from math import hypot, pi
-
 import numpy as np
 import pytest
+from lake import back_time, error, fed, loop, middle, session_back
 
 from solepath import Packet, Session, Site, recipes
 from solepath.body.aiding.path_revision import revise_path
 from solepath.body.aiding.walked_path import MOST_NODES, WalkedPath
 from solepath.body.fuse.common_error import CommonError
-from solepath.emulate import Route, sampled
-from solepath.emulate.walk import SampledWalk
 from solepath.events import PositionRejected, PositionReported, StrideTaken, TrackNode, TrackRevised
-from solepath.lab.emulated.heading_walks import insoles_of
-from solepath.types import Foot
 from solepath.wire.receiver import PositionFrame, build_position
-
-
-@cache
-def loop() -> SampledWalk:
-    """Return a walk of 180 m round a lake, back to where it began, and 40 m on, by feet that drift."""
-    route = Route(speed=1.4).stand(2.0).walk(15.0).turn(pi, 24.0).walk(15.0).turn(pi, 24.0)
-    return sampled(route.walk(40.0).stop(2.0), insoles=insoles_of(9), seed=9)
-
-
-def fed(walk: SampledWalk, until: float, session: Session | None = None, since: float = 0.0) -> Session:
-    session = Session() if session is None else session
-    session.feed([sample for sample in walk.samples if since <= sample.t < until])
-    return session
-
-
-def middle(walk: SampledWalk, t: float) -> tuple[float, float]:
-    """Return where the wearer truly is, in the session's world frame."""
-    places = [walk.truth.pose(foot, t).position[0, :2] - walk.truth.pose(foot, 0.0).position[0, :2] for foot in Foot]
-    x, y = 0.5 * (places[0] + places[1])
-    return float(x), float(y)
-
-
-def error(walk: SampledWalk, session: Session) -> float:
-    assert session.position is not None
-    x, y = middle(walk, session.position.t)
-    return hypot(session.position.position[0] - x, session.position.position[1] - y)
 
 
 def test_a_return_corrects_place_and_heading_and_the_strides_after_it() -> None:
@@ -65,23 +33,6 @@ def test_a_return_corrects_place_and_heading_and_the_strides_after_it() -> None:
     fed(walk, end, corrected, back)
     fed(walk, end, plain, back)
     assert error(walk, corrected) < 0.5 * error(walk, plain)
-
-
-@cache
-def back_time(walk: SampledWalk) -> float:
-    """Return when the wearer is closest to the start after the loops, s."""
-    times = np.arange(0.6 * walk.truth.duration, walk.truth.duration, 0.1)
-    return float(times[int(np.argmin([hypot(*middle(walk, float(t))) for t in times]))])
-
-
-@cache
-def packed_back() -> bytes:
-    return fed(loop(), back_time(loop())).pack()
-
-
-def session_back() -> Session:
-    """Return the session of a wearer who is back where the walk started."""
-    return Session.unpack(packed_back())
 
 
 def test_the_path_so_far_is_revised_towards_the_truth() -> None:
@@ -150,7 +101,7 @@ def test_before_the_first_stride_a_place_has_no_effect_and_impossible_ones_are_e
     fed(loop(), 1.0, session)
     assert [type(event) for event in session.here()] == [PositionReported]
     for position, sigma in (((float("nan"), 0.0), 1.0), ((0.0, 2e6), 1.0), (None, 0.0), (None, -1.0)):
-        with pytest.raises(ValueError, match="position"):
+        with pytest.raises((ValueError, TypeError), match="position"):
             session.here(position, sigma)
 
 
@@ -171,79 +122,3 @@ def test_a_path_keeps_few_nodes_however_long_it_is_and_ends_where_it_was_correct
     path.add_stride(20_001.0, (14_001.0, 500.0), 400.0)
     later = revise_path(path, 20_002.0, (14_002.0, 500.0), (14_002.0, 501.0), (0.01, 1.0), error, True)
     assert later[0] == nodes[-1], "what a report has settled stays"
-
-
-@cache
-def passing_times() -> tuple[float, float]:
-    """Return when the wearer of the loop is 10 m from the start, and when they pass the same place again, s."""
-    walk = loop()
-    first = next(t for t in np.arange(0.0, 30.0, 0.05) if middle(walk, float(t))[0] > 10.0)
-    x, y = middle(walk, float(first))
-    times = np.arange(first + 60.0, walk.truth.duration, 0.05)
-    again = min(times, key=lambda t: hypot(middle(walk, float(t))[0] - x, middle(walk, float(t))[1] - y))
-    return float(first), float(again)
-
-
-def test_a_place_with_a_name_is_noted_and_corrects_the_track_when_the_wearer_is_there_again() -> None:
-    walk, (first, again) = loop(), passing_times()
-    session, plain = fed(walk, first), fed(walk, again)
-    assert [type(event) for event in session.here("the old gate", 0.2)] == [PositionReported]
-    session = Session.unpack(fed(walk, again, session, first).pack())
-    gap = hypot(*np.subtract(middle(walk, first), middle(walk, again)))
-    assert gap < 0.3, "the wearer passes the same place"
-    reported, revised = session.here("the old gate", 0.3)
-    assert isinstance(reported, PositionReported) and reported.place == "the old gate"
-    assert isinstance(revised, TrackRevised) and error(walk, session) < 0.4 * error(walk, plain)
-    end = walk.truth.duration
-    fed(walk, end, session, again)
-    fed(walk, end, plain, again)
-    assert error(walk, session) < 0.6 * error(walk, plain)
-
-
-def test_a_named_place_where_the_wearer_cannot_be_is_rejected_by_its_name() -> None:
-    walk, (first, _) = loop(), passing_times()
-    session = fed(walk, first)
-    session.here("gate", 0.2)
-    fed(walk, first + 25.0, session, first)
-    rejected = session.here("gate", 0.2)[1]
-    assert isinstance(rejected, PositionRejected) and "where gate was before" in rejected.what
-
-
-def test_places_are_forgotten_in_the_order_of_their_last_visit() -> None:
-    session = fed(loop(), 40.0)
-    assert session.now is not None
-    for name in "abcdefgh":
-        session.here(name)
-    assert len(session.here("a")) == 2, "it is noted"
-    session.here("i")
-    assert len(session.here("a")) == 2 and len(session.here("b")) == 1, "b was visited before all others"
-
-
-def test_two_rejected_places_that_agree_with_the_way_between_them_are_used() -> None:
-    walk, session = loop(), fed(loop(), 60.0)
-    off = np.array([30.0, -20.0])
-
-    def report(session: Session, t: float, more: tuple[float, float] = (0.0, 0.0)) -> list[object]:
-        x, y = np.array(middle(walk, t)) + off + more
-        return [type(event) for event in session.here((float(x), float(y)), 0.5)]
-
-    assert report(session, 60.0) == [PositionReported, PositionRejected]
-    assert report(session, 60.0) == [PositionReported, PositionRejected], "on the spot it confirms nothing"
-    again = fed(walk, 80.0, Session.unpack(session.pack()), 60.0)
-    assert report(again, 80.0, (-14.0, 25.0)) == [PositionReported, PositionRejected], "another place, no confirmation"
-    fed(walk, 80.0, session, 60.0)
-    assert report(session, 80.0) == [PositionReported, TrackRevised]
-    fed(walk, 100.0, session, 80.0)
-    assert session.position is not None
-    x, y = np.array(middle(walk, 100.0)) + off - session.position.position[:2]
-    assert hypot(x, y) < 3.0
-    assert report(session, 100.0) == [PositionReported, TrackRevised]
-
-
-def test_a_place_without_a_name_or_with_too_long_a_one_is_an_error() -> None:
-    session = fed(loop(), 5.0)
-    for place in ("", "x" * 65):
-        with pytest.raises(ValueError):
-            session.here(place)
-    with pytest.raises(ValueError, match="level"):
-        session.here("gate", level="0")

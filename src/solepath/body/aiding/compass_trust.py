@@ -98,7 +98,7 @@ class CompassTrust:
             return None
         size = sqrt(flux[0] ** 2 + flux[1] ** 2 + flux[2] ** 2)
         if outside:
-            self.note(foot, "unit" if size >= ABSURD_FLUX or size < WEAKEST else "strength")
+            self.note(foot, "unit" if size >= 0.5 * ABSURD_FLUX or size < WEAKEST else "strength")
         elif self.evidence <= DISPROOF:
             self.note(foot, "axes")
         fault, self.pending = self.pending, None

@@ -11,7 +11,7 @@ from ..fuse.position_covariance import LENGTH_ERROR
 from .walked_path import NotedPlace, Pair, WalkedPath
 
 MOST_PLACES = 8
-"""Largest number of noted places, each of which has two rows of the common errors."""
+"""Largest number of places with a name, each of which has two rows of the common errors."""
 WALKING_NOISE = 0.02
 """Random walk of the position by the strides themselves, m/sqrt(m): 2 cm for a stride of 1 m (assumed)."""
 ROUNDS = 4
@@ -23,8 +23,9 @@ def note_place(path: WalkedPath, name: str, t: float, position: Pair, variance: 
 
     `variance` is that of the report, m^2. The errors of the place are from now on those that the track has now."""
     old = path.places.pop(name, None)
-    if old is None and len(path.places) >= MOST_PLACES:
-        old = path.places.pop(next(iter(path.places)))
+    names = [one for one in path.places if one]
+    if old is None and name and len(names) >= MOST_PLACES:
+        old = path.places.pop(names[0])
     first = error.add_aids((0.0, 0.0), (0.0, 0.0)) if old is None else old.first
     p = error.covariance
     now = [list(p[X]), list(p[X + 1])]
@@ -62,7 +63,7 @@ def revise_path(
     along it, and it leads through the places whose estimates have moved. `variances` are that of the heading at the
     wearer before the correction, rad^2, and that of the report, m^2. Returns the revised nodes, the last of which is
     the one at `t`, s. If the position `settles` the path, it stays as it is up to there."""
-    old = [*path.nodes[path.settled :], TrackNode(t, *was)]
+    old = [*path.nodes, TrackNode(t, *was)]
     pieces = [(b.x - a.x, b.y - a.y) for a, b in zip(old, old[1:], strict=False)]
     distances = [0.0, *accumulate([hypot(*piece) for piece in pieces])]
     first = path.heading_variance
@@ -70,15 +71,15 @@ def revise_path(
     bent = [(old[0].x + x, old[0].y + y) for x, y in accumulate(turned, _plus, initial=(0.0, 0.0))]
     ends = {0: bent[0], len(old) - 1: now}
     for place in path.places.values():
-        if 0 < place.node - path.settled < len(old) - 1:
-            ends[place.node - path.settled] = estimate(place.first, error)
+        if 0 < place.node < len(old) - 1:
+            ends[place.node] = estimate(place.first, error)
     revised = _distributed(bent, distances, ends)
     nodes = [TrackNode(node.t, *position) for node, position in zip(old, revised, strict=True)]
-    path.nodes[path.settled :] = nodes[:-1]
-    path.add_node(nodes[-1])
     if settles:
-        path.settled, path.known, path.known_at = len(path.nodes) - 1, now, t
-        path.heading_variance = max(0.0, error.covariance[HEADING][HEADING])
+        path.settle(nodes[-1], max(0.0, error.covariance[HEADING][HEADING]))
+    else:
+        path.nodes = nodes[:-1]
+        path.add_node(nodes[-1])
     return tuple(nodes)
 
 
@@ -90,14 +91,16 @@ def _turned(
     All are in m. The error at the distance u, as a share of the whole, is a normal process: it has the first of the
     variances `headings`, rad^2, at the beginning, and grows to the second, half of it by a drift and half by a random
     walk. Its covariance is k(u, v) = first + (second - first) (u v + min(u, v)) / 2. `variance` is that of the end,
-    m^2. The way is linear in small changes of the headings, so the solution is repeated from the newest headings."""
+    m^2. With G, how the end moves with each heading (`across`), the headings are K G' (G K G' + R)^-1 z for what the
+    end is off by, z. G is that of the newest headings, so this is repeated (Gauss-Newton). For very large errors it may
+    not converge; what is left is distributed along the path afterwards."""
     whole = max(distances[-1], 1e-9)
     shares = [0.5 * (a + b) / whole for a, b in zip(distances, distances[1:], strict=False)]
     first, growth = headings[0], 0.5 * max(0.0, headings[1] - headings[0])
     noise = variance + WALKING_NOISE * WALKING_NOISE * whole
     angles, turned = [0.0] * len(pieces), pieces
     for _ in range(ROUNDS):
-        # across: how the end moves with the heading of each piece; spread: the covariance of each heading with the end
+        # spread is K G': the sums over min(u, v) are those up to u, and u times those beyond
         across = [(-y, x) for x, y in turned]
         total, moment = _weighted(across, [1.0] * len(across)), _weighted(across, shares)
         spread: list[Pair] = []

@@ -60,13 +60,15 @@ class ReportedPosition:
         square = self._square(off, variance, named)
         if square > POSITION_GATE:
             rejected = None if named is not None else visit(path, REJECTED)
-            if rejected is None or not self._confirms(target, variance, rejected):
+            first = path.rejected
+            if rejected is None or first is None or not self._confirms(first, target, variance, rejected):
                 if named is None:
                     note_place(path, REJECTED, event.t, was, variance, error)
                     path.rejected = target
                 return [self._rejection(hypot(*off), square)]
-            self._raise_variance(rejected, off[0] * off[0] + off[1] * off[1])
-            turn += self._correct(path.rejected, rejected, None, LEAST_SIGMA * LEAST_SIGMA)
+            self._raise_variance(off[0] * off[0] + off[1] * off[1])
+            # the variance of the first report is in the rows of its place already
+            turn += self._correct(first, rejected, None, LEAST_SIGMA * LEAST_SIGMA)
         heading = error.covariance[HEADING][HEADING]
         self._spread(named)
         turn += self._correct(target, X, named, variance)
@@ -111,19 +113,23 @@ class ReportedPosition:
                 value += rows[i][1][since + j] + rows[j][1][since + i] + p[since + i][since + j]
             p[X + i][X + j] = p[X + j][X + i] = value
 
-    def _confirms(self, target: Pair, variance: float, rejected: int) -> bool:
-        """Return whether the way from the rejected position to this one is that of the track."""
+    def _confirms(self, first: Pair, target: Pair, variance: float, rejected: int) -> bool:
+        """Return whether the way from the rejected position `first`, m, to this one is that of the track.
+
+        `variance` is that of this report; that of the first is in the rows of its place, from `rejected` on."""
         way = _minus(self.place(), estimate(rejected, self.error))
-        other = _minus(target, self.path.rejected)
+        other = _minus(target, first)
         return hypot(*way) > LEAST_WAY and self._square(_minus(other, way), variance, rejected) < AGREEMENT_GATE
 
-    def _raise_variance(self, first: int, variance: float) -> None:
-        """Raise the variance of the wearer's position together with that of the place whose rows begin at `first`."""
-        p = self.error.covariance
+    def _raise_variance(self, variance: float) -> None:
+        """Raise the variance of the wearer's position together with that of all places since the rejected position."""
+        p, places = self.error.covariance, self.path.places
+        since = places[REJECTED].node
+        rows = [X, *[place.first for place in places.values() if place.node >= since]]
         for axis in (0, 1):
-            for i in (X + axis, first + axis):
-                for j in (X + axis, first + axis):
-                    p[i][j] += variance
+            for i in rows:
+                for j in rows:
+                    p[i + axis][j + axis] += variance
 
     def _correct(self, target: Pair, of: int, since: int | None, variance: float) -> float:
         """Correct all errors by a measured position and return the correction of the heading, rad.
@@ -149,11 +155,11 @@ class ReportedPosition:
             other = f"The position reported {event.t - self.path.known_at:.0f} s before, which fits the track, "
             other += "contradicts it too. "
         what = (
-            f"this is {distance:.0f} m from {where}, which is known to {off:.1f} m: the track stays as it is. {other}"
+            f"this is {distance:.1f} m from {where}, which is known to {off:.1f} m: the track stays as it is. {other}"
             f"If it is right, report another place {LEAST_WAY:.0f} m on: two that agree are believed"
         )
         if event.place:
-            what = f"this is {distance:.0f} m from {where}, which is known to {off:.1f} m: the track stays as it is"
+            what = f"this is {distance:.1f} m from {where}, which is known to {off:.1f} m: the track stays as it is"
         return PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=off, what=what)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, fsum, hypot, sin
 
 from ...events import TrackNode
 from ...types.attrs import define, evolve, field, frozen
@@ -11,6 +11,8 @@ FIRST_SPACING = 5.0
 """Distance between the first nodes, m; it doubles whenever there are too many."""
 MOST_NODES = 40
 """Largest number of nodes."""
+LEAST_SPACING = 0.5
+"""Distance from the newest node within which a report moves that node instead of adding one, m."""
 Pair = tuple[float, float]
 """A position or a displacement in the horizontal plane, m."""
 
@@ -46,15 +48,14 @@ class PlanStart:
 
 @define
 class WalkedPath:
-    """Nodes at the ends of strides, common frame of both feet."""
+    """Nodes at the ends of strides since the newest known position, common frame of both feet."""
 
     nodes: list[TrackNode] = field(factory=list, init=False)
+    """Nodes, of which the first stays as it is."""
     spacing: float = field(default=FIRST_SPACING, init=False)
     """Least distance from a node to the next one, m."""
     walked: float = field(default=0.0, init=False)
     """Distance walked since the newest node, m."""
-    settled: int = field(default=0, init=False)
-    """Number of the node of the newest position that was reported, up to which the path stays; 0 before any."""
     known: Pair = field(default=(0.0, 0.0), init=False)
     """Newest position that was reported, m; that of the start before any."""
     known_at: float | None = field(default=None, init=False)
@@ -62,9 +63,9 @@ class WalkedPath:
     heading_variance: float = field(default=0.0, init=False)
     """Variance of the heading there, rad^2."""
     places: dict[str, NotedPlace] = field(factory=dict, init=False)
-    """Noted places by their names, the newest visited last."""
-    rejected: Pair = field(default=(0.0, 0.0), init=False)
-    """Newest rejected position, m, that was reported at the place without a name."""
+    """Noted places by their names, the newest visited last; the empty name is that of the newest rejected position."""
+    rejected: Pair | None = field(default=None, init=False)
+    """Newest rejected position as it was reported, m; None if none was rejected since the newest one that was used."""
 
     def add_stride(self, t: float, position: Pair, length: float) -> None:
         """Add the wearer's position after a stride that moved the wearer by `length`, m."""
@@ -75,12 +76,23 @@ class WalkedPath:
 
     def add_node(self, node: TrackNode) -> None:
         """Add a node; if there are too many, keep every second one and those that are needed."""
+        if len(self.nodes) > 1 and self.walked < LEAST_SPACING:
+            self.nodes[-1] = node
+            return
         self.nodes.append(node)
         self.walked = 0.0
         if len(self.nodes) <= MOST_NODES:
             return
-        needed = {self.settled, len(self.nodes) - 1, *[place.node for place in self.places.values()]}
+        needed = {len(self.nodes) - 1, *[place.node for place in self.places.values()]}
         kept = [k for k in range(len(self.nodes)) if k % 2 == 0 or k in needed]
-        self.nodes, self.settled = [self.nodes[k] for k in kept], kept.index(self.settled)
+        length = fsum([hypot(b.x - a.x, b.y - a.y) for a, b in zip(self.nodes, self.nodes[1:], strict=False)])
+        self.nodes = [self.nodes[k] for k in kept]
         self.places = {name: evolve(one, node=kept.index(one.node)) for name, one in self.places.items()}
-        self.spacing *= 2.0
+        self.spacing = max(self.spacing, 2.0 * length / MOST_NODES)  # reports add nodes, which need no more distance
+
+    def settle(self, node: TrackNode, heading_variance: float) -> None:
+        """Begin again at a known position, where the heading has this variance, rad^2."""
+        self.nodes, self.walked, self.spacing = [node], 0.0, FIRST_SPACING
+        self.places = {name: evolve(one, node=0) for name, one in self.places.items()}
+        self.known, self.known_at, self.heading_variance = (node.x, node.y), node.t, heading_variance
+        self.rejected = None

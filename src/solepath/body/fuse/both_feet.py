@@ -126,8 +126,10 @@ class BothFeet(MeanOfFeet):
         """Receive an event: a position that a person reports, or a defect that spoils the straight ways of a foot."""
         if isinstance(event, DefectFound):
             self.evidence.straight_ways.add_defect(event)
-        elif isinstance(event, PositionReported) and self.common.started:
-            place = partial(self.middle, self.common.shares)
+        elif isinstance(event, PositionReported) and (self.common.started or event.place):
+            here = [not (track.absent or track.unplaced) for track in (self.left, self.right)]
+            shares = self.common.shares if here[0] == here[1] else (float(here[0]), float(here[1]))
+            place = partial(self.middle, shares)
             return self.evidence.use_position(event, place, self.plan_start, self.common, self._move_both)
         return ()
 

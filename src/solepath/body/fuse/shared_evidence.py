@@ -152,6 +152,6 @@ class SharedEvidence:
     def reset(self, foot: Foot, error: CommonError) -> None:
         """Forget what depends on the clock or the device of a foot."""
         self.straight_ways.reset(foot)
-        self.ground = MovingGround()
+        self.ground, self.path.known_at = MovingGround(), None
         if self.compass is not None:
             self.compass.reset(0 if foot is LEFT else 1, error)

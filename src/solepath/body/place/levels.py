@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import fsum, hypot
 
-from ...events import WearerMoved
+from ...events import TrackRevised, WearerMoved
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
@@ -19,7 +19,7 @@ from .landings import Landing, find_exits, list_landings
 from .noise import next_random
 from .place_hypotheses import PlaceHypotheses
 from .reference import LevelChangePossible, LevelReached, References
-from .rows import Row, resample_rows, round_rows
+from .rows import Row, resample_rows, round_rows, turn_rows
 from .stride_scale import StrideScale
 
 KNOWN_ROWS = 64
@@ -67,6 +67,14 @@ class LevelChanges(PlaceHypotheses):
         self.rows = round_rows(
             walking or [(x, y, a, b, w, level, origin, 0) for x, y, a, b, w, level, origin, _ in rows]
         )
+
+    def revise_track(self, event: TrackRevised) -> None:
+        """Move and turn what belongs to the track with it; the rows stay where they are on the plan."""
+        (x, y, z), (dx, dy) = self.last_place, event.by
+        self.last_place = (x + dx, y + dy, z)
+        self.references.move(event.by)
+        self.stride_scale.forget()
+        self.rows = round_rows(turn_rows(self.rows, event.turn))
 
     def displacement_since(self, t: float) -> Point:
         """Return the displacement of the track since `t`, s, in m."""

@@ -5,7 +5,7 @@ have few digits, because there are many rows and a snapshot must be small."""
 
 from __future__ import annotations
 
-from math import atan2, fsum, hypot, sqrt
+from math import atan2, cos, fsum, hypot, sin, sqrt
 from struct import Struct
 
 from ...events import Candidate
@@ -181,3 +181,9 @@ def _group_rows(rows: list[Row], limit: float) -> list[_Group]:
 
 def _row_weight(row: Row) -> float:
     return row[4]
+
+
+def turn_rows(rows: list[Row], yaw: float) -> list[Row]:
+    """Return the rows for a track that was turned by `yaw`, rad: their moves in the plan stay as they are."""
+    c, s = cos(yaw), sin(yaw)
+    return [(x, y, c * a + s * b, c * b - s * a, w, level, origin, at) for x, y, a, b, w, level, origin, at in rows]
