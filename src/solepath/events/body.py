@@ -53,7 +53,7 @@ class TrackRevised(Happening):
     """A position that a person has reported has corrected the track: where the wearer is and was.
 
     It is reported with the PositionReported. Earlier positions (WearerMoved, StrideTaken) were off in the way that the
-    nodes show; from now on, positions and strides are corrected."""
+    nodes show; from now on, positions and strides are corrected, but for the next StrideTaken of each foot."""
 
     by: tuple[float, float]
     """Correction of the position at `t`, x and y in the world frame, m."""
@@ -65,14 +65,14 @@ class TrackRevised(Happening):
 
 @frozen(kw_only=True)
 class PositionRejected(Happening):
-    """A position that a person has reported contradicts the track, which therefore stays as it is.
+    """A position that a person has reported contradicts the track, or all places on the plan, which stay as they are.
 
     It is reported with the PositionReported."""
 
     distance: float
-    """Distance of the reported position from the track, m."""
+    """Distance of the reported position from the track or from the nearest place, m; 0 if it is not on the plan."""
     sigma: float
-    """Standard deviation of that distance, m."""
+    """Standard deviation of that distance from the track, m; of the report, from a place."""
     what: str
     """Sentences for the person who reported it."""
 

@@ -163,7 +163,8 @@ class StreamRestarted(Happening):
 class PositionReported(Happening):
     """A person has reported where the wearer is at `t`; what the track makes of it follows at once.
 
-    That is TrackRevised or PositionRejected; nothing follows if a named place is noted for the first time."""
+    That is TrackRevised or PositionRejected. Nothing follows if a named place is noted for the first time, or if the
+    track cannot use it (docs/session.md)."""
 
     site: Site
     """Any site of the session."""

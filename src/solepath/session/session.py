@@ -240,7 +240,7 @@ class Session:
         return cls._from_state(restore_state(saved, parts), profiles, floorplan)
 
     def pack(self) -> bytes:
-        """Return the state, without its recipe, as 10 to 20 kB (protocol/snapshot.md)."""
+        """Return the state, without its recipe, as 10 to 25 kB (protocol/snapshot.md)."""
         from .packed import pack
 
         return pack(self._state)
