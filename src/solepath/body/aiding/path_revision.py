@@ -6,9 +6,10 @@ from itertools import accumulate
 from math import cos, fsum, hypot, sin
 
 from ...events import TrackNode
+from ...types.attrs import evolve
 from ..fuse.common_error import HEADING, SIZE, CommonError, X
 from ..fuse.position_covariance import LENGTH_ERROR
-from .walked_path import NotedPlace, Pair, WalkedPath
+from .walked_path import FIRST_SPACING, NotedPlace, Pair, WalkedPath
 
 MOST_PLACES = 8
 """Largest number of places with a name, each of which has two rows of the common errors."""
@@ -76,7 +77,10 @@ def revise_path(
     revised = _distributed(bent, distances, ends)
     nodes = [TrackNode(node.t, *position) for node, position in zip(old, revised, strict=True)]
     if settles:
-        path.settle(nodes[-1], max(0.0, error.covariance[HEADING][HEADING]))
+        path.nodes, path.walked, path.spacing, path.rejected = [nodes[-1]], 0.0, FIRST_SPACING, None
+        path.places = {name: evolve(one, node=0) for name, one in path.places.items()}
+        path.known, path.known_at = now, t
+        path.heading_variance = max(0.0, error.covariance[HEADING][HEADING])
     else:
         path.nodes = nodes[:-1]
         path.add_node(nodes[-1])

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import exp, hypot, sqrt
+from math import cos, exp, hypot, sin, sqrt
 
 from ...events import PositionRejected, PositionReported, TrackRevised
-from ...types.attrs import frozen
+from ...types.attrs import evolve, frozen
 from ..fuse.common_error import HEADING, CommonError, Move, X
 from ..fuse.position_covariance import position_covariance
 from .path_revision import estimate, note_place, revise_path, visit
-from .walked_path import WalkedPath
+from .walked_path import PlanStart, WalkedPath
 
 POSITION_GATE = 11.8
 """Largest squared distance of a reported position from the track, divided by its variance: 99.7 % of right ones (chi
@@ -20,6 +20,8 @@ AGREEMENT_GATE, LEAST_WAY = 6.0, 10.0
 least length of that way, m: a report that is repeated on the spot confirms nothing."""
 LEAST_SIGMA = 0.05
 """Least standard deviation of a report, m: the middle between two feet is known no better."""
+START_HEADING = 0.14
+"""Standard deviation of the first heading on a floor plan, rad: up to 0.24 rad either way (place/arrivals.py)."""
 REJECTED = ""
 """Name of the place where the newest rejected position was reported; no other place has an empty name."""
 Pair = tuple[float, float]
@@ -161,6 +163,20 @@ class ReportedPosition:
         if event.place:
             what = f"this is {distance:.1f} m from {where}, which is known to {off:.1f} m: the track stays as it is"
         return PositionRejected(t=event.t, known_at=event.known_at, distance=distance, sigma=off, what=what)
+
+
+def in_world_frame(event: PositionReported, plan_start: PlanStart | None) -> PositionReported | None:
+    """Return the report in the world frame; None if it is on the floor plan and the world's place there is not known.
+
+    What the first place and the first heading on the plan may be off by counts as an error of the report."""
+    if not event.level or event.position is None:
+        return event
+    if plan_start is None:
+        return None
+    x, y = event.position[0] - plan_start.x, event.position[1] - plan_start.y
+    c, s = cos(plan_start.heading), sin(plan_start.heading)
+    sigma = sqrt(event.sigma**2 + 0.5 * plan_start.spread**2 + START_HEADING**2 * (x * x + y * y))
+    return evolve(event, position=(c * x + s * y, c * y - s * x), sigma=sigma)
 
 
 def _minus(a: Pair, b: Pair) -> Pair:

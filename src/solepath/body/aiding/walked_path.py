@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, fsum, hypot, sin
+from math import fsum, hypot
 
 from ...events import TrackNode
 from ...types.attrs import define, evolve, field, frozen
@@ -32,18 +32,13 @@ class PlanStart:
     """The wearer's first place on the floor plan, plan frame, and the first heading, which is the world's x axis."""
 
     x: float
-    """Place, m."""
+    """Coordinate of the place, m."""
     y: float
-    """Place, m."""
+    """Coordinate of the place, m."""
     heading: float
     """Angle from the plan's x axis to the world's, rad."""
     spread: float
     """Uncertainty of the place, m (rms)."""
-
-    def to_world(self, position: tuple[float, float]) -> tuple[float, float]:
-        """Return a position on the plan in the world frame, both in m."""
-        x, y, c, s = position[0] - self.x, position[1] - self.y, cos(self.heading), sin(self.heading)
-        return (c * x + s * y, c * y - s * x)
 
 
 @define
@@ -89,10 +84,3 @@ class WalkedPath:
         self.nodes = [self.nodes[k] for k in kept]
         self.places = {name: evolve(one, node=kept.index(one.node)) for name, one in self.places.items()}
         self.spacing = max(self.spacing, 2.0 * length / MOST_NODES)  # reports add nodes, which need no more distance
-
-    def settle(self, node: TrackNode, heading_variance: float) -> None:
-        """Begin again at a known position, where the heading has this variance, rad^2."""
-        self.nodes, self.walked, self.spacing = [node], 0.0, FIRST_SPACING
-        self.places = {name: evolve(one, node=0) for name, one in self.places.items()}
-        self.known, self.known_at, self.heading_variance = (node.x, node.y), node.t, heading_variance
-        self.rejected = None

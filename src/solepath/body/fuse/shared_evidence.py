@@ -5,14 +5,13 @@ The compass, and what uses a reported position, are loaded when a session first 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from math import sqrt
 from typing import Final, Protocol
 
 from ...calibration import HeadingCalibration
 from ...events import Defect, DefectFound, PositionRejected, PositionReported, StrideTaken, TrackRevised
 from ...foot.view import AfterEvents, FootView
 from ...types import SITE_OF_FOOT, Foot, Phase, Vec3
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, field
 from ..aiding.walked_path import PlanStart, WalkedPath
 from .common_error import NO_MOVE, CommonError, Move
 from .learnt_bias import add_rest
@@ -29,10 +28,6 @@ Pair = tuple[float, float]
 """A position or a displacement in the horizontal plane, m."""
 SPACING = 0.2
 """Least time between samples of both feet that the compass has, s: one to three in a stance, whose noise is small."""
-
-
-START_HEADING = 0.14
-"""Standard deviation of the first heading on a floor plan, rad: up to 0.24 rad either way (place/arrivals.py)."""
 
 
 class Aid(Protocol):
@@ -126,18 +121,11 @@ class SharedEvidence:
     ) -> list[TrackRevised | PositionRejected]:  # fmt: skip
         """Correct both tracks with `move_both` by a reported position, reject it, or note a new place without an event.
 
-        `place` returns where the wearer is according to the track, m, common frame. A position on the floor plan is
-        used if the first place and the first heading are known there (`plan_start`); what they may be off by counts as
-        an error of the report."""
-        if event.level and event.position is not None:
-            if plan_start is None:
-                return []
-            x, y = plan_start.to_world(event.position)
-            sigma = sqrt(event.sigma**2 + 0.5 * plan_start.spread**2 + START_HEADING**2 * (x * x + y * y))
-            event = evolve(event, position=(x, y), sigma=sigma)
-        from ..aiding.reported_position import ReportedPosition
+        `place` returns where the wearer is according to the track, m, common frame."""
+        from ..aiding.reported_position import ReportedPosition, in_world_frame
 
-        return ReportedPosition(event, place, error, self.path, move_both).use()
+        in_world = in_world_frame(event, plan_start)
+        return [] if in_world is None else ReportedPosition(in_world, place, error, self.path, move_both).use()
 
     def covariance(self, position: Vec3, error: CommonError) -> tuple[float, float, float]:
         """Return the covariance of the wearer's `position`, m, common frame: xx, xy, yy, m^2."""
