@@ -14,6 +14,7 @@ from solepath.lab.tables.scores import comparison_tables
 from solepath.recording import RecordingError
 
 NEITHER = {
+    "nees_return", "held_return",
     *(f"{figure}_{t}" for figure in ("nees", "held", "heading_nees") for t in CHECKED_TIMES),
     "nees_end", "held_end", "path", "authors", "most_frequent", "strides_true", "rides_true", "heel_strike_true",
     "heel_strike_found", "toe_off_true", "toe_off_found", "stride_longest",
