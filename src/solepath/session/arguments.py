@@ -79,10 +79,8 @@ def check_now(now: float) -> float:
     return time
 
 
-def check_pair(where: Any) -> tuple[float, float] | None:
-    """Return x and y of a position as floats, or None for None; raises TypeError for anything else."""
-    if where is None:
-        return None
+def check_pair(where: Any) -> tuple[float, float]:
+    """Return x and y of a position as floats; raises TypeError for anything else than two numbers."""
     try:
         x, y = where
         return float(x), float(y)

@@ -123,7 +123,12 @@ class Session:
         state = self._state
         if state.now is None or state.finished or (isinstance(where, str) and not where):
             raise ValueError("a place needs a name, and a session that has samples and is not finished")
-        position, place = (None, where) if isinstance(where, str) else (check_pair(where), "")
+        if text(level):
+            if self._plan is None:
+                raise ValueError("a level without a floor plan")
+            self._plan.number(level)  # raises FloorPlanError, a ValueError, for a level that is not there
+        # the values that a packet would have, so that a replay of one is exact
+        position, place = (None, where or "") if where is None or isinstance(where, str) else (check_pair(where), "")
         frame = parse_position(build_position(PositionFrame(position, sigma, place, text(level))))
         site = SITE_OF_FOOT[next(iter(state.wearer.feet), Foot.LEFT)]
         return state.wearer.receive(site, reported_position(frame, state.now, site))

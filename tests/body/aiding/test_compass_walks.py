@@ -54,6 +54,16 @@ def test_a_compass_makes_the_heading_of_arcs_more_certain_and_is_saved_with_the_
     assert sigma < 0.8 * without
 
 
+def test_a_wrong_unit_is_reported_once_for_each_foot_and_as_nothing_else() -> None:
+    samples = [
+        sample if sample.mag is None else evolve(sample, mag=tuple(1e6 * m for m in sample.mag))
+        for sample in arcs().samples
+    ]
+    found = [event for event in Session().feed(samples) if isinstance(event, DefectFound)]
+    assert [event.site for event in found] in (list(FEET), list(reversed(FEET)))
+    assert all("give tesla" in event.what for event in found)
+
+
 def test_without_a_magnetic_field_there_is_no_compass_and_with_one_the_feet_are_the_same() -> None:
     samples = list(arcs().samples)[:6000]
     plain, with_compass = Session(), Session()

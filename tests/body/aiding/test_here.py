@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import hypot
+
 import numpy as np
 import pytest
 from lake import back_time, error, fed, loop, middle, session_back
@@ -92,6 +94,24 @@ def test_a_place_that_is_reported_again_and_again_is_used_each_time(sigma: float
         assert isinstance(session.here(place, sigma)[1], TrackRevised)
     xx, xy, _, yy, _, _ = session.position.covariance
     assert xx > 0.0 and yy > 0.0 and xx * yy >= xy * xy
+
+
+def test_a_foot_that_sends_nothing_any_more_does_not_count_for_where_the_wearer_is() -> None:
+    session = fed(loop(), 40.0)
+    session.feed([sample for sample in loop().samples if 40.0 <= sample.t < 41.5 and sample.site is Site.LEFT_FOOT])
+    assert session.position is not None
+    revised = session.here(session.position.position[:2], 0.1)[1]
+    assert isinstance(revised, TrackRevised) and hypot(*revised.by) < 0.3
+
+
+def test_a_report_after_the_clock_was_set_names_no_time_of_the_other_one() -> None:
+    session = fed(loop(), 60.0)
+    assert session.position is not None
+    x, y = session.position.position[:2]
+    session.here((x, y), 0.3)
+    session.restart_clock(5.0)
+    rejected = session.here((x + 40.0, y), 0.3)[-1]
+    assert isinstance(rejected, PositionRejected) and "s before" not in rejected.what
 
 
 def test_before_the_first_stride_a_place_has_no_effect_and_impossible_ones_are_errors() -> None:

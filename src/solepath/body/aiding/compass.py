@@ -40,12 +40,12 @@ SHORT, LONG = 0.5 * sqrt(2.0 * pi) * 1.5, 0.25 * sqrt(2.0 * pi) * 15.0
 
 A part with the correlation exp(-x^2 / (2 L^2)) across the way has sqrt(2 pi) L, and along the way, a field without curl
 has 0; L of 1.5 and 15 m is assumed (emulate/sensors/magnetic_field.py). The long part has half as much as that: a
-disturbance that is thought to last longer than it does looks like a drift of the feet."""
+disturbance that is thought to last longer than it does looks like a drift of the feet. Chosen on tuning walks."""
 SHARE = 0.75
 """Variance of each part of the disturbance, as a share of the size of both: a half, times 1.5, because its size is that
-of few stances, and because a way that is walked again has the same disturbance again."""
+of few stances, and because a way that is walked again has the same disturbance again. Chosen on tuning walks."""
 BLOCK = 8
-"""Number of stances of a foot that are compared at once: 10 m, no more than `LONG`."""
+"""Number of stances of a foot that are compared at once: 10 m, about `LONG`."""
 LEAST_STEP = 0.05
 """Least distance that a stance counts for, m, so that treading on the spot is not evidence without end."""
 LOST_HEADING = 0.5

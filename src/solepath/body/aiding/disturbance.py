@@ -26,7 +26,8 @@ USUAL_SHARE = 0.1
 TAIL = 4.0
 """Degrees of freedom of the t distribution by which a stance weighs, no unit: heavy tails."""
 MOST_OF_FIELD = 0.5
-"""Largest disturbance of a place that shows the heading, as a share of the horizontal field: 26 degrees."""
+"""Largest disturbance of a place that shows the heading, as a share of the horizontal field: 26 degrees. Chosen on
+tuning walks."""
 STRANGE, STRANGE_FIELD = 1.5, 0.6
 """Least disturbance of a strange place: its variance as a multiple of the usual one, or its standard deviation as a
 share of the horizontal field (31 degrees)."""

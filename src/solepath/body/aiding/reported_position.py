@@ -8,16 +8,13 @@ from math import cos, exp, hypot, sin, sqrt
 from ...events import PositionRejected, PositionReported, TrackRevised
 from ...types.attrs import evolve, frozen
 from ..fuse.common_error import HEADING, CommonError, Move, X
-from ..fuse.position_covariance import position_covariance
+from ..fuse.position_covariance import LEAST_WAY, POSITION_GATE, position_covariance
 from .path_revision import estimate, note_place, revise_path, visit
 from .walked_path import PlanStart, WalkedPath
 
-POSITION_GATE = 11.8
-"""Largest squared distance of a reported position from the track, divided by its variance: 99.7 % of right ones (chi
-square, two degrees of freedom)."""
-AGREEMENT_GATE, LEAST_WAY = 6.0, 10.0
-"""The same for the way from a rejected position to the next one, if both are believed: 95 % of right ones. And the
-least length of that way, m: a report that is repeated on the spot confirms nothing."""
+AGREEMENT_GATE = 6.0
+"""Largest squared difference of the way between two rejected positions from that of the track, divided by its variance,
+if both are used: 95 % of right ones."""
 LEAST_SIGMA = 0.05
 """Least standard deviation of a report, m: the middle between two feet is known no better."""
 START_HEADING = 0.14
@@ -173,7 +170,7 @@ def in_world_frame(event: PositionReported, plan_start: PlanStart | None) -> Pos
         return event
     if plan_start is None:
         return None
-    x, y = event.position[0] - plan_start.x, event.position[1] - plan_start.y
+    x, y = _minus(event.position, plan_start.place)
     c, s = cos(plan_start.heading), sin(plan_start.heading)
     sigma = sqrt(event.sigma**2 + 0.5 * plan_start.spread**2 + START_HEADING**2 * (x * x + y * y))
     return evolve(event, position=(c * x + s * y, c * y - s * x), sigma=sigma)

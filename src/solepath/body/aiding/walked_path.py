@@ -31,10 +31,8 @@ class NotedPlace:
 class PlanStart:
     """The wearer's first place on the floor plan, plan frame, and the first heading, which is the world's x axis."""
 
-    x: float
-    """Coordinate of the place, m."""
-    y: float
-    """Coordinate of the place, m."""
+    place: Pair
+    """Coordinates of the place, m."""
     heading: float
     """Angle from the plan's x axis to the world's, rad."""
     spread: float

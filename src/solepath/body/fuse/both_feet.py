@@ -97,7 +97,8 @@ class BothFeet(MeanOfFeet):
         if not calibration.headings:
             return self
         part = BothFeet(self.settings)
-        part.evidence.use_calibration(calibration.headings, part.common)
+        part.common.use_calibration(calibration.headings)
+        part.evidence.straight_ways.use_calibration(calibration.headings)
         return part
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:

@@ -6,6 +6,10 @@ from math import exp
 
 from .common_error import HEADING, CommonError, X, Y
 
+POSITION_GATE = 11.8
+"""Largest squared distance of a report, divided by its variance: 99.7 % of right ones (chi square, 2 axes)."""
+LEAST_WAY = 10.0
+"""Least way from a rejected position to one that confirms it, m: to repeat it on the spot does not."""
 LENGTH_ERROR = 0.007
 """Standard deviation of the relative error that all strides have in common, no unit.
 

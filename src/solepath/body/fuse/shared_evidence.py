@@ -4,10 +4,9 @@ The compass, and what uses a reported position, are loaded when a session first 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from typing import Final, Protocol
 
-from ...calibration import HeadingCalibration
 from ...events import Defect, DefectFound, PositionRejected, PositionReported, StrideTaken, TrackRevised
 from ...foot.view import AfterEvents, FootView
 from ...types import SITE_OF_FOOT, Foot, Phase, Vec3
@@ -63,11 +62,6 @@ class SharedEvidence:
     path: WalkedPath = field(factory=WalkedPath, init=False)
     """Path of the wearer so far."""
     found: list[DefectFound] = field(factory=list, init=False)
-
-    def use_calibration(self, headings: Mapping[Foot, HeadingCalibration], error: CommonError) -> None:
-        """Use what a calibration walk has shown of the heading of each foot, before any stride."""
-        error.use_calibration(headings)
-        self.straight_ways.use_calibration(headings)
 
     def add_stance_sample(self, view: FootView, mag: Vec3) -> None:
         """Add a sample of a foot that stands, with the magnetic flux density `mag`, T, sensor frame."""

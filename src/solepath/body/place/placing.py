@@ -26,12 +26,13 @@ from ...events import (
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point, Start
 from ...types.attrs import NOT_SAVED, define, field
+from ..fuse.position_covariance import LEAST_WAY
 from ..part import MOVEMENTS, PartInput, PartOutput
 from .arrivals import spread_rows, start_error
 from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
 from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
 from .reference import LevelChangePossible, LevelReached
-from .reported import LEAST_WAY, use_report
+from .reported import use_report
 from .rows import ONE_CANDIDATE_SPREAD, Row, candidates_of, effective_count, round_rows
 
 ROWS_PER_CANDIDATE = 30
@@ -76,10 +77,8 @@ class Placing(LevelChanges):
     """Number of further strides in which all rows are kept."""
     stuck_distance: float = field(default=0.0, init=False)
     """Length of track since a row could move, m."""
-    rejected_place: Point = field(default=(0.0, 0.0), init=False)
-    """Newest rejected place of a report, plan frame, m."""
-    rejected_at: Point | None = field(default=None, init=False)
-    """Position of the track at that report, m; None if no report was rejected since the newest one that was used."""
+    rejected: tuple[Point, Point] | None = field(default=None, init=False)
+    """Newest rejected place of a report, plan frame, and where the track was, world frame, m; None after one fitted."""
     newest_placed: Placed | None = field(default=None, init=False)
     """Newest place that was reported; None when it is lost."""
 
@@ -106,24 +105,23 @@ class Placing(LevelChanges):
             return self._use_report(self.plan, event, event.position)
         elif isinstance(event, TrackRevised):
             self.revise_track(event)
+            if self.rejected is not None:
+                place, (x, y) = self.rejected
+                self.rejected = (place, (x + event.by[0], y + event.by[1]))
         return ()
 
     def _use_report(self, plan: IndexedPlan, event: PositionReported, place: Point) -> list[Event]:
         """Weigh the rows by a place that a person reports, m; before the first position, the app's start counts."""
         if not self.started and self.start is not None:
             return []
-        x, y, _ = self.last_place
-        on_the_spot = (
-            self.rejected_at is not None and hypot(x - self.rejected_at[0], y - self.rejected_at[1]) < LEAST_WAY
-        )
-        other = self.rejected_place if on_the_spot else None
+        (x, y, _), other = self.last_place, None
+        if self.rejected is not None:
+            before, (at_x, at_y) = self.rejected
+            other = before if hypot(x - at_x, y - at_y) < LEAST_WAY else None
         rows, rejected = use_report(plan, self.rows, event, place, other, self.scatter, self.settings.max_rows)
         self.set_rows(rows)
-        if rejected is None:
-            self.rejected_at = None
-            return []
-        self.rejected_at, self.rejected_place = (x, y), place
-        return [rejected]
+        self.rejected = None if rejected is None else (place, (x, y))
+        return [] if rejected is None else [rejected]
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
         """Update the rows with events after which the wearer is at `here`, and return the place; never raises."""

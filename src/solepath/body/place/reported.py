@@ -7,14 +7,11 @@ from math import atan2, exp, fsum, hypot
 from ...events import PositionRejected, PositionReported
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point, Start
+from ..fuse.position_covariance import LEAST_WAY, POSITION_GATE
 from .arrivals import EXIT_ERROR, Scatter, spread_rows, start_error
 from .levels import KNOWN_ROWS
 from .rows import MAX_DISTANCE, Row
 
-REPORT_GATE = 11.8
-"""Largest squared distance of a report from the nearest row, divided by its variance: 99.7 % of right ones."""
-LEAST_WAY = 10.0
-"""Least way from a rejected place to the next report that may confirm it, m: to repeat it on the spot does not."""
 ROW_SIGMA = 1.0
 """Standard deviation of the place of a row on each axis, m, because there are few rows."""
 OTHER_SHARE = 0.1
@@ -46,7 +43,7 @@ def use_report(
     there = [row for row in rows if row[5] == level or row[7]]
     distance = min([hypot(row[0] - px, row[1] - py) for row in there], default=MAX_DISTANCE)
     again = rejected is not None and hypot(place[0] - rejected[0], place[1] - rejected[1]) < LEAST_WAY
-    if distance * distance < REPORT_GATE * variance and not again:
+    if distance * distance < POSITION_GATE * variance and not again:
         least = distance * distance  # the nearest row keeps its weight, so that it does not become 0 by rounding
         weights = [exp(-0.5 * ((row[0] - px) ** 2 + (row[1] - py) ** 2 - least) / variance) for row in there]
         return [(*row[:4], k * row[4], *row[5:]) for row, k in zip(there, weights, strict=True)], None
