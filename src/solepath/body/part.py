@@ -163,5 +163,7 @@ class ActivityPart(Part):
 
     __slots__ = ()
 
-    activity: Activity
-    """Newest activity that was reported, final or not; UNKNOWN before any."""
+    @property
+    @abstractmethod
+    def activity(self) -> Activity:
+        """Newest activity that was reported, final or not; UNKNOWN before any."""

@@ -5,8 +5,9 @@ motion (motion.py). Three kinds of evidence feed a Markov chain of sixteen state
 both feet, the force that an elevator adds on a standing foot (ride.py), and the slope of the air pressure when there is
 a barometer (pressure_height.py). Viterbi's algorithm finds the likeliest sequence of activities (hypotheses.py).
 
-Latency: a block is judged when two more blocks have come, 1 to 1.5 s after it. The likeliest sequence is reported at
-once as not final. The segments on which all likely sequences agree are reported again as final, mostly seconds later.
+Latency: a block enters the sequence when two more blocks have come, 1 to 1.5 s after it. Until then a state machine
+(early.py) reports what the newest blocks show, up to half a second after it happens, and each stride at its end. All of
+that is not final. The segments on which all likely sequences agree are reported again as final, mostly seconds later.
 Standing may turn out to be a ride whose start was not detected, so it becomes final after up to a minute; the end of a
 ride becomes final after 12 s."""
 
@@ -17,19 +18,23 @@ from collections.abc import Sequence
 from math import floor
 from typing import ClassVar, Final
 
-from ...events import ActivityChanged, Event, LiftRidden, StrideFeatures, StrideTaken
+from ...events import Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Site
 from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartOutput
-from .features import BLOCK_DURATION, WINDOW_REACH
+from .activity_report import ActivityReport
+from .blocks.features import BLOCK_DURATION, WINDOW_REACH
+from .blocks.foot_blocks import MAX_STRIDE_TIME, FootBlocks
+from .blocks.motion import MotionModel, load_released_model
+from .blocks.stride_slope import slope_evidence
+from .blocks.votes import block_force, motion_votes
+from .early import ActivityCue, EarlyActivities, cue_of_block, cue_of_stride
 from .flights import Flights
-from .foot_blocks import MAX_STRIDE_TIME, FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
-from .motion import MotionModel, load_released_model
 from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
-from .votes import block_force, motion_votes
+from .ride import BlockForce, ElevatorEvidence
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""
@@ -38,16 +43,14 @@ SILENT_BLOCKS = 3
 """Number of blocks without samples after which a foot is no longer waited for."""
 MAX_EMPTY_BLOCKS = 60
 """Largest number of consecutive empty blocks that are judged; the rest of a longer gap is skipped."""
-START_TOLERANCE = 1.0
-"""Largest change in the start of a provisional activity that is not reported as a revision, s."""
 MAX_WAITING_STRIDES = 8
 """Largest number of strides whose activity is not known yet; older ones are discarded."""
 NO_FEATURES = StrideFeatures(0.0, 0.0, 0.0)
 NO_COVARIANCE = (0.0,) * 6
 """Placeholders in `Activities.strides`: only the times and heights of these strides are used."""
+NO_ACTIVITY = ActivitySegment(-1e9, Activity.UNKNOWN)
+"""Placeholder for the newest activity before any."""
 STAIR_DIRECTIONS = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
-ELEVATOR_GOES_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
-"""Flag for each elevator activity: the ride goes up."""
 
 
 @frozen
@@ -65,8 +68,6 @@ class Activities(ActivityPart):
     needs_samples: ClassVar[bool] = True
 
     settings: ActivitiesSettings = ActivitiesSettings()
-    activity: Activity = field(default=Activity.UNKNOWN, init=False)
-    """The newest activity that was reported, final or not."""
     origin: float | None = field(default=None, init=False)
     """Start of block 0, s."""
     next_block: int = field(default=0, init=False)
@@ -75,13 +76,19 @@ class Activities(ActivityPart):
     right: FootBlocks = field(factory=FootBlocks, init=False)
     pressure_height: PressureHeight = field(factory=PressureHeight, init=False)
     hypotheses: Hypotheses = field(factory=Hypotheses, init=False)
-    provisional: list[ActivitySegment] = field(factory=list, init=False)
-    """Segments that were reported and are not final, oldest first."""
-    withdrawn_at: float | None = field(default=None, init=False)
-    """Time `t` of the newest report, s, if it is not final and withdrew an activity without a successor; else None."""
+    report: ActivityReport = field(factory=ActivityReport, init=False)
+    newest_block: int = field(default=-1, init=False)
+    """Number of the newest block that is complete in all feet that give samples."""
+    stride_cue: tuple[int, ActivityCue, float] | None = field(default=None, init=False)
+    """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
     flights: Flights = field(factory=Flights, init=False)
     strides: deque[StrideTaken] = field(factory=deque, init=False)
     """Strides whose activity is not known yet, without their features."""
+
+    @property
+    def activity(self) -> Activity:
+        """The newest activity that was reported, final or not."""
+        return self.report.activity
 
     def ready(self) -> None:
         """Read the motion model of this release, unless the settings have one."""
@@ -121,9 +128,7 @@ class Activities(ActivityPart):
             side.add_events(view.events, view.position[2])
             for event in view.events:
                 if isinstance(event, StrideTaken):
-                    self.strides.append(_reduce(event, event.known_at))
-                    if len(self.strides) > MAX_WAITING_STRIDES:
-                        self.strides.popleft()
+                    events = [*events, *self._add_stride(event, floor(block_number))]
         return events
 
     def finish(self, now: float) -> Sequence[PartOutput]:
@@ -136,47 +141,81 @@ class Activities(ActivityPart):
         while self.next_block <= last and last - self.next_block < MAX_EMPTY_BLOCKS:
             self._judge_block(self.next_block)
             self.next_block += 1
-        self._report(now, events, True)
+        events += self.report.add(self.hypotheses, (), 1e6 + now, now, True)
         return events
 
     def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that give samples."""
         open_blocks = [side.index for side in (self.left, self.right) if side.index is not None]
         newest = max(open_blocks)
-        complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1 - WINDOW_REACH
-        if complete < self.next_block:
+        complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1
+        if complete <= self.newest_block:
             return []
+        self.newest_block = complete
         events: list[Event] = []
         empty_blocks = 0
-        while self.next_block <= complete:
+        while self.next_block <= complete - WINDOW_REACH:
             empty_blocks = 0 if self._judge_block(self.next_block) else empty_blocks + 1
             self.next_block += 1
             if empty_blocks > MAX_EMPTY_BLOCKS:
-                self.next_block = max(self.next_block, complete - WINDOW_REACH)
-        self._report(known_at, events)
+                self.next_block = max(self.next_block, complete - 2 * WINDOW_REACH)
+        events += self._report(known_at)
         self._count_flights(t, known_at, events)
         return events
 
     def _judge_block(self, index: int) -> bool:
         """Judge one block and return whether it has samples."""
-        t = self._time(index)
         model = self.settings.model or load_released_model()
-        sides = (self.left, self.right)
-        features = [side.features(index, t + 0.5 * BLOCK_DURATION) for side in sides]
         pressure_height = self.pressure_height
-        pressure_scores = pressure_height.score_slope(index, BLOCK_DURATION) if pressure_height.blocks else NO_EVIDENCE
+        features, forces = self._features(index), self._forces(index)
         self.hypotheses.update(
             BlockEvidence(
-                t=t,
+                t=self._time(index),
                 motion_scores=motion_votes(model, features),
-                forces=tuple([block_force(side.block(index), side.resolution) for side in sides]),
-                pressure_scores=pressure_scores,
+                forces=forces,
+                pressure_scores=(
+                    pressure_height.score_slope(index, BLOCK_DURATION) if pressure_height.blocks else NO_EVIDENCE
+                ),
                 before=pressure_height.height(index - BLOCKS_BEFORE, index - 1),
                 after=pressure_height.height(index, index + WINDOW_REACH),
             ),
             model.chain,
         )
-        return any([foot_features is not None for foot_features in features])
+        return any([one is not None for one in features])
+
+    def _features(self, index: int) -> list[list[float] | None]:
+        """Return the features of a block of both feet, with as many later blocks as there are."""
+        t = self._time(index) + 0.5 * BLOCK_DURATION
+        return [side.features(index, t) for side in (self.left, self.right)]
+
+    def _forces(self, index: int) -> tuple[BlockForce | None, ...]:
+        return tuple([block_force(side.block(index), side.resolution) for side in (self.left, self.right)])
+
+    def _report(self, known_at: float) -> list[Event]:
+        """Return the events by which what was reported changes."""
+        best, model = self.hypotheses.best, self.settings.model or load_released_model()
+        newest = best.path[-1] if best is not None and best.path else NO_ACTIVITY
+        early = EarlyActivities(newest.activity, newest.t)
+        for index in range(max(self.next_block, self.newest_block + 1 - WINDOW_REACH), self.newest_block + 1):
+            votes, elevator = motion_votes(model, self._features(index)), ElevatorEvidence(self._forces(index))
+            levels = None if best is None else best.ride.levels
+            early.follow(self._time(index), cue_of_block(votes, early.activity, elevator, levels), model.chain)
+        if self.stride_cue is not None and self.stride_cue[0] > self.newest_block:
+            index, stride_cue, probability = self.stride_cue
+            early.follow(self._time(index), (stride_cue, probability), model.chain)
+        return self.report.add(self.hypotheses, early.found, self._time(self.next_block), known_at)
+
+    def _add_stride(self, stride: StrideTaken, block: int) -> list[Event]:
+        """Keep a stride that ends in a block for `flights`, and return the events by which its slope is reported."""
+        self.strides.append(_reduce(stride, stride.known_at))
+        if len(self.strides) > MAX_WAITING_STRIDES:
+            self.strides.popleft()
+        rise = stride.height_change if stride.features.rise is None else stride.features.rise
+        cue = cue_of_stride(slope_evidence(stride.length, rise))
+        if cue is None:
+            return []
+        self.stride_cue = (block, *cue)
+        return self._report(stride.known_at)
 
     def _time(self, index: int) -> float:
         return (0.0 if self.origin is None else self.origin) + index * BLOCK_DURATION
@@ -186,66 +225,7 @@ class Activities(ActivityPart):
         self.next_block = 0
         self.pressure_height = PressureHeight()
         self.hypotheses = Hypotheses()
-        self.provisional, self.withdrawn_at = [], None
-
-    def _report(self, known_at: float, events: list[Event], ending: bool = False) -> None:
-        """Report the changes of the likeliest sequence; `ending` settles all of it."""
-        hypotheses = self.hypotheses
-        for settled, ended, probability in hypotheses.settle(self._time(self.next_block) + (1e6 if ending else 0.0)):
-            if ended is not None and ended.activity in ELEVATOR_GOES_UP:
-                events.append(_ride_event(ended, settled.t, known_at))
-            events.append(
-                self._activity_event(
-                    settled,
-                    known_at,
-                    True,
-                    self.provisional[0].t if self.provisional else self.withdrawn_at,
-                    probability,
-                )
-            )
-            self.provisional, self.withdrawn_at = [], None
-        best = hypotheses.best
-        if best is None:
-            return
-        open_segments = best.path if hypotheses.settled is None else best.path[1:]
-        unchanged = 0
-        for old, new in zip(self.provisional, open_segments, strict=False):
-            if old.activity is not new.activity or abs(old.t - new.t) > START_TOLERANCE:
-                break
-            unchanged += 1
-        withdrawn, new_segments = self.provisional[unchanged:], list(open_segments[unchanged:])
-        revised = withdrawn[0].t if withdrawn else self.withdrawn_at
-        if withdrawn and not new_segments:
-            # no new activity takes the place of the withdrawn one: the activity before it continues
-            self._withdraw(unchanged, withdrawn[0].t, known_at, False, events)
-        for segment in new_segments:
-            events.append(self._activity_event(segment, known_at, False, revised, hypotheses.probability(segment)))
-            revised = self.withdrawn_at = None
-        self.provisional = [*self.provisional[:unchanged], *new_segments]
-        if ending and self.withdrawn_at is not None:
-            self._withdraw(unchanged, self.withdrawn_at, known_at, True, events)
-
-    def _withdraw(self, unchanged: int, t: float, known_at: float, final: bool, events: list[Event]) -> None:
-        """Report that the activity of time `t`, s, is withdrawn and the activity before it continues.
-
-        `unchanged` is the number of provisional segments that stay."""
-        settled = Activity.UNKNOWN if self.hypotheses.settled is None else self.hypotheses.settled
-        continued = ActivitySegment(t, self.provisional[unchanged - 1].activity if unchanged else settled)
-        events.append(self._activity_event(continued, known_at, final, t, self.hypotheses.probability(continued)))
-        self.withdrawn_at = None if final else t
-
-    def _activity_event(
-        self, segment: ActivitySegment, known_at: float, final: bool, revises: float | None, probability: float
-    ) -> ActivityChanged:
-        self.activity = segment.activity
-        return ActivityChanged(
-            t=segment.t,
-            known_at=max(known_at, segment.t),
-            final=final,
-            activity=segment.activity,
-            probability=probability,
-            revises=revises,
-        )
+        self.report, self.newest_block, self.stride_cue = ActivityReport(), -1, None
 
     def _count_flights(self, t: float, known_at: float, events: list[Event]) -> None:
         """Pass the strides up to the newest judged block to `flights`, with the activity at the middle of each."""
@@ -284,12 +264,4 @@ def _reduce(stride: StrideTaken, known_at: float) -> StrideTaken:
         t_heel_strike=stride.t_heel_strike,
         degraded=stride.degraded,
         features=NO_FEATURES,
-    )
-
-
-def _ride_event(ride: ActivitySegment, t_end: float, known_at: float) -> LiftRidden:
-    start = ride.t if ride.detected_at is None else ride.detected_at
-    end = max(start, t_end if ride.ended_at is None else ride.ended_at)
-    return LiftRidden(
-        t=end, known_at=max(known_at, end), t_start=start, up=ELEVATOR_GOES_UP[ride.activity], height=ride.height
     )

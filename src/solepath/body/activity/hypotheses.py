@@ -14,6 +14,7 @@ from math import exp, inf, log
 from ...types import Activity
 from ...types.attrs import define, field
 from ...types.vector import TIE
+from .blocks.features import BLOCK_DURATION
 from .chain import (
     ACTIVITIES,
     ELEVATOR_ACTIVITIES,
@@ -25,7 +26,6 @@ from .chain import (
     UNACCELERATED_STATES,
     Chain,
 )
-from .features import BLOCK_DURATION
 from .ride import (
     DWELL_TIME,
     HALT_ACCELERATION,

@@ -17,8 +17,10 @@ from ...types.vector import GRAVITY
 
 PULSE_ACCELERATION, PULSE_DEVIATION = 0.6, 0.35
 """Mean and standard deviation of the acceleration of an elevator that starts or stops, m/s^2."""
-HALT_ACCELERATION, HALT_DEVIATION = 0.15, 0.08
-"""Mean and standard deviation of the acceleration of an elevator that has crept on to its floor and stops, m/s^2."""
+HALT_ACCELERATION, HALT_DEVIATION = 0.25, 0.15
+"""Mean and standard deviation of the acceleration of an elevator that has crept on to its floor and stops, m/s^2.
+
+It creeps at 0.1 to 0.25 m/s and stops within half a second or a second; lifts of hugadb show 0.1 to 0.45."""
 FIRST_LEVEL_DEVIATION = 0.4
 """Standard deviation of |acc| of a sensor at rest from 1 g, when nothing else is known of the sensor, m/s^2."""
 MOVED_LEVEL_DEVIATION = 0.08

@@ -4,14 +4,16 @@ A session may revise the activity of a moment until the session ends. The last r
 
 from __future__ import annotations
 
-from collections import Counter
+from bisect import bisect_right
+from collections import Counter, deque
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
-from ...events import LiftRidden
+from ...events import ActivityChanged, LiftRidden
 from ...show.timeline import Timeline
 from ...types import Activity
-from ..measures.confusion import ActivityScore
+from ..measures.confusion import DELAYS, ActivityScore
 from ..measures.score import Figures, Scored
 from ..train.hugadb import FOLDS, Span, fold_of, labels, spans
 from .run import Meta, RunSettings, run, scored
@@ -19,6 +21,8 @@ from .run import Meta, RunSettings, run, scored
 ELEVATOR_IS_UP = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 """True for the elevator ride up, False for the ride down."""
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
+LABEL_EDGE = 1.0
+"""Time from a change of the label within which hand-set labels may be wrong, s."""
 SAMPLING_INTERVAL = 0.02
 """Time between the samples of a span whose activity is scored, s."""
 
@@ -29,6 +33,32 @@ def score_samples(t: Sequence[float], true: Sequence[Activity | None], timeline:
     Samples without a label are left out."""
     labelled = [(time, activity) for time, activity in zip(t, true, strict=True) if activity is not None]
     return ActivityScore(Counter([(activity, timeline.at(time)) for time, activity in labelled]))
+
+
+def score_inside(t: Sequence[float], true: Sequence[Activity | None], timeline: Timeline) -> ActivityScore:
+    """Return the score of the samples that are more than `LABEL_EDGE` from any change of the label."""
+    changes = [(a + b) / 2.0 for (a, was), (b, becomes) in pairwise(zip(t, true, strict=True)) if was is not becomes]
+    checks = Counter[tuple[str, bool]]()
+    for time, activity in zip(t, true, strict=True):
+        k = bisect_right(changes, time)
+        if activity is not None and all(abs(time - one) > LABEL_EDGE for one in changes[max(0, k - 1) : k + 1]):
+            checks["right_inside", timeline.at(time) is activity] += 1
+    return ActivityScore(checks=checks)
+
+
+def score_delays(
+    t: Sequence[float], true: Sequence[Activity | None], reports: Sequence[ActivityChanged]
+) -> ActivityScore:
+    """Return the scores of what was reported for each moment up to some seconds later (`DELAYS`)."""
+    checks = Counter[tuple[str, bool]]()
+    for check, delay in DELAYS.items():
+        timeline, pending = Timeline(), deque(reports)
+        for time, activity in zip(t, true, strict=True):
+            while pending and pending[0].known_at <= time + delay:
+                timeline.add(pending.popleft())
+            if activity is not None:
+                checks[check, timeline.at(time) is activity] += 1
+    return ActivityScore(checks=checks)
 
 
 def score_rides(true: Sequence[Span], rides: Sequence[LiftRidden]) -> ActivityScore:
@@ -62,11 +92,15 @@ def score_windows(true: Sequence[Span], timeline: Timeline, length: float = 2.0)
     return score_samples([time for time, _ in middles], [activity for _, activity in middles], timeline)
 
 
-def score_labelled(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score a recording of hugadb, whose activities the experimenter labelled by pressing keys."""
+def score_labelled(path: Path, meta: Meta, settings: RunSettings, corrected: bool = False) -> Scored:
+    """Score a recording of hugadb, whose activities the experimenter labelled by pressing keys.
+
+    With `corrected`, labels that contradict the signal are corrected."""
     result = run(path, settings, poses=False)
-    t, true = labels(path)
+    t, true = labels(path, corrected)
     score = score_samples(t, true, result.collection.timeline) + score_rides(spans(t, true), result.collection.rides)
+    score += score_inside(t, true, result.collection.timeline)
+    score += score_delays(t, true, result.collection.activities)
     wearers = ", ".join(map(str, sorted(FOLDS[fold_of(int(meta["subject"]))])))
     return scored(path, result, activity=score, groups=("all", f"of wearers {wearers}"))
 

@@ -17,7 +17,7 @@ from attrs import frozen
 
 from ...recording import RecordingError
 from ...saving.files import FileTooLarge, read_bounded
-from ..measures.confusion import CLASSES
+from ..measures.confusion import CHECKS, CLASSES
 
 DIGITS = 3
 """Number of significant digits to which figures are compared."""
@@ -42,7 +42,8 @@ _LESS = (
 )  # fmt: skip
 _NEARER_ZERO = ("heel_strike_bias", "toe_off_bias", "stride_time_bias", "leg_bias", "body_leg_bias")
 _MORE = (
-    "strides_found", "heel_strike_f1", "toe_off_f1", "authors_beaten", "uturn_found", "accuracy", "rides_found",
+    "strides_found", "heel_strike_f1", "toe_off_f1", "authors_beaten", "uturn_found", "accuracy", *CHECKS,
+    "rides_found",
     "stairs_called", "stairs_direction",
     "rejected_first", "rejected_later", "used", *(f"f1_{activity.value.lower()}" for activity in CLASSES),
 )  # fmt: skip

@@ -16,7 +16,7 @@ from ..emulated.heading import CHECKED_TIMES, EQUIPMENT, LENGTHS, score_heading
 from ..emulated.heading_walks import KINDS, WITH_COMPASS
 from ..emulated.reports import TIMES, score_reports
 from ..emulated.walks import score_floors
-from ..measures.confusion import CLASSES
+from ..measures.confusion import CHECKS, CLASSES
 from ..measures.score import Scored
 from .activity import STAIR_SPANS, score_labelled, score_stairs
 from .run import Meta, RunSettings
@@ -77,7 +77,7 @@ HEEL_STRIKE_FIGURES = (
     "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad",
     "heel_strike_scatter", "heel_strike_off",
 )  # fmt: skip
-ACTIVITY_FIGURES = ("accuracy", "most_frequent", *(f"f1_{activity.value.lower()}" for activity in CLASSES))
+ACTIVITY_FIGURES = ("accuracy", *CHECKS, "most_frequent", *(f"f1_{activity.value.lower()}" for activity in CLASSES))
 RIDE_FIGURES = ("rides_true", "rides_found", "rides_invented")
 TOE_OFF_FIGURES = (
     "toe_off_true", "toe_off_found", "toe_off_f1", "toe_off_bias", "toe_off_mad", "toe_off_scatter", "toe_off_off",
@@ -152,6 +152,11 @@ DATASETS = (
     ),
     DataSet(
         "hugadb", "activities, both feet, five folds by wearer", score_labelled, ACTIVITY_FIGURES + RIDE_FIGURES,
+        lists_recordings=False, folds=True,
+    ),
+    DataSet(
+        "hugadb_corrected", "the same, labels that contradict the signal corrected",
+        partial(score_labelled, corrected=True), ACTIVITY_FIGURES + RIDE_FIGURES, folders=("hugadb",),
         lists_recordings=False, folds=True,
     ),
     DataSet(

@@ -57,6 +57,8 @@ class EventCollection:
     """Collects the events of a session as they arrive."""
 
     timeline: Timeline = field(factory=Timeline)
+    activities: list[ActivityChanged] = field(factory=list)
+    """Activities in the order in which they were reported."""
     rides: list[LiftRidden] = field(factory=list)
     turns: list[TurnMade] = field(factory=list)
     _feet: dict[Foot, _FootEvents] = field(factory=dict)
@@ -82,6 +84,7 @@ class EventCollection:
                 self._events_of(event.foot).times[type(event)].append(event.t)
             case ActivityChanged():
                 self.timeline.add(event)
+                self.activities.append(event)
             case LiftRidden(final=True):
                 self.rides.append(event)
             case TurnMade(final=True):

@@ -11,6 +11,10 @@ from ...types import Activity
 
 CLASSES = tuple(activity for activity in Activity if activity is not Activity.UNKNOWN)
 """Activities that a label can have."""
+DELAYS = {"right_at_once": 0.0, "right_by_500ms": 0.5, "right_by_1s": 1.0, "right_by_2s": 2.0, "right_by_3s": 3.0}
+"""Names of the shares of time for which the right activity was reported so many seconds later, s."""
+CHECKS = ("right_inside", *DELAYS)
+"""Names of all shares: `right_inside` leaves out what is near to a change of the label."""
 
 
 @frozen
@@ -25,6 +29,8 @@ class ActivityScore:
     """Number of true rides that were found with the right direction."""
     rides_invented: int = 0
     """Number of reported rides that match no true one."""
+    checks: Mapping[tuple[str, bool], int] = field(factory=dict)
+    """Number of samples by the name of a figure of `CHECKS` and by whether the right activity was reported."""
 
     def __add__(self, other: ActivityScore) -> ActivityScore:
         return ActivityScore(
@@ -32,6 +38,7 @@ class ActivityScore:
             self.rides_true + other.rides_true,
             self.rides_found + other.rides_found,
             self.rides_invented + other.rides_invented,
+            Counter(self.checks) + Counter(other.checks),
         )
 
     def reported_for(self, true: Activity) -> dict[Activity, int]:
@@ -58,6 +65,11 @@ class ActivityScore:
         total = sum(self.samples.values())
         return max([sum(self.reported_for(activity).values()) for activity in Activity]) / total if total else None
 
+    def share_right(self, check: str) -> float | None:
+        """Return the share of samples of a figure of `CHECKS` with the right activity; None without any."""
+        right, wrong = self.checks.get((check, True), 0), self.checks.get((check, False), 0)
+        return right / (right + wrong) if right + wrong else None
+
     @property
     def figures(self) -> dict[str, float | None]:
         """Figures by name, as in tables and JSON."""
@@ -65,6 +77,7 @@ class ActivityScore:
             "accuracy": self.accuracy,
             "most_frequent": self.most_frequent,
             **{f"f1_{activity.value.lower()}": self.f1(activity) for activity in CLASSES},
+            **{check: self.share_right(check) for check in CHECKS},
             "rides_true": self.rides_true,
             "rides_found": self.rides_found,
             "rides_invented": self.rides_invented,

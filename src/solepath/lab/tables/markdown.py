@@ -8,7 +8,7 @@ from math import degrees
 from ...show.tables.table import milliseconds, number, percent
 from ..emulated.heading import CHECKED_TIMES
 from ..evaluate.report import Result
-from ..measures.confusion import CLASSES
+from ..measures.confusion import CLASSES, DELAYS
 from ..measures.score import Figures, Summary
 
 POSITION_FIGURES = {
@@ -160,6 +160,11 @@ def _activity_lines(summary: Summary) -> list[tuple[str, str]]:
     pooled, entries = summary.together, []
     if (accuracy := pooled.get("accuracy")) is not None:
         entries.append(("labelled time classified correctly", f"{percent(accuracy)} %"))
+        delays = [pooled.get(name) for name in DELAYS]
+        if (inside := pooled.get("right_inside")) is not None:
+            entries.append(("the same, more than 1 s from a change of the label", f"{percent(inside)} %"))
+            curve = ", ".join([percent(share) for share in delays])
+            entries.append(("the same at once, and by 0.5, 1, 2 and 3 s later", f"{curve} %"))
         entries.append(
             ("the same by always reporting the most frequent activity", f"{percent(pooled['most_frequent'])} %")
         )

@@ -13,7 +13,7 @@ from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
 from ..evaluate.ablation import Column
 from ..evaluate.changes import DIGITS, SUMMARY_ROWS, Changes, Scores, Verdict, compare_scores, names_missing
 from ..evaluate.report import Result
-from ..measures.confusion import CLASSES
+from ..measures.confusion import CLASSES, DELAYS
 from ..measures.score import Figures, Summary
 
 _metres = _three_digits = partial(number, digits=3)
@@ -115,6 +115,9 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "uturn_angle": ("off by degrees", _degrees),
     "uturn_invented": ("invented", _three_digits),
     "accuracy": ("right %", percent),
+    "right_inside": ("beyond 1 s of edges %", percent),
+    "right_at_once": ("at once %", percent),
+    **{name: (f"by {delay:g} s %", percent) for name, delay in DELAYS.items() if delay},
     "most_frequent": ("most freq %", percent),
     **{f"f1_{activity.value.lower()}": (f"F1 {_activity_name(activity)}", _three_digits) for activity in CLASSES},
     "rides_true": ("rides", _count),

@@ -25,12 +25,12 @@ from attrs import frozen
 from numpy.typing import NDArray
 
 from ... import recipes
-from ...body.activity import motion
-from ...body.activity.features import BLOCK_DURATION, FEATURE_COUNT, FIRST_STRIDE_FEATURE, WINDOW_REACH
-from ...body.activity.foot_blocks import FootBlocks
-from ...body.activity.motion import MotionModel, to_json
+from ...body.activity.blocks import motion
+from ...body.activity.blocks.features import BLOCK_DURATION, FEATURE_COUNT, FIRST_STRIDE_FEATURE, WINDOW_REACH
+from ...body.activity.blocks.foot_blocks import FootBlocks
+from ...body.activity.blocks.motion import MotionModel, to_json
+from ...body.activity.blocks.votes import block_force
 from ...body.activity.ride import BlockForce
-from ...body.activity.votes import block_force
 from ...emulate.sensors.device import Device
 from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
 from ...emulate.sensors.sensortags import CC2541, CC2650
@@ -44,11 +44,12 @@ from ...link.decoder import Decoder
 from ...recipes import Recipe
 from ...recording.samples import load_samples
 from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
-from ...types.vector import TIE, ZERO
+from ...types.vector import TIE
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts
 from .activities_net import CLASSES, feature_statistics, fit_networks
 from .hugadb import FOLDS, Span, labels, recordings, spans
+from .resampling import resampled
 
 Floats = NDArray[np.float64]
 Label = Callable[[float], Activity | None]
@@ -96,8 +97,8 @@ MIN_LABEL_SHARE = 0.9
 class Blocks:
     """The features, classes and wearers of blocks of half a second."""
 
-    features: Floats
-    """Features, (n, FEATURE_COUNT)."""
+    windows: tuple[Floats, ...]
+    """Features, (n, FEATURE_COUNT), with all, with one and with no later block in the window."""
     classes: NDArray[np.int64]
     """Numbers of activities_net.CLASSES, (n,)."""
     wearers: NDArray[np.int64]
@@ -118,33 +119,36 @@ def blocks_of(
 
     `only_strides` leaves out blocks without a stride or with a standing foot. `course_spans` are the true activities of
     a recording from which the sequence of activities is learnt too."""
-    rows: list[list[float]] = []
+    rows: list[list[list[float]]] = []
     classes: list[int] = []
     t_start = samples[0].t
     evidence: dict[int, dict[Foot, FootEvidence]] = {}
     for foot in Foot:
         foot_samples = [sample for sample in samples if sample.site.foot is foot and sample.acc is not None]
-        for index, features, force in _features(foot, foot_samples, t_start, recipe):
+        for index, windows, force in _features(foot, foot_samples, t_start, recipe):
+            features = windows[0]
             evidence.setdefault(index, {})[foot] = features, force
             activity = _block_label(label, t_start + index * BLOCK_DURATION)
             with_stride = features[FIRST_STRIDE_FEATURE] and features[STILLNESS_FEATURE] > STILLNESS_LIMIT
             if activity is not None and (with_stride or not only_strides):
-                rows.append(features)
+                rows.append(windows)
                 classes.append(CLASSES[activity])
     n = len(rows)
     by_hand = wearer != EMULATED_WEARER
     course = None if course_spans is None else LabelledCourse(t_start, evidence, tuple(course_spans), by_hand)
+    windows_of_blocks = np.array(rows).reshape(n, WINDOW_REACH + 1, FEATURE_COUNT)
     return Blocks(
-        np.array(rows).reshape(n, FEATURE_COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer), course
+        tuple(windows_of_blocks.swapaxes(0, 1)), np.array(classes, dtype=np.int64), np.full(n, wearer), course
     )
 
 
 def _features(
     foot: Foot, samples: Sequence[Sample], t_start: float, recipe: Recipe
-) -> Iterator[tuple[int, list[float], BlockForce | None]]:
+) -> Iterator[tuple[int, list[list[float]], BlockForce | None]]:
+    """Yield the number, the features with all, one and no later block, and the force of each block."""
     parts = deepcopy(recipe)
     tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
-    window = FootBlocks()
+    window, found = FootBlocks(), dict[int, list[list[float]]]()
     for sample in samples:
         events = tracker.feed(sample)
         index = int((sample.t - t_start + TIE) / BLOCK_DURATION)
@@ -152,9 +156,13 @@ def _features(
             if window.index is not None:
                 window.close()
                 complete = window.index - WINDOW_REACH
-                features = window.features(complete, t_start + (complete + 0.5) * BLOCK_DURATION)
-                if features is not None:
-                    yield complete, features, block_force(window.block(complete), window.resolution)
+                for k in range(complete, window.index + 1):
+                    features = window.features(k, t_start + (k + 0.5) * BLOCK_DURATION)
+                    if features is not None:
+                        found.setdefault(k, []).insert(0, features)
+                if (windows := found.pop(complete, None)) is not None:
+                    windows += windows[-1:] * (WINDOW_REACH + 1 - len(windows))  # where later blocks are empty
+                    yield complete, windows, block_force(window.block(complete), window.resolution)
             rest = tracker.rest
             window.start_block(index, rest.bias, rest.grain if rest.count else 0.0)
         if sample.acc is not None:
@@ -226,38 +234,17 @@ def _sample_walk(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | 
     return sorted(found, key=attrgetter("t"))
 
 
-def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
-    """Return the samples at another rate, Hz, interpolated linearly between samples.
-
-    They are first averaged over half an interval of the new rate, as a sensor at a low rate does, unless that is
-    shorter than an old interval."""
-    found: list[Sample] = []
-    for foot in Foot:
-        foot_samples = [one for one in samples if one.site.foot is foot and one.acc is not None]
-        if len(foot_samples) < 2:
-            continue
-        t = np.array([one.t for one in foot_samples])
-        width = max(1, round(0.5 / rate / float(np.median(np.diff(t)))))
-        new_times = np.arange(t[0], t[-1], 1.0 / rate)
-
-        has_gyro = all([one.gyro is not None for one in foot_samples])
-        values = np.array([(*(one.acc or ZERO), *((one.gyro or ZERO) if has_gyro else ())) for one in foot_samples])
-        smooth = [np.convolve(channel, np.ones(width) / width, "same") for channel in values.T]
-        rows = np.column_stack([np.interp(new_times, t, channel) for channel in smooth]).tolist()
-        for time, (x, y, z, *turn) in zip(new_times.tolist(), rows, strict=True):
-            gyro = (turn[0], turn[1], turn[2]) if has_gyro else None
-            found.append(attrs.evolve(foot_samples[0], t=time, acc=(x, y, z), gyro=gyro))
-    return sorted(found, key=attrgetter("t"))
-
-
 def fit_model(sources: Iterable[Blocks], note: str) -> MotionModel:
     """Return the model that is fitted to the blocks of all sources; `note` states the training data."""
     used = [blocks for blocks in sources if len(blocks.classes)]
-    features = np.concatenate([blocks.features for blocks in used])
+    windows = [np.concatenate(one) for one in zip(*[blocks.windows for blocks in used], strict=True)]
     classes = np.concatenate([blocks.classes for blocks in used])
     wearers = np.concatenate([blocks.wearers for blocks in used])
-    full_network, accelerometer_network = fit_networks(features, classes, wearers)
-    means, deviations = feature_statistics(features, classes)
+    n = len(windows)
+    full_network, accelerometer_network = fit_networks(
+        np.concatenate(windows), np.tile(classes, n), np.tile(wearers, n)
+    )
+    means, deviations = feature_statistics(windows[0], classes)
     courses = [blocks.course for blocks in used if blocks.course is not None]
     model = MotionModel(note, full_network, accelerometer_network, means, deviations, chances(courses), ())
     return attrs.evolve(model, shifts=shifts(courses, model))

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...body.activity.features import FIRST_GYRO_FEATURE, FIRST_STRIDE_FEATURE, FIRST_TRACK_FEATURE
-from ...body.activity.motion import MOTIONS, Network, Row
+from ...body.activity.blocks.features import FIRST_GYRO_FEATURE, FIRST_STRIDE_FEATURE, FIRST_TRACK_FEATURE
+from ...body.activity.blocks.motion import MOTIONS, Network, Row
 from ...types import Activity
 
 Floats = NDArray[np.float64]

@@ -12,8 +12,8 @@ from views import fed
 
 from solepath import Session
 from solepath.body.activity.activities import Activities, ActivitiesSettings
-from solepath.body.activity.features import FEATURE_COUNT, FIRST_GYRO_FEATURE
-from solepath.body.activity.motion import MOTIONS, from_json, load_released_model, to_json
+from solepath.body.activity.blocks.features import FEATURE_COUNT, FIRST_GYRO_FEATURE
+from solepath.body.activity.blocks.motion import MOTIONS, from_json, load_released_model, to_json
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker

@@ -6,9 +6,10 @@ samples instead of numbers of samples, so they depend little on the sample rate.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import log
 
-from .block import ActivityBlock, BlockStride
+from ....types.attrs import define
 
 BLOCK_DURATION = 0.5
 """Duration of a block, s."""
@@ -28,6 +29,60 @@ FIRST_STRIDE_FEATURE = FIRST_TRACK_FEATURE + 6
 """Index of the first feature of a stride."""
 FEATURE_COUNT = FIRST_STRIDE_FEATURE + 11
 """Number of features."""
+MAX_RISE = 0.6
+"""Largest height change of a stride that features distinguish, m: two stairs at a time."""
+
+
+@define
+class ActivityBlock:
+    """Statistics of the samples of one foot in one block."""
+
+    index: int
+    """Number of the block."""
+    count: int
+    """Number of samples."""
+    force: float
+    """Mean |acc|, the length of the specific force, m/s^2."""
+    variance: float
+    """Variance of |acc|, (m/s^2)^2."""
+    acc_bins: tuple[int, ...]
+    """Number of samples in each bin of |acc|, at most 255 each (features.py has the bins)."""
+    gyro_count: int
+    """Number of samples with a gyroscope."""
+    gyro_mean_square: float
+    """Mean square of |gyro|, (rad/s)^2."""
+    gyro_bins: tuple[int, ...]
+    """Number of samples in each bin of |gyro|, at most 255 each."""
+    tracked: bool
+    """Flag: velocity and position of the foot are known."""
+    climb: float
+    """Largest upward velocity, m/s."""
+    sink: float
+    """Largest downward velocity, m/s, negative."""
+    speed: float
+    """Largest horizontal speed, m/s."""
+
+
+@define
+class BlockStride:
+    """A stride of one foot, as the activity features need it: times in s, lengths in m."""
+
+    start: float
+    end: float
+    length: float
+    rise: float
+    """Height change, m."""
+    clearance: float
+    speed: float
+    """Peak speed, m/s."""
+    pitch: float
+    """Pitch of the swing, rad."""
+    top: float
+    """Greatest height in the stride above its start, m."""
+    bottom: float
+    """Lowest height in the stride above its start, m; 0 or negative."""
+    strike_height: float
+    """Height at heel-strike above the start of the stride, m."""
 
 
 def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: BlockStride | None) -> list[float]:
@@ -100,7 +155,7 @@ def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: Bloc
         values[FIRST_STRIDE_FEATURE] = 1.0
         values[FIRST_STRIDE_FEATURE + 1] = min(duration, 2.0)
         values[FIRST_STRIDE_FEATURE + 2] = min(stride.length, 2.0)
-        values[FIRST_STRIDE_FEATURE + 3] = 2.0 * min(max(stride.rise, -0.6), 0.6)
+        values[FIRST_STRIDE_FEATURE + 3] = 2.0 * min(max(stride.rise, -MAX_RISE), MAX_RISE)
         values[FIRST_STRIDE_FEATURE + 4] = 2.0 * min(max(stride.clearance, 0.0), 0.5)
         values[FIRST_STRIDE_FEATURE + 5] = 0.5 * min(stride.speed, 6.0)
         values[FIRST_STRIDE_FEATURE + 6] = min(stride.pitch, 3.0)
@@ -109,6 +164,13 @@ def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: Bloc
         values[FIRST_STRIDE_FEATURE + 9] = 2.0 * min(max(stride.bottom, -0.6), 0.6)
         values[FIRST_STRIDE_FEATURE + 10] = 2.0 * min(max(stride.strike_height, -0.6), 0.6)
     return values
+
+
+def stride_of(features: Sequence[float]) -> tuple[float, float] | None:
+    """Return the length, up to 2 m, and the rise of the stride in a block, m; None without a stride."""
+    if not features[FIRST_STRIDE_FEATURE]:
+        return None
+    return features[FIRST_STRIDE_FEATURE + 2], 0.5 * features[FIRST_STRIDE_FEATURE + 3]
 
 
 def _log_variance(variance: float) -> float:

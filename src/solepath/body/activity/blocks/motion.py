@@ -20,9 +20,9 @@ from math import dist, exp, fsum, hypot, log, tanh
 from operator import truediv
 from typing import Any
 
-from ...types import Activity
-from ...types.attrs import frozen
-from .chain import Chain, Chances, Shifts, chain_of
+from ....types import Activity
+from ....types.attrs import frozen
+from ..chain import Chain, Chances, Shifts, chain_of
 from .features import FEATURE_COUNT, FIRST_GYRO_FEATURE
 
 MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down")

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .block import ActivityBlock
+from ..ride import SWAY_DEVIATION, BlockForce
+from .features import FIRST_GYRO_FEATURE, ActivityBlock, stride_of
 from .motion import MOTIONS, MotionModel
-from .ride import SWAY_DEVIATION, BlockForce
+from .stride_slope import slope_evidence
 
+STAIRS_UP, STAIRS_DOWN = MOTIONS.index("stairs_up"), MOTIONS.index("stairs_down")
 VOTE_WEIGHT = 0.6
 """Weight of one vote; it is below 1 because neighbouring windows share samples."""
+LESSER_WEIGHT = 0.3
+"""Weight of the vote of a foot without a gyroscope beside one that has one: it takes stairs for level ways."""
 MIN_VOTE = -12.0
 """Lowest vote (natural logarithm)."""
 UNKNOWN_COST = 3.0
@@ -29,13 +33,20 @@ def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> 
     votes = [0.0] * len(MOTIONS)
     unknown = 0.0
     known = False
+    with_gyro = any([features is not None and features[FIRST_GYRO_FEATURE] for features in feet])
     for features in feet:
         if features is None:
             continue
         known = True
+        weight = VOTE_WEIGHT if features[FIRST_GYRO_FEATURE] or not with_gyro else LESSER_WEIGHT
         for i, likely in enumerate(model.log_probabilities(features)):
-            votes[i] += VOTE_WEIGHT * max(likely, MIN_VOTE)
-        unknown += VOTE_WEIGHT * min(0.5 * (model.strangeness(features) - USUAL_STRANGENESS) - UNKNOWN_COST, 0.0)
+            votes[i] += weight * max(likely, MIN_VOTE)
+        stride = stride_of(features)
+        if stride is not None:
+            slope = slope_evidence(*stride)
+            votes[STAIRS_UP] += slope.up
+            votes[STAIRS_DOWN] += slope.down
+        unknown += weight * min(0.5 * (model.strangeness(features) - USUAL_STRANGENESS) - UNKNOWN_COST, 0.0)
     return (*votes, unknown) if known else (*[-1.0] * len(MOTIONS), 0.0)
 
 

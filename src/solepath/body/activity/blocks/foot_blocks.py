@@ -7,12 +7,20 @@ from collections.abc import Sequence
 from math import sqrt
 from typing import Protocol
 
-from ...events import Event, FootFlat, HeelStrike, StrideTaken
-from ...types import Vec3
-from ...types.attrs import define, field
-from ...types.vector import ZERO
-from .block import ActivityBlock, BlockStride
-from .features import ACC_LIMIT, BIN_COUNT, BLOCK_DURATION, SQUARED_RATE_LIMIT, WINDOW_REACH, features_of
+from ....events import Event, FootFlat, HeelStrike, StrideTaken
+from ....types import Vec3
+from ....types.attrs import define, field
+from ....types.vector import ZERO
+from .features import (
+    ACC_LIMIT,
+    BIN_COUNT,
+    BLOCK_DURATION,
+    SQUARED_RATE_LIMIT,
+    WINDOW_REACH,
+    ActivityBlock,
+    BlockStride,
+    features_of,
+)
 
 MAX_BLOCKS = 2 * WINDOW_REACH + 1
 """Number of blocks that are kept: one window."""

@@ -90,3 +90,19 @@ def test_standing_that_may_still_be_a_ride_is_not_final_at_once() -> None:
     changes = [event for event in events if isinstance(event, ActivityChanged)]
     riding = [event for event in changes if event.activity is Activity.ELEVATOR_UP]
     assert not riding[0].final and riding[-1].final and riding[0].known_at < 14.0
+
+
+def test_a_lift_is_reported_as_possible_within_its_first_pulse() -> None:
+    for sign, activity in ((1.0, Activity.ELEVATOR_UP), (-1.0, Activity.ELEVATOR_DOWN)):
+        events = standing_events(lambda t, sign=sign: sign * (pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6)), 40.0)  # type: ignore[misc]
+        first = next(event for event in events if isinstance(event, ActivityChanged) and event.activity is activity)
+        assert not first.final and first.known_at < 11.3 and first.probability is not None
+
+
+def test_a_push_that_no_second_one_follows_is_withdrawn() -> None:
+    events = standing_events(lambda t: pulse(t, 10.0, 0.6) if t < 10.6 else 0.0, 90.0)
+    changes = [event for event in events if isinstance(event, ActivityChanged)]
+    possible = [event for event in changes if event.activity is Activity.ELEVATOR_UP]
+    assert possible and not any(event.final for event in possible)
+    assert any(event.revises == possible[-1].t for event in changes)
+    assert changes[-1].activity is Activity.STANDING

@@ -1,0 +1,144 @@
+"""The activity now: a state machine that follows what feet show before the likeliest sequence of activities is known.
+
+The sequence (hypotheses.py) knows a block 1 to 1.5 s after it. For the newest blocks and strides, each cue changes the
+activity by `NEXT_ACTIVITY`; the sequence confirms or revises that. Numbers become cues here, outside the table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+from math import exp, fsum
+
+from ...types import Activity
+from ...types.vector import TIE
+from .blocks.motion import MOTIONS
+from .blocks.stride_slope import SlopeEvidence
+from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
+from .hypotheses import ActivitySegment
+from .ride import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
+
+LEAST_MARGIN = 1.0
+"""Least difference of the log-likelihoods of a new motion and of the present one: 2.7 to 1.
+
+Without a margin, a twentieth more activities are reported and withdrawn (hugadb)."""
+LEAST_PUSH, PUSH_VARIANCE = 0.25, 0.02
+"""Least acceleration of both feet together that an elevator may cause, m/s^2, and the largest variance of its
+measurement, (m/s^2)^2. Elevators start with 0.3 to 1.2 m/s^2."""
+RIDE_ODDS = 0.05
+"""Odds that a push on both standing feet is an elevator's and not the wearer's, before its strength is known."""
+LEAST_SLOPE = 0.5
+"""Least evidence of one stride for stairs or against them that is a cue, as a logarithm of likelihoods."""
+
+
+class ActivityCue(StrEnum):
+    """A sign of an activity in one block or stride."""
+
+    STILL = "still"
+    WALKING = "walking"
+    RUNNING = "running"
+    CLIMBING = "climbing"
+    DESCENDING = "descending"
+    PUSHED_UP = "pushed up"
+    PUSHED_DOWN = "pushed down"
+
+
+CUE_OF_MOTION = dict(zip(MOTIONS, ActivityCue, strict=False))
+"""ActivityCue of each motion that the network distinguishes."""
+
+_MOVING = {
+    ActivityCue.WALKING: Activity.WALKING,
+    ActivityCue.RUNNING: Activity.RUNNING,
+    ActivityCue.CLIMBING: Activity.STAIRS_UP,
+    ActivityCue.DESCENDING: Activity.STAIRS_DOWN,
+}
+_STANDING = {
+    ActivityCue.STILL: Activity.STANDING,
+    ActivityCue.PUSHED_UP: Activity.ELEVATOR_UP,
+    ActivityCue.PUSHED_DOWN: Activity.ELEVATOR_DOWN,
+}
+
+
+def _on_the_way(activity: Activity) -> dict[ActivityCue, Activity]:
+    """Return the row of an activity in which the feet move: a push on them is their own."""
+    return {ActivityCue.STILL: Activity.STANDING, ActivityCue.PUSHED_UP: activity, ActivityCue.PUSHED_DOWN: activity}
+
+
+def _riding(activity: Activity) -> dict[ActivityCue, Activity]:
+    """Return the row of a ride, whose end the sequence finds by the pair of pulses."""
+    return {ActivityCue.STILL: activity, ActivityCue.PUSHED_UP: activity, ActivityCue.PUSHED_DOWN: activity}
+
+
+NEXT_ACTIVITY: dict[Activity, dict[ActivityCue, Activity]] = {
+    Activity.UNKNOWN: {**_STANDING, **_MOVING},
+    Activity.STANDING: {**_STANDING, **_MOVING},
+    Activity.WALKING: {**_on_the_way(Activity.WALKING), **_MOVING},
+    Activity.RUNNING: {**_on_the_way(Activity.RUNNING), **_MOVING},
+    Activity.STAIRS_UP: {**_on_the_way(Activity.STAIRS_UP), **_MOVING},
+    Activity.STAIRS_DOWN: {**_on_the_way(Activity.STAIRS_DOWN), **_MOVING},
+    Activity.ELEVATOR_UP: {**_riding(Activity.ELEVATOR_UP), **_MOVING},
+    Activity.ELEVATOR_DOWN: {**_riding(Activity.ELEVATOR_DOWN), **_MOVING},
+}
+"""The activity after each cue, by the activity before it."""
+
+STATE_OF_ACTIVITY = {activity: ACTIVITIES.index(activity) for activity in Activity}
+"""First state of each activity in the chain (chain.py): that in which it begins."""
+
+
+def printed_table() -> str:
+    """Return `NEXT_ACTIVITY` as text, with a line for each activity and a column for each cue."""
+    names = ["", *[cue.value for cue in ActivityCue]]
+    rows = [[before.value, *[row[cue].value for cue in ActivityCue]] for before, row in NEXT_ACTIVITY.items()]
+    widths = [max([len(row[k]) for row in (names, *rows)]) for k in range(len(names))]
+    lines = [[text.ljust(width) for text, width in zip(row, widths, strict=True)] for row in (names, *rows)]
+    return "\n".join(["  ".join(line).rstrip() for line in lines])
+
+
+class EarlyActivities:
+    """The activities after the newest one of the likeliest sequence, for one report; it is not part of the state."""
+
+    __slots__ = ("_since", "activity", "found")
+
+    def __init__(self, activity: Activity, since: float) -> None:
+        self.activity = activity
+        self._since = since
+        self.found: list[tuple[ActivitySegment, float]] = []
+        """Later activities, each with its probability."""
+
+    def follow(self, t: float, cue: tuple[ActivityCue, float] | None, chain: Chain) -> None:
+        """Follow the cue of a block or stride that starts at `t`, s, with its probability."""
+        following = self.activity if cue is None else NEXT_ACTIVITY[self.activity][cue[0]]
+        if cue is None or following is self.activity:
+            return
+        t += chain.shift[STATE_OF_ACTIVITY[self.activity]][STATE_OF_ACTIVITY[following]]
+        self.activity, self._since = following, max(t, self._since + TIE)
+        self.found.append((ActivitySegment(self._since, following), cue[1]))
+
+
+def cue_of_block(
+    votes: Sequence[float], before: Activity, elevator: ElevatorEvidence, levels: RestLevels | None
+) -> tuple[ActivityCue, float] | None:
+    """Return the cue of a block and the probability of what it shows; None if the activity `before` goes on.
+
+    `votes` are the log-likelihoods of `MOTIONS`, `levels` the forces on the feet at rest."""
+    motions = votes[: len(MOTIONS)]
+    best = max(range(len(motions)), key=motions.__getitem__)
+    probability = 1.0 / fsum([exp(vote - motions[best]) for vote in motions])
+    push = None if best != STAND or levels is None else elevator.estimate_acceleration(levels)
+    if push is not None and abs(push[0]) > LEAST_PUSH and push[1] < PUSH_VARIANCE and levels is not None:
+        sign = 1.0 if push[0] > 0.0 else -1.0
+        pulse = elevator.add_pulse(levels, sign * PULSE_ACCELERATION, PULSE_DEVIATION)[2]
+        odds = RIDE_ODDS * exp(max(-50.0, min(50.0, pulse - elevator.add_rest(levels)[1])))
+        return (ActivityCue.PUSHED_UP if sign > 0.0 else ActivityCue.PUSHED_DOWN), odds / (1.0 + odds)
+    state = STATE_OF_ACTIVITY[before]
+    present = motions[state] if state < len(motions) else motions[STAND] if state != UNKNOWN else -1e3
+    if best != state and motions[best] - present <= LEAST_MARGIN:
+        return None
+    return CUE_OF_MOTION[MOTIONS[best]], probability
+
+
+def cue_of_stride(slope: SlopeEvidence) -> tuple[ActivityCue, float] | None:
+    """Return the cue of a stride by its slope, and the probability of what it shows; None if it shows nothing."""
+    steepest, cue = (slope.up, ActivityCue.CLIMBING) if slope.up > slope.down else (slope.down, ActivityCue.DESCENDING)
+    if steepest < -LEAST_SLOPE:
+        steepest, cue = -steepest, ActivityCue.WALKING
+    return (cue, 1.0 / (1.0 + exp(-steepest))) if steepest > LEAST_SLOPE else None
