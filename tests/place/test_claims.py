@@ -40,16 +40,9 @@ def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: 
     floors that are alike.
     """
     scores = [score_walk(recipe, seed) for seed in range(1, walks + 1)]
-    distances = [sum(score.distances) / len(score.distances) for score in scores if score.distances]
+    distances = [sum(score.off) / len(score.off) for score in scores if score.off]
     for seed, score in enumerate(scores, 1):
-        print(
-            seed,
-            score.strides,
-            score.decided,
-            score.dropped,
-            score.wrong,
-            sum(score.distances) / max(1, len(score.distances)),
-        )
+        print(seed, score.strides, score.decided, score.dropped, score.wrong, sum(score.off) / max(1, len(score.off)))
     dropped = sum(score.dropped > 0 for score in scores)
     near = sum(one <= 1.0 for one in distances)
     print(

@@ -164,6 +164,7 @@ def test_a_start_is_read_with_and_without_heading_and_commas_in_the_name_of_a_le
     turned = start_of("ground floor, 1, 2, 90")
     assert turned.level == "ground floor" and degrees(turned.heading or 0.0) == pytest.approx(90.0)
     assert start_of("wing B, east,1,2") == Start("wing B, east", (1.0, 2.0))
-    for wrong in ("", "0", "0,1", ",1,2", "0,nan,2", "0,1,inf"):
+    assert degrees(start_of("heading=-90").heading or 0.0) == pytest.approx(-90.0)
+    for wrong in ("", "heading=", "heading=361", "heading=nan", "0", "0,1", ",1,2", "0,nan,2", "0,1,inf"):
         with pytest.raises(Failure):
             start_of(wrong)

@@ -146,12 +146,13 @@ class FloorPlan:
 
 @frozen
 class Start:
-    """Initial place of a wearer.
+    """Initial place of a wearer, or only the first heading.
 
-    `place` is in m, plan frame. `heading` is the wearer's first heading, rad, counter-clockwise from the plan's +x,
-    None when unknown. `spread` is the uncertainty of `place`, m (rms)."""
+    `place` is in m, plan frame, None when unknown. `heading` is the wearer's first heading, rad, counter-clockwise from
+    the plan's +x, None when unknown. `spread` is the uncertainty of `place`, m (rms). With a heading alone, as the
+    compass of a phone may give it, fewer candidates are possible after the first stairs or lift."""
 
-    level: str
-    place: Point
+    level: str = ""
+    place: Point | None = None
     heading: float | None = None
     spread: float = 0.5

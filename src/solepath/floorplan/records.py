@@ -87,10 +87,14 @@ def find_start_fault(start: Start) -> str | None:
 
 
 def _check_start(start: Start) -> Iterator[str]:
-    yield from _check_text("its level", start.level)
-    if not (_is_point(start.place) and all([abs(value) <= MAX_COORDINATE for value in start.place])):
-        yield f"its place is {describe(start.place)}, not (x, y) in m"
     heading, spread = start.heading, start.spread
+    if start.place is None:
+        if heading is None or start.level != "":
+            yield "it has no place: give level and place, or the heading alone"
+    else:
+        yield from _check_text("its level", start.level)
+        if not (_is_point(start.place) and all([abs(value) <= MAX_COORDINATE for value in start.place])):
+            yield f"its place is {describe(start.place)}, not (x, y) in m"
     if heading is not None and not (_is_number(heading) and abs(heading) <= MAX_HEADING):
         yield f"its heading is {describe(heading)}, not in rad"
     if not (_is_number(spread) and 0.0 <= spread <= MAX_SPREAD):

@@ -125,7 +125,7 @@ class MeanOfFeet(TrackPart):
 
     def set_out(self, start: Start) -> None:
         """Take the wearer's first place on the floor plan, in whose frame a person may report positions."""
-        if start.heading is not None:
+        if start.heading is not None and start.place is not None:
             self.plan_start = PlanStart(start.place, start.heading, start.spread)
 
     def middle(self, shares: tuple[float, float]) -> tuple[float, float]:

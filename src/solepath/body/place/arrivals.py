@@ -27,6 +27,10 @@ ON_STAIRS_WEIGHT = 2.0
 LEAST_OPPOSITE_SHARE = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.01}
 """Least probability that the wearer's direction, up or down, is not the reported one: feet move alike in both."""
 
+ANY_HEADING_SHARE = 0.1
+"""Share of the weight of headings that a known first heading does not allow: it may be wrong."""
+Heading = tuple[float, float]
+"""Angle of the track's x axis from the plan's, and its largest error, rad."""
 Scatter = Callable[[int, int], tuple[float, float, float, float]]
 """Function that returns offsets for the k-th of n rows, each from -1 to 1: x, y, heading, stretch."""
 
@@ -37,20 +41,20 @@ def spread_rows(
     level: int,
     place: Point,
     spread: float,
-    heading: float | None,
+    heading: Heading | None,
     count: int,
     origin: int,
     weight: float,
 ) -> list[Row]:
     """Return `count` rows around `place` with total `weight`, in all headings when `heading` is None.
 
-    `place` and `spread` are in m, plan frame, `heading` in rad; `origin` is the origin in each `Row`."""
+    `place` and `spread` are in m, plan frame; `origin` is the origin in each `Row`."""
     x0, y0 = plan.plan.origin
     radius = min(max(spread, 0.0), MAX_START_SPREAD) * SPREAD_FACTOR
     rows: list[Row] = []
     for k in range(count):
         ex, ey, eh, es = scatter(k, count)
-        turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading + START_HEADING_ERROR * eh
+        turn = 2.0 * pi * (k + 0.5 * eh) / count if heading is None else heading[0] + heading[1] * eh
         x, y = place[0] + radius * ex, place[1] + radius * ey
         if plan.crosses(level, place[0], place[1], x, y):
             x, y = place
@@ -94,8 +98,12 @@ def rows_at_exits(plan: IndexedPlan, changing: list[Row], arrived: LevelReached,
     return exit_rows
 
 
-def rows_at_all_exits(scatter: Scatter, plan: IndexedPlan, arrived: LevelReached, max_rows: int) -> list[Row]:
-    """Return about `max_rows` rows, spread over all exits that `arrived` allows and over all headings."""
+def rows_at_all_exits(
+    scatter: Scatter, plan: IndexedPlan, arrived: LevelReached, max_rows: int, heading: Heading | None
+) -> list[Row]:
+    """Return about `max_rows` rows, spread over all exits that `arrived` allows and over all headings.
+
+    With a known `heading` of the track, half of them have it, and nearly all of the weight."""
     landings = list_landings(plan.plan)
     weights: dict[int, float] = {}
     for entered in landings:
@@ -109,6 +117,11 @@ def rows_at_all_exits(scatter: Scatter, plan: IndexedPlan, arrived: LevelReached
         share = weights[index] / total
         count = max(int(max_rows * sqrt(weights[index]) / roots), 8)
         level, origin = exit_landing.level, exit_landing.connector + 1
+        if heading is not None:
+            count //= 2
+            known = share * (1.0 - ANY_HEADING_SHARE)
+            rows += spread_rows(scatter, plan, level, exit_landing.place, EXIT_ERROR, heading, count, origin, known)
+            share *= ANY_HEADING_SHARE
         rows += spread_rows(scatter, plan, level, exit_landing.place, EXIT_ERROR, None, count, origin, share)
     return rows
 
@@ -127,7 +140,9 @@ def _weigh_exits(
 
 
 def start_error(plan: IndexedPlan, start: Start) -> str | None:
-    """Return the reason why `start` is impossible, one sentence; None when it is possible."""
+    """Return the reason why `start` is impossible, one sentence; None when it is possible or has no place."""
+    if start.place is None:
+        return None
     try:
         level = plan.number(start.level)
     except FloorPlanError as error:

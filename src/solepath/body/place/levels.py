@@ -14,7 +14,7 @@ from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
-from .arrivals import find_level_changes, rows_at_all_exits, rows_at_exits
+from .arrivals import START_HEADING_ERROR, Heading, find_level_changes, rows_at_all_exits, rows_at_exits
 from .landings import Landing, find_exits, list_landings
 from .noise import next_random
 from .place_hypotheses import PlaceHypotheses
@@ -53,6 +53,9 @@ class LevelChanges(PlaceHypotheses):
     arrived_at: float | None = field(default=None, init=False)
     """Time of the last arrival on another level, s; None before any."""
 
+    known_heading: Heading | None = field(default=None, init=False)
+    """Angle of the track's x axis from the plan's, and its largest error, rad; None if no first heading was given."""
+
     def start_level_change(self, plan: FloorPlan, change: LevelChangePossible) -> None:
         """Add a row that changes level for each row near stairs or an elevator, and keep the rows that stay."""
         rows = self.rows
@@ -73,8 +76,15 @@ class LevelChanges(PlaceHypotheses):
         (x, y, z), (dx, dy) = self.last_place, event.by
         self.last_place = (x + dx, y + dy, z)
         self.references.move(event.by)
+        if self.known_heading is not None:
+            self.known_heading = (self.known_heading[0] - event.turn, self.known_heading[1])
         self.stride_scale.forget()
         self.rows = round_rows(turn_rows(self.rows, event.turn))
+
+    def widen_heading(self, sigma: float | None) -> None:
+        """Allow the known heading the error of the track now, whose standard deviation is `sigma`, rad, if known."""
+        if self.known_heading is not None and sigma is not None:
+            self.known_heading = (self.known_heading[0], START_HEADING_ERROR + 2.0 * sigma)
 
     def displacement_since(self, t: float) -> Point:
         """Return the displacement of the track since `t`, s, in m."""
@@ -105,7 +115,7 @@ class LevelChanges(PlaceHypotheses):
             if arrived.certainty <= MIN_CERTAINTY:
                 self.cancel_level_change()
                 return
-            exit_rows = rows_at_all_exits(self.scatter, plan, arrived, self.settings.max_rows)
+            exit_rows = rows_at_all_exits(self.scatter, plan, arrived, self.settings.max_rows, self.known_heading)
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
             exit_weight = fsum([row[4] for row in exit_rows])
             landing_share = 1.0 - STAYING_SHARE[arrived.kind]

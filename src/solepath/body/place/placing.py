@@ -13,22 +13,13 @@ from collections.abc import Sequence
 from math import fsum, hypot, isfinite, pi
 from typing import ClassVar
 
-from ...events import (
-    Event,
-    Placed,
-    PlaceLost,
-    PositionReported,
-    StrideTaken,
-    TrackRevised,
-    TurnMade,
-    WearerMoved,
-)  # fmt: skip
+from ...events import Event, Placed, PlaceLost, PositionReported, StrideTaken, TrackRevised, TurnMade, WearerMoved
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point, Start
 from ...types.attrs import NOT_SAVED, define, field
 from ..fuse.position_covariance import LEAST_WAY
 from ..part import MOVEMENTS, PartInput, PartOutput
-from .arrivals import spread_rows, start_error
+from .arrivals import START_HEADING_ERROR, spread_rows, start_error
 from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
 from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
 from .reference import LevelChangePossible, LevelReached
@@ -89,10 +80,12 @@ class Placing(LevelChanges):
 
     def set_out(self, start: Start) -> None:
         """Set the start of the wearer before the first `follow`; raises ValueError for values that are not finite."""
-        numbers = (*start.place, start.spread, 0.0 if start.heading is None else start.heading)
+        numbers = (*(start.place or ()), start.spread, start.heading or 0.0)
         if not all([isfinite(number) for number in numbers]):
             raise ValueError(f"a start's place, heading and spread are numbers, not {numbers}")
         self.start = start
+        if start.heading is not None:
+            self.known_heading = (start.heading, START_HEADING_ERROR)
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive an event and hold it back until the wearer's position after it is known."""
@@ -112,7 +105,7 @@ class Placing(LevelChanges):
 
     def _use_report(self, plan: IndexedPlan, event: PositionReported, place: Point) -> list[Event]:
         """Weigh the rows by a place that a person reports, m; before the first position, the app's start counts."""
-        if not self.started and self.start is not None:
+        if not self.started and self.start is not None and self.start.place is not None:
             return []
         (x, y, _), other = self.last_place, None
         if self.rejected is not None:
@@ -136,6 +129,7 @@ class Placing(LevelChanges):
             self.references.reset()
             self.arrived_at = None
         self.t = here.t
+        self.widen_heading(here.heading_sigma)
         strides = [event for event in events if isinstance(event, StrideTaken)]
         for stride in strides:
             self.stride_scale.add_stride(stride, here.position)
@@ -163,10 +157,11 @@ class Placing(LevelChanges):
         if self.rows:
             self.last_place = here.position
             return  # a person has said where the wearer is
-        if start is None:
-            what = "no start was given, so the place is not known before the first stairs or lift"
+        if start is None or start.place is None:
+            given = "start" if start is None else "place of the start"
+            what = f"no {given} was given, so the place is not known before the first stairs or lift"
             if not plan.plan.connectors:
-                what = "no start was given and the plan has neither stairs nor lifts: the place cannot be known"
+                what = f"no {given} was given and the plan has neither stairs nor lifts: the place cannot be known"
             outputs.append(PlaceLost(t=here.t, known_at=known_at, what=what))
             self.last_place = here.position
             return
@@ -178,7 +173,7 @@ class Placing(LevelChanges):
         level = plan.number(start.level)
         count = self.settings.max_rows if start.heading is None else 2 * KNOWN_ROWS
         self.rows = round_rows(
-            spread_rows(self.scatter, plan, level, start.place, start.spread, start.heading, count, 0, 1.0)
+            spread_rows(self.scatter, plan, level, start.place, start.spread, self.known_heading, count, 0, 1.0)
         )
 
     def _move(

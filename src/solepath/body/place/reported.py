@@ -8,7 +8,7 @@ from ...events import PositionRejected, PositionReported
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point, Start
 from ..fuse.position_covariance import LEAST_WAY, POSITION_GATE
-from .arrivals import EXIT_ERROR, Scatter, spread_rows, start_error
+from .arrivals import EXIT_ERROR, START_HEADING_ERROR, Scatter, spread_rows, start_error
 from .levels import KNOWN_ROWS
 from .rows import MAX_DISTANCE, Row
 
@@ -49,7 +49,9 @@ def use_report(
         return [(*row[:4], k * row[4], *row[5:]) for row, k in zip(there, weights, strict=True)], None
     weight = 0.0 if again else fsum([row[4] for row in rows])
     heading = atan2(fsum([row[4] * row[3] for row in rows]), fsum([row[4] * row[2] for row in rows]))
-    added = spread_rows(scatter, plan, level, place, sigma, heading, KNOWN_ROWS, 0, OTHER_SHARE * weight)
+    added = spread_rows(
+        scatter, plan, level, place, sigma, (heading, START_HEADING_ERROR), KNOWN_ROWS, 0, OTHER_SHARE * weight
+    )
     where = f"the nearest is {distance:.0f} m away" if there else "none is on this level"
     where = "it was rejected just before" if again else where
     what = (

@@ -130,9 +130,9 @@ def add_floorplan(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--start",
-        metavar="LEVEL,X,Y[,HEADING]",
+        metavar="LEVEL,X,Y[,HEADING]|heading=DEGREES",
         help="where on it the wearer sets out: m in the plan's frame, and the first heading in degrees, anticlockwise"
-        " from the plan's x axis; without it the place is known after stairs or a lift",
+        " from the plan's x axis, or that heading alone; without a place it is known after stairs or a lift",
     )
 
 
@@ -164,12 +164,17 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
 
 
 def start_of(text: str) -> Start:
-    """Return the start of LEVEL,X,Y or LEVEL,X,Y,HEADING: plan frame, m and degrees; raise Failure for other text.
+    """Return the start of LEVEL,X,Y, LEVEL,X,Y,HEADING or heading=DEGREES: plan frame, m and degrees.
+
+    Raises Failure for other text.
 
     The name of the level may contain commas."""
     from ...floorplan.plan import Start
     from ...floorplan.records import find_start_fault
 
+    only = _finite(text.removeprefix("heading=")) if text.startswith("heading=") else None
+    if only is not None and abs(only) <= 360.0:
+        return Start(heading=radians(only))
     for count in (3, 2):
         level, *numbers = text.rsplit(",", count)
         values = [_finite(number) for number in numbers]
@@ -182,7 +187,9 @@ def start_of(text: str) -> Start:
             if problem is not None:
                 raise Failure(f"--start {printable(text, 80)}: {problem}")
             return start
-    raise Failure(f"--start {printable(text, 80)} is not LEVEL,X,Y or LEVEL,X,Y,HEADING, as in 0,12.5,3 or 0,12.5,3,90")
+    raise Failure(
+        f"--start {printable(text, 80)} is not LEVEL,X,Y, LEVEL,X,Y,HEADING or heading=DEGREES, as in 0,12.5,3,90"
+    )
 
 
 def _finite(text: str) -> float | None:
