@@ -14,8 +14,9 @@ class ActivityChanged(Happening):
     An event that is not final may be replaced by a later event, which names it in `revises`. The activity at a time is
     that of the newest event with `t` at or before it, leaving out replaced events.
 
-    The default recipe reports an activity 1 to 1.5 s after `t`. It becomes final mostly some seconds later; standing
-    that may be an elevator ride becomes final after up to a minute. Parts of other recipes state their own latency."""
+    The default recipe reports an activity up to half a second after it shows, an elevator at its first pulse. It is
+    confirmed or revised 1 to 1.5 s after `t` and becomes final mostly some seconds later; standing that may be an
+    elevator ride becomes final after up to a minute. Parts of other recipes state their own latency."""
 
     activity: Activity
     """The new activity."""
