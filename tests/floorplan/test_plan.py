@@ -34,7 +34,8 @@ GROUND = HOUSE.levels[0]
 
 
 def with_level(**changes: object) -> FloorPlan:
-    return evolve(HOUSE, levels=(evolve(GROUND, **changes), *HOUSE.levels[1:]))  # type: ignore[arg-type]
+    nameless = evolve(GROUND, room_names=()) if "rooms" in changes else GROUND
+    return evolve(HOUSE, levels=(evolve(nameless, **changes), *HOUSE.levels[1:]))  # type: ignore[arg-type]
 
 
 def stairs(*stops: ConnectorStop, **more: object) -> FloorPlan:

@@ -11,7 +11,17 @@ from here import PROTOCOL
 from hypothesis import strategies as st
 
 from solepath.floorplan.doors import cut_doors
-from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Wall
+from solepath.floorplan.plan import (
+    Anchor,
+    Connector,
+    ConnectorKind,
+    ConnectorStop,
+    Door,
+    FloorPlan,
+    Level,
+    Wall,
+    with_rooms,
+)
 
 FILES = PROTOCOL / "floorplans"
 
@@ -44,9 +54,8 @@ def plans(draw: st.DrawFn) -> FloorPlan:
     for i, level_id in enumerate(ids):
         elevation = 3.0 * i + draw(st.floats(0.0, 2.0))
         level_walls = (corner, *draw(st.lists(walls, max_size=4)))
-        levels.append(cut_doors(Level(level_id, draw(names), i, elevation, level_walls,
-                                           tuple(draw(st.lists(doors, max_size=3))),
-                                           tuple(draw(st.lists(outlines, max_size=2))))))  # fmt: skip
+        level = Level(level_id, draw(names), i, elevation, level_walls, tuple(draw(st.lists(doors, max_size=3))))
+        levels.append(cut_doors(with_rooms(level, draw(st.lists(st.tuples(outlines, names), max_size=2)))))
     connectors = []
     for _ in range(draw(st.integers(0, 3))):
         stops_at = [level_id for level_id in ids if draw(st.booleans())] or ids[:1]

@@ -9,7 +9,7 @@ from time import process_time
 
 import pytest
 from airs import memory
-from attrs import define, field
+from attrs import define, evolve, field
 from benches import LEFT, RIGHT
 from browsers import MAX_WAIT, UNREACHABLE, Browser, Browsing, Window, window
 from shown import (
@@ -197,8 +197,8 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
         scene.take(None, [place(5.0, 27.4, ground)])
         await view.until(f"{seen}.since === '4' && document.getElementById('track-note').hidden")
         await view.until("document.getElementById('track').ariaLabel.includes('The wearer is on')")
-        scene.take(None, [place(6.0, 27.5, upper)])
-        await view.until(f"{seen}.level === '{upper}'")
+        scene.take(None, [evolve(place(6.0, 27.5, upper), room="<b>room 12</b>")])
+        await view.until(f"{seen}.level === '{upper}' && {note} === 'The wearer is in <b>room 12</b>.'")
         assert await view.tab.evaluate(f"{seen}.since") == "4"
 
 

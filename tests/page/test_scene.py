@@ -23,6 +23,7 @@ from solepath import (
     Packet,
     PacketsLost,
     Phase,
+    Placed,
     PlaceLost,
     Site,
     StreamResumed,
@@ -223,10 +224,17 @@ def test_a_place_is_shown_until_it_is_lost() -> None:
     scene = shown([event for event in events if not isinstance(event, PlaceLost)], Scene("", "", plan=BUILDING))
     message = json.loads(encode(scene.whole_message()[0]))
     assert message["frame"]["place"]["candidates"][0]["origin"] == "stairs A"
+    assert message["frame"]["place"]["room"] is None
     assert len(message["places"]) == 1, "of several candidates on several levels there is no one place"
     assert [line for line in message["log"] if line[1] == "place"]
     shown([event for event in events if isinstance(event, PlaceLost)], scene)
     assert frame(scene)["place"] is None
+
+
+def test_the_name_of_a_room_is_shown_on_one_line_and_cut_where_it_is_endless() -> None:
+    place = next(event for event in events_of_all_kinds() if isinstance(event, Placed))
+    assert frame(shown([evolve(place, room="room\n12")]))["place"]["room"] == "room\N{REPLACEMENT CHARACTER}12"
+    assert len(frame(shown([evolve(place, room="x" * 100_000)]))["place"]["room"]) == 200
 
 
 def test_numbers_that_are_not_finite_are_shown_as_null() -> None:

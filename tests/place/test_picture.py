@@ -19,7 +19,17 @@ from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
 from solepath.floorplan.importers.geojson import write_floorplan
-from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
+from solepath.floorplan.plan import (
+    Anchor,
+    Connector,
+    ConnectorKind,
+    ConnectorStop,
+    FloorPlan,
+    Level,
+    Start,
+    Wall,
+    with_rooms,
+)
 from solepath.show.places import PlaceCounts
 from solepath.show.tables.plan import TRACK_COLOURS, PlanPicture, blend
 from solepath.show.tables.summary import place_lines
@@ -117,7 +127,9 @@ def hall(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("plan") / "hall.geojson"
     corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (0.0, 20.0)]
     walls = tuple(Wall(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
-    levels = tuple(Level(str(k), f"floor {k}", k, 3.0 * k, walls) for k in (0, 1))
+    levels = tuple(
+        with_rooms(Level(str(k), f"floor {k}", k, 3.0 * k, walls), [(tuple(corners), f"hall {k + 1}")]) for k in (0, 1)
+    )
     stops = tuple(ConnectorStop(level.id, (28.0, 18.0)) for level in levels)
     write_floorplan(path, FloorPlan("hall", levels, (Connector(ConnectorKind.STAIRS, "stairs", stops),)))
     return path
@@ -128,14 +140,14 @@ def test_track_writes_places_and_the_picture_and_prints_where_the_wearer_is(
 ) -> None:
     done = run("track", walk, "--floorplan", hall, "--start", "0,10,10,30", "--out", tmp_path)
     assert done.returncode == 0
-    assert "place: found after 1 stride, at" in done.stdout and "at the end: level 0, (1" in done.stdout
+    assert "place: found after 1 stride, at" in done.stdout and "at the end: level 0, hall 1, (1" in done.stdout
     with (tmp_path / "places.csv").open() as file:
         rows = list(csv.DictReader(file))
-    assert len(rows) >= 4 and {row["level"] for row in rows} == {"0"}
+    assert len(rows) >= 4 and {(row["level"], row["room"]) for row in rows} == {("0", "hall 1")}
     assert all(0.0 < float(row["x_m"]) < 30.0 and row["candidates"] == "1" for row in rows)
     assert abs(float(rows[-1]["heading_deg"]) - 30.0) < 12.0
     events = [json.loads(line) for line in (tmp_path / "events.jsonl").read_text().splitlines()]
-    assert [event["level"] for event in events if event["event"] == "Placed"] == [row["level"] for row in rows]
+    assert [event["room"] for event in events if event["event"] == "Placed"] == [row["room"] for row in rows]
     svg = ElementTree.parse(tmp_path / "plan.svg").getroot()
     assert svg.tag == f"{SVG}svg" and "walk.jsonl, recipe default" in words(svg)
 

@@ -37,6 +37,8 @@ class Placed(Happening):
     """Level of the best candidate."""
     position: Vec3
     """Mean position of the best candidate, plan frame, m."""
+    room: str | None = None
+    """Name of the room at `position`; None outside of all named rooms, and on a level without names of rooms."""
     spread: float
     """Root mean square distance from `position`, weighted by the probability of all candidates, m."""
     candidates: tuple[Candidate, ...]

@@ -1,6 +1,7 @@
 """A floor plan, indexed for thousands of queries during each stride.
 
-`crosses` takes 2 us for a move of the length of a step (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py).
+`crosses` takes 2 us for a move of the length of a step (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py), and
+`room` 1 us (room_names.py).
 Construction takes about 0.1 ms for each wall, some seconds for the largest usable plans. The index is not saved: the
 same plan gives the same index again."""
 
@@ -14,6 +15,8 @@ from .enclosure import MAX_LATTICE_POINTS, Enclosure
 from .grid import MAX_CELLS_PER_PLAN, MAX_LATTICE_POINTS_PER_PLAN, share_limit
 from .outlines import Ring
 from .plan import FloorPlan, FloorPlanError
+from .room_names import MAX_CELLS as MAX_NAME_CELLS
+from .room_names import RoomNames
 from .rooms import MAX_CELLS as MAX_ROOM_CELLS
 from .rooms import Rooms
 
@@ -26,7 +29,7 @@ class IndexedPlan:
 
     Raises FloorPlanError when the plan cannot be used."""
 
-    __slots__ = ("_insides", "_numbers", "_walls", "fingerprint", "plan")
+    __slots__ = ("_insides", "_numbers", "_room_names", "_walls", "fingerprint", "plan")
 
     def __init__(self, plan: FloorPlan) -> None:
         fault = find_fault(plan)
@@ -52,6 +55,8 @@ class IndexedPlan:
             Rooms(level, tuple(level_outlines), room_cells) if level.rooms else Enclosure(level, walls, points)
             for level, walls, level_outlines in zip(plan.levels, self._walls, outlines, strict=True)
         ]
+        name_cells = share_limit(MAX_NAME_CELLS, MAX_CELLS_PER_PLAN, count)
+        self._room_names = [RoomNames(level, name_cells) if any(level.room_names) else None for level in plan.levels]
 
     def number(self, level: str) -> int:
         """Return the index in `plan.levels` of the level with this id; raise FloorPlanError when there is none."""
@@ -75,3 +80,10 @@ class IndexedPlan:
         if not (isfinite(x) and isfinite(y)):
             return False
         return self._insides[level].inside(x, y)
+
+    def room(self, level: int, x: float, y: float) -> str | None:
+        """Return the name of the room at (x, y), m, plan frame, on this level; None outside of all named rooms.
+
+        The smallest of several named rooms counts. Accepts any floats."""
+        room_names = self._room_names[level]
+        return None if room_names is None else room_names.find(x, y)

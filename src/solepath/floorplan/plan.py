@@ -6,6 +6,7 @@ of them (doors.py). checks.py has the requirements on a plan."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import Enum
 
 from ..saving.codec import checksum, save
@@ -75,7 +76,7 @@ class Level:
 
     `ordinal` is its number in the order of storeys, 0 at the ground. `elevation` is its floor's z, m, plan frame.
     `rooms` are outlines within which a person can walk, rings that do not repeat their first point; empty when
-    unknown."""
+    unknown. `room_names` are their names in the same order, "" for a room without one; empty when no name is known."""
 
     id: str
     name: str
@@ -84,6 +85,13 @@ class Level:
     walls: tuple[Wall, ...]
     doors: tuple[Door, ...] = ()
     rooms: tuple[tuple[Point, ...], ...] = ()
+    room_names: tuple[str, ...] = ()
+
+
+def with_rooms(level: Level, rooms: Sequence[tuple[tuple[Point, ...], str]]) -> Level:
+    """Return the level with these rooms, each an outline, m, plan frame, and its name, "" for a room without one."""
+    names = tuple([name for _, name in rooms])
+    return evolve(level, rooms=tuple([ring for ring, _ in rooms]), room_names=names if any(names) else ())
 
 
 @frozen

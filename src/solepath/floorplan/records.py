@@ -60,6 +60,9 @@ def _check_level(level: Level) -> Iterator[str]:
         for point in room:
             if not _is_point(point):
                 yield f"{name}: room {i} has a corner {describe(point)}, not (x, y)"
+    yield from _check_all(f"{name}: the names of its rooms", level.room_names, str)
+    if len(level.room_names) not in (0, len(level.rooms)):
+        yield f"{name}: has {len(level.room_names)} names of rooms and {len(level.rooms)} rooms"
 
 
 def _check_connector(connector: Connector) -> Iterator[str]:

@@ -57,7 +57,7 @@ CYCLE_COLUMNS = (
     "degraded",
     "steady",
 )
-PLACE_COLUMNS = ("t_s", "level", "x_m", "y_m", "z_m", "spread_m", "heading_deg", "candidates", "weight")
+PLACE_COLUMNS = ("t_s", "level", "room", "x_m", "y_m", "z_m", "spread_m", "heading_deg", "candidates", "weight")
 
 
 def _stride_row(event: StrideTaken) -> list[str]:
@@ -84,7 +84,8 @@ def _place_row(event: Placed) -> list[str]:
     heaviest = event.candidates[0]
     numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
     heading = "" if heaviest.heading is None else f"{degrees(heaviest.heading):.2f}"
-    return [repr(event.t), event.level, *numbers, heading, str(len(event.candidates)), f"{heaviest.weight:.4f}"]
+    shares = [heading, str(len(event.candidates)), f"{heaviest.weight:.4f}"]
+    return [repr(event.t), event.level, event.room or "", *numbers, *shares]
 
 
 @contextmanager

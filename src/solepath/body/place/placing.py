@@ -277,6 +277,7 @@ class Placing(LevelChanges):
             known_at=known_at,
             level=heaviest.level,
             position=heaviest.position,
+            room=plan.room(plan.number(heaviest.level), heaviest.position[0], heaviest.position[1]),
             spread=spread,
             candidates=candidates,
         )

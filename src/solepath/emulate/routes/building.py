@@ -15,7 +15,7 @@ from attrs import frozen
 from ...floorplan.doors import cut_doors
 from ...floorplan.importers.drawing import merge_walls
 from ...floorplan.importers.earth import to_mm
-from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Point, Wall
+from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Point, Wall, with_rooms
 
 EAST, NORTH = 56.0, 63.0
 HALF_WIDTH = 1.2
@@ -164,9 +164,10 @@ def _level(level_id: str, name: str, ordinal: int, has_exits: bool) -> Level:
         elevation=ordinal * STOREY,
         walls=_walls([*boxes, (0.0, 0.0, EAST, NORTH)]),
         doors=tuple(doors),
-        rooms=tuple(_ring(box) for box in [*corridors, *(box for box, side in rooms if side)]),
     )
-    return cut_doors(level)
+    named = [(_ring(box), f"corridor {k}") for k, box in enumerate(corridors, 1)]
+    named += [(_ring(box), f"room {k}") for k, box in enumerate([box for box, side in rooms if side], 1)]
+    return cut_doors(with_rooms(level, named))
 
 
 def _connectors() -> tuple[Connector, ...]:

@@ -14,7 +14,19 @@ from ...types.attrs import define, field
 from ..checks import MAX_LEVELS, MAX_WALLS
 from ..doors import MAX_DOOR_OFFSET, Line, Openings, cut_openings
 from ..outlines import Ring, contains, edges, find_inner_point, join_holes, normalize_ring
-from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Point, Wall
+from ..plan import (
+    Anchor,
+    Connector,
+    ConnectorKind,
+    ConnectorStop,
+    Door,
+    FloorPlan,
+    FloorPlanError,
+    Level,
+    Point,
+    Wall,
+    with_rooms,
+)
 from ..segments import distance
 from .earth import to_mm
 
@@ -39,11 +51,12 @@ class Border(Enum):
 
 @define
 class Space:
-    """A space on one level; `rings` are its outline, then its holes."""
+    """A space on one level; `rings` are its outline, then its holes. `name` is "" when it has none."""
 
     level: str
     rings: tuple[Ring, ...]
     border: Border
+    name: str = ""
 
 
 @define
@@ -106,8 +119,9 @@ class Drawing:
             raise FloorPlanError(f"has more than {MAX_DOORS} doors or {MAX_PARTS} stairs and lifts")
         ids = sorted(self.storeys, key=lambda level: (self.storeys[level].order, level))
         levels = [
-            Level(level, self.storeys[level].name, self.storeys[level].ordinal, self.storeys[level].order * storey,
-                  self._walls(level), self._doors(level), self._rooms(level))
+            with_rooms(
+                Level(level, self.storeys[level].name, self.storeys[level].ordinal, self.storeys[level].order * storey,
+                      self._walls(level), self._doors(level)), self._rooms(level))
             for level in ids
         ]  # fmt: skip
         connectors = tuple(_join_parts(self.parts, {level: i for i, level in enumerate(ids)}, self.storeys))
@@ -117,9 +131,9 @@ class Drawing:
         doors = {Door(min(a, b), max(a, b), name) for door_level, a, b, name in self.doors if door_level == level}
         return tuple(sorted(doors, key=lambda door: (door.start, door.end, door.name)))
 
-    def _rooms(self, level: str) -> tuple[Ring, ...]:
+    def _rooms(self, level: str) -> list[tuple[Ring, str]]:
         spaces = [space for space in self.spaces if space.level == level and space.border is not Border.SOLID]
-        return tuple(sorted([normalize_ring(join_holes(space.rings)) for space in spaces]))
+        return sorted([(normalize_ring(join_holes(space.rings)), space.name) for space in spaces])
 
     def _walls(self, level: str) -> tuple[Wall, ...]:
         doors: list[Line] = [(start, end) for line_level, start, end, _ in self.doors if line_level == level]

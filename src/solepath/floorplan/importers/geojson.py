@@ -12,7 +12,18 @@ from ...types.attrs import evolve
 from ..checks import MAX_BEARING, MAX_LATITUDE
 from ..doors import cut_doors
 from ..outlines import Ring, find_inner_point, join_holes, without_repeats
-from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Wall
+from ..plan import (
+    Anchor,
+    Connector,
+    ConnectorKind,
+    ConnectorStop,
+    Door,
+    FloorPlan,
+    FloorPlanError,
+    Level,
+    Wall,
+    with_rooms,
+)
 from .earth import Tangent
 from .features import Feature, ToPlan, find_anchor, parse_number, read_features
 
@@ -74,7 +85,7 @@ class _GeoJsonReader:
         self._remarks: list[str] = []
         self._walls: dict[str, list[Wall]] = {}
         self._doors: dict[str, list[Door]] = {}
-        self._rooms: dict[str, list[Ring]] = {}
+        self._rooms: dict[str, list[tuple[Ring, str]]] = {}
         self._stops: dict[tuple[str, str], list[tuple[Feature, ConnectorStop]]] = {}
 
     def plan(self, name: str, storey: float, elevations: object) -> FloorPlan:
@@ -85,10 +96,15 @@ class _GeoJsonReader:
             if feature.kind != "level":
                 self._read_feature(feature)
         levels_with_shapes = [
-            cut_doors(evolve(level, walls=tuple(self._walls[level.id]), doors=tuple(self._doors[level.id]),
-                                  rooms=tuple(self._rooms[level.id])))
+            cut_doors(
+                evolve(
+                    with_rooms(level, self._rooms[level.id]),
+                    walls=tuple(self._walls[level.id]),
+                    doors=tuple(self._doors[level.id]),
+                )
+            )
             for level in levels
-        ]  # fmt: skip
+        ]
         heights = {level.id: level.elevation for level in levels}
         connectors = tuple(self._connector(stops, heights) for stops in self._stops.values())
         heights_known = elevations == "known" and any(
@@ -128,7 +144,7 @@ class _GeoJsonReader:
         elif feature.kind == "room":
             if feature.geometry != "Polygon":
                 feature.fail("a room is a Polygon")
-            self._rooms[level].append(self._outline(feature, level))
+            self._rooms[level].append((self._outline(feature, level), feature.text("name", "")))
         else:
             self._stop(feature, level)
 
@@ -210,8 +226,9 @@ def _written(plan: FloorPlan) -> Iterable[dict[str, Any]]:
             yield _feature("wall", _geometry("LineString", [wall.start, wall.end]), on_level)
         for door in level.doors:
             yield _feature("door", _geometry("LineString", [door.start, door.end]), {**on_level, "name": door.name})
-        for room in level.rooms:
-            yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), on_level)
+        for i, room in enumerate(level.rooms):
+            named = {**on_level, "name": level.room_names[i]} if level.room_names else on_level
+            yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), named)
     for i, connector in enumerate(plan.connectors):
         counts = {"flights": connector.flights, "rise": connector.rise}
         known = {key: value for key, value in counts.items() if value is not None}

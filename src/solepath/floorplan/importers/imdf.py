@@ -150,7 +150,8 @@ class _ImdfReader:
         return feature.convert_line([parse_positions(value.get("coordinates"), feature)], self._to_plan)[0]
 
     def _space(self, feature: Feature, level: str, border: Border) -> None:
-        self._drawing.spaces += [Space(level, rings, border) for rings in self._rings(feature)]
+        name = self._label(feature, "name")
+        self._drawing.spaces += [Space(level, rings, border, name) for rings in self._rings(feature)]
 
     def _opening(self, feature: Feature) -> None:
         level = self._level(feature)

@@ -105,7 +105,8 @@ class _OsmReader:
                 self._drawing.lines += [(level, (ax, ay), (bx, by)) for rings in outlines for ring in rings
                                         for ax, ay, bx, by in edges(ring)]  # fmt: skip
             else:
-                self._drawing.spaces += [Space(level, rings, border) for rings in outlines if border]
+                name = label_of(element)
+                self._drawing.spaces += [Space(level, rings, border, name) for rings in outlines if border]
             if border is not Border.FREE:
                 self._drawing.lines += [(level, *line) for refs in lines for line in self._lines(refs)]
                 self._add_walls(level, shapes, lines)

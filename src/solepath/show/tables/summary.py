@@ -159,7 +159,7 @@ def place_lines(counts: PlaceCounts) -> list[str]:
         position = f"({number(x, 1)}, {number(y, 1)}) m"
         count = len(counts.last.candidates)
         uncertainty = f", one of {count} candidates" if count > 1 else f", within {number(counts.last.spread, 1)} m"
-        lines.append(f"at the end: level {printable(counts.last.level)}, {position}{uncertainty}")
+        lines.append(f"at the end: {_level_and_room(counts.last)}, {position}{uncertainty}")
     if counts.level_starts:
         levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.level_starts])
         unlisted = counts.level_changes - MAX_LISTED
@@ -171,10 +171,15 @@ def place_lines(counts: PlaceCounts) -> list[str]:
 
 
 def place_line(place: Placed) -> str:
-    """Return a line with the wearer's present level and position, m, plan frame."""
+    """Return a line with the wearer's present level, room if it has a name, and position, m, plan frame."""
     x, y, _ = place.position
     count = len(place.candidates)
-    text = f"place: level {printable(place.level)}, ({number(x, 1)}, {number(y, 1)}) m"
+    text = f"place: {_level_and_room(place)}, ({number(x, 1)}, {number(y, 1)}) m"
     if count == 1:
         return f"{text}, within {number(place.spread, 1)} m"
     return f"{text}, {100.0 * place.candidates[0].weight:.0f} % sure, one of {count} candidates"
+
+
+def _level_and_room(place: Placed) -> str:
+    level = f"level {printable(place.level)}"
+    return level if place.room is None else f"{level}, {printable(place.room)}"

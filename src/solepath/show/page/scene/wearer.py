@@ -7,6 +7,7 @@ from typing import Any
 from attrs import define, evolve, field
 
 from ....events import Candidate, Placed, TrackRevised, WearerMoved
+from ....recording import printable
 from ....types.attrs import NOT_SAVED
 from ..messages import rounded, rounded_all
 from .bending import Bend
@@ -83,6 +84,7 @@ class WearerScene:
 def _place(place: Placed) -> dict[str, Any]:
     return {
         "level": place.level,
+        "room": None if place.room is None else printable(place.room),
         "position": rounded_all(place.position),
         "decided": len(place.candidates) <= 1,
         "spread": rounded(place.spread, 2),

@@ -1,7 +1,7 @@
 // Announcements for a screen reader: activity, lost and restored links, the level, reported positions and what came of
 // them, and the page's own connection.
 
-import { nameOf } from "./position.js";
+import { whereOf } from "./position.js";
 import { capital, activityText } from "./words.js";
 
 const JOIN_TIME = 1500; // ms; what comes within this time is announced together
@@ -50,7 +50,7 @@ export class Announcer {
     if (changed.has("place") && state.place) {
       const { decided } = state.place;
       if (decided && (state.place.level !== this.#level || !this.#decided))
-        announce(`On ${nameOf(state.plan, state.place.level)}`);
+        announce(`On ${whereOf(state.plan, state.place)}`);
       [this.#level, this.#decided] = [state.place.level, decided];
     }
   }

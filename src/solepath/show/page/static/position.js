@@ -7,12 +7,18 @@ export function nameOf(plan, id) {
   return plan?.levels.find((level) => level.id === id)?.name ?? id;
 }
 
+// Level of the wearer, and the room if it has a name.
+export function whereOf(plan, { level, room }) {
+  return room ? `${nameOf(plan, level)}, ${room}` : nameOf(plan, level);
+}
+
 // Note below a drawing of this level; "" when there is none.
 export function noteOnPlan({ place, places, plan }, level) {
   if (!place && places.length > 0) return "The place was lost; the track by itself goes on.";
   if (!place) return "Where on the plan is not known yet.";
   if (!place.decided) return possible(place, plan);
-  return place.level === level.id ? "" : `The wearer is on ${nameOf(plan, place.level)}.`;
+  if (place.level !== level.id) return `The wearer is on ${whereOf(plan, place)}.`;
+  return place.room ? `The wearer is in ${place.room}.` : "";
 }
 
 // Note below the track without a plan.
@@ -31,7 +37,7 @@ export function spokenOnPlan(state, level) {
   if (!place?.decided) return `Floor plan, ${level.name}. ${noteOnPlan(state, level)}`;
   const [x, y] = place.position.map((metres) => `${fixed(metres, 1)} m`);
   const within = place.spread === null ? "" : `, within about ${fixed(place.spread, 1)} m`;
-  return `Floor plan, ${level.name}. The wearer is on ${nameOf(plan, place.level)} at ${x}, ${y}${within}`;
+  return `Floor plan, ${level.name}. The wearer is on ${whereOf(plan, place)} at ${x}, ${y}${within}`;
 }
 
 export function spokenTrack({ wearer }) {

@@ -1,0 +1,165 @@
+"""Names of rooms: in the records, in files of all three formats, and at the place of a wearer."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+from attrs import evolve
+from floorplans import FILES, archive, plans
+from floors import METHODS, Method, Pedestrian, follow, placed
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.emulate.routes.building import BUILDING
+from solepath.floorplan.checks import find_fault
+from solepath.floorplan.importers.geojson import format_floorplan
+from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.outlines import Ring, area, contains, edges
+from solepath.floorplan.plan import Door, FloorPlan, Level, Wall, with_rooms
+
+HOUSE = read_floorplan(FILES / "house.geojson")
+NAMELESS = evolve(BUILDING, levels=tuple([evolve(level, room_names=()) for level in BUILDING.levels]))
+STREET = Wall((-20.0, -20.0), (40.0, -20.0))
+
+
+def box(x0: float, y0: float, x1: float, y1: float) -> Ring:
+    return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+
+
+def flat(*rooms: tuple[Ring, str]) -> FloorPlan:
+    """Return a flat of one level with these rooms, and a door between x = 5.0 m and x = 5.2 m."""
+    level = Level("0", "ground floor", 0, 0.0, (STREET,), (Door((5.1, 2.0), (5.1, 3.0)),))
+    return FloorPlan("flat", (with_rooms(level, rooms),))
+
+
+KITCHEN, BATH = (box(0.0, 0.0, 5.0, 5.0), "kitchen"), (box(5.2, 0.0, 9.0, 5.0), "bath")
+
+
+def test_a_place_in_a_room_has_its_name_and_one_in_another_room_has_the_other() -> None:
+    plan = IndexedPlan(flat(KITCHEN, BATH))
+    assert [plan.room(0, x, 2.5) for x in (0.1, 2.5, 4.9, 5.3, 8.9)] == ["kitchen"] * 3 + ["bath"] * 2
+
+
+def test_a_doorstep_between_two_rooms_is_inside_and_in_neither_room() -> None:
+    plan = IndexedPlan(flat(KITCHEN, BATH))
+    assert plan.inside(0, 5.1, 2.5) and plan.room(0, 5.1, 2.5) is None
+
+
+def test_outside_of_every_room_and_in_a_room_without_a_name_there_is_no_name() -> None:
+    plan = IndexedPlan(flat(KITCHEN, BATH, (box(0.0, 6.0, 9.0, 8.0), "")))
+    places = ((-0.1, 2.5), (2.5, 5.5), (9.1, 2.5), (1e9, -1e300), (math.nan, 1.0), (1.0, math.inf))
+    assert [plan.room(0, x, y) for x, y in places] == [None] * len(places)
+    assert plan.inside(0, 4.0, 7.0) and plan.room(0, 4.0, 7.0) is None
+
+
+def test_a_plan_without_names_has_rooms_and_none_of_them_is_named() -> None:
+    plan = flat((KITCHEN[0], ""), (BATH[0], ""))
+    assert plan.levels[0].room_names == () and len(plan.levels[0].rooms) == 2
+    assert IndexedPlan(plan).room(0, 2.5, 2.5) is None
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_booth_in_a_hall_is_the_booth_in_whatever_order_and_direction_they_are_drawn(turned: bool) -> None:
+    rooms = [(box(0.0, 0.0, 20.0, 20.0), "hall"), (box(8.0, 8.0, 10.0, 10.0), "booth")]
+    drawn = [(ring[::-1], name) for ring, name in rooms[::-1]] if turned else rooms
+    plan = IndexedPlan(flat(*drawn))
+    assert plan.room(0, 9.0, 9.0) == "booth" and plan.room(0, 7.0, 9.0) == "hall"
+
+
+def test_a_room_has_the_same_name_on_one_level_only() -> None:
+    plan = IndexedPlan(HOUSE)
+    assert [plan.room(level, 4.0, 2.0) for level in (0, 1)] == ["A", "AB"]
+
+
+@given(plans(), st.floats(-10.0, 10.0), st.floats(-10.0, 10.0))
+def test_the_grid_finds_what_a_look_at_every_room_finds(plan: FloorPlan, x: float, y: float) -> None:
+    index = IndexedPlan(plan)
+    for number, level in enumerate(plan.levels):
+        named = [(ring, name) for ring, name in zip(level.rooms, level.room_names, strict=False) if name]
+        around = [(abs(area(ring)), name) for ring, name in named if contains(edges(ring), x, y)]
+        found = index.room(number, x, y)
+        assert found in [name for size, name in around if size == min(around)[0]] if around else found is None
+
+
+@pytest.mark.parametrize(("names", "message"), [
+    (("A",), "level '0': has 1 names of rooms and 5 rooms"),
+    (("A", "B", "C", "D", 5), "level '0': the names of its rooms: one is 5, no str"),
+    (["A", "B", "C", "D", "E"], "level '0': the names of its rooms are a list, not a tuple"),
+])  # fmt: skip
+def test_names_that_are_no_texts_or_too_few_are_rejected_in_one_line(names: object, message: str) -> None:
+    ground = evolve(HOUSE.levels[0], room_names=names)  # type: ignore[arg-type]
+    assert find_fault(evolve(HOUSE, levels=(ground, *HOUSE.levels[1:]))) == message
+
+
+@pytest.mark.parametrize("name", ["\x1b[2J\r\n", "</script>", "\u202e12", "\x00", "x" * 100_000, "\U0001f6bb", " "])
+def test_a_hostile_name_is_a_name_like_any_other_and_survives_the_file(name: str) -> None:
+    plan = flat(KITCHEN, (BATH[0], name))
+    again = parse_floorplan(format_floorplan(plan).encode())
+    assert again == plan and again.fingerprint == plan.fingerprint
+    assert IndexedPlan(again).room(0, 8.0, 2.5) == name
+
+
+def test_a_room_of_a_file_may_have_a_number_for_a_name_but_no_list() -> None:
+    def with_name(name: object) -> bytes:
+        collection = json.loads(format_floorplan(flat(KITCHEN, BATH)))
+        collection["features"][-1]["properties"]["name"] = name
+        return json.dumps(collection).encode()
+
+    assert parse_floorplan(with_name(12)).levels[0].room_names == ("kitchen", "12")
+    assert parse_floorplan(with_name(None)).levels[0].room_names == ("kitchen", "")
+    with pytest.raises(ValueError, match="its name is a list, not a text$"):
+        parse_floorplan(with_name(["bath"]))
+
+
+@pytest.mark.parametrize("name", ["house.geojson", "house-wgs84.geojson", "house.osm", "house-imdf"])
+def test_the_rooms_of_the_house_have_their_names_in_every_format(name: str) -> None:
+    levels = read_floorplan(FILES / name).levels
+    assert [level.room_names for level in levels] == [("A", "Corridor", "C", "B", "D"), ("AB", "Corridor", "C", "D")]
+
+
+def test_a_room_of_openstreetmap_without_a_name_has_its_number() -> None:
+    text = (FILES / "house.osm").read_text(encoding="utf-8")
+    numbered = text.replace('<tag k="name" v="A"/>', '<tag k="ref" v="12"/>').replace('<tag k="name" v="B"/>', "")
+    level = parse_floorplan(numbered.encode()).levels[0]
+    assert level.room_names == ("12", "Corridor", "C", "", "D")
+
+
+def test_a_unit_of_imdf_has_its_name_in_the_language_of_the_archive() -> None:
+    files = {path.name: path.read_bytes() for path in (FILES / "house-imdf").iterdir()}
+    text = files["unit.geojson"].decode().replace('{"en": "A"}', '{"de": "Küche", "en": "A"}')
+    manifest = {**json.loads(files["manifest.json"]), "language": "de-AT"}
+    plan = parse_floorplan(archive({**files, "unit.geojson": text.encode(), "manifest.json": manifest}))
+    assert plan.levels[0].room_names[0] == "Küche"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_wearer_who_goes_through_a_door_is_in_the_corridor_and_then_in_the_room(method: type[Method]) -> None:
+    part = method()
+    wearer = Pedestrian(3, "0", (9.0, 25.0)).known_to(part)
+    wearer.walk((9.0, 32.5), (3.0, 32.5))
+    rooms = [event.room for event in placed(follow(part, wearer.received, IndexedPlan(BUILDING)))]
+    assert rooms[0] == "corridor 1" and rooms[-1] == "room 5"
+    assert set(rooms) <= {"corridor 1", "room 5"}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_wearer_who_leaves_the_building_is_in_no_room(method: type[Method]) -> None:
+    part = method()
+    wearer = Pedestrian(4, "0", (9.0, 4.0)).known_to(part)
+    wearer.walk((9.0, -1.5))
+    rooms = [event.room for event in placed(follow(part, wearer.received, IndexedPlan(BUILDING)))]
+    assert rooms[0] == "corridor 1" and rooms[-1] is None
+
+
+def test_on_a_plan_without_names_no_place_of_a_wearer_has_a_room_and_all_places_are_the_same() -> None:
+    def walked(plan: FloorPlan) -> list[tuple[object, object]]:
+        part = METHODS[0]()
+        wearer = Pedestrian(5, "0", (9.0, 25.0)).known_to(part)
+        wearer.walk((9.0, 32.5), (3.0, 32.5))
+        return [(event.position, event.room) for event in placed(follow(part, wearer.received, IndexedPlan(plan)))]
+
+    assert [place for place, _ in walked(NAMELESS)] == [place for place, _ in walked(BUILDING)]
+    assert {room for _, room in walked(NAMELESS)} == {None}
