@@ -243,7 +243,7 @@ def test_a_plan_of_something_else_than_records_is_rejected_by_the_session_in_one
 INVALID_STARTS = [
     (Start("0", (1,)), "its place is (1), not (x, y) in m"),
     (Start("0", (1.0, 2.0, 3.0)), "its place is (1, 2, 3), not (x, y) in m"),
-    (Start("0", None), "its place is None, not (x, y) in m"),
+    (Start("0", None), "it has no place: give level and place, or the heading alone"),
     (Start("0", (HUGE_NUMBER, 1)), "its place is (a huge number, 1), not (x, y) in m"),
     (Start("0", (math.nan, 1.0)), "its place is (nan, 1), not (x, y) in m"),
     (Start(0, (1.0, 2.0)), "its level is 0, not a text"),
