@@ -79,6 +79,8 @@ class Activities(ActivityPart):
     report: ActivityReport = field(factory=ActivityReport, init=False)
     newest_block: int = field(default=-1, init=False)
     """Number of the newest block that is complete in all feet that give samples."""
+    early: list[tuple[ActivitySegment, float]] = field(factory=lambda: [(NO_ACTIVITY, 1.0)], init=False)
+    """Newest activity of the likeliest sequence and those in the blocks since, each with its probability."""
     stride_cue: tuple[int, ActivityCue, float] | None = field(default=None, init=False)
     """Number of the block of the newest stride with a cue, its cue, and the probability of that; None before any."""
     flights: Flights = field(factory=Flights, init=False)
@@ -192,18 +194,25 @@ class Activities(ActivityPart):
         return tuple([block_force(side.block(index), side.resolution) for side in (self.left, self.right)])
 
     def _report(self, known_at: float) -> list[Event]:
-        """Return the events by which what was reported changes."""
+        """Return the events by which what was reported changes with the newest block."""
         best, model = self.hypotheses.best, self.settings.model or load_released_model()
-        newest = best.path[-1] if best is not None and best.path else NO_ACTIVITY
-        early = EarlyActivities(newest.activity, newest.t)
+        newest = NO_ACTIVITY if best is None or not best.path else best.path[-1]
+        early = EarlyActivities([(newest, 1.0)])
         for index in range(max(self.next_block, self.newest_block + 1 - WINDOW_REACH), self.newest_block + 1):
             votes, elevator = motion_votes(model, self._features(index)), ElevatorEvidence(self._forces(index))
             levels = None if best is None else best.ride.levels
             early.follow(self._time(index), cue_of_block(votes, early.activity, elevator, levels), model.chain)
+        self.early = early.found
+        return self._report_early(known_at)
+
+    def _report_early(self, known_at: float) -> list[Event]:
+        """Return the events by which what was reported changes with the newest stride."""
+        early = EarlyActivities(self.early)
         if self.stride_cue is not None and self.stride_cue[0] > self.newest_block:
             index, stride_cue, probability = self.stride_cue
+            model = self.settings.model or load_released_model()
             early.follow(self._time(index), (stride_cue, probability), model.chain)
-        return self.report.add(self.hypotheses, early.found, self._time(self.next_block), known_at)
+        return self.report.add(self.hypotheses, early.found[1:], self._time(self.next_block), known_at)
 
     def _add_stride(self, stride: StrideTaken, block: int) -> list[Event]:
         """Keep a stride that ends in a block for `flights`, and return the events by which its slope is reported."""
@@ -215,7 +224,7 @@ class Activities(ActivityPart):
         if cue is None:
             return []
         self.stride_cue = (block, *cue)
-        return self._report(stride.known_at)
+        return self._report_early(stride.known_at)
 
     def _time(self, index: int) -> float:
         return (0.0 if self.origin is None else self.origin) + index * BLOCK_DURATION
@@ -226,6 +235,7 @@ class Activities(ActivityPart):
         self.pressure_height = PressureHeight()
         self.hypotheses = Hypotheses()
         self.report, self.newest_block, self.stride_cue = ActivityReport(), -1, None
+        self.early = [(NO_ACTIVITY, 1.0)]
 
     def _count_flights(self, t: float, known_at: float, events: list[Event]) -> None:
         """Pass the strides up to the newest judged block to `flights`, with the activity at the middle of each."""

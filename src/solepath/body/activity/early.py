@@ -94,24 +94,27 @@ def printed_table() -> str:
 
 
 class EarlyActivities:
-    """The activities after the newest one of the likeliest sequence, for one report; it is not part of the state."""
+    """The newest activity of the likeliest sequence and those after it, for one report; not part of the state."""
 
-    __slots__ = ("_since", "activity", "found")
+    __slots__ = ("found",)
 
-    def __init__(self, activity: Activity, since: float) -> None:
-        self.activity = activity
-        self._since = since
-        self.found: list[tuple[ActivitySegment, float]] = []
-        """Later activities, each with its probability."""
+    def __init__(self, found: Sequence[tuple[ActivitySegment, float]]) -> None:
+        self.found = list(found)
+        """At least one activity; each has its probability."""
+
+    @property
+    def activity(self) -> Activity:
+        """The newest activity."""
+        return self.found[-1][0].activity
 
     def follow(self, t: float, cue: tuple[ActivityCue, float] | None, chain: Chain) -> None:
         """Follow the cue of a block or stride that starts at `t`, s, with its probability."""
-        following = self.activity if cue is None else NEXT_ACTIVITY[self.activity][cue[0]]
-        if cue is None or following is self.activity:
+        newest = self.found[-1][0]
+        following = newest.activity if cue is None else NEXT_ACTIVITY[newest.activity][cue[0]]
+        if cue is None or following is newest.activity:
             return
-        t += chain.shift[STATE_OF_ACTIVITY[self.activity]][STATE_OF_ACTIVITY[following]]
-        self.activity, self._since = following, max(t, self._since + TIE)
-        self.found.append((ActivitySegment(self._since, following), cue[1]))
+        t += chain.shift[STATE_OF_ACTIVITY[newest.activity]][STATE_OF_ACTIVITY[following]]
+        self.found.append((ActivitySegment(max(t, newest.t + TIE), following), cue[1]))
 
 
 def cue_of_block(
