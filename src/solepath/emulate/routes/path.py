@@ -91,9 +91,13 @@ class Pose:
     """Coordinate z, m."""
     heading: float
     """Heading, rad, not wrapped."""
+    grade: float = 0.0
+    """Slope of the ground along the heading, as rise over run, no unit; it is level across the heading."""
 
     def ahead(self, distance: float, curvature: float) -> Pose:
-        """Return the pose `distance` m further along an arc of `curvature` 1/m (a straight line when it is 0)."""
+        """Return the pose `distance` m further along an arc of `curvature` 1/m (a straight line when it is 0).
+
+        The ground there is level and as high as here."""
         turned = self.heading + distance * curvature
         if abs(distance * curvature) < 1e-9:
             return Pose(self.x + distance * cos(self.heading), self.y + distance * sin(self.heading), self.z, turned)
@@ -123,10 +127,14 @@ class Piece:
     """True when the wearer runs."""
     flight: Flight | None = None
     """Flight of stairs that the piece is; None on the level."""
+    slope: float = 0.0
+    """Slope of a ramp along the piece, as rise over run, no unit; 0 on the level and on stairs."""
 
     def at(self, s: float) -> Pose:
         """Return the pose `s` m from the start; on stairs the height is that of a ramp over them."""
         pose = self.start.ahead(s, self.curvature)
+        if self.slope:
+            return evolve(pose, z=pose.z + self.slope * s, grade=self.slope)
         return pose if self.flight is None else evolve(pose, z=pose.z + self.flight.height * s / self.length)
 
 
@@ -211,7 +219,12 @@ class Pivot:
     @property
     def end(self) -> Pose:
         """Pose after the turn."""
-        return Pose(self.start.x, self.start.y, self.start.z, self.start.heading + self.angle)
+        return self.turned(self.angle)
+
+    def turned(self, angle: float) -> Pose:
+        """Return the pose after the first `angle` rad of the turn; a ramp falls when it rose before half a turn."""
+        start = self.start
+        return evolve(start, heading=start.heading + angle, grade=start.grade * cos(angle))
 
 
 @frozen

@@ -164,17 +164,19 @@ class _Planner:
         count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.max_pivot_turn)))
         angles = [pivot.angle * k / count for k in range(1, count + 1)]
         duration = 60.0 / self.wearer.cadence(pivot.speed)
-        footfalls = [
-            _Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, duration) for a in angles
-        ]
+        footfalls = [_Footfall(pivot.turned(a), pivot.speed, duration) for a in angles]
         return [*footfalls, footfalls[-1]]
 
     def _stance(self, pose: Pose, foot: Foot, width: float, turn: float) -> Pose:
-        """Return the pose of a foot that stands beside `pose`; `width`, m, and `turn`, rad, move it outwards."""
+        """Return the pose of a foot that stands beside `pose`; `width`, m, and `turn`, rad, move it outwards.
+
+        On a ramp both feet are as high as `pose`, and toes that point outwards change nothing in the foot's slope."""
         side = 1.0 if foot is Foot.LEFT else -1.0
         offset = side * (0.5 * self.wearer.step_width + width)
         heading = pose.heading + side * (self.wearer.toe_out + turn)
-        return Pose(pose.x - offset * sin(pose.heading), pose.y + offset * cos(pose.heading), pose.z, heading)
+        return Pose(
+            pose.x - offset * sin(pose.heading), pose.y + offset * cos(pose.heading), pose.z, heading, pose.grade
+        )
 
     def _walk(self, footfalls: list[_Footfall]) -> None:
         for footfall in footfalls:
@@ -195,7 +197,7 @@ class _Planner:
         kind = footfall.kind
         if footfall.flight is not None and footfall.flight is not self.flight:
             self.flight, self.climb_start = footfall.flight, None
-        if abs(footfall.pose.z - start.z) > HEIGHT_TOLERANCE:
+        if self.flight is not None and abs(footfall.pose.z - start.z) > HEIGHT_TOLERANCE:
             kind = StrideKind.UP if footfall.pose.z > start.z else StrideKind.DOWN
         style = None if kind is StrideKind.WALK else style_of(kind, footfall.speed)
         double_support_share, heel_off_share, foot_flat_share = double_support(footfall.speed), 0.12, 0.095

@@ -20,6 +20,13 @@ MIN_RUNNING_SPEED = 1.95
 """Least speed of running, m/s (Hreljac 1993, J. Sports Sci. 11: transition from walking at about 2 m/s)."""
 RUN_ACCELERATION = 2.0
 """Acceleration of a runner who speeds up or slows down, m/s^2 (assumed)."""
+MAX_SLOPE = 0.2
+"""Steepest ramp, as rise over run (assumed).
+
+Ramps for wheelchairs rise by up to 1 in 12 (ADA Standards for Accessible Design, 405.2), those of car parks by some 15
+in 100."""
+LANDING = 1.5
+"""Least length of the level between a ramp and a flight of stairs, m: that of landings of ramps (ADA, 405.7)."""
 STAIRS_UP_SPEED, STAIRS_DOWN_SPEED = 0.50, 0.55
 """Default horizontal speed along a flight of stairs upwards and downwards, m/s."""
 
