@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import cos, pi, sin, sqrt
 
 import numpy as np
 from attrs import evolve, frozen
@@ -75,6 +75,8 @@ class Flight:
         return np.asarray(self.z + self.rise * np.clip(np.floor(u / self.going) + 1.0, 0.0, self.steps))
 
 
+AHEAD, LEFT, RIGHT, BACK = 0.0, 0.5 * pi, -0.5 * pi, pi
+"""Directions of a path relative to the heading of the feet, rad."""
 RUN_START_SPEED = 1.2
 """Speed of a runner's first step after a halt and of the last step before one, m/s."""
 
@@ -129,12 +131,17 @@ class Piece:
     """Flight of stairs that the piece is; None on the level."""
     slope: float = 0.0
     """Slope of a ramp along the piece, as rise over run, no unit; 0 on the level and on stairs."""
+    direction: float = 0.0
+    """Angle from the heading of the feet to the direction of the piece, rad; a straight line when it is not 0."""
 
     def at(self, s: float) -> Pose:
         """Return the pose `s` m from the start; on stairs the height is that of a ramp over them."""
         pose = self.start.ahead(s, self.curvature)
+        if self.direction:
+            moved = evolve(self.start, heading=self.start.heading + self.direction).ahead(s, 0.0)
+            pose = evolve(moved, heading=self.start.heading)
         if self.slope:
-            return evolve(pose, z=pose.z + self.slope * s, grade=self.slope)
+            return evolve(pose, z=pose.z + self.slope * s, grade=self.slope * cos(self.direction))
         return pose if self.flight is None else evolve(pose, z=pose.z + self.flight.height * s / self.length)
 
 
@@ -143,7 +150,12 @@ class WalkPath:
     """The path from one halt to the next."""
 
     pieces: tuple[Piece, ...]
-    """Pieces in order."""
+    """Pieces in order, all with the same direction."""
+
+    @property
+    def direction(self) -> float:
+        """Angle from the heading of the feet to the direction of the path, rad: AHEAD, LEFT, RIGHT or BACK."""
+        return self.pieces[0].direction
 
     @property
     def length(self) -> float:

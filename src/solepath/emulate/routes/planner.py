@@ -13,9 +13,9 @@ from ...types import Foot
 from ..wearers.curves import Rng
 from ..wearers.gait import SETTLE_TIME, Climb, PlannedStride, WalkPlan, Wearer, double_support
 from .elevator import CarRide, ride
-from .path import ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath
+from .path import AHEAD, BACK, LEFT, RIGHT, ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath
 from .route import Route, Stage, Stand, stages
-from .styles import StrideKind, running_cadence, style_of
+from .styles import BACKWARDS_RATIO, SIDE_STEP, StrideKind, running_cadence, style_of
 from .wander import Wander
 
 HEIGHT_TOLERANCE = 1e-6
@@ -72,6 +72,8 @@ class _Planner:
                     self._halt()
                     self.t += duration
                 case WalkPath():
+                    if stage.direction in (LEFT, RIGHT):
+                        self._lead(Foot.LEFT if stage.direction == LEFT else Foot.RIGHT)
                     self._walk(self._path_footfalls(stage))
                 case Pivot():
                     self._walk(self._pivot_footfalls(stage))
@@ -95,9 +97,17 @@ class _Planner:
             self.last_heel_strike = None
             self.last_running_speed = None
 
+    def _lead(self, foot: Foot) -> None:
+        """Let this foot make the next step; after a step of the same foot the wearer halts."""
+        if foot is not self.next_foot:
+            self._halt()
+            self.next_foot = foot
+
     def _path_footfalls(self, path: WalkPath) -> list[_Footfall]:
         """Return the footfalls of a path, section by section, and that of the closing half step."""
         footfalls: list[_Footfall] = []
+        if path.direction != AHEAD:
+            return [footfall for piece in path.pieces for footfall in self._other_way_footfalls(piece)]
         for section in path.sections:
             piece = section.pieces[0]
             if piece.flight is not None:
@@ -147,6 +157,22 @@ class _Planner:
             footfalls.append(
                 _Footfall(path.at(position)[0], speed, mark_spacing / speed, path.curvature(mark_spacing * k))
             )
+        return footfalls
+
+    def _other_way_footfalls(self, piece: Piece) -> list[_Footfall]:
+        """Return the footfalls of a walk backwards or sideways.
+
+        Sideways both feet go to each place, one after the other; backwards they do so at the end only."""
+        is_back, speed = piece.direction == BACK, piece.speed
+        ratio = BACKWARDS_RATIO * self.wearer.walk_ratio
+        count = max(1, round(piece.length / (float(np.sqrt(60.0 * speed * ratio)) if is_back else SIDE_STEP)))
+        step_length, kind = piece.length / count, StrideKind.BACK if is_back else StrideKind.SIDE
+        duration = step_length / speed if is_back else 0.5 * step_length / speed
+        footfalls = []
+        for k in range(1, count + 1):
+            place = step_length * (k if k == count else k - 1 + self._vary(self.wearer.length_variation))
+            footfall = _Footfall(piece.at(place), speed, duration, 0.0, kind)
+            footfalls += [footfall] if is_back and k < count else [footfall, footfall]
         return footfalls
 
     def _stair_footfalls(self, piece: Piece, flight: Flight) -> list[_Footfall]:
