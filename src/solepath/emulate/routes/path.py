@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import cos, pi, sin, sqrt
 
 import numpy as np
 from attrs import evolve, frozen
@@ -75,6 +75,8 @@ class Flight:
         return np.asarray(self.z + self.rise * np.clip(np.floor(u / self.going) + 1.0, 0.0, self.steps))
 
 
+AHEAD, LEFT, RIGHT, BACK = 0.0, 0.5 * pi, -0.5 * pi, pi
+"""Directions of a path relative to the heading of the feet, rad."""
 RUN_START_SPEED = 1.2
 """Speed of a runner's first step after a halt and of the last step before one, m/s."""
 
@@ -91,9 +93,13 @@ class Pose:
     """Coordinate z, m."""
     heading: float
     """Heading, rad, not wrapped."""
+    grade: float = 0.0
+    """Slope of the ground along the heading, as rise over run, no unit; it is level across the heading."""
 
     def ahead(self, distance: float, curvature: float) -> Pose:
-        """Return the pose `distance` m further along an arc of `curvature` 1/m (a straight line when it is 0)."""
+        """Return the pose `distance` m further along an arc of `curvature` 1/m (a straight line when it is 0).
+
+        The ground there is level and as high as here."""
         turned = self.heading + distance * curvature
         if abs(distance * curvature) < 1e-9:
             return Pose(self.x + distance * cos(self.heading), self.y + distance * sin(self.heading), self.z, turned)
@@ -123,10 +129,19 @@ class Piece:
     """True when the wearer runs."""
     flight: Flight | None = None
     """Flight of stairs that the piece is; None on the level."""
+    slope: float = 0.0
+    """Slope of a ramp along the piece, as rise over run, no unit; 0 on the level and on stairs."""
+    direction: float = 0.0
+    """Angle from the heading of the feet to the direction of the piece, rad; a straight line when it is not 0."""
 
     def at(self, s: float) -> Pose:
         """Return the pose `s` m from the start; on stairs the height is that of a ramp over them."""
         pose = self.start.ahead(s, self.curvature)
+        if self.direction:
+            moved = evolve(self.start, heading=self.start.heading + self.direction).ahead(s, 0.0)
+            pose = evolve(moved, heading=self.start.heading)
+        if self.slope:
+            return evolve(pose, z=pose.z + self.slope * s, grade=self.slope * cos(self.direction))
         return pose if self.flight is None else evolve(pose, z=pose.z + self.flight.height * s / self.length)
 
 
@@ -135,7 +150,12 @@ class WalkPath:
     """The path from one halt to the next."""
 
     pieces: tuple[Piece, ...]
-    """Pieces in order."""
+    """Pieces in order, all with the same direction."""
+
+    @property
+    def direction(self) -> float:
+        """Angle from the heading of the feet to the direction of the path, rad: AHEAD, LEFT, RIGHT or BACK."""
+        return self.pieces[0].direction
 
     @property
     def length(self) -> float:
@@ -211,7 +231,12 @@ class Pivot:
     @property
     def end(self) -> Pose:
         """Pose after the turn."""
-        return Pose(self.start.x, self.start.y, self.start.z, self.start.heading + self.angle)
+        return self.turned(self.angle)
+
+    def turned(self, angle: float) -> Pose:
+        """Return the pose after the first `angle` rad of the turn; a ramp falls when it rose before half a turn."""
+        start = self.start
+        return evolve(start, heading=start.heading + angle, grade=start.grade * cos(angle))
 
 
 @frozen

@@ -13,9 +13,9 @@ from ...types import Foot
 from ..wearers.curves import Rng
 from ..wearers.gait import SETTLE_TIME, Climb, PlannedStride, WalkPlan, Wearer, double_support
 from .elevator import CarRide, ride
-from .path import ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath
+from .path import AHEAD, BACK, LEFT, RIGHT, ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath
 from .route import Route, Stage, Stand, stages
-from .styles import StrideKind, running_cadence, style_of
+from .styles import BACKWARDS_RATIO, SIDE_STEP, StrideKind, running_cadence, style_of
 from .wander import Wander
 
 HEIGHT_TOLERANCE = 1e-6
@@ -72,6 +72,8 @@ class _Planner:
                     self._halt()
                     self.t += duration
                 case WalkPath():
+                    if stage.direction in (LEFT, RIGHT):
+                        self._lead(Foot.LEFT if stage.direction == LEFT else Foot.RIGHT)
                     self._walk(self._path_footfalls(stage))
                 case Pivot():
                     self._walk(self._pivot_footfalls(stage))
@@ -95,9 +97,17 @@ class _Planner:
             self.last_heel_strike = None
             self.last_running_speed = None
 
+    def _lead(self, foot: Foot) -> None:
+        """Let this foot make the next step; after a step of the same foot the wearer halts."""
+        if foot is not self.next_foot:
+            self._halt()
+            self.next_foot = foot
+
     def _path_footfalls(self, path: WalkPath) -> list[_Footfall]:
         """Return the footfalls of a path, section by section, and that of the closing half step."""
         footfalls: list[_Footfall] = []
+        if path.direction != AHEAD:
+            return [footfall for piece in path.pieces for footfall in self._other_way_footfalls(piece)]
         for section in path.sections:
             piece = section.pieces[0]
             if piece.flight is not None:
@@ -149,6 +159,22 @@ class _Planner:
             )
         return footfalls
 
+    def _other_way_footfalls(self, piece: Piece) -> list[_Footfall]:
+        """Return the footfalls of a walk backwards or sideways.
+
+        Sideways both feet go to each place, one after the other; backwards they do so at the end only."""
+        is_back, speed = piece.direction == BACK, piece.speed
+        ratio = BACKWARDS_RATIO * self.wearer.walk_ratio
+        count = max(1, round(piece.length / (float(np.sqrt(60.0 * speed * ratio)) if is_back else SIDE_STEP)))
+        step_length, kind = piece.length / count, StrideKind.BACK if is_back else StrideKind.SIDE
+        duration = step_length / speed if is_back else 0.5 * step_length / speed
+        footfalls = []
+        for k in range(1, count + 1):
+            place = step_length * (k if k == count else k - 1 + self._vary(self.wearer.length_variation))
+            footfall = _Footfall(piece.at(place), speed, duration, 0.0, kind)
+            footfalls += [footfall] if is_back and k < count else [footfall, footfall]
+        return footfalls
+
     def _stair_footfalls(self, piece: Piece, flight: Flight) -> list[_Footfall]:
         """Return one footfall for every riser."""
         kind = StrideKind.UP if flight.rise > 0.0 else StrideKind.DOWN
@@ -164,17 +190,19 @@ class _Planner:
         count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.max_pivot_turn)))
         angles = [pivot.angle * k / count for k in range(1, count + 1)]
         duration = 60.0 / self.wearer.cadence(pivot.speed)
-        footfalls = [
-            _Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, duration) for a in angles
-        ]
+        footfalls = [_Footfall(pivot.turned(a), pivot.speed, duration) for a in angles]
         return [*footfalls, footfalls[-1]]
 
     def _stance(self, pose: Pose, foot: Foot, width: float, turn: float) -> Pose:
-        """Return the pose of a foot that stands beside `pose`; `width`, m, and `turn`, rad, move it outwards."""
+        """Return the pose of a foot that stands beside `pose`; `width`, m, and `turn`, rad, move it outwards.
+
+        On a ramp both feet are as high as `pose`, and toes that point outwards change nothing in the foot's slope."""
         side = 1.0 if foot is Foot.LEFT else -1.0
         offset = side * (0.5 * self.wearer.step_width + width)
         heading = pose.heading + side * (self.wearer.toe_out + turn)
-        return Pose(pose.x - offset * sin(pose.heading), pose.y + offset * cos(pose.heading), pose.z, heading)
+        return Pose(
+            pose.x - offset * sin(pose.heading), pose.y + offset * cos(pose.heading), pose.z, heading, pose.grade
+        )
 
     def _walk(self, footfalls: list[_Footfall]) -> None:
         for footfall in footfalls:
@@ -195,7 +223,7 @@ class _Planner:
         kind = footfall.kind
         if footfall.flight is not None and footfall.flight is not self.flight:
             self.flight, self.climb_start = footfall.flight, None
-        if abs(footfall.pose.z - start.z) > HEIGHT_TOLERANCE:
+        if self.flight is not None and abs(footfall.pose.z - start.z) > HEIGHT_TOLERANCE:
             kind = StrideKind.UP if footfall.pose.z > start.z else StrideKind.DOWN
         style = None if kind is StrideKind.WALK else style_of(kind, footfall.speed)
         double_support_share, heel_off_share, foot_flat_share = double_support(footfall.speed), 0.12, 0.095

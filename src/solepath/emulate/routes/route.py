@@ -12,14 +12,17 @@ Stairs and elevators change the floor; on landings the route has ordinary walks 
 
 from __future__ import annotations
 
-from math import inf, isfinite
+from collections.abc import Callable
+from math import inf, isfinite, pi, remainder
 
 from attrs import evolve, frozen
 
 from .elevator import Elevator
-from .path import ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath, ahead
-from .styles import STAIRS_DOWN_SPEED, STAIRS_UP_SPEED
+from .path import AHEAD, BACK, LEFT, RIGHT, ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath, ahead
+from .styles import BACKWARDS_SPEED, LANDING, MAX_SLOPE, SIDEWAYS_SPEED, STAIRS_DOWN_SPEED, STAIRS_UP_SPEED
 
+DIRECTION_TOLERANCE = 1e-6
+"""Difference within which an angle is one of the main directions, rad: more than rounding makes."""
 TIGHT_TURN_SPEED = 0.8
 """Largest speed in a bend of radius below 1 m, m/s; it holds for turns without a speed of their own (assumed)."""
 
@@ -44,6 +47,10 @@ class Walk:
     """Distance between marks to step on, m; None: no marks."""
     running: bool = False
     """True when the wearer runs."""
+    slope: float = 0.0
+    """Slope of the ground, as rise over run, no unit; negative downwards."""
+    direction: float = AHEAD
+    """Angle from the heading of the feet to the direction of the move, rad: AHEAD, LEFT, RIGHT or BACK."""
 
 
 @frozen
@@ -103,10 +110,34 @@ class Route:
         """Halt and stand for `duration` s, as `stand` does."""
         return self.stand(duration)
 
-    def walk(self, distance: float, speed: float | None = None) -> Route:
-        """Walk `distance` m straight on at `speed` m/s; the speed is kept for later moves."""
+    def walk(
+        self, distance: float, speed: float | None = None, *, slope: float = 0.0, direction: float = AHEAD
+    ) -> Route:
+        """Walk `distance` m straight on at `speed` m/s; the speed is kept for later moves.
+
+        `slope` makes the ground a ramp that rises by `slope` m per metre, negative downwards; `distance` and `speed`
+        are horizontal. The feet lie on the ramp. Two things are idealised: the gait is that on the level, and a foot
+        that stands where a ramp starts or ends lies on one of the two slopes.
+
+        `direction` is the angle from where the feet point to where the wearer goes, rad, counter-clockwise: 0 ahead, pi
+        or -pi backwards, pi/2 to the left, -pi/2 to the right. The heading stays. Such a walk starts and ends with the
+        feet together, its speed is not kept, and it has no marks; `slope` is positive when it rises in the direction of
+        the move, and 0 sideways. Idealised are the pitch of the feet, which is small and the same in every stride,
+        and the load under a foot, which in every stance ends under the toes."""
+        direction = _main_direction(direction)
+        if not abs(slope) <= MAX_SLOPE:
+            raise ValueError(f"walk: slope must be between -{MAX_SLOPE} and {MAX_SLOPE}, got {slope}")
+        if slope and self._ends_near(lambda action: isinstance(action, Stairs)):
+            raise ValueError(f"walk: {LANDING} m on the level lie between a flight of stairs and a ramp")
+        if direction != AHEAD:
+            if slope and direction != BACK:
+                raise ValueError("walk: side steps are on the level")
+            usual_speed = BACKWARDS_SPEED if direction == BACK else SIDEWAYS_SPEED
+            chosen_speed = usual_speed if speed is None else _positive("speed", speed)
+            return self._then(Walk(_positive("distance", distance), chosen_speed, slope=slope, direction=direction))
         chosen_speed = self.speed if speed is None else _positive("speed", speed)
-        return evolve(self._then(Walk(_positive("distance", distance), chosen_speed, self.spacing)), speed=chosen_speed)
+        move = Walk(_positive("distance", distance), chosen_speed, self.spacing, slope=slope)
+        return evolve(self._then(move), speed=chosen_speed)
 
     def jog(self, distance: float, speed: float = 2.6) -> Route:
         """Run `distance` m straight on at `speed` m/s; the speed is not kept for later moves.
@@ -127,6 +158,8 @@ class Route:
             raise ValueError(f"stairs: 1 step or more, going from 0.25 m, rise to 0.22 m, got {steps}, {going}, {rise}")
         if self.actions and isinstance(self.actions[-1], Stairs):
             raise ValueError("stairs: a landing lies between two flights, walk or turn on it")
+        if self._ends_near(lambda action: isinstance(action, Walk) and action.slope != 0.0):
+            raise ValueError(f"stairs: {LANDING} m on the level lie between a ramp and a flight of stairs")
         chosen_speed = (STAIRS_UP_SPEED if up else STAIRS_DOWN_SPEED) if speed is None else _positive("speed", speed)
         return self._then(Stairs(steps, rise if up else -rise, going, chosen_speed))
 
@@ -170,6 +203,19 @@ class Route:
                 pose = stage.end
         return pose
 
+    def _ends_near(self, is_meant: Callable[[Action], bool]) -> bool:
+        """Return whether the route ends less than LANDING m after an action that is meant."""
+        room = 0.0
+        for action in reversed(self.actions):
+            if is_meant(action):
+                return room < LANDING
+            match action:
+                case Walk(distance=distance):
+                    room += distance
+                case TurnAction(angle=angle, radius=radius):
+                    room += abs(angle) * radius
+        return False
+
     def _then(self, action: Action) -> Route:
         return evolve(self, actions=(*self.actions, action))
 
@@ -178,6 +224,14 @@ def _positive(name: str, value: float) -> float:
     if not (isfinite(value) and value > 0.0):
         raise ValueError(f"{name} must be a positive number, got {value}")
     return value
+
+
+def _main_direction(direction: float) -> float:
+    """Return the main direction that is meant, rad; ValueError when none is near."""
+    for meant in (AHEAD, LEFT, RIGHT, BACK):
+        if abs(remainder(direction - meant, 2.0 * pi)) < DIRECTION_TOLERANCE:
+            return meant
+    raise ValueError(f"walk: direction must be 0, pi/2, -pi/2 or pi, got {direction}")
 
 
 Stage = Stand | WalkPath | Pivot | ElevatorStage
@@ -215,12 +269,16 @@ def stages(route: Route) -> list[Stage]:
             case TurnAction(angle=angle, radius=radius):
                 bend = (1.0 if angle > 0.0 else -1.0) / radius
                 piece = Piece(pose, abs(angle) * radius, bend, action.speed, action.spacing)
-            case Walk(distance=distance):
-                piece = Piece(pose, distance, 0.0, action.speed, action.spacing, action.running)
+            case Walk(distance=distance, slope=slope, direction=direction):
+                piece = Piece(
+                    pose, distance, 0.0, action.speed, action.spacing, action.running, slope=slope, direction=direction
+                )
             case Stairs(steps=steps, rise=rise, going=going):
                 edge = pose.ahead(ahead(rise > 0.0, going), 0.0)
                 flight = Flight(edge.x, edge.y, pose.z, pose.heading, steps, rise, going)
                 piece = Piece(pose, steps * going, 0.0, action.speed, None, flight=flight)
+        if pieces and pieces[-1].direction != piece.direction:
+            close()
         pieces.append(piece)
         pose = piece.at(piece.length)
     close()

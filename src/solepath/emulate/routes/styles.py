@@ -1,4 +1,4 @@
-"""Parameters of strides that are not level walking: running, and stairs up and down.
+"""Parameters of strides that are not walking ahead: running, stairs up and down, walking backwards and sideways.
 
 Running: at 2.6 m/s a foot is on the ground for 38 % of the stride, and for less at higher speeds; between the stances
 both feet are in the air (Novacheck 1998, Gait & Posture 7). The cadence is about 160 steps a minute and grows little
@@ -8,6 +8,10 @@ Stairs, foot over foot: Riener et al. 2002 (Gait & Posture 15) and Nadeau et al.
 horizontal speed along the flight is about 0.5 m/s, a little more downwards. Upwards the foot lands flat or forefoot
 first; downwards it lands with the toe down by some 20 degrees, and the forefoot brakes. Angles, rates and impacts were
 compared with recordings on an instep (HuGaDB: Chereshnev and Kertesz-Farkas 2018) and on a shoe (MaD stair ambulation).
+Backwards the foot lands with the toes first (Thorstensson 1986, Acta Physiol. Scand. 127); people leave the ground with
+the heel last, while the foot here is lifted nearly flat. The strides are shorter and slower than ahead. Sideways the
+leading foot steps aside and the other one closes up to it, both nearly flat. All numbers of both are assumed.
+
 Numbers without a source were chosen by hand in view of these papers and recordings and not swept."""
 
 from __future__ import annotations
@@ -20,17 +24,36 @@ MIN_RUNNING_SPEED = 1.95
 """Least speed of running, m/s (Hreljac 1993, J. Sports Sci. 11: transition from walking at about 2 m/s)."""
 RUN_ACCELERATION = 2.0
 """Acceleration of a runner who speeds up or slows down, m/s^2 (assumed)."""
+MAX_SLOPE = 0.2
+"""Steepest ramp, as rise over run (assumed).
+
+Ramps for wheelchairs rise by up to 1 in 12 (ADA Standards for Accessible Design, 405.2), those of car parks by some 15
+in 100."""
+LANDING = 1.5
+"""Least length of the level between a ramp and a flight of stairs, m: that of landings of ramps (ADA, 405.7)."""
 STAIRS_UP_SPEED, STAIRS_DOWN_SPEED = 0.50, 0.55
 """Default horizontal speed along a flight of stairs upwards and downwards, m/s."""
 
 
+BACKWARDS_SPEED, SIDEWAYS_SPEED = 0.5, 0.25
+"""Default speed of walking backwards and sideways, m/s (assumed)."""
+BACKWARDS_RATIO = 0.41
+"""Walk ratio of walking backwards, as a ratio to that ahead, no unit (assumed).
+
+At BACKWARDS_SPEED the default wearer then makes 107 steps of 0.28 m a minute, strides of 0.56 m."""
+SIDE_STEP = 0.30
+"""Length of a side step, m (assumed); the step that closes up to it brings the feet together."""
+
+
 class StrideKind(Enum):
-    """A kind of stride: walking or running on the level, or stairs up or down."""
+    """A kind of stride: walking ahead, backwards or sideways, running, or stairs up or down."""
 
     WALK = "walk"
     RUN = "run"
     UP = "up"
     DOWN = "down"
+    BACK = "back"
+    SIDE = "side"
 
 
 @frozen
@@ -93,6 +116,32 @@ DOWNSTAIRS = Style(
     forefoot_share=0.9,
     load_amplitude=0.20,
 )
+BACKWARDS = Style(
+    double_support_share=0.15,
+    heel_off_share=0.06,
+    foot_flat_share=0.09,
+    toe_off_pitch=0.12,
+    strike_pitch=-0.22,
+    forward_speed=-0.10,
+    sink_speed=0.10,
+    clearance=0.02,
+    forefoot_share=0.8,
+    load_amplitude=0.05,
+)
+SIDEWAYS = Style(
+    double_support_share=0.15,
+    heel_off_share=0.05,
+    foot_flat_share=0.07,
+    toe_off_pitch=0.15,
+    strike_pitch=-0.04,
+    forward_speed=0.0,
+    sink_speed=0.08,
+    clearance=0.02,
+    deviation_factor=0.5,
+    forefoot_share=0.3,
+    load_amplitude=0.03,
+)
+_STYLES = {StrideKind.UP: UPSTAIRS, StrideKind.DOWN: DOWNSTAIRS, StrideKind.BACK: BACKWARDS, StrideKind.SIDE: SIDEWAYS}
 
 
 def style_of(kind: StrideKind, speed: float) -> Style:
@@ -110,7 +159,7 @@ def style_of(kind: StrideKind, speed: float) -> Style:
             clearance=0.15,
             deviation_factor=2.0,
         )
-    return UPSTAIRS if kind is StrideKind.UP else DOWNSTAIRS
+    return _STYLES[kind]
 
 
 def running_cadence(speed: float) -> float:

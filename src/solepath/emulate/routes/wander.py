@@ -50,4 +50,4 @@ class Wander:
         """Return `pose`, which is `s` m along the path, displaced and turned by the wandering."""
         aside, slope = self.at(s)
         moved = evolve(pose, heading=pose.heading + 0.5 * np.pi).ahead(aside, 0.0)
-        return evolve(moved, heading=pose.heading + atan(slope))
+        return evolve(moved, heading=pose.heading + atan(slope), grade=pose.grade)

@@ -84,7 +84,9 @@ class FootMotion:
         return self._curve(row, (t - self.start[row]) / self.duration[row], PITCH, 0)
 
     def contact(self, t: Array) -> Array:
-        """Return the x coordinate in the foot frame at which the sole touches the ground, m; nan in swing."""
+        """Return the x coordinate in the foot frame at which the sole touches the ground, m; nan in swing.
+
+        The ground is taken as level: on a ramp the point is off by the slope times the radius of the rocker."""
         row = self._piece(t)
         radius = self.radius[row]
         touched = self.reference[row, 0] - radius * np.sin(self.pitch(t))

@@ -17,6 +17,7 @@ from attrs import evolve
 
 from ...types import Foot, Phase
 from ..routes.path import Flight, Pose
+from ..routes.ramps import axes, leaning, ramp_height, steeper
 from ..routes.styles import StrideKind, style_of
 from .curves import BUMP, LEVELLING, Array, EndState, Rng, constant, evaluate, join, subcurve
 from .gait import PlannedStride, WalkPlan, Wearer
@@ -84,7 +85,7 @@ class _MotionBuilder:
         arc = self.shoe.heel
         centre = [constant(float(value)) for value in self._centre(arc, pose)]
         for start, stop, (pitch, yaw, roll) in sway_pieces(t_start, first, last, end, self.sway, self.rng):
-            curves = [*centre, pitch, yaw + constant(pose.heading), roll]
+            curves = leaning([*centre, pitch, yaw + constant(pose.heading), roll], pose, arc.radius)
             self._add(start, stop, curves, (arc.x, arc.radius), arc.radius, Phase.STATIONARY)
 
     def push_off(self, stride: PlannedStride) -> None:
@@ -114,6 +115,7 @@ class _MotionBuilder:
         pitch_end = _end_state(landing_pitch, 0.0, stride.foot_flat - stride.heel_strike)
         p0, v0, a0 = self._ankle(shoe.forefoot, stride.start, pitch_start)
         p1, v1, a1 = self._ankle(self._landing_arc(stride), stride.end, pitch_end)
+        pitch_start, pitch_end = steeper(pitch_start, stride.start), steeper(pitch_end, stride.end)
         # The impact moves the heel by half of what its speed at contact would in the same time.
         excess = np.array(_excess(stride))
         p1, v1 = p1 - 0.5 * IMPACT_TIME * excess, v1 + excess
@@ -127,6 +129,8 @@ class _MotionBuilder:
         levelling = LEVELLING_WEIGHT if stride.flight is None else 0.0
         x += -sin(heading) * stride.deviation[2] * BUMP + levelling * (p1[0] - p0[0]) * LEVELLING
         y += cos(heading) * stride.deviation[2] * BUMP + levelling * (p1[1] - p0[1]) * LEVELLING
+        if stride.start.grade or stride.end.grade:
+            z += levelling * (stride.end.z - stride.start.z) * LEVELLING  # the foot rises where it goes ahead
         curves_of_pitch = running_swing_pitch if stride.kind is StrideKind.RUN else walking_swing_pitch
         pitches = curves_of_pitch(pitch_start, pitch_end, duration)
         if stride.flight is not None:
@@ -138,7 +142,7 @@ class _MotionBuilder:
             z += style.early_rise * 2.0 * abs(stride.flight.rise) * LEVELLING
             z += self._bump_over_stairs(stride, stride.flight, (x, y, z), pitches, yaw) * BUMP
         else:
-            z += self._bump_over_ground(stride, z, pitches, roll) * BUMP
+            z += self._bump_over_ground(stride, (x, y, z), pitches, roll) * BUMP
         ankle = (shoe.ankle[0], shoe.ankle[2])
         reversal = stride.toe_off + reversal_share(stride) * duration
         for t_start, end, pitch in ((stride.toe_off, reversal, pitches[0]), (reversal, stride.heel_strike, pitches[1])):
@@ -147,16 +151,22 @@ class _MotionBuilder:
             curves += [pitch, subcurve(yaw, share_start, share_end), subcurve(roll, share_start, share_end)]
             self._add(t_start, end, curves, ankle, 0.0, Phase.SWING)
 
-    def _bump_over_ground(self, stride: PlannedStride, z: Array, pitches: tuple[Array, Array], roll: Array) -> float:
+    def _bump_over_ground(
+        self, stride: PlannedStride, ankle_curves: tuple[Array, Array, Array], pitches: tuple[Array, Array], roll: Array
+    ) -> float:
         """Return the factor of BUMP, m, with which the sole stays at least `clearance` times BUMP above the ground."""
         shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
         ground = stride.start.z + (stride.end.z - stride.start.z) * s
+        x, y, z = (evaluate(curve, s) for curve in ankle_curves)
         angle, bump = pitch_at(pitches, s, reversal_share(stride)), evaluate(BUMP, s)
         edge = 0.5 * shoe.width * np.abs(np.sin(evaluate(roll, s)))
         height = -np.inf
         for arc in (shoe.heel, shoe.forefoot):
-            centre = np.sin(angle) * (arc.x - shoe.ankle[0]) + np.cos(angle) * (arc.radius - shoe.ankle[2])
-            low = evaluate(z, s) + centre - arc.radius - edge - ground
+            dx, dz = arc.x - shoe.ankle[0], arc.radius - shoe.ankle[2]
+            centre = np.sin(angle) * dx + np.cos(angle) * dz
+            if stride.start.grade or stride.end.grade:
+                ground = ramp_height(stride.start, stride.end, x, y, np.cos(angle) * dx - np.sin(angle) * dz)
+            low = z + centre - arc.radius - edge - ground
             height = max(height, float(np.max(stride.clearance - low / bump)))
         return height
 
@@ -185,13 +195,14 @@ class _MotionBuilder:
         return height
 
     def _ankle(self, arc: Rocker, pose: Pose, pitch: EndState) -> _PointMotion:
-        """Return the motion of the ankle point while the shoe rolls on `arc` with this pitch, rate and acceleration."""
+        """Return the motion of the ankle point while the shoe rolls on `arc` with this pitch, rate and acceleration.
+
+        The pitch is relative to the ground."""
         angle, rate, rate_change = pitch
         dx, dz = self.shoe.ankle[0] - arc.x, self.shoe.ankle[2] - arc.radius
         along = cos(angle) * dx - sin(angle) * dz  # distances from the arc's centre to the ankle
         up = sin(angle) * dx + cos(angle) * dz
-        ahead = np.array([cos(pose.heading), sin(pose.heading), 0.0])
-        vertical = np.array([0.0, 0.0, 1.0])
+        ahead, vertical = axes(pose)
         centre = self._centre(arc, pose)
         position = centre + ahead * (along - arc.radius * angle) + vertical * up
         velocity = ahead * (-up - arc.radius) * rate + vertical * along * rate
@@ -202,10 +213,8 @@ class _MotionBuilder:
 
     def _centre(self, arc: Rocker, pose: Pose) -> Array:
         """Return the centre of an arc's circle while the foot stands flat, world frame, m."""
-        forward = arc.x - self.shoe.ankle[0]
-        return np.array(
-            [pose.x + cos(pose.heading) * forward, pose.y + sin(pose.heading) * forward, pose.z + arc.radius]
-        )
+        ahead, up = axes(pose)
+        return np.array([pose.x, pose.y, pose.z]) + ahead * (arc.x - self.shoe.ankle[0]) + up * arc.radius
 
     def _roll(
         self,
@@ -220,7 +229,7 @@ class _MotionBuilder:
         centre = [constant(float(value)) for value in self._centre(arc, pose)]
         if impact is not None:
             centre = [a + b for a, b in zip(centre, impact, strict=True)]
-        curves = [*centre, pitch, constant(pose.heading), constant(0.0)]
+        curves = leaning([*centre, pitch, constant(pose.heading), constant(0.0)], pose, arc.radius)
         self._add(t_start, end, curves, (arc.x, arc.radius), arc.radius, phase)
 
     def _add(

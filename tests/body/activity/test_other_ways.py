@@ -1,0 +1,82 @@
+"""Ramps, turning on the spot, walking backwards and sideways are no stairs, with insoles and with slow SensorTags.
+
+This holds for the default speeds only. Not asserted, because it fails: walking backwards at 0.5 m/s and sideways is
+reported as standing or an elevator ride instead of walking, and backwards at 0.6 to 1.0 m/s as stairs down for 35 to
+83 % of the time (insoles, seeds 1 to 3). With slow SensorTags a turn on the spot may be reported as a ride."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cache
+from math import pi
+
+import pytest
+
+from solepath import Session, recipes
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.gait import SUBJECTS, Wearer
+from solepath.events import ActivityChanged
+from solepath.show.timeline import Timeline
+from solepath.types import Activity, Site
+
+SLOPE = 1.0 / 12.0
+UP = Route().stand(3.0).walk(5.0, 1.3).walk(25.0, slope=SLOPE).walk(3.0).stand(3.0)
+DOWN = Route().stand(3.0).walk(5.0, 1.3).walk(25.0, slope=-SLOPE).walk(3.0).stand(3.0)
+ON_THE_SPOT = (
+    Route().stand(3.0).turn(pi).stand(1.0).turn(pi).stand(3.0).turn(-pi).turn(-pi).stand(3.0).turn(pi).stand(3.0)
+)
+BACKWARDS = Route().stand(3.0).walk(12.0, direction=pi).stand(3.0)
+SIDEWAYS = Route().stand(3.0).walk(4.0, direction=0.5 * pi).stand(3.0).walk(4.0, direction=-0.5 * pi).stand(3.0)
+EVERYTHING = (
+    Route().stand(3.0).walk(8.0, 1.3).walk(4.0, direction=pi).walk(2.0, direction=0.5 * pi).walk(6.0).turn(pi)
+    .walk(5.0, slope=-SLOPE).stand(3.0)
+)  # fmt: skip
+ROUTES = {
+    "up": UP, "down": DOWN, "on the spot": ON_THE_SPOT, "backwards": BACKWARDS, "sideways": SIDEWAYS,
+    "everything": EVERYTHING,
+}  # fmt: skip
+WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
+"""Wearer of each seed: the default one, the smallest subject and the tallest one."""
+STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
+MAX_STAIRS, MIN_WALKING = 0.02, 0.9
+"""Largest share of the time reported as stairs, and least share of walking reported as walking."""
+
+
+@cache
+def confusion(name: str, seed: int, is_tag: bool) -> Counter[tuple[Activity, Activity]]:
+    """Return the number of tenths of a second for each true activity and the reported one.
+
+    The last two seconds are left out."""
+    tags = {site: CC2541(rate=20.0) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)} if is_tag else None
+    walk = emulate(ROUTES[name], wearer=WEARERS[seed], devices=tags, seed=seed)
+    session, timeline = Session(recipes.DEFAULT), Timeline()
+    for event in [event for packet in walk.packets for event in session.feed(packet)] + session.finish():
+        if isinstance(event, ActivityChanged):
+            timeline.add(event)
+    times = [0.1 * k for k in range(int(10.0 * (walk.truth.duration - 2.0)))]
+    return Counter((walk.truth.activity(t), timeline.at(t)) for t in times)
+
+
+@pytest.mark.parametrize("is_tag", [False, True])
+@pytest.mark.parametrize("seed", WEARERS)
+@pytest.mark.parametrize("name", ROUTES)
+def test_other_ways_of_walking_are_no_stairs(name: str, seed: int, is_tag: bool) -> None:
+    found = confusion(name, seed, is_tag)
+    assert sum(count for (_, reported), count in found.items() if reported in STAIRS) < MAX_STAIRS * found.total()
+
+
+@pytest.mark.parametrize("is_tag", [False, True])
+@pytest.mark.parametrize("seed", WEARERS)
+@pytest.mark.parametrize("name", ["up", "down"])
+def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
+    found = confusion(name, seed, is_tag)
+    walked = sum(count for (true, _), count in found.items() if true is Activity.WALKING)
+    assert found[Activity.WALKING, Activity.WALKING] >= MIN_WALKING * walked
+
+
+@pytest.mark.parametrize("seed", WEARERS)
+def test_with_insoles_turning_on_the_spot_is_walking_or_standing(seed: int) -> None:
+    reported = {reported for _, reported in confusion("on the spot", seed, False)}
+    assert reported <= {Activity.UNKNOWN, Activity.STANDING, Activity.WALKING}
