@@ -1,8 +1,7 @@
-"""Ramps, turning on the spot, walking backwards and sideways are no stairs, with insoles and with slow SensorTags.
+"""Ramps, turning on the spot, walking backwards and sideways are walking and no stairs, with insoles and SensorTags.
 
-This holds for the default speeds only. Not asserted, because it fails: walking backwards at 0.5 m/s and sideways is
-reported as standing or an elevator ride instead of walking, and backwards at 0.6 to 1.0 m/s as stairs down for 35 to
-83 % of the time (insoles, seeds 1 to 3). With slow SensorTags a turn on the spot may be reported as a ride."""
+This holds for the default speeds. Not asserted, because it fails: walking backwards at 0.8 to 1.0 m/s is reported as
+stairs down for some wearers, most of the time. With slow SensorTags a turn on the spot may be reported as a ride."""
 
 from __future__ import annotations
 
@@ -40,8 +39,8 @@ ROUTES = {
 WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
-MAX_STAIRS, MIN_WALKING = 0.02, 0.9
-"""Largest share of the time reported as stairs, and least share of walking reported as walking."""
+MAX_STAIRS, MIN_WALKING, MOST_WALKING = 0.02, 0.9, 0.8
+"""Largest share of the time reported as stairs, and least share of walking reported as walking, ahead and otherwise."""
 
 
 @cache
@@ -74,6 +73,15 @@ def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     walked = sum(count for (true, _), count in found.items() if true is Activity.WALKING)
     assert found[Activity.WALKING, Activity.WALKING] >= MIN_WALKING * walked
+
+
+@pytest.mark.parametrize("is_tag", [False, True])
+@pytest.mark.parametrize("seed", WEARERS)
+@pytest.mark.parametrize("name", ["backwards", "sideways"])
+def test_feet_that_turn_little_stride_all_the_same(name: str, seed: int, is_tag: bool) -> None:
+    found = confusion(name, seed, is_tag)
+    walked = sum(count for (true, _), count in found.items() if true is Activity.WALKING)
+    assert found[Activity.WALKING, Activity.WALKING] >= MOST_WALKING * walked
 
 
 @pytest.mark.parametrize("seed", WEARERS)

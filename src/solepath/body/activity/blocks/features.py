@@ -166,11 +166,14 @@ def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: Bloc
     return values
 
 
-def stride_of(features: Sequence[float]) -> tuple[float, float] | None:
-    """Return the length, up to 2 m, and the rise of the stride in a block, m; None without a stride."""
+def stride_of(features: Sequence[float]) -> tuple[float, float, float] | None:
+    """Return the duration, up to 2 s, the length, up to 2 m, and the rise of the stride in a block, m.
+
+    Returns None without a stride."""
     if not features[FIRST_STRIDE_FEATURE]:
         return None
-    return features[FIRST_STRIDE_FEATURE + 2], 0.5 * features[FIRST_STRIDE_FEATURE + 3]
+    duration, length, doubled_rise = features[FIRST_STRIDE_FEATURE + 1 : FIRST_STRIDE_FEATURE + 4]
+    return duration, length, 0.5 * doubled_rise
 
 
 def _log_variance(variance: float) -> float:

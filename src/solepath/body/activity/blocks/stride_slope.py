@@ -17,12 +17,12 @@ TREADS_RISE, TREADS_DEVIATION = 0.34, 0.06
 Building Regulations 2010 allows 0.15 to 0.22 m)."""
 DOUBLE_RISE, DOUBLE_DEVIATION, DOUBLE_SHARE = 0.58, 0.1, 0.2
 """The same two treads at a time, with the largest rise that is distinguished, and the share of such strides."""
-RISE_ERROR, RISE_ERROR_SHARE = 0.06, 0.1
+RISE_ERROR, RISE_ERROR_SHARE = 0.05, 0.08
 """Standard deviation of a measured rise, m, and its growth with the length, no unit.
 
 Level strides of an accelerometer that clips at 2 g (hugadb) rise by 0.10 m over 0.9 m."""
-MOST_EVIDENCE = 4.0
-"""Largest logarithm of the likelihood ratio of one stride: 50 to 1, because a step over something is no stairs."""
+MOST_EVIDENCE = 6.0
+"""Largest logarithm of the likelihood ratio of one stride: 400 to 1, because a step over something is no stairs."""
 BLOCK_SHARE = 0.5
 """Share of a stride's evidence that one block has: a stride of 1 s is in two blocks."""
 

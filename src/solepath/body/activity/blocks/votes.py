@@ -9,7 +9,12 @@ from .features import FIRST_GYRO_FEATURE, ActivityBlock, stride_of
 from .motion import MOTIONS, MotionModel
 from .stride_slope import slope_evidence
 
-STAIRS_UP, STAIRS_DOWN = MOTIONS.index("stairs_up"), MOTIONS.index("stairs_down")
+STILL, STAIRS_UP, STAIRS_DOWN = [MOTIONS.index(motion) for motion in ("still", "stairs_up", "stairs_down")]
+LEAST_LENGTH, LONGEST_STRIDE, STRIDE_EVIDENCE = 0.2, 1.6, 4.0
+"""Least length, m, and longest duration, s, of a stride that speaks against a foot that stands, and by how much.
+
+Feet that step sideways or backwards turn little, which a network takes for standing; but nobody stands and strides. The
+first stride after standing lasts longer."""
 VOTE_WEIGHT = 0.6
 """Weight of one vote; it is below 1 because neighbouring windows share samples."""
 LESSER_WEIGHT = 0.3
@@ -43,7 +48,10 @@ def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> 
             votes[i] += weight * max(likely, MIN_VOTE)
         stride = stride_of(features)
         if stride is not None:
-            slope = slope_evidence(*stride)
+            duration, length, rise = stride
+            slope = slope_evidence(length, rise)
+            if length > LEAST_LENGTH and duration < LONGEST_STRIDE:
+                votes[STILL] -= STRIDE_EVIDENCE
             votes[STAIRS_UP] += slope.up
             votes[STAIRS_DOWN] += slope.down
         unknown += weight * min(0.5 * (model.strangeness(features) - USUAL_STRANGENESS) - UNKNOWN_COST, 0.0)
