@@ -17,6 +17,7 @@ from typing import Any, TextIO
 from attrs import define, field
 
 from ..events import Event, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
+from ..recording.errors import printable
 
 EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
 PLACES_FILE, PLAN_FILE = "places.csv", "plan.svg"
@@ -85,7 +86,7 @@ def _place_row(event: Placed) -> list[str]:
     numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
     heading = "" if heaviest.heading is None else f"{degrees(heaviest.heading):.2f}"
     shares = [heading, str(len(event.candidates)), f"{heaviest.weight:.4f}"]
-    return [repr(event.t), event.level, event.room or "", *numbers, *shares]
+    return [repr(event.t), event.level, printable(event.room or "", 80), *numbers, *shares]
 
 
 @contextmanager

@@ -157,3 +157,14 @@ def test_the_first_stride_on_stairs_is_known_when_it_ends() -> None:
         if isinstance(event, ActivityChanged) and event.activity is Activity.STAIRS_UP and event.known_at > start
     )  # fmt: skip
     assert known_at - start < 1.6, "a stride, and half a block"
+
+
+def test_a_runner_runs_at_every_stride() -> None:
+    route = Route().stand(2.0).walk(6.0, 1.3).jog(30.0, 2.8).walk(4.0, 1.3).stand(2.0)
+    running = [span for span in walker(route).truth().activities if span[2] is Activity.RUNNING][0]
+    known = [
+        event.activity
+        for event in run(samples(route, 100.0))[0]
+        if isinstance(event, ActivityChanged) and running[0] + 2.0 < event.known_at < running[1] - 1.0
+    ]
+    assert Activity.WALKING not in known, "a level stride is no walk: it may be run as well"

@@ -28,6 +28,11 @@ def test_feet_that_move_are_pushed_by_their_own_steps_and_not_by_a_lift() -> Non
         assert NEXT_ACTIVITY[activity][ActivityCue.PUSHED_UP] is activity
 
 
+def test_a_level_stride_ends_stairs_and_nothing_else() -> None:
+    after = {before: row[ActivityCue.LEVEL] for before, row in NEXT_ACTIVITY.items()}
+    assert after == {one: Activity.WALKING if one in STAIRS else one for one in Activity}
+
+
 @pytest.mark.parametrize("length", [0.0, 0.3, 0.9, 1.6])
 def test_a_stride_without_rise_speaks_against_stairs(length: float) -> None:
     evidence = slope_evidence(length, 0.0)

@@ -25,7 +25,7 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartOutput
 from .activity_report import ActivityReport
-from .blocks.features import BLOCK_DURATION, WINDOW_REACH
+from .blocks.features import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, WINDOW_REACH
 from .blocks.foot_blocks import MAX_STRIDE_TIME, FootBlocks
 from .blocks.motion import MotionModel, load_released_model
 from .blocks.stride_slope import slope_evidence
@@ -199,7 +199,10 @@ class Activities(ActivityPart):
         newest = NO_ACTIVITY if best is None or not best.path else best.path[-1]
         early = EarlyActivities([(newest, 1.0)])
         for index in range(max(self.next_block, self.newest_block + 1 - WINDOW_REACH), self.newest_block + 1):
-            votes, elevator = motion_votes(model, self._features(index)), ElevatorEvidence(self._forces(index))
+            features = self._features(index)
+            if all([one is None for one in features]):
+                continue
+            votes, elevator = motion_votes(model, features), ElevatorEvidence(self._forces(index))
             levels = None if best is None else best.ride.levels
             early.follow(self._time(index), cue_of_block(votes, early.activity, elevator, levels), model.chain)
         self.early = early.found
@@ -220,7 +223,7 @@ class Activities(ActivityPart):
         if len(self.strides) > MAX_WAITING_STRIDES:
             self.strides.popleft()
         rise = stride.height_change if stride.features.rise is None else stride.features.rise
-        cue = cue_of_stride(slope_evidence(stride.length, rise))
+        cue = cue_of_stride(slope_evidence(min(stride.length, MAX_LENGTH), max(-MAX_RISE, min(MAX_RISE, rise))))
         if cue is None:
             return []
         self.stride_cue = (block, *cue)

@@ -23,8 +23,8 @@ class ActivityReport:
 
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
     """The newest activity that was reported, final or not."""
-    provisional: list[ActivitySegment] = field(factory=list, init=False)
-    """Segments that were reported and are not final, oldest first."""
+    provisional: list[Early] = field(factory=list, init=False)
+    """Segments that were reported and are not final, oldest first, each with its newest probability."""
     withdrawn_at: float | None = field(default=None, init=False)
     """Time `t` of the newest report, s, if it is not final and withdrew an activity without a successor; else None."""
 
@@ -38,40 +38,44 @@ class ActivityReport:
         for settled, ended, probability in hypotheses.settle(settled_by):
             if ended is not None and ended.activity in ELEVATOR_GOES_UP:
                 events.append(_ride_event(ended, settled.t, known_at))
-            revises = self.provisional[0].t if self.provisional else self.withdrawn_at
+            revises = self.provisional[0][0].t if self.provisional else self.withdrawn_at
             events.append(self._event(settled, known_at, True, revises, probability))
             self.provisional, self.withdrawn_at = [], None
         best = hypotheses.best
         path = () if best is None else best.path if hypotheses.settled is None else best.path[1:]
         newest = [*[(segment, hypotheses.probability(segment)) for segment in path], *early]
         unchanged = 0
-        for old, (new, _) in zip(self.provisional, newest, strict=False):
+        for (old, _), (new, _) in zip(self.provisional, newest, strict=False):
             if old.activity is not new.activity or abs(old.t - new.t) > START_TOLERANCE:
                 break
             unchanged += 1
         withdrawn, changed = self.provisional[unchanged:], newest[unchanged:]
-        revised = withdrawn[0].t if withdrawn else self.withdrawn_at
+        revised = withdrawn[0][0].t if withdrawn else self.withdrawn_at
+        kept = [
+            (old, probability) for (old, _), (_, probability) in zip(self.provisional[:unchanged], newest, strict=False)
+        ]
+        self.provisional = kept
         if withdrawn and not changed:
             # no new activity takes the place of the withdrawn one: the activity before it continues
-            events.append(self._withdraw(hypotheses, unchanged, withdrawn[0].t, known_at, False))
+            events.append(self._withdraw(hypotheses, withdrawn[0][0].t, known_at, False))
         for segment, probability in changed:
             events.append(self._event(segment, known_at, False, revised, probability))
             revised = self.withdrawn_at = None
-        self.provisional = [*self.provisional[:unchanged], *[segment for segment, _ in changed]]
         if ending and self.withdrawn_at is not None:
-            events.append(self._withdraw(hypotheses, unchanged, self.withdrawn_at, known_at, True))
+            events.append(self._withdraw(hypotheses, self.withdrawn_at, known_at, True))
+        self.provisional = [*kept, *changed]
         return events
 
-    def _withdraw(
-        self, hypotheses: Hypotheses, unchanged: int, t: float, known_at: float, final: bool
-    ) -> ActivityChanged:
-        """Return the event by which the activity of time `t`, s, is withdrawn and the one before it continues.
-
-        `unchanged` is the number of provisional segments that stay."""
-        settled = Activity.UNKNOWN if hypotheses.settled is None else hypotheses.settled
-        continued = ActivitySegment(t, self.provisional[unchanged - 1].activity if unchanged else settled)
+    def _withdraw(self, hypotheses: Hypotheses, t: float, known_at: float, final: bool) -> ActivityChanged:
+        """Return the event by which the activity of time `t`, s, is withdrawn and the one before it continues."""
+        if self.provisional:
+            segment, probability = self.provisional[-1]
+            continued = ActivitySegment(t, segment.activity)
+        else:
+            continued = ActivitySegment(t, Activity.UNKNOWN if hypotheses.settled is None else hypotheses.settled)
+            probability = hypotheses.probability(continued)
         self.withdrawn_at = None if final else t
-        return self._event(continued, known_at, final, t, hypotheses.probability(continued))
+        return self._event(continued, known_at, final, t, probability)
 
     def _event(
         self, segment: ActivitySegment, known_at: float, final: bool, revises: float | None, probability: float

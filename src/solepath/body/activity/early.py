@@ -40,6 +40,8 @@ class ActivityCue(StrEnum):
     DESCENDING = "descending"
     PUSHED_UP = "pushed up"
     PUSHED_DOWN = "pushed down"
+    LEVEL = "level stride"
+    STRANGE = "strange"
 
 
 CUE_OF_MOTION = dict(zip(MOTIONS, ActivityCue, strict=False))
@@ -58,26 +60,20 @@ _STANDING = {
 }
 
 
-def _on_the_way(activity: Activity) -> dict[ActivityCue, Activity]:
-    """Return the row of an activity in which the feet move: a push on them is their own."""
-    return {ActivityCue.STILL: Activity.STANDING, ActivityCue.PUSHED_UP: activity, ActivityCue.PUSHED_DOWN: activity}
+def _row(activity: Activity) -> dict[ActivityCue, Activity]:
+    """Return the activity after each cue.
+
+    Feet that move are pushed by their own steps; the end of a ride is found by the sequence, from both pulses."""
+    row = {**dict.fromkeys(ActivityCue, activity), **_MOVING, ActivityCue.STRANGE: Activity.UNKNOWN}
+    if activity in (Activity.UNKNOWN, Activity.STANDING):
+        return row | _STANDING
+    if activity in (Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN):
+        return row
+    level = Activity.RUNNING if activity is Activity.RUNNING else Activity.WALKING
+    return row | {ActivityCue.STILL: Activity.STANDING, ActivityCue.LEVEL: level}
 
 
-def _riding(activity: Activity) -> dict[ActivityCue, Activity]:
-    """Return the row of a ride, whose end the sequence finds by the pair of pulses."""
-    return {ActivityCue.STILL: activity, ActivityCue.PUSHED_UP: activity, ActivityCue.PUSHED_DOWN: activity}
-
-
-NEXT_ACTIVITY: dict[Activity, dict[ActivityCue, Activity]] = {
-    Activity.UNKNOWN: {**_STANDING, **_MOVING},
-    Activity.STANDING: {**_STANDING, **_MOVING},
-    Activity.WALKING: {**_on_the_way(Activity.WALKING), **_MOVING},
-    Activity.RUNNING: {**_on_the_way(Activity.RUNNING), **_MOVING},
-    Activity.STAIRS_UP: {**_on_the_way(Activity.STAIRS_UP), **_MOVING},
-    Activity.STAIRS_DOWN: {**_on_the_way(Activity.STAIRS_DOWN), **_MOVING},
-    Activity.ELEVATOR_UP: {**_riding(Activity.ELEVATOR_UP), **_MOVING},
-    Activity.ELEVATOR_DOWN: {**_riding(Activity.ELEVATOR_DOWN), **_MOVING},
-}
+NEXT_ACTIVITY: dict[Activity, dict[ActivityCue, Activity]] = {activity: _row(activity) for activity in Activity}
 """The activity after each cue, by the activity before it."""
 
 STATE_OF_ACTIVITY = {activity: ACTIVITIES.index(activity) for activity in Activity}
@@ -122,10 +118,9 @@ def cue_of_block(
 ) -> tuple[ActivityCue, float] | None:
     """Return the cue of a block and the probability of what it shows; None if the activity `before` goes on.
 
-    `votes` are the log-likelihoods of `MOTIONS`, `levels` the forces on the feet at rest."""
-    motions = votes[: len(MOTIONS)]
-    best = max(range(len(motions)), key=motions.__getitem__)
-    probability = 1.0 / fsum([exp(vote - motions[best]) for vote in motions])
+    `votes` are the log-likelihoods of `MOTIONS` and of an unknown one, `levels` the forces on the feet at rest."""
+    best = max(range(len(votes)), key=votes.__getitem__)
+    probability = 1.0 / fsum([exp(vote - votes[best]) for vote in votes])
     push = None if best != STAND or levels is None else elevator.estimate_acceleration(levels)
     if push is not None and abs(push[0]) > LEAST_PUSH and push[1] < PUSH_VARIANCE and levels is not None:
         sign = 1.0 if push[0] > 0.0 else -1.0
@@ -133,15 +128,14 @@ def cue_of_block(
         odds = RIDE_ODDS * exp(max(-50.0, min(50.0, pulse - elevator.add_rest(levels)[1])))
         return (ActivityCue.PUSHED_UP if sign > 0.0 else ActivityCue.PUSHED_DOWN), odds / (1.0 + odds)
     state = STATE_OF_ACTIVITY[before]
-    present = motions[state] if state < len(motions) else motions[STAND] if state != UNKNOWN else -1e3
-    if best != state and motions[best] - present <= LEAST_MARGIN:
+    if votes[best] - votes[state if state < len(votes) else STAND] <= LEAST_MARGIN and state != UNKNOWN:
         return None
-    return CUE_OF_MOTION[MOTIONS[best]], probability
+    return ActivityCue.STRANGE if best == UNKNOWN else CUE_OF_MOTION[MOTIONS[best]], probability
 
 
 def cue_of_stride(slope: SlopeEvidence) -> tuple[ActivityCue, float] | None:
     """Return the cue of a stride by its slope, and the probability of what it shows; None if it shows nothing."""
     steepest, cue = (slope.up, ActivityCue.CLIMBING) if slope.up > slope.down else (slope.down, ActivityCue.DESCENDING)
     if steepest < -LEAST_SLOPE:
-        steepest, cue = -steepest, ActivityCue.WALKING
+        steepest, cue = -steepest, ActivityCue.LEVEL
     return (cue, 1.0 / (1.0 + exp(-steepest))) if steepest > LEAST_SLOPE else None

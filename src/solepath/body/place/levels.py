@@ -6,7 +6,7 @@ The walls of the plan and later events decide between them."""
 
 from __future__ import annotations
 
-from math import fsum, hypot
+from math import fsum, hypot, isfinite, pi
 
 from ...events import TrackRevised, WearerMoved
 from ...floorplan.index import IndexedPlan
@@ -82,9 +82,11 @@ class LevelChanges(PlaceHypotheses):
         self.rows = round_rows(turn_rows(self.rows, event.turn))
 
     def widen_heading(self, sigma: float | None) -> None:
-        """Allow the known heading the error of the track now, whose standard deviation is `sigma`, rad, if known."""
-        if self.known_heading is not None and sigma is not None:
-            self.known_heading = (self.known_heading[0], START_HEADING_ERROR + 2.0 * sigma)
+        """Allow the known heading the error of the track now, whose standard deviation is `sigma`, rad, if known.
+
+        Two of them are 95 % of the errors; with pi, any heading is possible."""
+        if self.known_heading is not None and sigma is not None and isfinite(sigma):
+            self.known_heading = (self.known_heading[0], min(START_HEADING_ERROR + 2.0 * sigma, pi))
 
     def displacement_since(self, t: float) -> Point:
         """Return the displacement of the track since `t`, s, in m."""

@@ -113,7 +113,9 @@ class Placing(LevelChanges):
         if self.rejected is not None:
             before, (at_x, at_y) = self.rejected
             other = before if hypot(x - at_x, y - at_y) < LEAST_WAY else None
-        rows, rejected = use_report(plan, self.rows, event, place, other, self.scatter, self.settings.max_rows)
+        rows, rejected = use_report(
+            plan, self.rows, event, place, other, self.scatter, self.settings.max_rows, self.known_heading
+        )
         self.set_rows(rows)
         self.rejected = None if rejected is None else (place, (x, y))
         return [] if rejected is None else [rejected]

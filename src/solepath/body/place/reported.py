@@ -8,7 +8,7 @@ from ...events import PositionRejected, PositionReported
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point, Start
 from ..fuse.position_covariance import LEAST_WAY, POSITION_GATE
-from .arrivals import EXIT_ERROR, START_HEADING_ERROR, Scatter, spread_rows, start_error
+from .arrivals import EXIT_ERROR, START_HEADING_ERROR, Heading, Scatter, spread_rows, start_error
 from .levels import KNOWN_ROWS
 from .rows import MAX_DISTANCE, Row
 
@@ -26,18 +26,20 @@ def use_report(
     rejected: Point | None,
     scatter: Scatter,
     count: int,
+    heading: Heading | None = None,
 ) -> tuple[list[Row], PositionRejected | None]:
     """Return the rows weighed by the likelihood of a reported `place`, m, plan frame, or an event that rejects it.
 
-    If there are no rows, `count` rows there are the first ones, in all headings. If a row agrees with the report, rows
-    on other levels are dropped; rows on stairs have no level. If none agrees, a few are added there with little weight.
-    A place near the one that was `rejected` on the spot just before is rejected again, and nothing is added."""
+    If there are no rows, `count` rows there are the first ones, with `heading`, or in all headings without one. If a
+    row agrees with the report, rows on other levels are dropped; rows on stairs have no level. If none agrees, a few
+    are added there with little weight. A place near the one that was `rejected` on the spot just before is rejected
+    again, and nothing is added."""
     fault = start_error(plan, Start(event.level, place))
     if fault is not None:
         return rows, _rejected(event, 0.0, fault.removeprefix("start: "))
     level, sigma = plan.number(event.level), max(event.sigma, EXIT_ERROR)
     if not rows:
-        return spread_rows(scatter, plan, level, place, sigma, None, count, 0, 1.0), None
+        return spread_rows(scatter, plan, level, place, sigma, heading, count, 0, 1.0), None
     x0, y0 = plan.plan.origin
     px, py, variance = place[0] - x0, place[1] - y0, sigma * sigma + ROW_SIGMA * ROW_SIGMA
     there = [row for row in rows if row[5] == level or row[7]]
@@ -48,9 +50,9 @@ def use_report(
         weights = [exp(-0.5 * ((row[0] - px) ** 2 + (row[1] - py) ** 2 - least) / variance) for row in there]
         return [(*row[:4], k * row[4], *row[5:]) for row, k in zip(there, weights, strict=True)], None
     weight = 0.0 if again else fsum([row[4] for row in rows])
-    heading = atan2(fsum([row[4] * row[3] for row in rows]), fsum([row[4] * row[2] for row in rows]))
+    usual = atan2(fsum([row[4] * row[3] for row in rows]), fsum([row[4] * row[2] for row in rows]))
     added = spread_rows(
-        scatter, plan, level, place, sigma, (heading, START_HEADING_ERROR), KNOWN_ROWS, 0, OTHER_SHARE * weight
+        scatter, plan, level, place, sigma, (usual, START_HEADING_ERROR), KNOWN_ROWS, 0, OTHER_SHARE * weight
     )
     where = f"the nearest is {distance:.0f} m away" if there else "none is on this level"
     where = "it was rejected just before" if again else where

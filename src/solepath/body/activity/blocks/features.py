@@ -29,8 +29,8 @@ FIRST_STRIDE_FEATURE = FIRST_TRACK_FEATURE + 6
 """Index of the first feature of a stride."""
 FEATURE_COUNT = FIRST_STRIDE_FEATURE + 11
 """Number of features."""
-MAX_RISE = 0.6
-"""Largest height change of a stride that features distinguish, m: two stairs at a time."""
+MAX_LENGTH, MAX_RISE = 2.0, 0.6
+"""Largest length of a stride and largest height change that features distinguish, m: two stairs at a time."""
 
 
 @define
@@ -154,7 +154,7 @@ def features_of(judged: ActivityBlock, window: list[ActivityBlock], stride: Bloc
         duration = stride.end - stride.start
         values[FIRST_STRIDE_FEATURE] = 1.0
         values[FIRST_STRIDE_FEATURE + 1] = min(duration, 2.0)
-        values[FIRST_STRIDE_FEATURE + 2] = min(stride.length, 2.0)
+        values[FIRST_STRIDE_FEATURE + 2] = min(stride.length, MAX_LENGTH)
         values[FIRST_STRIDE_FEATURE + 3] = 2.0 * min(max(stride.rise, -MAX_RISE), MAX_RISE)
         values[FIRST_STRIDE_FEATURE + 4] = 2.0 * min(max(stride.clearance, 0.0), 0.5)
         values[FIRST_STRIDE_FEATURE + 5] = 0.5 * min(stride.speed, 6.0)

@@ -3,7 +3,7 @@
 The rise of a stride on the level is 0, on stairs that of two treads, or of four if the wearer takes two at a time, and
 each is measured with an error that grows with the length. The logarithm of the likelihood ratio of stairs to level is
 evidence that anyone can check, beside that of a network which may never have seen how this wearer climbs. A ramp of one
-in twelve is level by it. Without a track that knows heights there is no rise, and nothing is said."""
+in twelve is level by it. A track without heights has strides without rise, which are level."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Level strides of an accelerometer that clips at 2 g (hugadb) rise by 0.10 m over
 MOST_EVIDENCE = 6.0
 """Largest logarithm of the likelihood ratio of one stride: 400 to 1, because a step over something is no stairs."""
 BLOCK_SHARE = 0.5
-"""Share of a stride's evidence that one block has: a stride of 1 s is in two blocks."""
+"""Share of a stride's evidence that one block has: a stride of 1 s is in two or three blocks."""
 
 
 @frozen
