@@ -29,7 +29,7 @@ def keys(title: str) -> set[str]:
 def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
     events = [event for event in events_of_all_kinds() if not isinstance(event, PlaceLost)]
     scene = shown(events, Scene("a walk", "default", "recording", BUILDING, Playback(0.0, 1.0, 0.0)))
-    for event in feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1]:
+    for event in feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3)).packets)[1]:
         scene.take(None, [later(event, 100.0)])
     message = json.loads(encode(scene.whole_message()[0]))
     frame = message["frame"]

@@ -60,7 +60,7 @@ def events_of_all_kinds() -> list[Event]:
         Connected(t=start, known_at=start, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
         Connected(t=start, known_at=start, site=Site.PELVIS, device="", name="", signal=None),
         Placed(t=third, known_at=third, level="0", position=(1.0, 2.0, 0.0), spread=2.0, candidates=(candidate, other)),
-        Placed(t=end, known_at=end, level="0", position=(1.0, 2.0, 0.0), spread=0.5, candidates=(candidate,)),
+        Placed(t=middle, known_at=middle, level="0", position=(1.0, 2.0, 0.0), spread=0.5, candidates=(candidate,)),
         PlaceLost(t=end, known_at=end, what="the track goes where the plan has no way"),
         Disconnected(t=third, known_at=third, site=Site.LEFT_FOOT),
         BatteryLevel(t=third, known_at=third, site=Site.LEFT_FOOT, level=0.1),
