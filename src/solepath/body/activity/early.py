@@ -23,9 +23,10 @@ LEAST_MARGIN = 1.0
 Without a margin, a twentieth more activities are reported and withdrawn (hugadb)."""
 LEAST_PUSH, PUSH_VARIANCE = 0.25, 0.02
 """Least acceleration of both feet together that an elevator may cause, m/s^2, and the largest variance of its
-measurement, (m/s^2)^2. Elevators start with 0.3 to 1.2 m/s^2."""
+measurement, (m/s^2)^2: half of that deviation. Elevators start with 0.3 to 1.2 m/s^2."""
 RIDE_ODDS = 0.05
-"""Odds that a push on both standing feet is an elevator's and not the wearer's, before its strength is known."""
+"""Odds that a push on both standing feet is an elevator's and not the wearer's, before its strength is known (assumed).
+They change only the probability that is reported."""
 LEAST_SLOPE = 0.5
 """Least evidence of one stride for stairs or against them that is a cue, as a logarithm of likelihoods."""
 
@@ -44,8 +45,14 @@ class ActivityCue(StrEnum):
     STRANGE = "strange"
 
 
-CUE_OF_MOTION = dict(zip(MOTIONS, ActivityCue, strict=False))
-"""ActivityCue of each motion that the network distinguishes."""
+CUE_OF_MOTION = {
+    "still": ActivityCue.STILL,
+    "walking": ActivityCue.WALKING,
+    "running": ActivityCue.RUNNING,
+    "stairs_up": ActivityCue.CLIMBING,
+    "stairs_down": ActivityCue.DESCENDING,
+}
+"""Cue of each motion that the network distinguishes."""
 
 _MOVING = {
     ActivityCue.WALKING: Activity.WALKING,

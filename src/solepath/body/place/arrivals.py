@@ -28,9 +28,8 @@ LEAST_OPPOSITE_SHARE = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.002}
 """Least probability that the wearer's direction, up or down, is not the reported one.
 
 On stairs feet move alike in both. A lift's first pulse has a sign: all 53 rides of hugadb have the right direction."""
-
 ANY_HEADING_SHARE = 0.1
-"""Share of the weight of headings that a known first heading does not allow: it may be wrong."""
+"""Share of the weight of headings that a known first heading does not allow, because it may be wrong (assumed)."""
 Heading = tuple[float, float]
 """Angle of the track's x axis from the plan's, and its largest error, rad."""
 Scatter = Callable[[int, int], tuple[float, float, float, float]]

@@ -52,7 +52,6 @@ class LevelChanges(PlaceHypotheses):
     """Flag: the level depends on the reported direction of stairs, which is often wrong."""
     arrived_at: float | None = field(default=None, init=False)
     """Time of the last arrival on another level, s; None before any."""
-
     known_heading: Heading | None = field(default=None, init=False)
     """Angle of the track's x axis from the plan's, and its largest error, rad; None if no first heading was given."""
 

@@ -66,10 +66,9 @@ VARIANTS: tuple[tuple[float | None, Recipe], ...] = (
 )
 """Rate in Hz (None: as recorded) and recipe with which each recording is processed."""
 MISLABELLED = ("various_03_05", "various_03_06")
-"""Recordings that are left out because their labels are taken for mistakes.
+"""Recordings that are left out because most of their labels are mistakes (`CORRECTIONS` in hugadb.py says why).
 
-They are labelled as stairs down, but each stride rises by 0.4 m, and its swing looks like those of other wearers who
-climb two stairs at a time."""
+The other corrections are of rides, in which feet stand; these recordings are learnt with their labels as they are."""
 LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
 EMULATED = range(emulated.FIRST_TRAINING_SEED, emulated.FIRST_TRAINING_SEED + 16)
 DEVICES: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
