@@ -24,10 +24,8 @@ TURN_ERROR, STRETCH_ERROR = 0.07, 0.02
 """Largest errors of the track's heading, rad, and of its stretch that stairs or a ride add."""
 ON_STAIRS_WEIGHT = 2.0
 """Likelihood of being on stairs divided by that of walking past them, when climbing is reported near stairs."""
-LEAST_OPPOSITE_SHARE = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.002}
-"""Least probability that the wearer's direction, up or down, is not the reported one.
-
-On stairs feet move alike in both. A lift's first pulse has a sign: all 53 rides of hugadb have the right direction."""
+LEAST_OPPOSITE_SHARE = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.01}
+"""Least probability that the wearer's direction, up or down, is not the reported one: feet move alike in both."""
 ANY_HEADING_SHARE = 0.1
 """Share of the weight of headings that a known first heading does not allow, because it may be wrong (assumed)."""
 Heading = tuple[float, float]
