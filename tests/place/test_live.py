@@ -15,7 +15,7 @@ def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> 
     plan, out_directory = tmp_path / "office.geojson", tmp_path / "out"
     write_floorplan(plan, office())
     with emulator("--distance", 20) as (_, where):
-        options = ["--floorplan", plan, "--start", "0,9,6.2,0", "--out", out_directory, "--duration", 9]
+        options = ["--floorplan", plan, "--start", "0,9,6.2,0", "--out", out_directory, "--duration", 12]
         result = run("live", "--via", where, *options)
     assert "place: level 0, (" in result.stdout
     assert "place: found after 1 stride" in result.stdout and "at the end: level 0, (" in result.stdout
