@@ -94,6 +94,7 @@ class ActivityReport:
 def _ride_event(ride: ActivitySegment, t_end: float, known_at: float) -> LiftRidden:
     start = ride.t if ride.detected_at is None else ride.detected_at
     end = max(start, t_end if ride.ended_at is None else ride.ended_at)
-    return LiftRidden(
-        t=end, known_at=max(known_at, end), t_start=start, up=ELEVATOR_GOES_UP[ride.activity], height=ride.height
-    )
+    up = ELEVATOR_GOES_UP[ride.activity]
+    # the pulses are surer of the direction than a height of the other sign, which therefore is not known
+    height = None if ride.height is None or (ride.height > 0.0) is not up else ride.height
+    return LiftRidden(t=end, known_at=max(known_at, end), t_start=start, up=up, height=height)

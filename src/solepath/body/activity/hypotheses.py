@@ -22,10 +22,13 @@ from .chain import (
     HALT_SIGNS,
     PULSE_SIGNS,
     RIDE_STATES,
+    STAIRS_DOWN,
+    STAIRS_UP,
     STAND,
     UNACCELERATED_STATES,
     Chain,
 )
+from .pressure_height import Height, ride_evidence, stairs_evidence
 from .ride import (
     DWELL_TIME,
     HALT_ACCELERATION,
@@ -50,6 +53,8 @@ MAX_OPEN_TIME = 60.0
 """Time after which the start of an activity is settled in any case, s; few rides last longer."""
 ACCELERATED_STATES = RIDE_STATES - UNACCELERATED_STATES
 """States of a ride with acceleration; `ElevatorRide.score_stop` scores a path that ends the ride after one of them."""
+STAIR_SIGNS = {STAIRS_UP: 1.0, STAIRS_DOWN: -1.0}
+"""Sign of the height gained in each state on stairs."""
 MAX_SEGMENTS = 8
 """Largest number of segments of a path; when there are more, the oldest is settled."""
 
@@ -91,10 +96,10 @@ class BlockEvidence:
     """Force on the left and on the right foot."""
     pressure_scores: tuple[float, ...]
     """Log-likelihood of each state by the air pressure."""
-    before: float | None
-    """Height just before the block by the air pressure, m above an arbitrary level."""
-    after: float | None
-    """Height just after the block by the air pressure, m above the same level."""
+    before: Height | None
+    """Height just before the block by the air pressure."""
+    after: Height | None
+    """Height just after the block by the air pressure."""
 
 
 @define
@@ -117,8 +122,8 @@ class Hypotheses:
         for token in self.tokens:
             state = token.state
             token_of_state[state], scores[state] = token, token.score
-            if state in ACCELERATED_STATES:
-                stop_scores[state] = token.ride.score_stop()
+            if state in RIDE_STATES or state in STAIR_SIGNS:
+                stop_scores[state] = _score_end(token, block)
         elevator = ElevatorEvidence(block.forces)
         candidates: list[tuple[float, int, Token, RestLevels, float]] = []
         top_score = -inf
@@ -134,7 +139,7 @@ class Hypotheses:
                         best, highest = i, score
             else:
                 for i, chance in predecessors:
-                    score = scores[i] + chance + stop_scores[i]
+                    score = scores[i] + chance + (stop_scores[i] if i != state else 0.0)
                     if score > highest:
                         best, highest = i, score
             predecessor = (token_of_state[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None
@@ -246,6 +251,16 @@ def _score_path(
     )
 
 
+def _score_end(token: Token, block: BlockEvidence) -> float:
+    """Return the log-likelihood that the ride or the stairs of `token` have ended when `block` starts."""
+    state, start = token.state, token.ride.start_height
+    if state in STAIR_SIGNS:
+        return stairs_evidence(start, block.after, STAIR_SIGNS[state], block.t - token.path[-1].t) if token.path else 0.0
+    stopped = token.ride.score_stop() if state in ACCELERATED_STATES else 0.0
+    up = ACTIVITIES[state] is Activity.ELEVATOR_UP
+    return stopped + ride_evidence(start, block.after, 1.0 if up else -1.0)
+
+
 def _extend_path(
     token: Token, state: int, block: BlockEvidence, chain: Chain, levels: RestLevels, acceleration: float
 ) -> tuple[tuple[ActivitySegment, ...], ElevatorRide]:
@@ -256,7 +271,8 @@ def _extend_path(
             return path, ride.move(levels, acceleration, BLOCK_DURATION)
         if state == STAND:
             return path, ride.wait(levels, BLOCK_DURATION)
-        return path, ElevatorRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK_DURATION)
+        kept = ElevatorRide(levels, start_height=ride.start_height, standing_time=ride.standing_time)
+        return path, kept.wait(levels, BLOCK_DURATION)
     t = block.t
     if path:
         last = path[-1]
@@ -273,7 +289,9 @@ def _extend_path(
     path = (*path, ActivitySegment(t, activity))
     if state == STAND:
         return path, ride.wait(levels, BLOCK_DURATION)
-    return path, ElevatorRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK_DURATION)
+    start_height = block.before if state in STAIR_SIGNS else None
+    begun = ElevatorRide(levels, start_height=start_height, standing_time=ride.standing_time)
+    return path, begun.wait(levels, BLOCK_DURATION)
 
 
 FIRST_TOKENS = tuple(

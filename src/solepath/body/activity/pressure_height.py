@@ -1,4 +1,9 @@
-"""Height from air pressure in blocks (half seconds), and its slope as evidence for stairs and elevators."""
+"""Height from air pressure in blocks (half seconds), and what it says for and against stairs and elevators.
+
+The barometers of two feet drift apart by metres while a session lasts, so each has an offset from their common height,
+which follows the difference of their readings. The noise of a reading is measured, because it is 0.1 m with one
+barometer and 0.5 m with another: the second difference of three readings has six times its variance, whatever the
+wearer's vertical velocity."""
 
 from __future__ import annotations
 
@@ -28,12 +33,22 @@ from .chain import (
 
 SCALE_HEIGHT = 8578.0
 """Height over which the pressure of air at 20 degrees Celsius falls to 1/e, m: R T / (M g)."""
+STANDARD_PRESSURE = 101325.0
+"""Standard air pressure, Pa."""
 MIN_PRESSURE, MAX_PRESSURE = 2e4, 2e5
 """Limits of a plausible air pressure, Pa."""
-BLOCK_NOISE = 0.25
-"""Standard deviation of the mean height over a block, m; it corresponds to 3 Pa.
+AIR_NOISE = 0.2
+"""Standard deviation of the height over a block by doors and wind, m: 2.4 Pa (assumed)."""
+FIRST_READING_NOISE, LEAST_READING_NOISE = 0.3, 0.02
+"""Standard deviation of the height of one reading before any is known, and the least one, m."""
+NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 9.0
+"""Weight of a reading in the measured noise, and the largest square that one reading adds, as a ratio to the noise.
 
-Small barometers have a noise of 1 to 3 Pa, and doors change the pressure as well."""
+The noise follows twenty readings; a door that opens, or a ride that starts, has a limited effect."""
+OFFSET_WEIGHT = 0.05
+"""Least weight of a difference of both barometers in their offsets: twenty readings, while they drift by 0.01 m/s."""
+MAX_AGE = 3
+"""Age of the other barometer's newest reading up to which both are compared, blocks."""
 BLOCKS_BEFORE, BLOCKS_AFTER = 3, 2
 """Numbers of blocks before and after the judged one; the slope is computed over all of them."""
 MIN_SLOPE_SPAN = 1.0
@@ -42,6 +57,12 @@ SLOPE_WEIGHT = 1.0 / 3.0
 """Weight of one slope's log-likelihood; it is below 1 because neighbouring slopes share samples."""
 MAX_SLOPE_PENALTY = 3.0
 """Largest penalty by a slope (natural logarithm); a door that opens changes the pressure suddenly."""
+STAIR_SPEED, STAIR_SPEED_DEVIATION = 0.3, 0.1
+"""Mean vertical speed on stairs and its standard deviation between wearers, m/s: two treads of 0.16 m per second."""
+LEAST_RIDE_HEIGHT = 2.2
+"""Least height of an elevator ride, m: a low storey."""
+MAX_STRETCH_EVIDENCE = 4.0
+"""Largest evidence by the height of a whole stretch (natural logarithm), in which a door may have opened."""
 
 _SLOPES = {
     STAND: (0.0, 0.05),
@@ -66,14 +87,33 @@ _SLOPES = {
 Stairs are climbed at two treads per second; elevators move at 0.5 to 2.5 m/s."""
 _SLOPE_OF_STATE = tuple(_SLOPES[state] for state in range(len(_SLOPES)))
 NO_EVIDENCE = (0.0,) * len(_SLOPE_OF_STATE)
+Height = tuple[float, float]
+"""A mean height, m above an arbitrary level, and its variance, m^2."""
+
+
+@define
+class BarometerReadings:
+    """The newest readings of one barometer and its offset."""
+
+    offset: float
+    """Height by this barometer minus the common height, m."""
+    index: int
+    """Number of the block of the newest reading."""
+    newest: float
+    """Height of the newest reading, m above standard pressure."""
+    previous: float | None = None
+    """Height of the reading before it, m; None before any."""
 
 
 @define
 class PressureHeight:
     """The mean heights of the newest blocks (the last few seconds), by the barometers of both feet."""
 
-    references: dict[Foot, float] = field(factory=dict)
-    """Pressure at height 0 of each foot's barometer, Pa."""
+    barometers: dict[Foot, BarometerReadings] = field(factory=dict)
+    noise: float = FIRST_READING_NOISE * FIRST_READING_NOISE
+    """Variance of the height of one reading, m^2."""
+    compared: int = 0
+    """Number of readings that were compared with the other barometer's, at most 1 / `OFFSET_WEIGHT`."""
     newest: float = 0.0
     """Newest height, m above the first reading."""
     index: int | None = None
@@ -82,53 +122,106 @@ class PressureHeight:
     """Sum of the heights in the block under way, m."""
     height_count: int = 0
     """Number of heights in the block under way."""
-    blocks: deque[tuple[int, float]] = field(factory=deque)
-    """Number and mean height, m, of each of the newest blocks, oldest first."""
+    blocks: deque[tuple[int, float, int]] = field(factory=deque)
+    """Number, mean height, m, and number of readings of each of the newest blocks, oldest first."""
 
     def add(self, foot: Foot, index: int, pressure: float) -> None:
         """Add a foot's air pressure, Pa, to the block number `index`."""
         if not MIN_PRESSURE < pressure < MAX_PRESSURE:
             return
-        reference = self.references.get(foot)
-        if reference is None:
+        height = SCALE_HEIGHT * log(STANDARD_PRESSURE / pressure)
+        barometer = self.barometers.get(foot)
+        if barometer is None:
             # a barometer that is read later starts at the height of the other one
-            reference = self.references[foot] = pressure * exp(self.newest / SCALE_HEIGHT)
-        self.newest = SCALE_HEIGHT * log(reference / pressure)
+            self.barometers = {**self.barometers, foot: BarometerReadings(height - self.newest, index, height)}
+        else:
+            if barometer.previous is not None:
+                bend = height - 2.0 * barometer.newest + barometer.previous
+                square = min(bend * bend / 6.0, MAX_NOISE_RATIO * self.noise)
+                self.noise += NOISE_WEIGHT * (square - self.noise)
+                self.noise = max(self.noise, LEAST_READING_NOISE * LEAST_READING_NOISE)
+            barometer.index, barometer.newest, barometer.previous = index, height, barometer.newest
+            self._compare(foot, barometer)
+            self.newest = height - barometer.offset
         if index != self.index:
             self._close()
             self.index = index
         self.height_sum += self.newest
         self.height_count += 1
 
+    def _compare(self, foot: Foot, barometer: BarometerReadings) -> None:
+        """Move the offsets of both barometers so that their heights come closer; their mean stays."""
+        for other_foot, other in self.barometers.items():
+            if other_foot is not foot and 0 <= barometer.index - other.index <= MAX_AGE:
+                self.compared = min(self.compared + 1, round(1.0 / OFFSET_WEIGHT))
+                difference = barometer.newest - barometer.offset - other.newest + other.offset
+                barometer.offset += 0.5 * difference / self.compared
+                other.offset -= 0.5 * difference / self.compared
+
     def _close(self) -> None:
         if self.index is not None and self.height_count:
-            self.blocks.append((self.index, self.height_sum / self.height_count))
+            self.blocks.append((self.index, self.height_sum / self.height_count, self.height_count))
             if len(self.blocks) > BLOCKS_BEFORE + BLOCKS_AFTER + 4:
                 self.blocks.popleft()
         self.height_sum, self.height_count = 0.0, 0
 
-    def height(self, first: int, last: int) -> float | None:
-        """Return the mean height over the blocks `first` to `last`, m; None when they have no pressure."""
-        neighbours = [height for index, height in self.blocks if first <= index <= last]
-        return fsum(neighbours) / len(neighbours) if neighbours else None
+    def height(self, first: int, last: int) -> Height | None:
+        """Return the mean height over the blocks `first` to `last`; None when they have no pressure."""
+        near = [(height, count) for index, height, count in self.blocks if first <= index <= last]
+        readings = sum([count for _, count in near])  # whole numbers
+        if not readings:
+            return None
+        mean = fsum([height * count for height, count in near]) / readings
+        return mean, AIR_NOISE * AIR_NOISE + self.noise / readings
 
     def score_slope(self, index: int, block: float) -> tuple[float, ...]:
         """Return the log-likelihood of the slope around block number `index` for each state, relative to the best.
 
         `block` is the duration of a block, s."""
-        neighbours = [
-            (i * block, height) for i, height in self.blocks if index - BLOCKS_BEFORE <= i <= index + BLOCKS_AFTER
+        air = AIR_NOISE * AIR_NOISE
+        near = [
+            (i * block, height, 1.0 / (air + self.noise / count))
+            for i, height, count in self.blocks
+            if index - BLOCKS_BEFORE <= i <= index + BLOCKS_AFTER
         ]
-        if len(neighbours) < 3 or neighbours[-1][0] - neighbours[0][0] < MIN_SLOPE_SPAN:
+        if len(near) < 3 or near[-1][0] - near[0][0] < MIN_SLOPE_SPAN:
             return NO_EVIDENCE
-        n = len(neighbours)
-        middle = fsum([t for t, _ in neighbours]) / n
-        spread = fsum([(t - middle) ** 2 for t, _ in neighbours])
-        slope = fsum([(t - middle) * height for t, height in neighbours]) / spread
-        variance = BLOCK_NOISE * BLOCK_NOISE / spread
+        weights = fsum([weight for _, _, weight in near])
+        middle = fsum([weight * t for t, _, weight in near]) / weights
+        spread = fsum([weight * (t - middle) ** 2 for t, _, weight in near])
+        slope = fsum([weight * (t - middle) * height for t, height, weight in near]) / spread
+        variance = 1.0 / spread
         scores = []
         for mean, deviation in _SLOPE_OF_STATE:
             total = variance + deviation * deviation
             scores.append(-0.5 * (min((slope - mean) ** 2 / total, 1e3) + log(total)))
         best = max(scores)
         return tuple([max(SLOPE_WEIGHT * (score - best), -MAX_SLOPE_PENALTY) for score in scores])
+
+
+def stairs_evidence(before: Height | None, after: Height | None, sign: float, duration: float) -> float:
+    """Return the logarithm of the likelihood ratio of stairs to level ground, from the heights before and after.
+
+    `sign` is 1 for stairs up and -1 for down, `duration` that of the stairs, s."""
+    if before is None or after is None:
+        return 0.0
+    gain, variance = after[0] - before[0], after[1] + before[1]
+    expected, spread = sign * STAIR_SPEED * duration, variance + (STAIR_SPEED_DEVIATION * duration) ** 2
+    return _limited(
+        0.5 * (gain * gain / variance - (gain - expected) ** 2 / spread + log(variance / spread))
+    )
+
+
+def ride_evidence(before: Height | None, after: Height | None, sign: float) -> float:
+    """Return the logarithm of the likelihood ratio of a ride of any height to none, from the heights around it.
+
+    `sign` is 1 for a ride up and -1 for one down."""
+    if before is None or after is None:
+        return 0.0
+    gain, variance = after[0] - before[0], after[1] + before[1]
+    missing = max(0.0, LEAST_RIDE_HEIGHT - sign * gain)
+    return _limited(0.5 * (gain * gain - missing * missing) / variance)
+
+
+def _limited(evidence: float) -> float:
+    return max(-MAX_STRETCH_EVIDENCE, min(MAX_STRETCH_EVIDENCE, evidence))

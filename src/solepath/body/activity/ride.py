@@ -14,6 +14,7 @@ from operator import is_
 
 from ...types.attrs import define
 from ...types.vector import GRAVITY
+from .pressure_height import Height
 
 PULSE_ACCELERATION, PULSE_DEVIATION = 0.6, 0.35
 """Mean and standard deviation of the acceleration of an elevator that starts or stops, m/s^2."""
@@ -43,8 +44,6 @@ LEAST_DENSITY = 1e-6
 """Lowest probability density of an acceleration, s^2/m."""
 PULSE_HEIGHT_ERROR = 0.1
 """Standard deviation of a ride's height that is integrated from its pulses, as a share of the height."""
-AIR_HEIGHT_ERROR = 0.3
-"""Standard deviation of a ride's height by air pressure, m, from readings of a second or two at either end."""
 SLOWEST_ELEVATOR_SPEED, SPEED_DEVIATION = 0.4, 0.1
 """Speed of the slowest elevator and its standard deviation, m/s."""
 STOP_ERROR_SHARE, STOP_ERROR = 0.3, 0.1
@@ -61,6 +60,8 @@ class BlockForce:
     variance: float
     moved: bool
     """Flag: the foot moved in the block."""
+    posture_variance: float = MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION
+    """Variance of the rest level after the foot has moved, (m/s^2)^2."""
 
 
 @define
@@ -140,8 +141,8 @@ class ElevatorEvidence:
         walked = tuple(
             [
                 level
-                if block is None or not block.moved or level.variance >= MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION
-                else RestLevel(level.value, MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION)
+                if block is None or not block.moved or level.variance >= block.posture_variance
+                else RestLevel(level.value, block.posture_variance)
                 for level, block in zip(levels, self.forces, strict=True)
             ]
         )
@@ -186,7 +187,7 @@ class ElevatorEvidence:
                 continue
             variance = level.variance + LEVEL_WANDER
             if block.moved:
-                variance = max(variance, MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION)
+                variance = max(variance, block.posture_variance)
             gain = variance / (variance + block.variance + acceleration_variance)
             residual = block.force - acceleration - level.value
             updated.append(RestLevel(round(level.value + gain * residual, 7), round((1.0 - gain) * variance, 9)))
@@ -208,18 +209,18 @@ class ElevatorRide:
     """Duration of the ride so far, s."""
     has_first_pulse: bool = False
     """Flag: the first pulse was measured."""
-    start_height: float | None = None
-    """Height when the elevator set off, by the air pressure, m above an arbitrary level."""
+    start_height: Height | None = None
+    """Height when the elevator set off, or at the start of stairs, by the air pressure."""
     standing_time: float = 1e3
     """Time since the last ride ended, s."""
 
     @staticmethod
     def start(
-        has_first_pulse: bool, start_height: float | None, levels: RestLevels, acceleration: float, block: float
+        has_first_pulse: bool, start_height: Height | None, levels: RestLevels, acceleration: float, block: float
     ) -> ElevatorRide:
         """Return a ride after its first block, which lasts `block` s.
 
-        `start_height` is by air pressure, m; see `move` for `levels` and `acceleration`."""
+        `start_height` is by air pressure; see `move` for `levels` and `acceleration`."""
         velocity = round(0.0 + acceleration * block, 6)
         height = round(0.0 + 0.5 * velocity * block, 6)
         return ElevatorRide(levels, velocity, abs(velocity), height, block, has_first_pulse, start_height)
@@ -272,18 +273,19 @@ class ElevatorRide:
             penalty += min(MAX_STOP_PENALTY, 0.5 * (self.velocity / velocity_error) ** 2)
         return -min(penalty, MAX_SCORE_PENALTY)
 
-    def height_gain(self, height: float | None) -> float | None:
+    def height_gain(self, height: Height | None) -> float | None:
         """Return the height of the ride, m; None when neither the first pulse nor air pressure gives it.
 
-        `height` is the height by air pressure now, m. With both sources the result is their mean, weighted by the
+        `height` is the height by air pressure now. With both sources the result is their mean, weighted by the
         inverse variances. The height by the pulses is corrected so that the final velocity is zero."""
-        by_pressure = None if height is None or self.start_height is None else height - self.start_height
+        start = self.start_height
+        by_pressure = None if height is None or start is None else height[0] - start[0]
         if not self.has_first_pulse:
             return by_pressure
         by_pulses = self.height - 0.5 * self.velocity * self.duration
-        if by_pressure is None:
+        if by_pressure is None or height is None or start is None:
             return by_pulses
-        air_variance = AIR_HEIGHT_ERROR * AIR_HEIGHT_ERROR
+        air_variance = height[1] + start[1]
         share = air_variance / (air_variance + (PULSE_HEIGHT_ERROR * by_pressure) ** 2)
         return by_pressure + share * (by_pulses - by_pressure)
 

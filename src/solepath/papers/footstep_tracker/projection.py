@@ -24,7 +24,7 @@ from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, normalise, rotate, tipped
 from .critical_times import CriticalTimes
 from .segment import StrideSegment
-from .stride_length import closed_stride_length, stride_length, swing_turn, vertical_turn
+from .stride_length import closed_stride_length, closed_stride_rise, stride_length, swing_turn, vertical_turn
 
 LONGEST_GAP = 0.12
 """Gap in a stride from which on the integrals do not hold, s: two of the paper's intervals and some tolerance."""
@@ -36,8 +36,8 @@ RANGE_END_SHARE = 0.8
 """Least ratio of the ends of the gyroscope's range on its axes, on either side; removing the bias has shifted them."""
 AXIS_SHARE = 0.95
 """Least ratio of a rate about an axis of the foot to the rate about the sensor's nearest axis, up to 15 degrees off."""
-LONGEST_STRIDE = 3.0
-"""Length of the longest stride, m."""
+LONGEST_STRIDE, LARGEST_RISE = 3.0, 1.0
+"""Length of the longest stride, m, and largest change of height in one stride, m: four treads and some tolerance."""
 STRIDE_ERROR, TURN_ERROR, MOST_TURN_ERRORS = 0.1, 0.05, 1000
 """Error of a stride as a share of its length (figure 11), error of its turn, rad, and largest number of such errors."""
 LONGEST_LEVELLING = 0.1
@@ -112,9 +112,10 @@ class Projection(Strapdown):
         if self.moving_time > LONGEST_MOTION:
             self.velocity, self.position = ZERO, before
             return
-        vx, vy, _ = self.velocity
-        x, y, _ = self.position
-        self.velocity, self.position = (vx, vy, 0.0), (x, y, 0.0)
+        if self.settings.as_printed:
+            vx, vy, _ = self.velocity
+            x, y, _ = self.position
+            self.velocity, self.position = (vx, vy, 0.0), (x, y, 0.0)
 
     def correct(self, t: float, stance: Stance) -> bool:
         if stance.hint is not Phase.STATIONARY:
@@ -130,45 +131,49 @@ class Projection(Strapdown):
         return True
 
     def _end_stride(self, segment: StrideSegment) -> None:
-        x, y, _ = self.rest_position
+        x, y, z = self.rest_position
         if segment.longest_gap >= LONGEST_GAP:
-            x, y = self._dedrifted_end()
+            x, y, z = self._dedrifted_end()
         elif segment.times is not None:
-            x, y = self._stride_end(segment, segment.times)
+            x, y, z = self._stride_end(segment, segment.times)
         # without critical times the foot turned on the spot or shook, so it stays in place
         x0, y0, _ = self.rest_position
         self.length += hypot(x - x0, y - y0)
         self.stride_count += 1
         self.attitude = multiply(from_yaw(heading_turned(self.rest_attitude, self.attitude)), self.rest_attitude)
-        self.rest_position = (x, y, 0.0)
+        self.rest_position = (x, y, z)
 
-    def _stride_end(self, segment: StrideSegment, times: CriticalTimes) -> tuple[float, float]:
-        """Return the position (x, y) at the end of a stride by the equations, m."""
+    def _stride_end(self, segment: StrideSegment, times: CriticalTimes) -> Vec3:
+        """Return the position at the end of a stride by the equations, m."""
         settings, rows = self.settings, segment.rows
         phi = settings.outwards * settings.toe_out
         if settings.as_printed:
             length, turn = fsum(stride_length(rows, times, phi)), swing_turn(rows, times)
+            rise = 0.0
         else:
             end = AXIS_SHARE * self.least_saturated if self.least_saturated > 0.0 else inf
             length, turn = fsum(closed_stride_length(rows, times, phi, end)), vertical_turn(rows, times, end)
+            rise = closed_stride_rise(rows, times, end)
         turn = self.turning.turn(turn)
         fx, fy, _ = rotate(self.rest_attitude, segment.forward)
         # the direction of walking lies phi to the right of the foot's long axis
         direction = atan2(fy, fx) + 0.5 * turn - phi
         self.attitude = multiply(from_yaw(turn), self.rest_attitude)
         length = min(max(length, -LONGEST_STRIDE), LONGEST_STRIDE)
-        x, y, _ = self.rest_position
-        return x + length * cos(direction), y + length * sin(direction)
+        rise = min(max(rise, -LARGEST_RISE), LARGEST_RISE)
+        x, y, z = self.rest_position
+        return x + length * cos(direction), y + length * sin(direction), z + rise
 
-    def _dedrifted_end(self) -> tuple[float, float]:
-        """Return the live position (x, y) without the drift that the velocity at rest implies, m."""
-        x, y, _ = self.position
-        vx, vy, _ = self.velocity
+    def _dedrifted_end(self) -> Vec3:
+        """Return the live position without the drift that the velocity at rest implies, m."""
+        x, y, z = self.position
+        vx, vy, vz = self.velocity
         half = 0.5 * min(self.moving_time, LONGEST_MOTION)
-        x, y = x - vx * half, y - vy * half
-        x0, y0, _ = self.rest_position
+        x, y, z = x - vx * half, y - vy * half, z - vz * half
+        x0, y0, z0 = self.rest_position
         k = LONGEST_STRIDE / max(LONGEST_STRIDE, hypot(x - x0, y - y0))
-        return x0 + k * (x - x0), y0 + k * (y - y0)
+        rise = min(max(z - z0, -LARGEST_RISE), LARGEST_RISE)
+        return x0 + k * (x - x0), y0 + k * (y - y0), z0 + rise
 
     def repair(self, yaw: float, position: Vec3) -> None:
         """Do nothing, because only strides with a gap need a repair, and `_dedrifted_end` ends those."""

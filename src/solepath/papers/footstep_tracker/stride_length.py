@@ -39,6 +39,7 @@ from collections.abc import Sequence
 from math import cos, fsum, inf, sin
 
 from ...types import Vec3
+from ...types.vector import GRAVITY
 from .critical_times import CriticalTimes, Row
 
 LEAST_VELOCITY_CHANGE = 1.0
@@ -63,6 +64,23 @@ def closed_stride_length(rows: Sequence[Row], times: CriticalTimes, toe_out: flo
     (x, y, z), (vx, vy, vz) = _lengths(rows_closed_at_rest(rows, times, end), 0.0, toe_out)
     half = 0.5 * duration
     return (x - half * vx, y - half * vy, z - half * vz)
+
+
+def closed_stride_rise(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> float:
+    """Return the change of height of a stride, m, integrated from uplift to rest like `closed_stride_length`.
+
+    The force at right angles to a_f of (2) is a_y sin(theta) - a_z cos(theta), 1 g at rest; the paper does not use it.
+    """
+    duration = times.rest - times.uplift
+    if not duration > 0.0:
+        return 0.0
+    stride = rows_closed_at_rest(rows, times, end)
+    forces = [
+        row[2] * sin(tilt) - row[3] * cos(tilt) - GRAVITY
+        for row, tilt in zip(stride, _tilts(stride, 0.0), strict=True)
+    ]
+    height, velocity = _integrals(stride, forces)
+    return height - 0.5 * duration * velocity
 
 
 def rows_closed_at_rest(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> list[Row]:
