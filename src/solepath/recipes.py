@@ -107,7 +107,9 @@ RECIPES: dict[str, str] = {
     "touchdown-acceleration": "papers.walking_modes.recipe:TOUCHDOWN_ACCELERATION",
     "touchdown-pressure": "papers.walking_modes.recipe:TOUCHDOWN_PRESSURE",
     "footstep-tracker": "papers.footstep_tracker.recipe:FOOTSTEP_TRACKER",
+    "footstep-tracker-printed": "papers.footstep_tracker.recipe:FOOTSTEP_TRACKER_PRINTED",
     "shoe-sensing": "papers.shoe_sensing.recipe:SHOE_SENSING",
+    "shoe-sensing-printed": "papers.shoe_sensing.recipe:SHOE_SENSING_PRINTED",
     "acceleration-magnitude": "papers.shoe_sensing.recipe:SHOE_MAGNITUDE",
 }
 """Module below solepath of each recipe by its name and, after the colon, the constant in that module."""

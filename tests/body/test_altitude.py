@@ -13,7 +13,8 @@ from views import fed
 from walks import samples
 
 from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
-from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE_HEIGHT, STANDARD_PRESSURE, UNKNOWN_VARIANCE, Altitude
+from solepath.body.height.altitude import LEFT, MOVE, RIGHT, UNKNOWN_VARIANCE, Altitude
+from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
 from solepath.body.height.recent_inputs import HeightInput, RecentInputs
 from solepath.body.part import HeightShift, Replacement
 from solepath.emulate.routes.route import Route

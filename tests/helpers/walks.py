@@ -222,7 +222,9 @@ RECIPES = (
     "walking-modes",
     "touchdown-acceleration",
     "footstep-tracker",
+    "footstep-tracker-printed",
     "shoe-sensing",
+    "shoe-sensing-printed",
     "acceleration-magnitude",
 )
 """Recipes with a part that no other recipe has."""

@@ -144,7 +144,7 @@ def test_a_part_scored_on_a_wearer_is_trained_without_that_wearer(monkeypatch):
 
 
 def test_a_recipe_whose_part_learns_nothing_keeps_its_own():
-    assert part_for(recipes.by_name("shoe-sensing"), {"subject": 1}, {}) is None
+    assert part_for(recipes.by_name("shoe-sensing-printed"), {"subject": 1}, {}) is None
 
 
 def test_every_wearer_of_the_recordings_has_a_fold(data_dir):
@@ -156,15 +156,15 @@ def test_every_wearer_of_the_recordings_has_a_fold(data_dir):
 
 
 def test_stairs_are_in_two_folders(data_dir):
-    (stairs,) = evaluate(data_dir, [recipes.by_name("footstep-tracker")], only=["stairs"])
+    (stairs,) = evaluate(data_dir, [recipes.by_name("footstep-tracker-printed")], only=["stairs"])
     assert {scored.recording for scored in stairs.scores} == set(STAIR_SPANS)
     (summary,) = stairs.summaries
     assert (summary.mean["stairs_called"] or 0.0) > 0.5 and (summary.mean["level_called"] or 0.0) < 0.1
 
 
 def test_each_recording_is_learnt_from_once_whatever_the_folds(data_dir):
-    assert len(training_sources(data_dir, [recipes.by_name("footstep-tracker")] * 2)) == 115
-    assert not training_sources(data_dir, [recipes.by_name("shoe-sensing")])
+    assert len(training_sources(data_dir, [recipes.by_name("footstep-tracker-printed")] * 2)) == 115
+    assert not training_sources(data_dir, [recipes.by_name("shoe-sensing-printed")])
     default = training_sources(data_dir, [recipes.DEFAULT])
     assert {source.subject for source in default} - {None} == {wearer for fold in FOLDS for wearer in fold}
 
@@ -179,7 +179,7 @@ def test_windows_of_a_recording_have_the_activity_of_their_middle(data_dir):
 
 @pytest.mark.soak
 def test_the_papers_classifier_in_five_folds(data_dir):
-    (result,) = evaluate(data_dir, [recipes.by_name("footstep-tracker")], only=["hugadb"], processes=2)
+    (result,) = evaluate(data_dir, [recipes.by_name("footstep-tracker-printed")], only=["hugadb"], processes=2)
     (every,) = [summary for summary in result.summaries if summary.group == "all"]
     assert every.count == 115 and not result.failures
     assert (every.together["accuracy"] or 0.0) > 0.74

@@ -21,7 +21,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import ActivityChanged, Event, FlightClimbed, StrideTaken
 from solepath.foot.tracker import FootTracker
 from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
-from solepath.papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
+from solepath.papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING_PRINTED
 from solepath.papers.shoe_sensing.short_time_energy import ShortTimeEnergy
 from solepath.papers.shoe_sensing.walking_state import AnglePerMetre
 from solepath.recording.samples import load_samples
@@ -43,7 +43,9 @@ def samples_and_truth(route: Route, seed: int, rate: float = 100.0) -> tuple[tup
 
 @cache
 def events_of(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
-    return tuple(run_session(samples_and_truth(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
+    return tuple(
+        run_session(samples_and_truth(route, seed, rate)[0], SHOE_SENSING_PRINTED if energy else SHOE_MAGNITUDE)
+    )
 
 
 def strides_of(events: tuple[Event, ...], foot: Foot) -> list[StrideTaken]:
@@ -125,7 +127,7 @@ def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
 
 def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
     samples, _ = samples_and_truth(Route().stand(12.0).walk(6.0, 1.3).stop(2.0), 1)
-    found = changes(run_session(samples, SHOE_SENSING))
+    found = changes(run_session(samples, SHOE_SENSING_PRINTED))
     assert [what for _, what in found] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
 
 
@@ -143,7 +145,7 @@ def events_after_exchange(shifts: dict[Foot, float], *, silent: Foot | None = No
     ahead of the first one's; `silent` says nothing any more. What is told before the rest and from there on."""
     first = samples_and_truth(LEVEL, 1)[0]
     over = first[-1].t + 0.01
-    session = Session(SHOE_SENSING)
+    session = Session(SHOE_SENSING_PRINTED)
     for foot in Foot:
         session.bind(SITE_OF_FOOT[foot], "first")
     before: list[Event] = session.feed(first)
@@ -190,7 +192,7 @@ def test_recorded_stairs_are_two_flights_upwards_with_a_landing_between(path: st
     file = data_dir / f"{path}.npz"
     if not file.exists():
         pytest.skip(f"no {path} among the recorded data")
-    found = run_session(load_samples(file), SHOE_SENSING)
+    found = run_session(load_samples(file), SHOE_SENSING_PRINTED)
     flights = [event.up for event in found if isinstance(event, FlightClimbed)]
     assert flights == [True, True]
     assert Activity.STAIRS_UP in {event.activity for event in found if isinstance(event, ActivityChanged)}

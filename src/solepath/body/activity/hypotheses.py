@@ -51,6 +51,11 @@ RIDE_SETTLING_TIME = 12.0
 """Time after which the end of a ride is settled, s; later, the elevator will not creep on to its floor."""
 MAX_OPEN_TIME = 60.0
 """Time after which the start of an activity is settled in any case, s; few rides last longer."""
+PULSES = {
+    **{state: (sign * PULSE_ACCELERATION, PULSE_DEVIATION) for state, sign in PULSE_SIGNS.items()},
+    **{state: (sign * HALT_ACCELERATION, HALT_DEVIATION) for state, sign in HALT_SIGNS.items()},
+}
+"""Mean and standard deviation of an elevator's acceleration, m/s^2, in each state that has one."""
 ACCELERATED_STATES = RIDE_STATES - UNACCELERATED_STATES
 """States of a ride with acceleration; `ElevatorRide.score_stop` scores a path that ends the ride after one of them."""
 STAIR_SIGNS = {STAIRS_UP: 1.0, STAIRS_DOWN: -1.0}
@@ -228,17 +233,9 @@ def _score_path(
             not token.path or token.path[-1].activity is not ACTIVITIES[state]
         ):
             start_score = -SHORT_DWELL_COST
-        if state in PULSE_SIGNS:
-            levels, acceleration, log_likelihood = elevator.add_pulse(
-                levels, PULSE_SIGNS[state] * PULSE_ACCELERATION, PULSE_DEVIATION
-            )
-        elif state in HALT_SIGNS:
-            levels, acceleration, log_likelihood = elevator.add_pulse(
-                levels, HALT_SIGNS[state] * HALT_ACCELERATION, HALT_DEVIATION
-            )
-        else:
-            levels, log_likelihood = elevator.add_rest(levels)
-    elif state == STAND:
+    if state in PULSES:
+        levels, acceleration, log_likelihood = elevator.add_pulse(levels, *PULSES[state])
+    elif motion == STAND:
         levels, log_likelihood = elevator.add_rest(levels)
     else:
         levels, log_likelihood = elevator.add_walking(levels)
@@ -255,7 +252,9 @@ def _score_end(token: Token, block: BlockEvidence) -> float:
     """Return the log-likelihood that the ride or the stairs of `token` have ended when `block` starts."""
     state, start = token.state, token.ride.start_height
     if state in STAIR_SIGNS:
-        return stairs_evidence(start, block.after, STAIR_SIGNS[state], block.t - token.path[-1].t) if token.path else 0.0
+        return (
+            stairs_evidence(start, block.after, STAIR_SIGNS[state], block.t - token.path[-1].t) if token.path else 0.0
+        )
     stopped = token.ride.score_stop() if state in ACCELERATED_STATES else 0.0
     up = ACTIVITIES[state] is Activity.ELEVATOR_UP
     return stopped + ride_evidence(start, block.after, 1.0 if up else -1.0)
@@ -266,32 +265,29 @@ def _extend_path(
 ) -> tuple[tuple[ActivitySegment, ...], ElevatorRide]:
     """Return the path and the ride of the token after a block in `state`."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
+    start_height = block.before if state in STAIR_SIGNS else None
     if path and path[-1].activity is activity:
         if state in RIDE_STATES:
             return path, ride.move(levels, acceleration, BLOCK_DURATION)
-        if state == STAND:
-            return path, ride.wait(levels, BLOCK_DURATION)
-        kept = ElevatorRide(levels, start_height=ride.start_height, standing_time=ride.standing_time)
-        return path, kept.wait(levels, BLOCK_DURATION)
-    t = block.t
-    if path:
-        last = path[-1]
-        if token.state in RIDE_STATES and state not in RIDE_STATES:
-            ended = ActivitySegment(last.t, last.activity, last.detected_at, t, ride.height_gain(block.after))
-            path = (*path[:-1], ended)
-            ride = ride.end()
-        t = max(t + chain.shift[token.state][state], last.t + TIE)
-    if state in RIDE_STATES:
-        has_first_pulse = state in PULSE_SIGNS and bool(path)
-        return (*path, ActivitySegment(t, activity, block.t)), ride.start(
-            has_first_pulse, block.before, levels, acceleration, BLOCK_DURATION
-        )
-    path = (*path, ActivitySegment(t, activity))
-    if state == STAND:
-        return path, ride.wait(levels, BLOCK_DURATION)
-    start_height = block.before if state in STAIR_SIGNS else None
-    begun = ElevatorRide(levels, start_height=start_height, standing_time=ride.standing_time)
-    return path, begun.wait(levels, BLOCK_DURATION)
+        start_height = ride.start_height
+    else:
+        t = block.t
+        if path:
+            last = path[-1]
+            if token.state in RIDE_STATES and state not in RIDE_STATES:
+                ended = ActivitySegment(last.t, last.activity, last.detected_at, t, ride.height_gain(block.after))
+                path = (*path[:-1], ended)
+                ride = ride.end()
+            t = max(t + chain.shift[token.state][state], last.t + TIE)
+        if state in RIDE_STATES:
+            has_first_pulse = state in PULSE_SIGNS and bool(path)
+            return (*path, ActivitySegment(t, activity, block.t)), ride.start(
+                has_first_pulse, block.before, levels, acceleration, BLOCK_DURATION
+            )
+        path = (*path, ActivitySegment(t, activity))
+    if state != STAND:
+        ride = ElevatorRide(levels, start_height=start_height, standing_time=ride.standing_time)
+    return path, ride.wait(levels, BLOCK_DURATION)
 
 
 FIRST_TOKENS = tuple(

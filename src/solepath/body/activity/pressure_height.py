@@ -8,10 +8,11 @@ wearer's vertical velocity."""
 from __future__ import annotations
 
 from collections import deque
-from math import exp, fsum, log
+from math import exp, fsum, log, sqrt
 
 from ...types import Foot
 from ...types.attrs import define, field
+from ..height.barometric import height_of
 from .chain import (
     ELEVATOR_CREEPS_DOWN,
     ELEVATOR_CREEPS_UP,
@@ -31,12 +32,6 @@ from .chain import (
     WALK,
 )
 
-SCALE_HEIGHT = 8578.0
-"""Height over which the pressure of air at 20 degrees Celsius falls to 1/e, m: R T / (M g)."""
-STANDARD_PRESSURE = 101325.0
-"""Standard air pressure, Pa."""
-MIN_PRESSURE, MAX_PRESSURE = 2e4, 2e5
-"""Limits of a plausible air pressure, Pa."""
 AIR_NOISE = 0.2
 """Standard deviation of the height over a block by doors and wind, m: 2.4 Pa (assumed)."""
 FIRST_READING_NOISE, LEAST_READING_NOISE = 0.3, 0.02
@@ -61,8 +56,10 @@ STAIR_SPEED, STAIR_SPEED_DEVIATION = 0.3, 0.1
 """Mean vertical speed on stairs and its standard deviation between wearers, m/s: two treads of 0.16 m per second."""
 LEAST_RIDE_HEIGHT = 2.2
 """Least height of an elevator ride, m: a low storey."""
-MAX_STRETCH_EVIDENCE = 4.0
-"""Largest evidence by the height of a whole stretch (natural logarithm), in which a door may have opened."""
+DOOR_SHARE = 0.05
+"""Likelihood of any change of pressure, because of a door or a gust, relative to the likeliest one (assumed).
+
+It limits what the height of a whole stretch says to a ratio of 21 to 1."""
 
 _SLOPES = {
     STAND: (0.0, 0.05),
@@ -127,9 +124,9 @@ class PressureHeight:
 
     def add(self, foot: Foot, index: int, pressure: float) -> None:
         """Add a foot's air pressure, Pa, to the block number `index`."""
-        if not MIN_PRESSURE < pressure < MAX_PRESSURE:
+        height = height_of(pressure)
+        if height is None:
             return
-        height = SCALE_HEIGHT * log(STANDARD_PRESSURE / pressure)
         barometer = self.barometers.get(foot)
         if barometer is None:
             # a barometer that is read later starts at the height of the other one
@@ -206,10 +203,8 @@ def stairs_evidence(before: Height | None, after: Height | None, sign: float, du
     if before is None or after is None:
         return 0.0
     gain, variance = after[0] - before[0], after[1] + before[1]
-    expected, spread = sign * STAIR_SPEED * duration, variance + (STAIR_SPEED_DEVIATION * duration) ** 2
-    return _limited(
-        0.5 * (gain * gain / variance - (gain - expected) ** 2 / spread + log(variance / spread))
-    )
+    residual, total = gain - sign * STAIR_SPEED * duration, variance + (STAIR_SPEED_DEVIATION * duration) ** 2
+    return _log_ratio(sqrt(variance / total) * _bell(residual, total), _bell(gain, variance))
 
 
 def ride_evidence(before: Height | None, after: Height | None, sign: float) -> float:
@@ -219,9 +214,13 @@ def ride_evidence(before: Height | None, after: Height | None, sign: float) -> f
     if before is None or after is None:
         return 0.0
     gain, variance = after[0] - before[0], after[1] + before[1]
-    missing = max(0.0, LEAST_RIDE_HEIGHT - sign * gain)
-    return _limited(0.5 * (gain * gain - missing * missing) / variance)
+    return _log_ratio(_bell(max(0.0, LEAST_RIDE_HEIGHT - sign * gain), variance), _bell(gain, variance))
 
 
-def _limited(evidence: float) -> float:
-    return max(-MAX_STRETCH_EVIDENCE, min(MAX_STRETCH_EVIDENCE, evidence))
+def _bell(residual: float, variance: float) -> float:
+    return exp(-0.5 * min(residual * residual / variance, 1e3))
+
+
+def _log_ratio(likelihood: float, level: float) -> float:
+    """Return the logarithm of a ratio of likelihoods, in which a share of all changes of pressure are a door's."""
+    return log((likelihood + DOOR_SHARE) / (level + DOOR_SHARE))

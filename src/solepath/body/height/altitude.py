@@ -21,7 +21,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from math import log
 from typing import ClassVar
 
 from ...events import LiftRidden, StrideTaken
@@ -29,20 +28,15 @@ from ...foot.view import FootView
 from ...types import Foot, Site
 from ...types.attrs import define, evolve, field
 from ..part import HeightShift, Part, PartInput, PartOutput, Replacement
+from .barometric import height_of
 from .recent_inputs import HeightInput, RecentInputs
 
-SCALE_HEIGHT = 8578.0
-"""Height over which the pressure of air at 20 degrees Celsius falls to 1/e, m: R T / (M g)."""
-STANDARD_PRESSURE = 101325.0
-"""Standard air pressure, Pa."""
 READING_INTERVAL = 0.5
 """Shortest interval between two readings of the filter, s; all pressures in between are averaged into one reading."""
 KEPT_TIME = 90.0
 """Time for which inputs are kept, s."""
 MAX_INPUT_RATE = 8.0
 """Number of inputs per second of `KEPT_TIME` that may be kept."""
-MIN_PRESSURE, MAX_PRESSURE = 2e4, 2e5
-"""Limits of a plausible air pressure, Pa."""
 NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 3.0
 """Weight of one value in the low-pass filter of `Altitude.noise`, and largest ratio of a value to the filter's."""
 MIN_NOISE = 1e-4
@@ -170,11 +164,12 @@ class Altitude(Part):
         if pressure is None:
             return ()
         t, z = view.t, view.position[2]
-        if not (MIN_PRESSURE < pressure < MAX_PRESSURE and abs(z) < MAX_TRACK_HEIGHT):
+        reading = height_of(pressure)
+        if reading is None or not abs(z) < MAX_TRACK_HEIGHT:
             return ()
         source = LEFT if view.foot is Foot.LEFT else RIGHT
         side = self.sides[source]
-        side.total += SCALE_HEIGHT * log(STANDARD_PRESSURE / pressure) - z
+        side.total += reading - z
         side.count += 1
         if side.read_at is not None and 0.0 <= t - side.read_at < READING_INTERVAL:
             return ()

@@ -76,8 +76,7 @@ def closed_stride_rise(rows: Sequence[Row], times: CriticalTimes, end: float = i
         return 0.0
     stride = rows_closed_at_rest(rows, times, end)
     forces = [
-        row[2] * sin(tilt) - row[3] * cos(tilt) - GRAVITY
-        for row, tilt in zip(stride, _tilts(stride, 0.0), strict=True)
+        row[2] * sin(tilt) - row[3] * cos(tilt) - GRAVITY for row, tilt in zip(stride, _tilts(stride, 0.0), strict=True)
     ]
     height, velocity = _integrals(stride, forces)
     return height - 0.5 * duration * velocity

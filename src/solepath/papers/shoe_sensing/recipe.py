@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+from ...body.activity.activities import Activities
 from ...recipes import Recipe, usual_parts
 from .gated_tilt import ShoeSensing, ShoeSensingSettings
 from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from .walking_state import AnglePerMetre
 
-SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=usual_parts(activity=AnglePerMetre()))
-"""Li et al. 2016: short-time energy, tilt feedback in stance, height errors of level strides removed."""
+SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=usual_parts())
+"""Li et al. 2016: short-time energy, tilt feedback in stance, height errors of level strides removed.
+
+Beyond the paper, the activities are those of `recipes.DEFAULT`."""
+
+SHOE_SENSING_PRINTED = SHOE_SENSING.exchanged(Activities, AnglePerMetre(), "shoe-sensing-printed")
+"""The same with the paper's three walking states, level, up and down, by the angle per metre of each stride."""
 
 SHOE_MAGNITUDE = Recipe(
     "acceleration-magnitude",
     AccelerationMagnitude(),
     ShoeSensing(ShoeSensingSettings(detector_delay=0.0)),
-    parts=usual_parts(activity=AnglePerMetre()),
+    parts=usual_parts(),
 )
 """Li et al.'s baseline: `SHOE_SENSING`, but with stance where the specific force is about 1 g."""
