@@ -59,11 +59,11 @@ def test_a_second_barometer_starts_at_the_height_of_the_first() -> None:
         heights.add(Foot.RIGHT, k, pressure(50.0 + 0.1 * k))
     before, after = heights.height(41, 42), heights.height(45, 46)
     assert before is not None and after is not None
-    assert after[0] - before[0] == pytest.approx(0.4, abs=0.01)
+    assert after[0] - before[0] == pytest.approx(0.4, abs=0.03)
     assert before[0] == pytest.approx(4.1, abs=0.2)
 
 
-def test_what_a_noisy_barometer_cannot_tell_from_one_block_it_tells_from_the_whole_flight() -> None:
+def test_a_noisy_barometer_shows_the_direction_of_a_flight_from_its_ends() -> None:
     noise = 0.5
     up, down = [], []
     for seed in range(40):
