@@ -84,10 +84,15 @@ class PressureHeight:
     """Number of heights in the block under way."""
     blocks: deque[tuple[int, float]] = field(factory=deque)
     """Number and mean height, m, of each of the newest blocks, oldest first."""
+    walked: bool = False
+    """Flag: the wearer has taken a stride. Before, no force can have shown that an elevator set off, and a slope of the
+    air pressure alone is no ride."""
+    faulty: list[Foot] = field(factory=list)
+    """Feet whose barometers contradict the strides, and are left out."""
 
     def add(self, foot: Foot, index: int, pressure: float) -> None:
         """Add a foot's air pressure, Pa, to the block number `index`."""
-        if not MIN_PRESSURE < pressure < MAX_PRESSURE:
+        if not MIN_PRESSURE < pressure < MAX_PRESSURE or foot in self.faulty:
             return
         reference = self.references.get(foot)
         if reference is None:
@@ -99,6 +104,19 @@ class PressureHeight:
             self.index = index
         self.height_sum += self.newest
         self.height_count += 1
+
+    def leave_out(self, foot: Foot) -> None:
+        """Stop to use a foot's barometer, and forget the heights to which it has contributed."""
+        if foot not in self.faulty:
+            self.faulty.append(foot)
+        self.references.pop(foot, None)
+        self.blocks.clear()
+        self.index, self.height_sum, self.height_count = None, 0.0, 0
+
+    def use_again(self, foot: Foot) -> None:
+        """Use a foot's barometer, or another one in its place."""
+        if foot in self.faulty:
+            self.faulty.remove(foot)
 
     def _close(self) -> None:
         if self.index is not None and self.height_count:
@@ -119,7 +137,7 @@ class PressureHeight:
         neighbours = [
             (i * block, height) for i, height in self.blocks if index - BLOCKS_BEFORE <= i <= index + BLOCKS_AFTER
         ]
-        if len(neighbours) < 3 or neighbours[-1][0] - neighbours[0][0] < MIN_SLOPE_SPAN:
+        if not self.walked or len(neighbours) < 3 or neighbours[-1][0] - neighbours[0][0] < MIN_SLOPE_SPAN:
             return NO_EVIDENCE
         n = len(neighbours)
         middle = fsum([t for t, _ in neighbours]) / n
