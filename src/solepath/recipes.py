@@ -14,6 +14,7 @@ from importlib import import_module
 from typing import Any
 
 from .body.activity.activities import Activities
+from .body.checks.air_pressure import AirPressure
 from .body.checks.clocks.foot_clocks import FootClocks
 from .body.checks.looseness import Looseness
 from .body.checks.motion import PossibleMotion
@@ -42,11 +43,13 @@ def usual_parts(
     """Return the parts of the body in the order that most recipes use.
 
     They are: SensorChecks, PossibleMotion, Looseness, Wear, the position of the wearer (`track`; MeanOfFeet when it is
-    None), the activity (`activity`; Activities when it is None), Turns, the height from elevators and air pressure
-    (`altitude`; when it is None, heights are those of the feet), FootClocks, and GaitCycles."""
+    None), AirPressure if there is an `altitude`, the activity (`activity`; Activities when it is None), Turns, the
+    height from elevators and air pressure (`altitude`; when it is None, heights are those of the feet), FootClocks, and
+    GaitCycles."""
     track, activity = track or MeanOfFeet(), activity or Activities()
     checks = (SensorChecks(), PossibleMotion(), Looseness())
-    parts = (*checks, Wear(), track, activity, Turns(), altitude, FootClocks(), GaitCycles())
+    pressure = None if altitude is None else AirPressure()
+    parts = (*checks, Wear(), track, pressure, activity, Turns(), altitude, FootClocks(), GaitCycles())
     return tuple([part for part in parts if part is not None])
 
 
@@ -142,6 +145,7 @@ PARTS: dict[str, str] = {
     "SensorChecks": _BODY + "checks.sensors",
     "PossibleMotion": _BODY + "checks.motion",
     "Looseness": _BODY + "checks.looseness",
+    "AirPressure": _BODY + "checks.air_pressure",
     "Wear": _BODY + "worn.wear",
     "MeanOfFeet": _BODY + "fuse.position",
     "BothFeet": _BODY + "fuse.both_feet",

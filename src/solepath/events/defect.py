@@ -50,6 +50,8 @@ class Defect(Enum):
     """Straight ways contradict the calibration of the heading: it is of other shoes or sensors, or too old."""
     COMPASS = "compass"
     """The magnetic field is none of the earth, or turns with the foot."""
+    AIR_PRESSURE = "air pressure"
+    """The air pressure changes by more or less than the height of the strides: by doors, or a faulty barometer."""
 
 
 @frozen(kw_only=True)

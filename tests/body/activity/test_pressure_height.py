@@ -24,7 +24,7 @@ def standing(noise: float, apart: float, seed: int, blocks: int = 240) -> list[t
 
     `noise` is that of a reading, m; the right barometer comes to read `apart` m more than the left one."""
     rng = np.random.default_rng(seed)
-    heights, scores = PressureHeight(), []
+    heights, scores = PressureHeight(walked=True), []
     for k in range(blocks):
         foot, offset = (Foot.LEFT, 0.0) if k % 2 else (Foot.RIGHT, apart * k / blocks)
         heights.add(foot, k, pressure(offset + noise * float(rng.standard_normal())))
@@ -100,7 +100,7 @@ def test_flights_of_any_usual_speed_are_flights_in_their_direction(sign: float) 
 
 
 def test_a_block_on_stairs_favours_their_direction() -> None:
-    heights = PressureHeight()
+    heights = PressureHeight(walked=True)
     for k in range(12):
         heights.add(Foot.LEFT, k, pressure(0.15 * k))
     scores = heights.score_slope(8, BLOCK)

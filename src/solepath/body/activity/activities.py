@@ -18,12 +18,12 @@ from collections.abc import Sequence
 from math import floor
 from typing import ClassVar, Final
 
-from ...events import Event, StrideFeatures, StrideTaken
+from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Site
 from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
-from ..part import ActivityPart, PartOutput
+from ..part import ActivityPart, PartInput, PartOutput
 from .activity_report import ActivityReport
 from .blocks.features import BLOCK_DURATION, MAX_LENGTH, MAX_RISE, WINDOW_REACH
 from .blocks.foot_blocks import MAX_STRIDE_TIME, FootBlocks
@@ -102,10 +102,17 @@ class Activities(ActivityPart):
         if site.foot is None:
             return
         (self.left if site.foot is LEFT else self.right).restart()
+        self.pressure_height.use_again(site.foot)
         self.flights.reset()
         self.strides.clear()
         if self.left.index is None and self.right.index is None:
             self._restart()
+
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+        """Leave out a barometer that contradicts the strides."""
+        if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE and event.site.foot is not None:
+            self.pressure_height.leave_out(event.site.foot)
+        return ()
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
@@ -219,6 +226,7 @@ class Activities(ActivityPart):
 
     def _add_stride(self, stride: StrideTaken, block: int) -> list[Event]:
         """Keep a stride that ends in a block for `flights`, and return the events by which its slope is reported."""
+        self.pressure_height.walked = True
         self.strides.append(_reduce(stride, stride.known_at))
         if len(self.strides) > MAX_WAITING_STRIDES:
             self.strides.popleft()

@@ -121,11 +121,16 @@ class PressureHeight:
     """Number of heights in the block under way."""
     blocks: deque[tuple[int, float, int]] = field(factory=deque)
     """Number, mean height, m, and number of readings of each of the newest blocks, oldest first."""
+    walked: bool = False
+    """Flag: the wearer has taken a stride. Before, no force can have shown that an elevator set off, and a slope of the
+    air pressure alone is no ride."""
+    faulty: list[Foot] = field(factory=list)
+    """Feet whose barometers contradict the strides, and are left out."""
 
     def add(self, foot: Foot, index: int, pressure: float) -> None:
         """Add a foot's air pressure, Pa, to the block number `index`."""
         height = height_of(pressure)
-        if height is None:
+        if height is None or foot in self.faulty:
             return
         barometer = self.barometers.get(foot)
         if barometer is None:
@@ -155,6 +160,19 @@ class PressureHeight:
                 barometer.offset += 0.5 * difference / self.compared
                 other.offset -= 0.5 * difference / self.compared
 
+    def leave_out(self, foot: Foot) -> None:
+        """Stop to use a foot's barometer, and forget the heights to which it has contributed."""
+        if foot not in self.faulty:
+            self.faulty.append(foot)
+        self.barometers = {one: readings for one, readings in self.barometers.items() if one is not foot}
+        self.blocks.clear()
+        self.index, self.height_sum, self.height_count = None, 0.0, 0
+
+    def use_again(self, foot: Foot) -> None:
+        """Use a foot's barometer, or another one in its place."""
+        if foot in self.faulty:
+            self.faulty.remove(foot)
+
     def _close(self) -> None:
         if self.index is not None and self.height_count:
             self.blocks.append((self.index, self.height_sum / self.height_count, self.height_count))
@@ -181,7 +199,7 @@ class PressureHeight:
             for i, height, count in self.blocks
             if index - BLOCKS_BEFORE <= i <= index + BLOCKS_AFTER
         ]
-        if len(near) < 3 or near[-1][0] - near[0][0] < MIN_SLOPE_SPAN:
+        if not self.walked or len(near) < 3 or near[-1][0] - near[0][0] < MIN_SLOPE_SPAN:
             return NO_EVIDENCE
         weights = fsum([weight for _, _, weight in near])
         middle = fsum([weight * t for t, _, weight in near]) / weights

@@ -23,7 +23,7 @@ from collections import deque
 from collections.abc import Sequence
 from typing import ClassVar
 
-from ...events import LiftRidden, StrideTaken
+from ...events import Defect, DefectFound, LiftRidden, StrideTaken
 from ...foot.view import FootView
 from ...types import Foot, Site
 from ...types.attrs import define, evolve, field
@@ -157,6 +157,8 @@ class Altitude(Part):
     """Variance of the height of all rides together, m^2."""
     strides: deque[tuple[float, float]] = field(factory=deque, init=False)
     """Start and end of each of the newest strides, in whole hundredths of a second."""
+    faulty: list[bool] = field(factory=lambda: [False, False], init=False)
+    """Flags of the left and the right barometer: it was reported as wrong, and is not used."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add the reading of a foot's barometer, if the sample has one."""
@@ -168,6 +170,8 @@ class Altitude(Part):
         if reading is None or not abs(z) < MAX_TRACK_HEIGHT:
             return ()
         source = LEFT if view.foot is Foot.LEFT else RIGHT
+        if self.faulty[source]:
+            return ()
         side = self.sides[source]
         side.total += reading - z
         side.count += 1
@@ -189,7 +193,22 @@ class Altitude(Part):
         if isinstance(event, LiftRidden):
             corrected = self._corrected_ride(event)
             return [Replacement(event, corrected), self._height_shift()]
+        if isinstance(event, DefectFound) and event.defect is Defect.AIR_PRESSURE:
+            return self._leave_out(LEFT if event.site.foot is Foot.LEFT else RIGHT)
         return ()
+
+    def _leave_out(self, source: int) -> Sequence[PartOutput]:
+        """Stop to use a barometer that is wrong, and undo its readings that are kept."""
+        self.faulty[source] = True
+        self._replace_inputs([entry for entry in self.inputs_kept.all() if entry[1] != source])
+        return [self._height_shift()]
+
+    def _replace_inputs(self, inputs: list[HeightInput]) -> None:
+        """Process other inputs than those that are kept, and keep them instead."""
+        self.inputs_kept.replace(inputs)
+        self.now = self.base.copy()
+        for entry in self.inputs_kept.all():
+            self._apply_input(self.now, entry)
 
     def _height_shift(self) -> HeightShift:
         return HeightShift(self.now.values[0], self.ride_variance)
@@ -199,7 +218,7 @@ class Altitude(Part):
         if site.foot is None:
             return
         source = LEFT if site.foot is Foot.LEFT else RIGHT
-        self.sides[source] = PendingReadings()
+        self.sides[source], self.faulty[source] = PendingReadings(), False
         self.now.read_at[source] = None
         self.base = self.now.copy()
         self.inputs_kept.clear()
@@ -240,10 +259,7 @@ class Altitude(Part):
         ]
         first = [entry for entry in inputs_kept if entry[0] <= end]
         later = [entry for entry in inputs_kept if entry[0] > end]
-        self.inputs_kept.replace([*first, (end, MOVE, by, variance), *later])
-        self.now = self.base.copy()
-        for entry in self.inputs_kept.all():
-            self._apply_input(self.now, entry)
+        self._replace_inputs([*first, (end, MOVE, by, variance), *later])
         height_gain = self.now.values[0] - previous
         self.ride_variance = min(self.ride_variance + min(variance, self.now.covariance[0]), UNKNOWN_VARIANCE)
         return evolve(ride, height=height_gain) if (height_gain > 0.0) is ride.up else ride

@@ -15,7 +15,7 @@ from ...emulate.routes.building import BUILDING
 from ...emulate.routes.ways import BuildingWalk
 from ...emulate.wearers.truth import Truth
 from ...emulate.wearers.walker import Walker
-from ...events import Event, Placed, PlaceLost, TurnMade
+from ...events import Candidate, Event, Placed, PlaceLost, TurnMade
 
 UNSCORED_TIME = 5.0
 """Time after stairs or an elevator ride in which no stride is scored, s."""
@@ -65,9 +65,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     dropped = wrong = strides = 0
     places = way.places(walker, np.array([one.t for one in placed])) if placed else []
     for k, (one, (level, x, y)) in enumerate(zip(placed, places, strict=True)):
-        is_true = [
-            c.level == level and hypot(c.position[0] - x, c.position[1] - y) < NEAR_DISTANCE for c in one.candidates
-        ]
+        is_true = [is_near(candidate, level, x, y) for candidate in one.candidates]
         if decided is None and is_true == [True]:
             decided = k + 1
         if decided is None:
@@ -85,6 +83,11 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     dropped += sum([is_on_floor(truth, t) for t in lost])
     path = tuple((x, y) for _, x, y in places)
     return PlaceScore(tuple(off), decided, dropped, wrong, strides, path, tuple(track), tuple(before))
+
+
+def is_near(candidate: Candidate, level: str, x: float, y: float) -> bool:
+    """Return whether a candidate counts as the true one of a wearer at x, y, m, plan frame, on a level."""
+    return candidate.level == level and hypot(candidate.position[0] - x, candidate.position[1] - y) < NEAR_DISTANCE
 
 
 def is_on_floor(truth: Truth, t: float) -> bool:

@@ -1,0 +1,122 @@
+"""Air pressure that changes although the wearer walks on the level, or does not change although they climb.
+
+The height by air pressure minus the height of the foot's track should stay as it is while the wearer walks. It does not
+behind a door of a pressurised room or stairwell, under ventilation that starts, with a barometer that drifts, and on
+stairs with one that is stuck. It is compared while the wearer takes strides only: a foot that stands does not show the
+height of an elevator."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import exp
+from typing import ClassVar
+
+from ...events import Defect, DefectFound, StrideTaken
+from ...foot.view import FootView
+from ...types import SITE_OF_FOOT, Foot, Site
+from ...types.attrs import define, field
+from ..height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE, height_of
+from ..part import Part, PartInput, PartOutput
+
+STRIDE_PAUSE = 2.5
+"""Longest time since a stride of either foot in which the wearer is still walking, s: twice a slow stride."""
+LEVEL_TIME = 5.0
+"""Time constant of the mean of the difference, s, and the time of walking before it is known."""
+LEAST_READINGS = 5
+"""Least number of readings in `LEVEL_TIME`."""
+MEMORY = 45.0
+"""Time of walking after which a change of the difference counts for 1/e, s.
+
+A slope of 3 %, which a track may take for level, changes the difference by less than `LARGEST_CHANGE` in that time."""
+LARGEST_CHANGE = 2.0
+"""Least change of the difference that is reported, m: 24 Pa.
+
+The difference of stairwells that are pressurised against smoke is 50 Pa (EN 12101-6). The error of a barometer whose
+readings have 0.5 m is 0.4 m over all ways on foot that `MEMORY` holds."""
+MAX_TRACK_HEIGHT = 1e5
+"""Largest height of a track that is used, m."""
+
+
+@define
+class Barometer:
+    """The difference of one foot's barometer: height by air pressure minus height of the track, m."""
+
+    mean: float = 0.0
+    """Mean of the newest differences, m."""
+    count: int = 0
+    """Number of readings since the wearer set off."""
+    since: float = 0.0
+    """Time at which the wearer set off, s."""
+    read_at: float = 0.0
+    """Time of the newest reading, s."""
+    change: float = 0.0
+    """Change of the difference while walking, m; what is long ago counts less."""
+    reported: bool = False
+
+    def add(self, t: float, difference: float) -> bool:
+        """Add a difference, m, of a wearer who walks, at `t`, s; return whether it has changed too much."""
+        if self.count == 0:
+            self.since = self.read_at = t
+        dt = max(0.0, t - self.read_at)
+        self.read_at = t
+        self.count += 1
+        step = max(1.0 / self.count, min(1.0, dt / LEVEL_TIME)) * (difference - self.mean)
+        self.mean += step
+        if self.count > LEAST_READINGS and t - self.since > LEVEL_TIME:
+            self.change = self.change * exp(-dt / MEMORY) + step
+        return not self.reported and abs(self.change) > LARGEST_CHANGE
+
+
+@define
+class AirPressure(Part):
+    """Reports air pressure that contradicts the heights of strides, as DefectFound, once for the barometer of a foot.
+
+    The parts after it no longer use that barometer. Latency: some seconds of walking."""
+
+    needs_samples: ClassVar[bool] = True
+    idle = True
+
+    left: Barometer = field(factory=Barometer, init=False)
+    right: Barometer = field(factory=Barometer, init=False)
+    stride_at: float | None = field(default=None, init=False)
+    """End of the newest stride of either foot, s; None before any."""
+
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
+        """Add the reading of a foot's barometer, if the sample has one."""
+        pressure = view.sample.air_pressure
+        if pressure is None:
+            return ()
+        t, z = view.t, view.position[2]
+        barometer = self.left if view.foot is Foot.LEFT else self.right
+        if self.stride_at is None or not 0.0 <= t - self.stride_at <= STRIDE_PAUSE:
+            barometer.count = 0
+            return ()
+        height = height_of(pressure)
+        if height is None or not abs(z) < MAX_TRACK_HEIGHT or not barometer.add(t, height - z):
+            return ()
+        barometer.reported = True
+        return [_found(t, view.known_at, SITE_OF_FOOT[view.foot], barometer.change)]
+
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+        """Receive strides, which show that the wearer walks."""
+        if isinstance(event, StrideTaken):
+            self.stride_at = event.t
+        return ()
+
+    def reset(self, site: Site) -> None:
+        """Forget what was found at a site, where another device is worn or the clock has restarted."""
+        if site.foot is Foot.LEFT:
+            self.left = Barometer()
+        elif site.foot is not None:
+            self.right = Barometer()
+        self.stride_at = None
+
+
+def _found(t: float, known_at: float, site: Site, change: float) -> DefectFound:
+    pascal = STANDARD_PRESSURE / SCALE_HEIGHT * abs(change)
+    what = (
+        f"the air pressure {'fell' if change > 0.0 else 'rose'} by {pascal:.0f} Pa against what the height of the "
+        "strides explains, as behind the door of a pressurised stairwell, or by a barometer that drifts or is stuck; "
+        "it is not used from now on. If no door and no ventilation explains it, replace the sensor"
+    )
+    return DefectFound(t=t, known_at=known_at, site=site, defect=Defect.AIR_PRESSURE, what=what, spoils=False)

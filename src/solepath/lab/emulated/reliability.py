@@ -1,0 +1,126 @@
+"""Weights of candidates against how often such a candidate is the true one, in the emulated building.
+
+    python -m solepath.lab.emulated.reliability [--walks N] [--seed S] [--json FILE]
+
+prints the table of docs/accuracy.md as Markdown. Every candidate of every scored stride (place.py) of walks without a
+known start is counted in the bin of its weight. Weights are calibrated when the share of true candidates in a bin is
+their mean weight. Strides of one walk are far from independent: the number of walks says how much a bin shows."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+from attrs import define, field
+
+from ... import recipes
+from ...emulate.routes.building import BUILDING
+from ...emulate.routes.ways import wandering
+from ...emulate.sensors.device import Device
+from ...emulate.sensors.insole_device import Insole
+from ...emulate.sensors.sensortags import CC2541
+from ...emulate.walk import emulate
+from ...emulate.wearers.shoe import IN_SOLE
+from ...events import Placed
+from ...floorplan.index import IndexedPlan
+from ...session import Session
+from ...types import SITE_OF_FOOT, Foot
+from .place import is_near, is_on_floor
+
+FIRST_SEED, WALKS = 5001, 25
+"""First seed and number of walks."""
+BINS = 10
+"""Number of bins of equal width; a candidate that is the only one has a bin of its own after them."""
+DEVICES: dict[str, Device] = {"default": Insole(cells=8), "footstep-tracker": CC2541(rate=20.0, mounting=IN_SOLE)}
+"""Device on both feet by the name of the recipe."""
+TITLES = {"default": "`default`, insoles", "footstep-tracker": "`footstep-tracker`, CC2541"}
+
+
+@define
+class WeightBin:
+    """The candidates whose weights lie in one bin."""
+
+    count: int = 0
+    true: int = 0
+    """Number of those that were the true candidate."""
+    weight_sum: float = 0.0
+    seeds: set[int] = field(factory=set)
+    """Seeds of the walks that have one of them."""
+
+    @property
+    def mean_weight(self) -> float | None:
+        """Mean weight; None without candidates."""
+        return self.weight_sum / self.count if self.count else None
+
+    @property
+    def share_true(self) -> float | None:
+        """Share that was true; None without candidates."""
+        return self.true / self.count if self.count else None
+
+
+def candidates(recipe: str, seed: int) -> Iterator[tuple[float, bool, bool]]:
+    """Yield weight, whether it is the only candidate, and whether it is the true one, of each scored candidate."""
+    way = wandering(seed)
+    walk = emulate(way.route, devices={SITE_OF_FOOT[foot]: DEVICES[recipe] for foot in Foot}, seed=seed)
+    session = Session(recipes.by_name(recipe), floorplan=IndexedPlan(BUILDING))
+    placed = [event for event in session.feed(walk.packets) + session.finish() if isinstance(event, Placed)]
+    places = way.places(walk.walker, np.array([one.t for one in placed])) if placed else []
+    for one, place in zip(placed, places, strict=True):
+        if is_on_floor(walk.truth, one.t):
+            for candidate in one.candidates:
+                yield candidate.weight, len(one.candidates) == 1, is_near(candidate, *place)
+
+
+def reliability(recipe: str, seeds: Sequence[int]) -> list[WeightBin]:
+    """Return the bins of all walks, with that of only candidates at the end."""
+    bins = [WeightBin() for _ in range(BINS + 1)]
+    for seed in seeds:
+        for weight, is_only, is_true in candidates(recipe, seed):
+            one = bins[BINS if is_only else min(int(weight * BINS), BINS - 1)]
+            one.count, one.true, one.weight_sum = one.count + 1, one.true + is_true, one.weight_sum + weight
+            one.seeds.add(seed)
+    return bins
+
+
+def table(results: dict[str, list[WeightBin]]) -> list[str]:
+    """Return the table as Markdown: for each recipe mean weight, share true, and numbers of candidates and walks."""
+    lines = ["| weight | " + " | ".join(TITLES[recipe] for recipe in results) + " |", "|---|" + "---:|" * len(results)]
+    for k in range(BINS + 1):
+        name = "the only one" if k == BINS else f"{k / BINS:.1f} to {(k + 1) / BINS:.1f}"
+        cells = []
+        for bins in results.values():
+            weight, share = bins[k].mean_weight, bins[k].share_true
+            if weight is None or share is None:
+                cells.append("")
+            else:
+                cells.append(f"{weight:.3f}: {share:.3f} ({bins[k].count} in {len(bins[k].seeds)})")
+        lines.append(f"| {name} | {' | '.join(cells)} |")
+    return lines
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(prog="python -m solepath.lab.emulated.reliability", description=__doc__)
+    parser.add_argument("--walks", metavar="N", type=int, default=WALKS, help="number of walks of each recipe")
+    parser.add_argument("--seed", metavar="S", type=int, default=FIRST_SEED, help="first seed")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write the figures too")
+    options = parser.parse_args(arguments)
+    seeds = range(options.seed, options.seed + options.walks)
+    results = {recipe: reliability(recipe, seeds) for recipe in DEVICES}
+    print("\n".join(table(results)))
+    if options.json is not None:
+        figures = {
+            recipe: [
+                {"count": one.count, "true": one.true, "mean_weight": one.mean_weight, "walks": len(one.seeds)}
+                for one in bins
+            ]
+            for recipe, bins in results.items()
+        }
+        options.json.write_text(json.dumps({"walks": options.walks, "seed": options.seed, "bins": figures}, indent=1))
+
+
+if __name__ == "__main__":
+    main()

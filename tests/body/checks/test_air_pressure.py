@@ -1,0 +1,119 @@
+"""Air pressure that is not that of the height: doors of pressurised rooms, barometers that drift or are stuck."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from math import exp, pi
+from typing import Any
+
+import pytest
+from attrs import evolve
+
+from solepath import ActivityChanged, DefectFound, LiftRidden, Sample, Session, StrideTaken
+from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
+from solepath.emulate import Insole, Route, sampled
+from solepath.emulate.walk import SampledWalk
+from solepath.events import Defect, Event, FlightClimbed
+from solepath.types import Activity, Foot, Site
+
+FEET = {Site.LEFT_FOOT: Foot.LEFT, Site.RIGHT_FOOT: Foot.RIGHT}
+RIDE = 6.8
+LEVEL = Route(speed=1.2).stand(25.0).walk(30.0).stand(20.0).walk(10.0).stop(2.0)
+LIFT = Route(speed=1.2).stand(2.0).walk(20.0).turn(pi).lift(RIDE, speed=1.4).walk(30.0).stop(2.0)
+STAIRS = Route(speed=1.2).stand(2.0).walk(12.0).stairs(20, True, 0.17, 0.29).walk(20.0).stop(2.0)
+Disturb = Callable[[float, float], float]
+"""Function of the time, s, and of the true air pressure, Pa."""
+
+
+@cache
+def walked(route: Route) -> SampledWalk:
+    return sampled(route, insoles={site: Insole(cells=24) for site in FEET}, seed=101)
+
+
+def true(t: float, pascal: float) -> float:
+    return pascal
+
+
+def drifts(t: float, pascal: float) -> float:
+    return pascal - 10.0 * t
+
+
+def door(t: float, pascal: float) -> float:
+    return pascal - (50.0 if t > 35.0 else 0.0)
+
+
+def stuck(t: float, pascal: float) -> float:
+    return STANDARD_PRESSURE
+
+
+@cache
+def session(route: Route, disturb: Disturb) -> tuple[Session, list[Event]]:
+    """Return a session, and its events, of a walk whose feet read a barometer once a second."""
+    walk, read, samples = walked(route), dict[Site, float](), list[Sample]()
+    for sample in walk.samples:
+        if sample.t - read.get(sample.site, -9.0) >= 1.0:
+            read[sample.site] = sample.t
+            z = float(walk.truth.pose(FEET[sample.site], sample.t).position.flat[2])
+            pascal = disturb(sample.t, STANDARD_PRESSURE * exp(-z / SCALE_HEIGHT))
+            sample = evolve(sample, air_pressure=pascal)
+        samples.append(sample)
+    one = Session()
+    return one, one.feed(samples) + one.finish()
+
+
+def defects(events: list[Event]) -> list[DefectFound]:
+    return [event for event in events if isinstance(event, DefectFound)]
+
+
+def height(one: Session) -> float:
+    assert one.position is not None
+    return one.position.position[2]
+
+
+@pytest.mark.parametrize("route", [LEVEL, LIFT, STAIRS])
+def test_a_barometer_that_shows_the_height_is_not_reported(route: Route) -> None:
+    assert not defects(session(route, true)[1])
+
+
+@pytest.mark.parametrize("disturb", [drifts, door])
+def test_pressure_alone_is_neither_a_ride_nor_stairs(disturb: Disturb) -> None:
+    one, events = session(LEVEL, disturb)
+    reported = {event.activity for event in events if isinstance(event, ActivityChanged)}
+    assert reported <= {Activity.STANDING, Activity.WALKING, Activity.UNKNOWN}
+    assert not [event for event in events if isinstance(event, LiftRidden | FlightClimbed)]
+    assert abs(height(one)) < 0.3
+
+
+@pytest.mark.parametrize(("route", "disturb"), [(LEVEL, drifts), (LEVEL, door), (STAIRS, stuck)])
+def test_it_is_reported_once_for_each_foot_and_no_stride_is_degraded_by_it(route: Route, disturb: Disturb) -> None:
+    _, events = session(route, disturb)
+    found = defects(events)
+    assert {event.defect for event in found} == {Defect.AIR_PRESSURE} and not any(event.spoils for event in found)
+    assert sorted(event.site.value for event in found) == ["left_foot", "right_foot"]
+    assert all(" Pa " in event.what for event in found)
+    assert not any(event.degraded for event in events if isinstance(event, StrideTaken))
+
+
+def test_a_lift_is_as_high_as_its_pulses_when_the_barometer_drifts() -> None:
+    one, events = session(LIFT, drifts)
+    (ride,) = [event for event in events if isinstance(event, LiftRidden)]
+    assert ride.height == pytest.approx(RIDE, abs=0.1 * RIDE) and height(one) == pytest.approx(RIDE, abs=0.1 * RIDE)
+
+
+def test_stairs_are_climbed_with_a_barometer_that_is_stuck() -> None:
+    one, events = session(STAIRS, stuck)
+    (flight,) = [event for event in events if isinstance(event, FlightClimbed)]
+    assert flight.up and height(one) == pytest.approx(3.4, abs=0.4)
+
+
+def test_another_device_at_the_foot_is_used_again() -> None:
+    one, _ = session(LEVEL, drifts)
+    again = Session.restore(one.snapshot())
+    assert again.snapshot() == one.snapshot()
+    parts: dict[str, Any] = {type(part).__name__: part for part in one._state.wearer.parts}
+    activities, altitude = parts["Activities"], parts["Altitude"]
+    assert altitude.faulty == [True, True] and set(activities.pressure_height.faulty) == set(Foot)
+    for part in parts.values():
+        part.reset(Site.LEFT_FOOT)
+    assert altitude.faulty == [False, True] and activities.pressure_height.faulty == [Foot.RIGHT]
