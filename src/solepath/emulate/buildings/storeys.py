@@ -132,9 +132,9 @@ class Building:
     rows: tuple[float, ...]
     """Coordinates y of the middle lines of the corridors that run east, from the first column to the last one, m."""
     cabins: tuple[Cabin, ...]
-    """Elevators."""
+    """Cabins of the elevators."""
     wells: tuple[Well, ...]
-    """Staircases."""
+    """Stairwells of the building."""
     room_rows: tuple[RoomRow, ...]
     """Rows of rooms; together with the corridors they fill a floor."""
 

@@ -61,7 +61,7 @@ class Walker:
         sensor_mountings = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
         feet = {foot: foot_truth(foot, self.plan, self.motions[foot], sensor_mountings[foot]) for foot in Foot}
         plan = self.plan
-        return Truth(plan.duration, feet, activities(plan), plan.climbs, plan.rides, plan)
+        return Truth(plan.duration, feet, activities(plan), plan.climbs, plan.rides, plan.escalators, plan)
 
     def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
         """Return the exact motion of a foot's sensor at times `t`, s."""
