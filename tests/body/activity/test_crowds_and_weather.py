@@ -2,7 +2,7 @@
 
 Not asserted, because it fails: a door that changes the pressure by 10 Pa or more while a wearer with SensorTags stands
 is often reported as a ride, and so is an escalator on which the wearer stands; with SensorTags a halt in a crowd is now
-and then taken for a lift for two seconds."""
+and then taken for a lift."""
 
 from __future__ import annotations
 

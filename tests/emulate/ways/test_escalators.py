@@ -160,7 +160,7 @@ def test_an_escalator_has_a_height(height: float, walking: bool) -> None:
         Route().walk(2.0).escalator(height, walking=walking)
 
 
-def test_who_turns_back_below_comes_up_again_where_the_way_began() -> None:
+def test_who_turns_back_below_comes_up_again_where_it_started() -> None:
     route = (
         Route().stand(1.0).walk(2.0).escalator(-4.0).walk(1.0).turn(pi).walk(1.0).escalator(4.0).walk(2.0).stand(1.0)
     )

@@ -63,7 +63,7 @@ class Escalator:
         return 2.0 * (LEVEL_LENGTH + BEND_RADIUS * sin(INCLINE)) + self.incline_length * cos(INCLINE)
 
 
-class MovingGround(Protocol):
+class GroundRide(Protocol):
     """Something that moves the ground under both feet for a time."""
 
     @property

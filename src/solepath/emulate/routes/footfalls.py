@@ -31,7 +31,7 @@ class Footfall:
 
 
 @frozen(eq=False)
-class Footfalls:
+class FootfallPlan:
     """The footfalls of a wearer, drawn in the order of the steps."""
 
     wearer: Wearer

@@ -15,7 +15,7 @@ from ..wearers.gait import SETTLE_TIME, Climb, PlannedStride, WalkPlan, Wearer, 
 from .actions import Stage, Stand, stages
 from .elevator import CarRide, ride
 from .escalator import PAUSE, EscalatorRide, ride_escalator, ride_time
-from .footfalls import Footfall, Footfalls
+from .footfalls import Footfall, FootfallPlan
 from .path import LEFT, RIGHT, ElevatorStage, EscalatorStage, Flight, Pivot, Pose, WalkPath
 from .route import Route
 from .styles import StrideKind, style_of
@@ -35,7 +35,7 @@ class _Planner:
     def __init__(self, wearer: Wearer, rng: Rng) -> None:
         self.wearer = wearer
         self.rng = rng
-        self.footfalls = Footfalls(wearer, rng)
+        self.footfalls = FootfallPlan(wearer, rng)
         self.t = 0.0
         self.next_foot = wearer.first_foot
         self.last_heel_strike: float | None = None  # None while standing

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
-from ..routes.escalator import MovingGround
+from ..routes.escalator import GroundRide
 from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
 from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer
@@ -81,7 +81,7 @@ class Loads:
     """Shift of the load to the left in each stance, m, and time at which it starts to decay at a halt, s, (n, 2)."""
     forefoot_shares: dict[Foot, Array]
     """Share of the load that lands on the forefoot in each stance, (n)."""
-    rides: tuple[MovingGround, ...] = ()
+    rides: tuple[GroundRide, ...] = ()
     """Rides of the wearer in elevators and on escalators."""
 
     def total(self, foot: Foot, t: Array) -> Array:
