@@ -1,4 +1,4 @@
-"""The emulated building is a valid plan, and no walk in it crosses a wall."""
+"""The emulated buildings are valid plans, and no walk in them crosses a wall."""
 
 from itertools import pairwise
 from math import hypot
@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from here import EXAMPLES
 
-from solepath.emulate.routes.building import BUILDING, CABINS, EAST, NORTH, STOREY
+from solepath.emulate.buildings.storeys import STOREY, Building
+from solepath.emulate.routes.building import BUILDING, CABINS, EAST, FOUR_LOOPS, HALF_TURN, NORTH, ONE_SIDED
 from solepath.emulate.routes.ways import BuildingWalk, case_study, corridor, wandering
 from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.checks import find_fault, find_warnings
@@ -18,11 +19,21 @@ from solepath.types import Foot
 
 LEVEL = {level.id: number for number, level in enumerate(BUILDING.levels)}
 SEEDS = range(101, 113)
+BUILDINGS = {"four loops": FOUR_LOOPS, "one-sided": ONE_SIDED, "half-turn": HALF_TURN}
+OTHER_WAYS = {
+    f"{name} {seed}": wandering(seed, BUILDINGS[name]) for name in ("one-sided", "half-turn") for seed in range(1, 7)
+}
+"""Walks through the other buildings by name."""
 
 
 @pytest.fixture(scope="module")
 def plan() -> IndexedPlan:
     return IndexedPlan(BUILDING)
+
+
+@pytest.fixture(scope="module")
+def plans() -> dict[str, IndexedPlan]:
+    return {one.name: IndexedPlan(one.plan) for one in BUILDINGS.values()}
 
 
 def test_the_building_has_two_floors_of_56_by_63_metres_with_four_elevators_and_two_staircases() -> None:
@@ -59,14 +70,77 @@ def walked(way: BuildingWalk, seed: int) -> tuple[Walker, np.ndarray, list[tuple
     return walker, t, way.places(walker, t)
 
 
-@pytest.mark.parametrize("way", [case_study(), corridor(), *map(wandering, SEEDS)], ids=["case", "corridor", *SEEDS])
-def test_no_walk_crosses_a_wall(plan: IndexedPlan, way: BuildingWalk) -> None:
+WAYS = {"case": case_study(), "corridor": corridor(), **{str(seed): wandering(seed) for seed in SEEDS}, **OTHER_WAYS}
+
+
+@pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
+def test_no_walk_crosses_a_wall(plans: dict[str, IndexedPlan], way: BuildingWalk) -> None:
     _, _, places = walked(way, 7)
+    plan = plans[way.building.name]
     for (level, x0, y0), (_, x1, y1) in pairwise(places):
         assert not plan.crosses(LEVEL[level], x0, y0, x1, y1)
         assert plan.inside(LEVEL[level], x0, y0)
         for aside, up in ((0.4, 0.0), (-0.4, 0.0), (0.0, 0.4), (0.0, -0.4)):
             assert not plan.crosses(LEVEL[level], x0, y0, x0 + aside, y0 + up)  # nor with a shoulder
+
+
+def wall_marks(building: Building) -> set[tuple[int, int]]:
+    """Return a mark every decimetre along the walls and the doors of the upper floor, in decimetres."""
+    level = building.plan.levels[1]
+    marks: set[tuple[int, int]] = set()
+    for (x0, y0), (x1, y1) in [(one.start, one.end) for one in (*level.walls, *level.doors)]:
+        count = max(1, round(10.0 * hypot(x1 - x0, y1 - y0)))
+        shares = [(k + 0.5) / count for k in range(count)]
+        marks |= {(round(10.0 * (x0 + (x1 - x0) * s)), round(10.0 * (y0 + (y1 - y0) * s))) for s in shares}
+    return marks
+
+
+def turned_share(building: Building, *, turn_x: bool, turn_y: bool) -> float:
+    """Return the share of walls that lie on walls when x, y or both are mirrored about the middle of the building."""
+    marks = wall_marks(building)
+    near = {(x + i, y + j) for x, y in marks for i in (-1, 0, 1) for j in (-1, 0, 1)}
+    width, depth = (round(10.0 * one) for one in building.size)
+    images = [(width - x if turn_x else x, depth - y if turn_y else y) for x, y in marks]
+    return sum(image in near for image in images) / len(images)
+
+
+def test_one_building_is_the_same_after_half_a_turn_and_the_others_are_not() -> None:
+    assert turned_share(HALF_TURN, turn_x=True, turn_y=True) == 1.0
+    for other in (FOUR_LOOPS, ONE_SIDED):
+        assert turned_share(other, turn_x=True, turn_y=True) < 0.7
+
+
+@pytest.mark.parametrize("name", BUILDINGS)
+def test_no_building_is_its_own_mirror_image(name: str) -> None:
+    for turn_x in (False, True):
+        assert turned_share(BUILDINGS[name], turn_x=turn_x, turn_y=not turn_x) < 0.8
+
+
+def test_lifts_and_stairs_of_the_one_sided_building_are_in_its_west() -> None:
+    assert all(stop.place[0] < EAST / 3.0 for one in ONE_SIDED.plan.connectors for stop in one.stops)
+    assert len(ONE_SIDED.cabins) == 2 and len(ONE_SIDED.wells) == 2
+
+
+def test_whoever_is_turned_with_the_building_is_as_far_from_its_lifts_and_stairs() -> None:
+    """The turn takes each lift to another lift, and the stairs to the other stairs."""
+    for ours in (HALF_TURN.cabins, HALF_TURN.wells):
+        middles = [(0.5 * (one.box[0] + one.box[2]), 0.5 * (one.box[1] + one.box[3])) for one in ours]
+        images = sorted((EAST - x, NORTH - y) for x, y in middles)
+        assert np.array(images) == pytest.approx(np.array(sorted(middles)))
+
+
+@pytest.mark.parametrize("name", BUILDINGS)
+def test_every_building_is_a_valid_plan_of_its_size(name: str) -> None:
+    building = BUILDINGS[name]
+    assert find_fault(building.plan) is None and find_warnings(building.plan) == ()
+    for level in building.plan.levels:
+        ends = np.array([point for wall in level.walls for point in (wall.start, wall.end)])
+        assert tuple(ends.min(axis=0)) == (0.0, 0.0) and tuple(ends.max(axis=0)) == building.size
+
+
+@pytest.mark.parametrize("way", OTHER_WAYS.values(), ids=OTHER_WAYS)
+def test_a_walk_through_another_building_uses_its_lifts_and_stairs(way: BuildingWalk) -> None:
+    assert way.entry != way.exit and {way.entry, way.exit} <= {one.name for one in way.building.plan.connectors}
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -8,7 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strides import in_order
 
-from solepath.emulate.routes.route import Pivot, Route, TurnAction, stages
+from solepath.emulate.routes.actions import TurnAction, stages
+from solepath.emulate.routes.path import Pivot
+from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
@@ -109,12 +111,18 @@ def test_speed_is_step_length_times_cadence() -> None:
 def test_a_route_knows_its_length_and_its_halts() -> None:
     route = Route().stand(1).walk(10, 1.3).turn(pi, 2.0).turn(pi / 2).walk(3).stop(1)
     assert route.length == pytest.approx(10 + 2 * pi + 3)
-    assert [type(stage).__name__ for stage in stages(route)] == ["Stand", "WalkPath", "Pivot", "WalkPath", "Stand"]
+    assert [type(stage).__name__ for stage in stages(route.actions)] == [
+        "Stand",
+        "WalkPath",
+        "Pivot",
+        "WalkPath",
+        "Stand",
+    ]
     assert route.end.heading == pytest.approx(1.5 * pi)
     assert hypot(route.end.x - 10, route.end.y - 1) == pytest.approx(
         0.0, abs=1e-9
     )  # the pivot turned it down the y axis
-    assert isinstance(stages(route)[2], Pivot) and isinstance(route.actions[2], TurnAction)
+    assert isinstance(stages(route.actions)[2], Pivot) and isinstance(route.actions[2], TurnAction)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, float("nan"), float("inf")])

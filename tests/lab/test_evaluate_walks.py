@@ -8,7 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from solepath import recipes
-from solepath.emulate.routes.route import Route, Stairs, TurnAction
+from solepath.emulate.routes.actions import Stairs, TurnAction
+from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.lab.emulated.heading import EQUIPMENT, HeadingTrack, heading_figures, is_half_hour, score_heading
 from solepath.lab.emulated.heading_walks import KINDS, heading_route

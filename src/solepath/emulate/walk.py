@@ -19,6 +19,7 @@ from attrs import frozen
 from ..types import SITE_OF_FOOT, Foot, Packet, Sample, Site
 from .radio import CLEAN, Radio
 from .routes.route import Route
+from .sensors.air import STILL_AIR, Air
 from .sensors.device import Device, device_rng, foot_of
 from .sensors.insole_device import Insole
 from .sensors.magnetic_field import UNDISTURBED, MagneticField
@@ -46,15 +47,16 @@ def emulate(
     devices: Mapping[Site, Device] | None = None,
     radio: Radio = CLEAN,
     field: MagneticField = UNDISTURBED,
+    air: Air = STILL_AIR,
     seed: int = 1,
 ) -> EmulatedWalk:
-    """Return the packets and the truth of a walk on `route`.
+    """Return the packets and the truth of a walk on `route`, in this magnetic field and this air.
 
     Without `devices`, both feet wear insoles of 96 cells at 100 Hz. Sites above the ankle can wear only a Dot;
     any other device raises ValueError there."""
     if devices is None:
         devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
-    walker = Walker(route, wearer, seed, field)
+    walker = Walker(route, wearer, seed, field, air)
     sites = list(Site)
     packets: list[Packet] = []
     for site in sorted(devices, key=sites.index):

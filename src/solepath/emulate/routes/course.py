@@ -1,4 +1,4 @@
-"""Builder of a route through BUILDING, which knows the position on the plan while moves are added."""
+"""Builder of a route through a building, which knows the position on the plan while moves are added."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from math import atan2, cos, hypot, pi, sin, tan
 from attrs import Factory, define
 
 from ...floorplan.plan import Point, Start
-from .building import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
+from ..buildings.storeys import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
 from .path import ahead
 from .route import TIGHT_TURN_SPEED, Route
 
@@ -25,7 +25,7 @@ OTHER_LEVEL = {GROUND: UPPER, UPPER: GROUND}
 
 @define
 class Course:
-    """A route through BUILDING that grows move by move."""
+    """A route through a building that grows move by move."""
 
     level: str
     """Id of the level where the route ends so far."""

@@ -10,10 +10,12 @@ elevators in good order: 10 to 15 milli-g from peak to peak. The frequencies bet
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import sqrt
 
 import numpy as np
 from attrs import frozen
+from numpy.typing import NDArray
 
 from ..wearers.curves import Array, Rng
 
@@ -80,27 +82,46 @@ class CarRide:
         position[:, 2] = np.where(inside, z + s * (v + s * (a / 2.0 + s * j / 6.0)), self.height * (elapsed > 0.0))
         velocity[:, 2] = np.where(inside, v + s * (a + s * j / 2.0), 0.0)
         acceleration[:, 2] = np.where(inside, a + s * j, 0.0)
-        fade, slope, bend = self._fade(elapsed[inside])
-        for axis in range(3):
-            for size, w, phase in self.waves[axis]:
-                # A sine of acceleration `size` has the position size / w^2; the product rule applies the fade.
-                displacement = np.sin(w * elapsed[inside] + phase) * size / w**2
-                turn = np.cos(w * elapsed[inside] + phase) * size / w
-                position[inside, axis] += fade * displacement
-                velocity[inside, axis] += slope * displacement + fade * turn
-                acceleration[inside, axis] += bend * displacement + 2.0 * slope * turn - fade * w**2 * displacement
+        add_vibration(elapsed, inside, self.end - self.start, self.waves, (position, velocity, acceleration))
         return position, velocity, acceleration
 
-    def _fade(self, elapsed: Array) -> tuple[Array, Array, Array]:
-        """Return a factor that rises from 0 to 1 within FADE_TIME s and falls at the end, and its two derivatives."""
-        margin = np.minimum(elapsed, self.end - self.start - elapsed)
-        sign = np.where(elapsed < self.end - self.start - elapsed, 1.0, -1.0)
-        u = np.minimum(margin / FADE_TIME, 1.0)
-        return (
-            u**3 * (10.0 - 15.0 * u + 6.0 * u**2),
-            sign * 30.0 * u**2 * (1.0 - u) ** 2 / FADE_TIME,
-            60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / FADE_TIME**2,
-        )
+
+def add_vibration(
+    elapsed: Array, inside: NDArray[np.bool_], duration: float, waves: Array, motion: Sequence[Array]
+) -> None:
+    """Add the vibration of a ride of `duration` s to position, velocity and acceleration, (N, 3) each, where `inside`.
+
+    `elapsed` (N) is the time since the start, s, and `waves` are those of `CarRide`."""
+    position, velocity, acceleration = motion
+    fade, slope, bend = _fade(elapsed[inside], duration)
+    for axis in range(3):
+        for size, w, phase in waves[axis]:
+            # A sine of acceleration `size` has the position size / w^2; the product rule applies the fade.
+            displacement = np.sin(w * elapsed[inside] + phase) * size / w**2
+            turn = np.cos(w * elapsed[inside] + phase) * size / w
+            position[inside, axis] += fade * displacement
+            velocity[inside, axis] += slope * displacement + fade * turn
+            acceleration[inside, axis] += bend * displacement + 2.0 * slope * turn - fade * w**2 * displacement
+
+
+def draw_waves(rng: Rng) -> Array:
+    """Return a random vibration: amplitude, angular frequency and phase as in `CarRide.waves`."""
+    size = np.array(VIBRATION_AMPLITUDE)[:, None] * np.ones(SINES_PER_AXIS)
+    turning = 2.0 * np.pi * np.asarray(rng.uniform(*VIBRATION_BAND, (3, SINES_PER_AXIS)))
+    phase = np.asarray(rng.uniform(0.0, 2.0 * np.pi, (3, SINES_PER_AXIS)))
+    return np.stack((size, turning, phase), axis=2)
+
+
+def _fade(elapsed: Array, duration: float) -> tuple[Array, Array, Array]:
+    """Return a factor that rises from 0 to 1 within FADE_TIME s and falls at the end, and its two derivatives."""
+    margin = np.minimum(elapsed, duration - elapsed)
+    sign = np.where(elapsed < duration - elapsed, 1.0, -1.0)
+    u = np.minimum(margin / FADE_TIME, 1.0)
+    return (
+        u**3 * (10.0 - 15.0 * u + 6.0 * u**2),
+        sign * 30.0 * u**2 * (1.0 - u) ** 2 / FADE_TIME,
+        60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / FADE_TIME**2,
+    )
 
 
 def ride(elevator: Elevator, start: float, rng: Rng) -> CarRide:
@@ -114,11 +135,7 @@ def ride(elevator: Elevator, start: float, rng: Rng) -> CarRide:
         v, a = v + duration * (a + duration * jerk / 2.0), a + duration * jerk
         knots.append(knots[-1] + duration)
         rows.append((z, v, a, 0.0))
-    size = np.array(VIBRATION_AMPLITUDE)[:, None] * np.ones(SINES_PER_AXIS)
-    turning = 2.0 * np.pi * np.asarray(rng.uniform(*VIBRATION_BAND, (3, SINES_PER_AXIS)))
-    phase = np.asarray(rng.uniform(0.0, 2.0 * np.pi, (3, SINES_PER_AXIS)))
-    waves = np.stack((size, turning, phase), axis=2)
-    return CarRide(start, start + knots[-1], elevator.height, np.array(knots), up * np.array(rows), waves)
+    return CarRide(start, start + knots[-1], elevator.height, np.array(knots), up * np.array(rows), draw_waves(rng))
 
 
 def _jerk_phases(elevator: Elevator) -> list[_JerkPhase]:

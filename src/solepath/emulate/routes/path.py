@@ -9,6 +9,7 @@ from attrs import evolve, frozen
 
 from ..wearers.curves import Array
 from .elevator import Elevator
+from .escalator import Escalator
 from .styles import MIN_RUNNING_SPEED, RUN_ACCELERATION
 
 EDGE_DISTANCE_UP, EDGE_DISTANCE_DOWN = 0.25, 0.17
@@ -43,6 +44,8 @@ class Flight:
     """Height of a riser, m; negative downwards."""
     going: float
     """Distance between risers, m."""
+    escalator: Escalator | None = None
+    """Escalator whose steps these are; None for a flight that does not move."""
 
     @property
     def height(self) -> float:
@@ -133,6 +136,12 @@ class Piece:
     """Slope of a ramp along the piece, as rise over run, no unit; 0 on the level and on stairs."""
     direction: float = 0.0
     """Angle from the heading of the feet to the direction of the piece, rad; a straight line when it is not 0."""
+
+    def leads_on_to(self, following: Piece) -> bool:
+        """Return whether a wearer goes on to the next piece without bringing the feet together."""
+        if self.flight is None and following.flight is None and self.spacing != following.spacing:
+            return False
+        return self.direction == following.direction
 
     def at(self, s: float) -> Pose:
         """Return the pose `s` m from the start; on stairs the height is that of a ramp over them."""
@@ -252,3 +261,18 @@ class ElevatorStage:
     def end(self) -> Pose:
         """Pose after the ride."""
         return evolve(self.start, z=self.start.z + self.elevator.height)
+
+
+@frozen
+class EscalatorStage:
+    """A ride on an escalator, standing, as a stage of a route."""
+
+    start: Pose
+    """Pose before the ride."""
+    escalator: Escalator
+    """Parameters of the ride."""
+
+    @property
+    def end(self) -> Pose:
+        """Pose after the ride, without the displacement by the escalator."""
+        return self.start

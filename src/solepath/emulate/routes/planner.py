@@ -7,16 +7,18 @@ from __future__ import annotations
 from math import cos, hypot, sin
 
 import numpy as np
-from attrs import evolve, frozen
+from attrs import evolve
 
 from ...types import Foot
 from ..wearers.curves import Rng
 from ..wearers.gait import SETTLE_TIME, Climb, PlannedStride, WalkPlan, Wearer, double_support
+from .actions import Stage, Stand, stages
 from .elevator import CarRide, ride
-from .path import AHEAD, BACK, LEFT, RIGHT, ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath
-from .route import Route, Stage, Stand, stages
-from .styles import BACKWARDS_RATIO, SIDE_STEP, StrideKind, running_cadence, style_of
-from .wander import Wander
+from .escalator import PAUSE, EscalatorRide, ride_escalator, ride_time
+from .footfalls import Footfall, FootfallPlan
+from .path import LEFT, RIGHT, ElevatorStage, EscalatorStage, Flight, Pivot, Pose, WalkPath
+from .route import Route
+from .styles import StrideKind, style_of
 
 HEIGHT_TOLERANCE = 1e-6
 """Difference in height below which two floors are the same, m."""
@@ -26,29 +28,14 @@ _MIN_FLAT_TIME, _MIN_PUSH_OFF_TIME = 0.04, 0.06
 
 def plan(route: Route, wearer: Wearer, rng: Rng) -> WalkPlan:
     """Return the positions and times of the strides on `route`; `rng` draws all variations of the gait."""
-    return _Planner(wearer, rng).run(stages(route))
-
-
-@frozen
-class _Footfall:
-    """One planned step whose times are not known yet."""
-
-    pose: Pose
-    """Pose on the centre line of the path."""
-    speed: float
-    """Speed along the path, m/s."""
-    duration: float
-    """Mean duration of the step, s."""
-    curvature: float = 0.0
-    """Curvature of the path at the footfall, 1/m; positive to the left."""
-    kind: StrideKind = StrideKind.WALK
-    flight: Flight | None = None
+    return _Planner(wearer, rng).run(stages(route.actions))
 
 
 class _Planner:
     def __init__(self, wearer: Wearer, rng: Rng) -> None:
         self.wearer = wearer
         self.rng = rng
+        self.footfalls = FootfallPlan(wearer, rng)
         self.t = 0.0
         self.next_foot = wearer.first_foot
         self.last_heel_strike: float | None = None  # None while standing
@@ -59,6 +46,7 @@ class _Planner:
         self.bouts: list[tuple[float, float]] = []
         self.climbs: list[Climb] = []
         self.rides: list[CarRide] = []
+        self.escalators: list[EscalatorRide] = []
         origin = Pose(0.0, 0.0, 0.0, 0.0)
         self.feet = {foot: self._stance(origin, foot, 0.0, 0.0) for foot in Foot}
         self.starts = dict(self.feet)
@@ -74,15 +62,27 @@ class _Planner:
                 case WalkPath():
                     if stage.direction in (LEFT, RIGHT):
                         self._lead(Foot.LEFT if stage.direction == LEFT else Foot.RIGHT)
-                    self._walk(self._path_footfalls(stage))
+                    self._walk(self.footfalls.on_path(stage))
                 case Pivot():
-                    self._walk(self._pivot_footfalls(stage))
+                    self._walk(self.footfalls.in_pivot(stage))
                 case ElevatorStage():
                     self._halt()
                     self._ride(stage)
+                case EscalatorStage(start=pose, escalator=escalator):
+                    self._halt()
+                    start, end = self.t + PAUSE, self.t + PAUSE + ride_time(escalator)
+                    self.escalators.append(ride_escalator(escalator, pose.heading, start, end, self.rng))
+                    self.t = end + PAUSE
         self._halt()
-        strides = {foot: tuple(made) for foot, made in self.strides.items()}
-        return WalkPlan(self.t, self.starts, strides, tuple(self.bouts), tuple(self.climbs), tuple(self.rides))
+        return WalkPlan(
+            duration=self.t,
+            starts=self.starts,
+            strides={foot: tuple(made) for foot, made in self.strides.items()},
+            bouts=tuple(self.bouts),
+            climbs=tuple(self.climbs),
+            rides=tuple(self.rides),
+            escalators=tuple(self.escalators),
+        )
 
     def _ride(self, stage: ElevatorStage) -> None:
         car = ride(stage.elevator, self.t + stage.elevator.doors, self.rng)
@@ -103,96 +103,6 @@ class _Planner:
             self._halt()
             self.next_foot = foot
 
-    def _path_footfalls(self, path: WalkPath) -> list[_Footfall]:
-        """Return the footfalls of a path, section by section, and that of the closing half step."""
-        footfalls: list[_Footfall] = []
-        if path.direction != AHEAD:
-            return [footfall for piece in path.pieces for footfall in self._other_way_footfalls(piece)]
-        for section in path.sections:
-            piece = section.pieces[0]
-            if piece.flight is not None:
-                footfalls += self._stair_footfalls(piece, piece.flight)
-            elif section.spacing is not None:
-                footfalls += self._mark_footfalls(section, section.spacing)
-            else:
-                footfalls += self._natural_footfalls(section)
-        # The closing half step ends beside the foot that arrived.
-        return [*footfalls, evolve(footfalls[-1], kind=StrideKind.WALK)]
-
-    def _natural_footfalls(self, path: WalkPath) -> list[_Footfall]:
-        """Return footfalls with steps of natural length, varied at random and scaled to end at the path's end."""
-        ends: list[float] = []
-        s = 0.0
-        while not ends or ends[-1] < path.length:
-            speed, running = path.pace(min(s, path.length))
-            step_length = (
-                speed * 60.0 / running_cadence(speed)
-                if running
-                else self.wearer.walk_ratio * self.wearer.cadence(speed)
-            )
-            s += step_length * self._vary(self.wearer.length_variation)
-            ends.append(s)
-        if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
-            ends.pop()
-        scale = path.length / ends[-1]
-        wander = Wander.drawn(path.length, self.wearer.wander, self.rng) if self.wearer.wander else None
-        footfalls = []
-        for end in (scale * end for end in ends):
-            pose = path.at(end)[0]
-            if wander is not None:
-                pose = wander.move(pose, end)
-            speed, running = path.pace(end)
-            step_time = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
-            kind = StrideKind.RUN if running else StrideKind.WALK
-            footfalls.append(_Footfall(pose, speed, step_time, path.curvature(end), kind))
-        return footfalls
-
-    def _mark_footfalls(self, path: WalkPath, spacing: float) -> list[_Footfall]:
-        count = max(1, round(path.length / spacing))
-        mark_spacing = path.length / count
-        footfalls = []
-        for k in range(1, count + 1):
-            _, speed = path.at(mark_spacing * k)
-            position = mark_spacing * k + self.wearer.mark_error * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
-            footfalls.append(
-                _Footfall(path.at(position)[0], speed, mark_spacing / speed, path.curvature(mark_spacing * k))
-            )
-        return footfalls
-
-    def _other_way_footfalls(self, piece: Piece) -> list[_Footfall]:
-        """Return the footfalls of a walk backwards or sideways.
-
-        Sideways both feet go to each place, one after the other; backwards they do so at the end only."""
-        is_back, speed = piece.direction == BACK, piece.speed
-        ratio = BACKWARDS_RATIO * self.wearer.walk_ratio
-        count = max(1, round(piece.length / (float(np.sqrt(60.0 * speed * ratio)) if is_back else SIDE_STEP)))
-        step_length, kind = piece.length / count, StrideKind.BACK if is_back else StrideKind.SIDE
-        duration = step_length / speed if is_back else 0.5 * step_length / speed
-        footfalls = []
-        for k in range(1, count + 1):
-            place = step_length * (k if k == count else k - 1 + self._vary(self.wearer.length_variation))
-            footfall = _Footfall(piece.at(place), speed, duration, 0.0, kind)
-            footfalls += [footfall] if is_back and k < count else [footfall, footfall]
-        return footfalls
-
-    def _stair_footfalls(self, piece: Piece, flight: Flight) -> list[_Footfall]:
-        """Return one footfall for every riser."""
-        kind = StrideKind.UP if flight.rise > 0.0 else StrideKind.DOWN
-        footfalls = []
-        for k in range(1, flight.steps + 1):
-            position = flight.going * k + self.wearer.mark_error * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
-            pose = evolve(piece.start.ahead(position, 0.0), z=flight.z + flight.rise * k)
-            duration = flight.going / piece.speed
-            footfalls.append(_Footfall(pose, piece.speed, duration, 0.0, kind, flight))
-        return footfalls
-
-    def _pivot_footfalls(self, pivot: Pivot) -> list[_Footfall]:
-        count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.max_pivot_turn)))
-        angles = [pivot.angle * k / count for k in range(1, count + 1)]
-        duration = 60.0 / self.wearer.cadence(pivot.speed)
-        footfalls = [_Footfall(pivot.turned(a), pivot.speed, duration) for a in angles]
-        return [*footfalls, footfalls[-1]]
-
     def _stance(self, pose: Pose, foot: Foot, width: float, turn: float) -> Pose:
         """Return the pose of a foot that stands beside `pose`; `width`, m, and `turn`, rad, move it outwards.
 
@@ -204,9 +114,9 @@ class _Planner:
             pose.x - offset * sin(pose.heading), pose.y + offset * cos(pose.heading), pose.z, heading, pose.grade
         )
 
-    def _walk(self, footfalls: list[_Footfall]) -> None:
+    def _walk(self, footfalls: list[Footfall]) -> None:
         for footfall in footfalls:
-            step_time = footfall.duration * self._vary(self.wearer.time_variation)
+            step_time = footfall.duration * self.footfalls.vary(self.wearer.time_variation)
             if self.last_heel_strike is None:
                 self.bout_start = self.t
                 # The weight needs this time to leave the foot that moves first, as if the other foot had just landed.
@@ -217,7 +127,7 @@ class _Planner:
             self.last_heel_strike += step_time
             self.t = self.last_heel_strike
 
-    def _stride(self, foot: Foot, footfall: _Footfall, last_heel_strike: float, step_time: float) -> None:
+    def _stride(self, foot: Foot, footfall: Footfall, last_heel_strike: float, step_time: float) -> None:
         wearer, strides = self.wearer, self.strides[foot]
         start = self.feet[foot]
         kind = footfall.kind
@@ -237,11 +147,11 @@ class _Planner:
             double_support_share, heel_off_share = run.double_support_share, run.heel_off_share
         toe_off = last_heel_strike + double_support_share * 2.0 * step_time
         earliest = strides[-1].foot_flat + _MIN_FLAT_TIME if strides else 0.0
-        heel_off = max(last_heel_strike - heel_off_share * 2.0 * step_time * self._vary(0.08), earliest)
+        heel_off = max(last_heel_strike - heel_off_share * 2.0 * step_time * self.footfalls.vary(0.08), earliest)
         if self.last_running_speed is not None:
             toe_off = max(toe_off, heel_off + _MIN_PUSH_OFF_TIME)
         heel_strike = last_heel_strike + step_time
-        foot_flat = heel_strike + foot_flat_share * 2.0 * step_time * self._vary(0.06)
+        foot_flat = heel_strike + foot_flat_share * 2.0 * step_time * self.footfalls.vary(0.06)
         lateral, toe_out = (float(value) for value in self.rng.standard_normal(2))
         end = self._stance(
             footfall.pose, foot, wearer.width_variation * lateral, 0.5 * wearer.angle_variation * toe_out
@@ -267,10 +177,10 @@ class _Planner:
                 foot_flat=foot_flat,
                 start=start,
                 end=end,
-                toe_off_pitch=toe_off_pitch * self._vary(wearer.angle_variation),
-                strike_pitch=strike_pitch * self._vary(wearer.angle_variation),
+                toe_off_pitch=toe_off_pitch * self.footfalls.vary(wearer.angle_variation),
+                strike_pitch=strike_pitch * self.footfalls.vary(wearer.angle_variation),
                 speed=footfall.speed * min(reach, 1.0) if style is None else footfall.speed,
-                clearance=(wearer.clearance if style is None else style.clearance) * self._vary(0.08),
+                clearance=(wearer.clearance if style is None else style.clearance) * self.footfalls.vary(0.08),
                 deviation=deviation,
                 rest_pitch=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
                 curvature=footfall.curvature,
@@ -291,9 +201,9 @@ class _Planner:
         if self.climb_start is None:
             self.climb_start = stride.toe_off
         if all(abs(pose.z - flight.z - flight.height) < HEIGHT_TOLERANCE for pose in self.feet.values()):
-            self.climbs.append(Climb(self.climb_start, stride.heel_strike, flight))
+            climb = Climb(self.climb_start, stride.heel_strike, flight)
+            self.climbs.append(climb)
+            if flight.escalator is not None:
+                moved = ride_escalator(flight.escalator, flight.heading, climb.start, climb.end, self.rng)
+                self.escalators.append(moved)
             self.flight = None
-
-    def _vary(self, sigma: float) -> float:
-        """Return a random factor about 1, limited to three sigma."""
-        return 1.0 + sigma * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))

@@ -12,76 +12,31 @@ Stairs and elevators change the floor; on landings the route has ordinary walks 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import inf, isfinite, pi, remainder
 
+import numpy as np
 from attrs import evolve, frozen
 
+from .actions import Action, Stairs, Stand, TurnAction, Walk, end_pose, stages
 from .elevator import Elevator
-from .path import AHEAD, BACK, LEFT, RIGHT, ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath, ahead
-from .styles import BACKWARDS_SPEED, LANDING, MAX_SLOPE, SIDEWAYS_SPEED, STAIRS_DOWN_SPEED, STAIRS_UP_SPEED
+from .escalator import LEAST_HEIGHT, STEP_DEPTH, STEP_HEIGHT, Escalator, climbed_steps
+from .path import AHEAD, BACK, LEFT, RIGHT, Pose, WalkPath
+from .styles import (
+    BACKWARDS_SPEED,
+    LANDING,
+    MAX_SLOPE,
+    SHUFFLING_SPEED,
+    SHUFFLING_STEP,
+    SIDEWAYS_SPEED,
+    STAIRS_DOWN_SPEED,
+    STAIRS_UP_SPEED,
+)
 
 DIRECTION_TOLERANCE = 1e-6
 """Difference within which an angle is one of the main directions, rad: more than rounding makes."""
 TIGHT_TURN_SPEED = 0.8
 """Largest speed in a bend of radius below 1 m, m/s; it holds for turns without a speed of their own (assumed)."""
-
-
-@frozen
-class Stand:
-    """An action: stand still with the feet side by side."""
-
-    duration: float
-    """Duration of standing, s."""
-
-
-@frozen
-class Walk:
-    """An action: walk or run straight on."""
-
-    distance: float
-    """Distance of the move, m."""
-    speed: float
-    """Speed of the move, m/s."""
-    spacing: float | None = None
-    """Distance between marks to step on, m; None: no marks."""
-    running: bool = False
-    """True when the wearer runs."""
-    slope: float = 0.0
-    """Slope of the ground, as rise over run, no unit; negative downwards."""
-    direction: float = AHEAD
-    """Angle from the heading of the feet to the direction of the move, rad: AHEAD, LEFT, RIGHT or BACK."""
-
-
-@frozen
-class TurnAction:
-    """An action: turn along an arc or on the spot."""
-
-    angle: float
-    """Angle of the turn, rad; counter-clockwise positive."""
-    radius: float
-    """Radius of the arc, m; 0: on the spot."""
-    speed: float
-    """Speed of the move, m/s."""
-    spacing: float | None = None
-    """Distance between marks to step on, m; None: no marks."""
-
-
-@frozen
-class Stairs:
-    """An action: walk a flight of stairs, each foot on every other tread."""
-
-    steps: int
-    """Number of risers."""
-    rise: float
-    """Height of a riser, m; negative downwards."""
-    going: float
-    """Distance between risers, m."""
-    speed: float
-    """Horizontal speed along the flight, m/s."""
-
-
-Action = Stand | Walk | TurnAction | Stairs | Elevator
 
 
 @frozen
@@ -110,8 +65,41 @@ class Route:
         """Halt and stand for `duration` s, as `stand` does."""
         return self.stand(duration)
 
+    def shuffle(self, distance: float, speed: float = SHUFFLING_SPEED) -> Route:
+        """Shuffle `distance` m ahead in a queue, in steps of about SHUFFLING_STEP m; the speed is not kept.
+
+        It starts and ends with the feet together. Idealised: the feet are lifted as high as in walking, and pitch as in
+        any stride so short."""
+        return self._then(Walk(_positive("distance", distance), _positive("speed", speed), SHUFFLING_STEP))
+
+    def crowded(self, distance: float, seed: int, speed: float | None = None) -> Route:
+        """Go `distance` m ahead through a crowd: walks of 1 to 4 m and shuffles, with halts of 0.5 to 3 s between them.
+
+        The walks have 0.4 to 0.9 of `speed`, m/s, which is not kept. The way ends without a halt. All numbers are
+        assumed; in dense crowds people stop and go (Portz and Seyfried 2011, Pedestrian and Evacuation Dynamics)."""
+        rng, route, left = np.random.default_rng([seed, 34]), self, _positive("distance", distance)
+        usual_speed = self.speed if speed is None else _positive("speed", speed)
+        while True:
+            shuffles = rng.uniform() < 0.4
+            part = float(rng.uniform(0.3, 1.2) if shuffles else rng.uniform(1.0, 4.0))
+            part = left if left - part < 1.0 else part
+            if shuffles:
+                route = route.shuffle(part, float(rng.uniform(0.2, 0.4)))
+            else:
+                route = route.walk(part, usual_speed * float(rng.uniform(0.4, 0.9)))
+            left -= part
+            if left <= 0.0:
+                return evolve(route, speed=self.speed)
+            route = route.stand(float(rng.uniform(0.5, 3.0)))
+
     def walk(
-        self, distance: float, speed: float | None = None, *, slope: float = 0.0, direction: float = AHEAD
+        self,
+        distance: float,
+        speed: float | None = None,
+        *,
+        slope: float = 0.0,
+        direction: float = AHEAD,
+        stops: Sequence[tuple[float, float]] = (),
     ) -> Route:
         """Walk `distance` m straight on at `speed` m/s; the speed is kept for later moves.
 
@@ -123,7 +111,14 @@ class Route:
         or -pi backwards, pi/2 to the left, -pi/2 to the right. The heading stays. Such a walk starts and ends with the
         feet together, its speed is not kept, and it has no marks; `slope` is positive when it rises in the direction of
         the move, and 0 sideways. Idealised are the pitch of the feet, which is small and the same in every stride,
-        and the load under a foot, which in every stance ends under the toes."""
+        and the load under a foot, which in every stance ends under the toes.
+
+        `stops` are halts on the way, as at a door: the distance from the start of the walk, m, and how long the wearer
+        stands there, s, in order."""
+        if stops:
+            return self._halting(
+                distance, stops, lambda route, part: route.walk(part, speed, slope=slope, direction=direction)
+            )
         direction = _main_direction(direction)
         if not abs(slope) <= MAX_SLOPE:
             raise ValueError(f"walk: slope must be between -{MAX_SLOPE} and {MAX_SLOPE}, got {slope}")
@@ -181,6 +176,24 @@ class Route:
             raise ValueError(f"lift: creep must be between 0 and 0.3 of the speed, got {creep}")
         return self._then(Elevator(height, speed, acceleration, jerk, doors, creep))
 
+    def escalator(self, height: float, speed: float = 0.5, *, walking: bool = False) -> Route:
+        """Ride on an escalator by `height` m, negative downwards, whose steps move at `speed` m/s; stand or walk on it.
+
+        The wearer stands before and after a ride; who walks climbs a flight on moving steps, at the pace of stairs. The
+        route goes on at the other end, `Escalator.run` m ahead and `height` m higher."""
+        if not isfinite(height) or abs(height) < LEAST_HEIGHT * (2.0 if walking else 1.0):
+            raise ValueError(f"escalator: it rises by a metre at least, two for walking, got {height}")
+        escalator = Escalator(height, _positive("speed", speed))
+        if not walking:
+            return self._then(escalator)
+        up = height > 0.0
+        steps = climbed_steps(escalator, (STAIRS_UP_SPEED if up else STAIRS_DOWN_SPEED) / STEP_DEPTH)
+        climbed = self.stairs(steps, up, STEP_HEIGHT, STEP_DEPTH)
+        flight = climbed.actions[-1]
+        assert isinstance(flight, Stairs)
+        rest = evolve(escalator, height=height - steps * flight.rise)
+        return self._then(evolve(flight, escalator=rest))
+
     def turn(self, angle: float, radius: float = 0.0, speed: float | None = None) -> Route:
         """Turn by `angle` rad, counter-clockwise positive, along an arc of `radius` m; 0: on the spot."""
         if not isfinite(angle) or not isfinite(radius) or radius < 0.0:
@@ -192,16 +205,14 @@ class Route:
     @property
     def length(self) -> float:
         """Length of the path's centre line, m."""
-        return sum(piece.length for stage in stages(self) if isinstance(stage, WalkPath) for piece in stage.pieces)
+        return sum(
+            piece.length for stage in stages(self.actions) if isinstance(stage, WalkPath) for piece in stage.pieces
+        )
 
     @property
     def end(self) -> Pose:
         """Pose at the end of the route, between the feet."""
-        pose = Pose(0.0, 0.0, 0.0, 0.0)
-        for stage in stages(self):
-            if not isinstance(stage, Stand):
-                pose = stage.end
-        return pose
+        return end_pose(stages(self.actions))
 
     def _ends_near(self, is_meant: Callable[[Action], bool]) -> bool:
         """Return whether the route ends less than LANDING m after an action that is meant."""
@@ -215,6 +226,17 @@ class Route:
                 case TurnAction(angle=angle, radius=radius):
                     room += abs(angle) * radius
         return False
+
+    def _halting(
+        self, distance: float, stops: Sequence[tuple[float, float]], go_on: Callable[[Route, float], Route]
+    ) -> Route:
+        """Return the route with a way of `distance` m that `go_on` makes part by part, with halts between the parts."""
+        route, done = self, 0.0
+        for place, duration in stops:
+            if not done < place < distance:
+                raise ValueError(f"walk: stops must be in order and on the way of {distance} m, got {place}")
+            route, done = go_on(route, place - done).stand(duration), place
+        return go_on(route, distance - done)
 
     def _then(self, action: Action) -> Route:
         return evolve(self, actions=(*self.actions, action))
@@ -232,54 +254,3 @@ def _main_direction(direction: float) -> float:
         if abs(remainder(direction - meant, 2.0 * pi)) < DIRECTION_TOLERANCE:
             return meant
     raise ValueError(f"walk: direction must be 0, pi/2, -pi/2 or pi, got {direction}")
-
-
-Stage = Stand | WalkPath | Pivot | ElevatorStage
-
-
-def stages(route: Route) -> list[Stage]:
-    """Return the stages of the route: stands, elevator rides, turns on the spot, and the paths between them."""
-    route_stages: list[Stage] = []
-    pieces: list[Piece] = []
-    pose = Pose(0.0, 0.0, 0.0, 0.0)
-
-    def close() -> None:
-        if pieces:
-            route_stages.append(WalkPath(tuple(pieces)))
-            pieces.clear()
-
-    for action in route.actions:
-        match action:
-            case Stand():
-                close()
-                route_stages.append(action)
-                continue
-            case TurnAction(angle=angle, radius=0.0):
-                close()
-                pivot = Pivot(pose, angle, action.speed)
-                route_stages.append(pivot)
-                pose = pivot.end
-                continue
-            case Elevator():
-                close()
-                stage = ElevatorStage(pose, action)
-                route_stages.append(stage)
-                pose = stage.end
-                continue
-            case TurnAction(angle=angle, radius=radius):
-                bend = (1.0 if angle > 0.0 else -1.0) / radius
-                piece = Piece(pose, abs(angle) * radius, bend, action.speed, action.spacing)
-            case Walk(distance=distance, slope=slope, direction=direction):
-                piece = Piece(
-                    pose, distance, 0.0, action.speed, action.spacing, action.running, slope=slope, direction=direction
-                )
-            case Stairs(steps=steps, rise=rise, going=going):
-                edge = pose.ahead(ahead(rise > 0.0, going), 0.0)
-                flight = Flight(edge.x, edge.y, pose.z, pose.heading, steps, rise, going)
-                piece = Piece(pose, steps * going, 0.0, action.speed, None, flight=flight)
-        if pieces and pieces[-1].direction != piece.direction:
-            close()
-        pieces.append(piece)
-        pose = piece.at(piece.length)
-    close()
-    return route_stages

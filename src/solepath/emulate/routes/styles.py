@@ -41,6 +41,10 @@ BACKWARDS_RATIO = 0.41
 """Walk ratio of walking backwards, as a ratio to that ahead, no unit (assumed).
 
 At BACKWARDS_SPEED the default wearer then makes 107 steps of 0.28 m a minute, strides of 0.56 m."""
+SHUFFLING_SPEED, SHUFFLING_STEP = 0.3, 0.15
+"""Speed of shuffling ahead in a queue, m/s, and length of its steps, m (assumed).
+
+People move at 0.3 m/s where there are three in a square metre (Weidmann 1993, Transporttechnik der Fussgaenger)."""
 SIDE_STEP = 0.30
 """Length of a side step, m (assumed); the step that closes up to it brings the feet together."""
 

@@ -1,8 +1,8 @@
-"""Walks through BUILDING, with the true position of the wearer on its plan.
+"""Walks through an emulated building, with the true position of the wearer on its plan.
 
 way = wandering(seed=7)
 walker = Walker(way.route, seed=7)
-session = Session(recipe, floorplan=BUILDING, start=way.start)
+session = Session(recipe, floorplan=way.building.plan, start=way.start)
 way.places(walker, t)"""
 
 from __future__ import annotations
@@ -12,30 +12,16 @@ from itertools import pairwise
 from math import cos, pi, sin
 
 import numpy as np
-from attrs import frozen
+from attrs import field, frozen
 
 from ...floorplan.plan import Point, Start
 from ...types import Foot
+from ..buildings.storeys import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, UPPER, Building, Cabin, Well, unit
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .building import (
-    BUILDING,
-    CABINS,
-    COLUMNS,
-    EDGE_OFFSET,
-    GOING,
-    GROUND,
-    LANE_OFFSET,
-    NORTH,
-    ROWS,
-    UPPER,
-    WELLS,
-    Cabin,
-    Well,
-    in_well,
-)
-from .course import OTHER_LEVEL, Course
+from .building import CABINS, COLUMNS, FOUR_LOOPS, NORTH, ROWS
+from .course import OTHER_LEVEL, Course, wrapped
 from .path import ahead
 from .route import Route
 
@@ -45,7 +31,6 @@ MIN_CORNERS, MAX_CORNERS = 3, 7
 """Least and largest number of corners of a random walk before it heads for its exit."""
 STAIRS_APPROACH = 4.0
 """Distance walked along the corridor before or after stairs on the other floor, m."""
-_ELEVATION = {level.id: level.elevation for level in BUILDING.levels}
 
 Passage = Cabin | Well
 
@@ -64,6 +49,8 @@ class BuildingWalk:
     """Name of the elevator or stairs by which the wearer comes to the level; "" when the walk starts there."""
     exit: str = ""
     """Name of the elevator or stairs by which the wearer leaves the level; "" when the walk ends there."""
+    building: Building = field(default=FOUR_LOOPS, repr=False)
+    """Building of the walk."""
 
     def places(self, walker: Walker, t: Array | float) -> list[tuple[str, float, float]]:
         """Return level id, x and y (plan frame, m) of the middle between both ankles at times `t`, s.
@@ -71,8 +58,9 @@ class BuildingWalk:
         In an elevator and on stairs the level is the nearer one."""
         when = np.atleast_1d(np.asarray(t, dtype=np.float64))
         x, y = self.track(walker, when).T
-        high = _ELEVATION[self.start.level] + walker.truth().elevation(when)
-        levels = [min(_ELEVATION, key=lambda name: abs(_ELEVATION[name] - z)) for z in high.tolist()]
+        floors = {level.id: level.elevation for level in self.building.plan.levels}
+        high = floors[self.start.level] + walker.truth().elevation(when)
+        levels = [min(floors, key=lambda name: abs(floors[name] - z)) for z in high.tolist()]
         return list(zip(levels, x.tolist(), y.tolist(), strict=True))
 
     def track(self, walker: Walker, t: Array) -> Array:
@@ -112,20 +100,21 @@ def corridor() -> BuildingWalk:
     return BuildingWalk(course.route, course.start, GROUND)
 
 
-def wandering(seed: int) -> BuildingWalk:
+def wandering(seed: int, building: Building = FOUR_LOOPS) -> BuildingWalk:
     """Return a random walk that enters a floor by an elevator or stairs and leaves it by another one."""
     rng = np.random.default_rng([seed, 5])
     level = (GROUND, UPPER)[int(rng.integers(2))]
-    connectors: list[Passage] = [*CABINS, *WELLS]
+    connectors: list[Passage] = [*building.cabins, *building.wells]
     entry, departure = (connectors[int(k)] for k in rng.choice(len(connectors), 2, replace=False))
     offsets = rng.uniform(-MAX_OFFSET, MAX_OFFSET, 2)
     dx, dy = float(offsets[0]), float(offsets[1])
-    course = _arrival_course(entry, level, dx, dy)
-    start, end = _turning_point(entry, level, dx, dy), _turning_point(departure, level, dx, dy)
-    course.walk_along([*_random_path(_network(dx, dy, start, end), start, end, rng), _standing_point(departure, level)])
-    _add_departure(course, departure, level, dx, dy)
+    lines = _Lines(tuple([x + dx for x in building.columns]), tuple([y + dy for y in building.rows]))
+    course = _arrival_course(entry, level, lines)
+    start, end = lines.turning_point(entry, level), lines.turning_point(departure, level)
+    course.walk_along([*_random_path(lines.network(start, end), start, end, rng), _standing_point(departure, level)])
+    _add_departure(course, departure, level, lines)
     course.stand()
-    return BuildingWalk(course.route, course.start, level, entry.name, departure.name)
+    return BuildingWalk(course.route, course.start, level, entry.name, departure.name, building)
 
 
 def _standing_point(connector: Passage, level: str) -> Point:
@@ -133,30 +122,36 @@ def _standing_point(connector: Passage, level: str) -> Point:
     if isinstance(connector, Cabin):
         return connector.middle
     lane = -LANE_OFFSET if level == GROUND else LANE_OFFSET  # the lane whose stairs end on this level
-    return in_well(connector, EDGE_OFFSET - ahead(level == GROUND, GOING), lane)
+    return connector.inside(EDGE_OFFSET - ahead(level == GROUND, GOING), lane)
 
 
-def _turning_point(connector: Passage, level: str, dx: float, dy: float) -> Point:
-    """Return the point where the wearer turns into a cabin or a stairwell, on the walked line of its corridor."""
-    x, y = _standing_point(connector, level)
-    heading = connector.door_heading if isinstance(connector, Cabin) else connector.inward
-    if abs(cos(heading)) > 0.5:
-        return (min(COLUMNS, key=lambda column: abs(column - x)) + dx, y)
-    return (x, min(ROWS, key=lambda row: abs(row - y)) + dy)
+@frozen
+class _Lines:
+    """The lines along which the wearer walks in the corridors."""
 
+    columns: tuple[float, ...]
+    """Coordinates x of those that run north, m."""
+    rows: tuple[float, ...]
+    """Coordinates y of those that run east, m."""
 
-def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]:
-    """Return the crossings and turning points of the corridors, each with its neighbours along them."""
-    columns, rows = [x + dx for x in COLUMNS], [y + dy for y in ROWS]
-    places = {*turnings, *((x, y) for x in columns for y in rows)}
-    nodes: dict[Point, list[Point]] = {place: [] for place in sorted(places)}
-    lines = [sorted(place for place in places if place[0] == x) for x in columns]
-    lines += [sorted(place for place in places if place[1] == y) for y in rows]
-    for line in lines:
-        for point, neighbour in pairwise(line):
-            nodes[point].append(neighbour)
-            nodes[neighbour].append(point)
-    return nodes
+    def turning_point(self, connector: Passage, level: str) -> Point:
+        """Return the point where the wearer turns into a cabin or a stairwell, on the walked line of its corridor."""
+        x, y = _standing_point(connector, level)
+        if abs(cos(connector.door_heading)) > 0.5:
+            return (min(self.columns, key=lambda column: abs(column - x)), y)
+        return (x, min(self.rows, key=lambda row: abs(row - y)))
+
+    def network(self, *turnings: Point) -> dict[Point, list[Point]]:
+        """Return the crossings and turning points of the corridors, each with its neighbours along them."""
+        places = {*turnings, *((x, y) for x in self.columns for y in self.rows)}
+        nodes: dict[Point, list[Point]] = {place: [] for place in sorted(places)}
+        lines = [sorted(place for place in places if place[0] == x) for x in self.columns]
+        lines += [sorted(place for place in places if place[1] == y) for y in self.rows]
+        for line in lines:
+            for point, neighbour in pairwise(line):
+                nodes[point].append(neighbour)
+                nodes[neighbour].append(point)
+        return nodes
 
 
 def _random_path(nodes: dict[Point, list[Point]], start: Point, end: Point, rng: Rng) -> list[Point]:
@@ -187,33 +182,33 @@ def _is_straight(a: Point, b: Point, c: Point) -> bool:
     return a[0] == b[0] == c[0] or a[1] == b[1] == c[1]
 
 
-def _arrival_course(connector: Passage, level: str, dx: float, dy: float) -> Course:
+def _arrival_course(connector: Passage, level: str, lines: _Lines) -> Course:
     """Return a course from the other floor to `level`; it ends in the cabin, or after the stairs."""
     if isinstance(connector, Cabin):
         course = Course(OTHER_LEVEL[level], connector.middle, connector.door_heading)
         course.stand()
         course.ride()
         return course
-    inside, turning = (
-        _standing_point(connector, OTHER_LEVEL[level]),
-        _turning_point(connector, OTHER_LEVEL[level], dx, dy),
-    )
-    if connector.inward == pi:
-        course = Course(OTHER_LEVEL[level], (turning[0], turning[1] - STAIRS_APPROACH), 0.5 * pi)
-    else:
-        course = Course(OTHER_LEVEL[level], (turning[0] - STAIRS_APPROACH, turning[1]), 0.0)
+    before, turning = _approach(connector, OTHER_LEVEL[level], lines)
+    course = Course(OTHER_LEVEL[level], before, wrapped(connector.inward - 0.5 * pi))
     course.stand()
-    course.walk_along([turning, inside])
+    course.walk_along([turning, _standing_point(connector, OTHER_LEVEL[level])])
     course.climb(up=level == UPPER)
     return course
 
 
-def _add_departure(course: Course, connector: Passage, level: str, dx: float, dy: float) -> None:
+def _approach(well: Well, level: str, lines: _Lines) -> tuple[Point, Point]:
+    """Return a point in the corridor, with the stairwell ahead to the left, and where the wearer turns into it."""
+    (x, y), (ux, uy) = lines.turning_point(well, level), unit(well.inward - 0.5 * pi)
+    return (x - STAIRS_APPROACH * ux, y - STAIRS_APPROACH * uy), (x, y)
+
+
+def _add_departure(course: Course, connector: Passage, level: str, lines: _Lines) -> None:
     """Continue the course from a cabin, or from the first edge of stairs, to the other floor."""
     if isinstance(connector, Cabin):
         course.face(connector.door_heading)
         course.ride()
         return
     course.climb(up=level == GROUND)
-    x, y = _turning_point(connector, OTHER_LEVEL[level], dx, dy)
-    course.walk_along([(x, y), (x, y - STAIRS_APPROACH) if connector.inward == pi else (x - STAIRS_APPROACH, y)])
+    before, turning = _approach(connector, OTHER_LEVEL[level], lines)
+    course.walk_along([turning, before])

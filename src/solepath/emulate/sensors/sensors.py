@@ -18,6 +18,7 @@ from ...types.vector import GRAVITY
 from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.turning import multiply_quaternions
+from .air import STILL_AIR, Air
 from .insoles import FULL_COUNT
 from .parts import AttitudeErrors, BarometerErrors, CellErrors, Imu, TriadErrors
 
@@ -193,9 +194,9 @@ def air_pressure(height: Array) -> Array:
     return np.asarray(101325.0 * (1.0 - 2.25577e-5 * height) ** 5.25588)
 
 
-def read_barometer(height: Array, t: Array, chip: BarometerErrors, rng: Rng) -> Array:
-    """Return the pressures, Pa, that a barometer reports at heights (N), m, and times (N), s."""
-    pressure = air_pressure(height) + chip.offset * rng.standard_normal()
+def read_barometer(height: Array, t: Array, chip: BarometerErrors, rng: Rng, air: Air = STILL_AIR) -> Array:
+    """Return the pressures, Pa, that a barometer in this air reports at heights (N), m, and times (N), s."""
+    pressure = air_pressure(height) + chip.offset * rng.standard_normal() + air.at(t)
     pressure += chip.drift * random_drift(t, chip.correlation_time, 1, rng)[:, 0]
     return np.asarray(pressure + chip.noise * rng.standard_normal(len(t)))
 

@@ -115,4 +115,6 @@ class WornTag:
         """Return the series of a barometer that measures every `period` s, Pa."""
         t = make_sampling(self.walker, self.clock, period, self.clock.first + BAROMETER_DELAY).times
         height = self.walker.kinematics(self.foot, t, self.mounting).position[:, 2]
-        return Series(float(t[0]), self.clock.interval(period), read_barometer(height, t, chip, rng)[:, None])
+        return Series(
+            float(t[0]), self.clock.interval(period), read_barometer(height, t, chip, rng, self.walker.air)[:, None]
+        )

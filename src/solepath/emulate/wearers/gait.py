@@ -14,9 +14,10 @@ from attrs import frozen
 from ...calibration import Limbs
 from ...types import Foot
 from ..routes.elevator import CarRide
+from ..routes.escalator import EscalatorRide
 from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind
-from .curves import Rng
+from .curves import Array, Rng
 from .shoe import Rocker, Shoe
 
 SETTLE_TIME = 0.45
@@ -137,7 +138,7 @@ class Climb:
 
     @property
     def height(self) -> float:
-        """Height from floor to floor, m; negative downwards."""
+        """Height from floor to floor, m, negative downwards; on an escalator that of the steps that were climbed."""
         return self.flight.height
 
 
@@ -157,6 +158,15 @@ class WalkPlan:
     """Flights of stairs that the wearer walks."""
     rides: tuple[CarRide, ...] = ()
     """Elevator rides of the wearer."""
+    escalators: tuple[EscalatorRide, ...] = ()
+    """Rides on escalators, standing or walking; the poses of strides do not contain their displacement."""
+
+    def ground_shift(self, t: Array) -> Array:
+        """Return how far escalators have moved the ground under the feet at times `t`, s, world frame, (N, 3), m."""
+        total = np.zeros((len(t), 3))
+        for ride in self.escalators:
+            total += ride.at(t)[0]
+        return total
 
 
 def double_support(speed: float) -> float:

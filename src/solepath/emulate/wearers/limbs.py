@@ -245,7 +245,7 @@ def _reach_limit(plan: WalkPlan, t: Array) -> Array:
 
 def _centre_of_pressure(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> Array:
     """Return the centre of pressure of both feet together at times `t`, s, as x and y, world frame, m, (N, 2)."""
-    total = np.zeros((len(t), 2))
+    total = plan.ground_shift(t)[:, :2]
     for foot in Foot:
         poses = [plan.starts[foot], *(stride.end for stride in plan.strides[foot])]
         table = np.array([(pose.x, pose.y, pose.heading) for pose in poses])

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
-from ..routes.elevator import CarRide
+from ..routes.escalator import GroundRide
 from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
 from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer
@@ -81,8 +81,8 @@ class Loads:
     """Shift of the load to the left in each stance, m, and time at which it starts to decay at a halt, s, (n, 2)."""
     forefoot_shares: dict[Foot, Array]
     """Share of the load that lands on the forefoot in each stance, (n)."""
-    rides: tuple[CarRide, ...] = ()
-    """Elevator rides of the wearer."""
+    rides: tuple[GroundRide, ...] = ()
+    """Rides of the wearer in elevators and on escalators."""
 
     def total(self, foot: Foot, t: Array) -> Array:
         """Return the load under one foot at times `t`, s, in newtons, (N)."""
@@ -96,7 +96,7 @@ class Loads:
         return load
 
     def _on_still_floor(self, t: Array) -> Array:
-        """Return the load under both feet together, in newtons, (N), as if no elevator moved."""
+        """Return the load under both feet together, in newtons, (N), as if no elevator or escalator moved."""
         if len(self.beat_times) < 2:
             return np.full_like(t, self.weight)
         k = np.clip(np.searchsorted(self.beat_times, t, side="right") - 1, 0, len(self.beat_times) - 2)
@@ -206,7 +206,7 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
         forefoot_shares={
             foot: np.array([0.0, *(_forefoot_share(stride) for stride in plan.strides[foot])]) for foot in Foot
         },
-        rides=plan.rides,
+        rides=(*plan.rides, *plan.escalators),
     )
 
 

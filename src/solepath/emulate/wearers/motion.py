@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from ...types import Phase
 from ...types.vector import GRAVITY
 from ..routes.elevator import CarRide
+from ..routes.escalator import EscalatorRide
 from .curves import Array
 from .shoe import Mounting
 from .turning import matrices
@@ -73,6 +74,8 @@ class FootMotion:
     """Index of the phase in PHASES, (rows)."""
     rides: tuple[CarRide, ...] = ()
     """Elevator rides of the wearer; the curves do not contain the motion of the car during a ride."""
+    escalators: tuple[EscalatorRide, ...] = ()
+    """Rides on escalators; the curves contain neither the motion during a ride nor the displacement after it."""
 
     def phases(self, t: Array) -> list[Phase]:
         """Return the phase of the foot at times `t`, s."""
@@ -128,6 +131,10 @@ class FootMotion:
             riding = np.flatnonzero((t >= car.start) & (t < car.end))
             for total, added in zip((position, velocity, acceleration), car.at(t[riding]), strict=True):
                 total[riding] += added
+        for escalator in self.escalators:
+            later = np.flatnonzero(t >= escalator.start)
+            for total, added in zip((position, velocity, acceleration), escalator.at(t[later]), strict=True):
+                total[later] += added
 
         # Specific force is acceleration minus gravity, in the sensor frame.
         opposed_gravity = acceleration + np.array([0.0, 0.0, GRAVITY])

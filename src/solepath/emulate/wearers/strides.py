@@ -17,11 +17,11 @@ from attrs import evolve
 
 from ...types import Foot, Phase
 from ..routes.path import Flight, Pose
-from ..routes.ramps import axes, leaning, ramp_height, steeper
 from ..routes.styles import StrideKind, style_of
 from .curves import BUMP, LEVELLING, Array, EndState, Rng, constant, evaluate, join, subcurve
 from .gait import PlannedStride, WalkPlan, Wearer
 from .motion import PHASES, FootMotion
+from .ramps import axes, leaning, ramp_height, steeper
 from .shoe import Rocker
 from .sway import SHORTEST_STANDING, sway_pieces
 from .swing import pitch_at, reversal_share, running_swing_pitch, walking_swing_pitch
@@ -56,7 +56,7 @@ class _MotionBuilder:
 
     def __init__(self, wearer: Wearer, plan: WalkPlan, rng: Rng) -> None:
         self.shoe, self.sway, self.rng = wearer.shoe, wearer.sway, rng
-        self.rides, self.duration = plan.rides, plan.duration
+        self.rides, self.escalators, self.duration = plan.rides, plan.escalators, plan.duration
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
     def build(self, start: Pose, strides: tuple[PlannedStride, ...]) -> FootMotion:
@@ -69,7 +69,8 @@ class _MotionBuilder:
             self.land(stride)
             self.stand(stride.end, stride.foot_flat, leave_time, stride.rest_pitch if leave_time < _FOREVER else 0.0)
         t_start, duration, curves, reference, radius, phase = map(np.array, zip(*self.rows, strict=True))
-        return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), self.rides)
+        rides = (self.rides, self.escalators)
+        return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), *rides)
 
     def stand(self, pose: Pose, t_start: float, end: float, rest_pitch: float) -> None:
         """Add a foot that stands at `pose` from `t_start` to `end`, s; an elevator ride in this time lifts it."""

@@ -13,6 +13,7 @@ from attrs import evolve, frozen
 
 from ...types import Activity, Foot, Phase, Vec3
 from ..routes.elevator import CarRide
+from ..routes.escalator import EscalatorRide
 from ..routes.styles import StrideKind
 from .curves import Array
 from .gait import Climb, WalkPlan
@@ -23,7 +24,8 @@ from .shoe import Mounting
 def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
     """Return the activities (start, end, activity) from 0 to the plan's end, s, without a gap.
 
-    A turn on the spot is walking. Each run lasts from the toe-off of its first stride to its last heel-strike."""
+    A turn on the spot is walking. Who stands on an escalator stands, since there are neither strides nor an elevator,
+    and who walks on one climbs stairs. A run lasts from the toe-off of its first stride to its last heel-strike."""
     overlapping = [(start, end, Activity.WALKING) for start, end in plan.bouts]
     overlapping += _running_spans(plan)
     for climb in plan.climbs:
@@ -129,6 +131,8 @@ class Truth:
     """Flights of stairs that the wearer walked, in order."""
     rides: tuple[CarRide, ...]
     """Elevator rides of the wearer, in order."""
+    escalators: tuple[EscalatorRide, ...]
+    """Rides on escalators, in order; a flight that is walked on one is also among `flights`."""
     plan: WalkPlan
     """Plan of the walk."""
 
@@ -159,7 +163,7 @@ class Truth:
             total += 0.5 * np.interp(t, times, heights)
         for car in self.plan.rides:
             total += car.at(t)[0][:, 2]
-        return total
+        return np.asarray(total + self.plan.ground_shift(t)[:, 2])
 
 
 def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mounting) -> FootTruth:

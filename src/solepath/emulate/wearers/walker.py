@@ -9,6 +9,7 @@ import numpy as np
 from ...types import SITE_OF_FOOT, Foot, Layout, Sample
 from ..routes.planner import plan
 from ..routes.route import Route
+from ..sensors.air import STILL_AIR, Air
 from ..sensors.magnetic_field import UNDISTURBED, MagneticField
 from ..sensors.parts import Imu
 from ..sensors.sensors import instants, measure_imu, samples_of
@@ -25,13 +26,19 @@ from .truth import Truth, activities, foot_truth
 class Walker:
     """A wearer on a route, without devices; the same seed gives the same walk.
 
-    `field` is the magnetic field in the building."""
+    `field` is the magnetic field in the building, and `air` has the changes of its air pressure."""
 
     def __init__(
-        self, route: Route, wearer: Wearer | None = None, seed: int = 1, field: MagneticField = UNDISTURBED
+        self,
+        route: Route,
+        wearer: Wearer | None = None,
+        seed: int = 1,
+        field: MagneticField = UNDISTURBED,
+        air: Air = STILL_AIR,
     ) -> None:
         self.route = route
         self.field = field
+        self.air = air
         self.wearer = wearer or Wearer()
         self.seed = seed
         self.plan = plan(route, self.wearer, np.random.default_rng([seed, 0]))
@@ -54,7 +61,7 @@ class Walker:
         sensor_mountings = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
         feet = {foot: foot_truth(foot, self.plan, self.motions[foot], sensor_mountings[foot]) for foot in Foot}
         plan = self.plan
-        return Truth(plan.duration, feet, activities(plan), plan.climbs, plan.rides, plan)
+        return Truth(plan.duration, feet, activities(plan), plan.climbs, plan.rides, plan.escalators, plan)
 
     def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
         """Return the exact motion of a foot's sensor at times `t`, s."""

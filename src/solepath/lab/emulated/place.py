@@ -11,7 +11,6 @@ from math import hypot
 import numpy as np
 from attrs import field, frozen
 
-from ...emulate.routes.building import BUILDING
 from ...emulate.routes.ways import BuildingWalk
 from ...emulate.wearers.truth import Truth
 from ...emulate.wearers.walker import Walker
@@ -56,7 +55,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     """Score the events of a session on the walk of `walker` along `way`."""
     placed = [event for event in events if isinstance(event, Placed)]
     lost = [event.t for event in events if isinstance(event, PlaceLost) and placed and event.t > placed[0].t]
-    heights = {level.id: level.elevation for level in BUILDING.levels}
+    heights = {level.id: level.elevation for level in way.building.plan.levels}
     t_second_turn = _second_turn(events)
     off: list[float] = []
     track: list[tuple[float, float]] = []

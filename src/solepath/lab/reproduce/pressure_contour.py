@@ -19,8 +19,9 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...calibration import Calibration, merged
+from ...emulate.routes.actions import Stand
 from ...emulate.routes.laps import field_walk, square
-from ...emulate.routes.route import Route, Stand
+from ...emulate.routes.route import Route
 from ...emulate.sensors.insole_device import boot
 from ...emulate.walk import EmulatedWalk, emulate
 from ...events import StrideTaken

@@ -8,7 +8,8 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...calibration import Calibration, InsoleCalibration
-from ...emulate.routes.route import Route, Stand
+from ...emulate.routes.actions import Stand
+from ...emulate.routes.route import Route
 from ...emulate.walk import EmulatedWalk
 from ...emulate.wearers.walker import Walker
 from ...events import Event

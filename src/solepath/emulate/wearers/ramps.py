@@ -8,8 +8,8 @@ from math import atan, cos, sin
 
 import numpy as np
 
-from ..wearers.curves import Array, EndState, constant
-from .path import Pose
+from ..routes.path import Pose
+from .curves import Array, EndState, constant
 
 
 def axes(pose: Pose) -> tuple[Array, Array]:

@@ -1,0 +1,142 @@
+"""Crowds, weather and escalators: what is neither stairs nor a lift is not reported as such.
+
+Not asserted, because it fails: a door that changes the pressure by 10 Pa or more while a wearer with SensorTags stands
+is often reported as a ride, and so is an escalator on which the wearer stands; with SensorTags a halt in a crowd is now
+and then taken for a lift."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cache
+from math import pi
+
+import numpy as np
+import pytest
+from attrs import frozen
+
+from solepath import Session, recipes
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.air import STILL_AIR, Air, PressureStep
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.gait import random_wearer
+from solepath.emulate.wearers.truth import Truth
+from solepath.events import ActivityChanged, FlightClimbed, LiftRidden
+from solepath.show.timeline import Timeline
+from solepath.types import Activity, Site
+
+SEEDS = (1, 2, 3)
+KITS = {"SensorTags": CC2541(rate=20.0), "insoles": Insole(cells=8)}
+STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
+LIFTS = (Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
+VERY_RAPIDLY = 600.0 / 10800.0
+"""Rate at which the pressure rises or falls "very rapidly", Pa/s: 6 hPa in three hours (air.py)."""
+LEVEL = Route().stand(15.0).walk(25.0, 1.2).turn(pi).walk(25.0, 1.2).stand(15.0).walk(10.0, 0.8).stand(4.0)
+HOUSE = (
+    Route().stand(5.0).walk(8.0, 1.3).stairs(11).walk(1.2).turn(pi, 0.6).stairs(11).walk(5.0).turn(pi)
+    .lift(-6.8, speed=1.2).walk(7.0).stand(4.0).stairs(11, up=False).walk(5.0).turn(pi).lift(3.4).walk(6.0).stand(8.0)
+)  # fmt: skip
+
+
+@frozen(eq=False)
+class Outcome:
+    """What a session reported of a walk."""
+
+    truth: Truth
+    seconds: Counter[tuple[Activity, Activity]]
+    """Number of tenths of a second for each true activity and the reported one, without the last two seconds."""
+    rides: tuple[LiftRidden, ...]
+    flights: tuple[FlightClimbed, ...]
+
+    def reported(self) -> set[Activity]:
+        """Return the activities that were reported at the end of the walk."""
+        return {reported for _, reported in self.seconds}
+
+
+@cache
+def outcome(route: Route, kit: str, seed: int, air: Air = STILL_AIR) -> Outcome:
+    """Return what the default recipe reports of this route, walked by the wearer of a seed."""
+    wearer, _ = random_wearer(np.random.default_rng([seed, 77]))
+    devices = {site: KITS[kit] for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
+    walk = emulate(route, wearer=wearer, devices=devices, air=air, seed=seed)
+    session, timeline = Session(recipes.DEFAULT), Timeline()
+    events = session.feed(walk.packets) + session.finish()
+    for event in events:
+        if isinstance(event, ActivityChanged):
+            timeline.add(event)
+    times = [0.1 * k for k in range(int(10.0 * (walk.truth.duration - 2.0)))]
+    return Outcome(
+        walk.truth,
+        Counter((walk.truth.activity(t), timeline.at(t)) for t in times),
+        tuple(event for event in events if isinstance(event, LiftRidden)),
+        tuple(event for event in events if isinstance(event, FlightClimbed)),
+    )
+
+
+def directions(found: Outcome) -> tuple[list[bool], list[bool]]:
+    """Return whether each reported flight and each reported ride went up, in order."""
+    return [flight.up for flight in found.flights], [ride.up for ride in found.rides]
+
+
+@pytest.mark.parametrize("kit", KITS)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_short_stops_in_a_crowd_are_neither_lifts_nor_stairs(seed: int, kit: str) -> None:
+    found = outcome(Route().stand(3.0).crowded(25.0, seed).stand(4.0), kit, seed)
+    assert directions(found) == ([], [])
+    assert found.reported() <= {Activity.STANDING, Activity.WALKING, Activity.UNKNOWN}
+
+
+@pytest.mark.parametrize("kit", KITS)
+def test_most_halts_in_a_crowd_are_seen_as_standing(kit: str) -> None:
+    found = outcome(Route().stand(3.0).crowded(25.0, 1).stand(4.0), kit, 1).seconds
+    stood = sum(count for (true, _), count in found.items() if true is Activity.STANDING)
+    assert found[Activity.STANDING, Activity.STANDING] > 0.8 * stood
+
+
+WEATHER = {
+    "falling": Air(trend=-VERY_RAPIDLY),
+    "rising": Air(trend=VERY_RAPIDLY),
+    "gusts": Air(gusts=6.0, seed=3),
+    "a storm": Air(trend=-VERY_RAPIDLY, gusts=6.0, seed=4),
+    "a front": Air(steps=(PressureStep(10.0, 100.0, duration=120.0),)),
+}
+
+
+@pytest.mark.parametrize("weather", WEATHER)
+@pytest.mark.parametrize("seed", SEEDS[:2])
+def test_weather_makes_neither_stairs_nor_lifts_of_level_ways_and_standing(seed: int, weather: str) -> None:
+    found = outcome(LEVEL, "SensorTags", seed, WEATHER[weather])
+    assert directions(found) == ([], [])
+    assert found.reported() <= {Activity.STANDING, Activity.WALKING, Activity.UNKNOWN}
+
+
+@pytest.mark.parametrize("change", [-30.0, 30.0])
+def test_a_door_in_the_way_makes_no_stairs(change: float) -> None:
+    doors = tuple(PressureStep(t, change if k % 2 else -change, lasting=3.0) for k, t in enumerate((24.0, 31.0, 38.0)))
+    found = outcome(LEVEL, "SensorTags", 1, Air(steps=doors))
+    assert directions(found) == ([], [])
+    assert not found.reported() & {*STAIRS, *LIFTS}
+
+
+@pytest.mark.parametrize("seed", SEEDS[:2])
+def test_wind_turns_neither_stairs_nor_lifts_round(seed: int) -> None:
+    still, windy = (outcome(HOUSE, "SensorTags", seed, air) for air in (STILL_AIR, Air(gusts=6.0, seed=seed)))
+    assert directions(still) == directions(windy) == ([True, True, False], [False, True])
+    for up, down in (STAIRS, LIFTS):
+        assert windy.seconds[up, down] == windy.seconds[down, up] == 0
+
+
+@pytest.mark.parametrize("kit", KITS)
+@pytest.mark.parametrize("height", [4.5, -4.5])
+def test_who_walks_on_an_escalator_climbs_in_its_direction_and_takes_no_lift(height: float, kit: str) -> None:
+    found = outcome(Route().stand(3.0).walk(6.0, 1.3).escalator(height, walking=True).walk(6.0).stand(4.0), kit, 1)
+    assert directions(found) == ([height > 0.0], [])
+    assert not found.reported() & {*LIFTS, STAIRS[1] if height > 0.0 else STAIRS[0]}
+
+
+@pytest.mark.parametrize("height", [4.5, -4.5])
+def test_an_escalator_is_no_stairs_and_nothing_that_goes_the_other_way(height: float) -> None:
+    found = outcome(Route().stand(3.0).walk(6.0, 1.3).escalator(height).walk(6.0).stand(4.0), "insoles", 1)
+    assert not found.flights and all(ride.up == (height > 0.0) for ride in found.rides)
+    assert not found.reported() & {*STAIRS, LIFTS[1] if height > 0.0 else LIFTS[0]}
