@@ -118,7 +118,7 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     session = Session(bare)
     session.feed(packets()["cc2650"][:50])
     assert exact(Session.unpack(session.pack(), bare)) == exact(session)
-    with pytest.raises(SnapshotError, match="packed with 9 parts, and this recipe has 10"):
+    with pytest.raises(SnapshotError, match="packed with 10 parts, and this recipe has 11"):
         Session.unpack(session.pack())
 
 
