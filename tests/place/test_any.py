@@ -28,7 +28,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import insoles
 
-from solepath import Activity, Event, FlightClimbed, Foot, LiftRidden, Placed, PlaceLost, Session, recipes
+from solepath import (
+    Activity,
+    Event,
+    FlightClimbed,
+    Foot,
+    LiftRidden,
+    Placed,
+    PlaceLost,
+    PlanContradicted,
+    Session,
+    recipes,
+)
 from solepath.body.part import Position
 from solepath.body.place.particles import Particles
 from solepath.body.place.place_hypotheses import PlaceSettings
@@ -93,7 +104,7 @@ def test_any_events_and_any_track_give_sound_events_and_no_exception(method, sta
         received = part.follow(OFFICE, events, here)
         assert not received or part.place == (received[-1] if isinstance(received[-1], Placed) else None)
         for event in received:
-            assert isinstance(event, Placed | PlaceLost) and event.known_at >= event.t
+            assert isinstance(event, Placed | PlaceLost | PlanContradicted) and event.known_at >= event.t
             if isinstance(event, Placed):
                 numbers = [*event.position, event.spread, *(c.weight for c in event.candidates)]
                 assert all(isfinite(number) for number in numbers)

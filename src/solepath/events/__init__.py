@@ -32,7 +32,7 @@ from .link import (
     StreamStale,
 )
 from .live import FootMoved, FootPressed, WearerMoved
-from .place import Candidate, Placed, PlaceLost
+from .place import Candidate, Placed, PlaceLost, PlanContradicted
 from .wear import CellFault, CellsFailed, FeetSwapped, FootResumed, FootSilent, InsoleNeverUnloads
 
 __all__ = [
@@ -40,8 +40,8 @@ __all__ = [
     "ClockReset", "Connected", "Defect", "DefectFound", "Disconnected", "Event", "FeetSwapped", "FlightClimbed",
     "FootFlat", "FootResumed", "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike",
     "InsoleNeverUnloads", "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble",
-    "LiveEvent", "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed", "Rejection",
-    "PositionRejected", "PositionReported", "TrackNode", "TrackRevised",
+    "LiveEvent", "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed",
+    "PlanContradicted", "PositionRejected", "PositionReported", "Rejection", "TrackNode", "TrackRevised",
     "SampleGap", "SampleRejected", "StrideFeatures", "StrideTaken", "StreamRestarted", "StreamResumed",
     "StreamStale", "StrideFused", "GaitCycleMeasured", "ToeOff", "TouchedDown", "TurnMade", "WalkingModeChanged",
     "WearEvent", "WearerMoved",
@@ -73,7 +73,7 @@ BodyEvent = GaitCycleMeasured | PositionRejected | StrideFused | TouchedDown | T
 """Events measured from both feet."""
 ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
 """Events of the wearer's activity."""
-PlaceEvent = Placed | PlaceLost
+PlaceEvent = Placed | PlaceLost | PlanContradicted
 """Events of the wearer's place on a floor plan."""
 WearEvent = DefectFound | CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootResumed
 """Events of defects of the data, and of faults in how sensors are worn."""

@@ -33,6 +33,8 @@ LARGEST_CHANGE = 2.0
 
 The difference of stairwells that are pressurised against smoke is 50 Pa (EN 12101-6). The error of a barometer whose
 readings have 0.5 m is 0.4 m over all ways on foot that `MEMORY` holds."""
+DEGRADED_RATIO = 3.0
+"""Ratio of that change after a degraded stride, whose height is less certain (`altitude.py` has the same)."""
 MAX_TRACK_HEIGHT = 1e5
 """Largest height of a track that is used, m."""
 
@@ -53,8 +55,8 @@ class Barometer:
     """Change of the difference while walking, m; what is long ago counts less."""
     reported: bool = False
 
-    def add(self, t: float, difference: float) -> bool:
-        """Add a difference, m, of a wearer who walks, at `t`, s; return whether it has changed too much."""
+    def add(self, t: float, difference: float, largest_change: float) -> bool:
+        """Add a difference, m, of a wearer who walks, at `t`, s; return whether it has changed by more, m."""
         if self.count == 0:
             self.since = self.read_at = t
         dt = max(0.0, t - self.read_at)
@@ -64,7 +66,7 @@ class Barometer:
         self.mean += step
         if self.count > LEAST_READINGS and t - self.since > LEVEL_TIME:
             self.change = self.change * exp(-dt / MEMORY) + step
-        return not self.reported and abs(self.change) > LARGEST_CHANGE
+        return not self.reported and abs(self.change) > largest_change
 
 
 @define
@@ -80,6 +82,8 @@ class AirPressure(Part):
     right: Barometer = field(factory=Barometer, init=False)
     stride_at: float | None = field(default=None, init=False)
     """End of the newest stride of either foot, s; None before any."""
+    degraded: bool = field(default=False, init=False)
+    """Flag: that stride is degraded."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add the reading of a foot's barometer, if the sample has one."""
@@ -92,7 +96,9 @@ class AirPressure(Part):
             barometer.count = 0
             return ()
         height = height_of(pressure)
-        if height is None or not abs(z) < MAX_TRACK_HEIGHT or not barometer.add(t, height - z):
+        if height is None or not abs(z) < MAX_TRACK_HEIGHT:
+            return ()
+        if not barometer.add(t, height - z, LARGEST_CHANGE * (DEGRADED_RATIO if self.degraded else 1.0)):
             return ()
         barometer.reported = True
         return [_found(t, view.known_at, SITE_OF_FOOT[view.foot], barometer.change)]
@@ -100,7 +106,7 @@ class AirPressure(Part):
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive strides, which show that the wearer walks."""
         if isinstance(event, StrideTaken):
-            self.stride_at = event.t
+            self.stride_at, self.degraded = event.t, event.degraded
         return ()
 
     def reset(self, site: Site) -> None:

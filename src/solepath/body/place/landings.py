@@ -79,10 +79,7 @@ def find_exits(
     for landing in _list_connector_landings(landings, entered):
         rise = landing.elevation - entered.elevation
         if rise > 0.0 if up else rise < 0.0:
-            low = high = abs(rise)
-            if not plan.heights_known:
-                storeys = max(abs(landing.ordinal - entered.ordinal), 1)
-                low, high = MIN_STOREY_HEIGHT * storeys, MAX_STOREY_HEIGHT * storeys
+            low, high = usual_rise(plan, entered, landing)
             misfit = 0.0 if height is None else max(low - height, height - high, 0.0)
             deviation = misfit / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low)
             exits.append((landing, exp(-0.5 * min(deviation * deviation, 1000.0))))
@@ -90,6 +87,15 @@ def find_exits(
     if most <= 0.0:
         return [(landing, 1.0 / len(exits)) for landing, _ in exits]
     return [(landing, weight / most) for landing, weight in exits if weight >= MIN_EXIT_LIKELIHOOD * most]
+
+
+def usual_rise(plan: FloorPlan, entered: Landing, left: Landing) -> tuple[float, float]:
+    """Return the least and the largest height between two landings, m; equal when the plan has heights."""
+    if plan.heights_known:
+        rise = abs(left.elevation - entered.elevation)
+        return rise, rise
+    storeys = max(abs(left.ordinal - entered.ordinal), 1)
+    return MIN_STOREY_HEIGHT * storeys, MAX_STOREY_HEIGHT * storeys
 
 
 def _list_connector_landings(landings: list[Landing], entered: Landing) -> list[Landing]:

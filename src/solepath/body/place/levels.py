@@ -8,17 +8,18 @@ from __future__ import annotations
 
 from math import fsum, hypot, isfinite, pi
 
-from ...events import TrackRevised, WearerMoved
+from ...events import PlanContradicted, TrackRevised, WearerMoved
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, evolve, field
 from ...types.vector import ZERO
 from .arrivals import START_HEADING_ERROR, Heading, find_level_changes, rows_at_all_exits, rows_at_exits
-from .landings import Landing, find_exits, list_landings
+from .contradictions import CONTRADICTED_CERTAINTY, contradicted_heading, contradicted_height
+from .landings import HEIGHT_ERROR, Landing, find_exits, list_landings
 from .noise import next_random
 from .place_hypotheses import PlaceHypotheses
-from .reference import LevelChangePossible, LevelReached, References
+from .reference import FAIR_CERTAINTY, LevelChangePossible, LevelReached, References
 from .rows import Row, resample_rows, round_rows, turn_rows
 from .stride_scale import StrideScale
 
@@ -52,8 +53,15 @@ class LevelChanges(PlaceHypotheses):
     """Flag: the level depends on the reported direction of stairs, which is often wrong."""
     arrived_at: float | None = field(default=None, init=False)
     """Time of the last arrival on another level, s; None before any."""
+    unmapped: list[Row] = field(factory=list, init=False)
+    """Rows that were in a lift when it went to where the plan has no landing; empty if it did not."""
+    unmapped_height: float = field(default=0.0, init=False)
+    """Height of all rides since then, m, upwards."""
     known_heading: Heading | None = field(default=None, init=False)
-    """Angle of the track's x axis from the plan's, and its largest error, rad; None if no first heading was given."""
+    """Angle of the track's x axis from the plan's, and its largest error, rad; None without a first heading, or if it
+    was wrong."""
+    heading_since: float | None = field(default=None, init=False)
+    """Time of the first position, s, at which the first heading was known."""
 
     def start_level_change(self, plan: FloorPlan, change: LevelChangePossible) -> None:
         """Add a row that changes level for each row near stairs or an elevator, and keep the rows that stay."""
@@ -79,6 +87,7 @@ class LevelChanges(PlaceHypotheses):
             self.known_heading = (self.known_heading[0] - event.turn, self.known_heading[1])
         self.stride_scale.forget()
         self.rows = round_rows(turn_rows(self.rows, event.turn))
+        self.unmapped = round_rows(turn_rows(self.unmapped, event.turn))
 
     def widen_heading(self, sigma: float | None) -> None:
         """Allow the known heading the error of the track now, whose standard deviation is `sigma`, rad, if known.
@@ -87,6 +96,17 @@ class LevelChanges(PlaceHypotheses):
         if self.known_heading is not None and sigma is not None and isfinite(sigma):
             self.known_heading = (self.known_heading[0], min(START_HEADING_ERROR + 2.0 * sigma, pi))
 
+    def give_up_heading(self, here: WearerMoved, known_at: float) -> list[PlanContradicted]:
+        """Use the first heading no longer if no row has it, and return the event that says so."""
+        if self.known_heading is None:
+            return []
+        since = here.t if self.heading_since is None else self.heading_since
+        wrong = contradicted_heading(self.rows, self.known_heading, since, here.t, known_at)
+        if wrong is None:
+            return []
+        self.known_heading = None
+        return [wrong]
+
     def displacement_since(self, t: float) -> Point:
         """Return the displacement of the track since `t`, s, in m."""
         x, y, _ = self.references.position_at(t)
@@ -94,6 +114,42 @@ class LevelChanges(PlaceHypotheses):
             (self.last_place[0] - x) * self.stride_scale.factor,
             (self.last_place[1] - y) * self.stride_scale.factor,
         )
+
+    def arrive_by(self, plan: IndexedPlan, arrived: LevelReached, known_at: float) -> list[PlanContradicted]:
+        """Arrive on another level, and return an event if the plan has no such ride."""
+        if self.unmapped and arrived.kind is ConnectorKind.LIFT and arrived.height is not None:
+            height = self.unmapped_height + (arrived.height if arrived.up else -arrived.height)
+            whole = evolve(arrived, up=height > 0.0, height=abs(height))
+            is_back, levels = abs(height) < HEIGHT_ERROR, sorted({row[5] for row in self.unmapped})
+            if is_back or contradicted_height(plan.plan, whole, levels, known_at) is None:
+                self._come_back(plan, whole, is_back)
+                return []
+            self.unmapped_height = height
+        wrong = contradicted_height(plan.plan, arrived, sorted({row[5] for row in self.rows}), known_at)
+        if wrong is None:
+            self.unmapped = []
+        else:
+            arrived = evolve(arrived, certainty=CONTRADICTED_CERTAINTY)
+            if not self.unmapped and arrived.height is not None:
+                rows = [row for row in self.rows if row[7]] or find_level_changes(
+                    plan.plan, self.rows, arrived.kind, self.displacement_since(arrived.t_start)
+                )
+                self.unmapped = round_rows(rows if len(rows) <= KNOWN_ROWS else resample_rows(rows, KNOWN_ROWS, 0.5))
+                self.unmapped_height = arrived.height if arrived.up else -arrived.height
+        self.arrive(plan, arrived)
+        return [] if wrong is None else [wrong]
+
+    def _come_back(self, plan: IndexedPlan, whole: LevelReached, is_back: bool) -> None:
+        """Continue the rows of a lift that stopped where the plan has no landing, after the rest of its way or back."""
+        rows, self.unmapped = self.unmapped, []
+        self.random = next_random(self.random)
+        found = [(*row[:7], 0) for row in rows] if is_back else rows_at_exits(plan, rows, whole, self.random)
+        others = resample_rows([(*row[:7], 0) for row in self.rows], KNOWN_ROWS, 0.5)
+        weight, other_weight = fsum([row[4] for row in found]), fsum([row[4] for row in others])
+        k = FAIR_CERTAINTY / (1.0 - FAIR_CERTAINTY) * other_weight / weight if weight and other_weight else 1.0
+        found = [(x, y, a, b, k * w, level, origin, 0) for x, y, a, b, w, level, origin, _ in found]
+        self.arrived_at = whole.t
+        self.set_rows(self._move_to_now(plan, found, whole.t) + others)
 
     def arrive(self, plan: IndexedPlan, arrived: LevelReached) -> None:
         """Continue each row that may have changed level from its exits, and keep rows that stayed."""

@@ -24,7 +24,7 @@ from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
 from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
 from .reference import LevelChangePossible, LevelReached
 from .reported import use_report
-from .rows import ONE_CANDIDATE_SPREAD, Row, candidates_of, effective_count, round_rows
+from .rows import ONE_CANDIDATE_SPREAD, candidates_of, effective_count, have_not_moved, round_rows
 
 ROWS_PER_CANDIDATE = 30
 """Number of additional rows that are kept for each candidate but the heaviest; fewer for a weight below 0.1.
@@ -127,7 +127,7 @@ class Placing(LevelChanges):
             return outputs
         known_at = max([here.t, *[event.known_at for event in events]])
         if not self.started:
-            self.started = True
+            self.started, self.heading_since = True, here.t
             self._start(plan, here, known_at, outputs)
         if self.t is not None and here.t < self.t - 1.0:
             self.references.reset()
@@ -148,11 +148,12 @@ class Placing(LevelChanges):
                 case LevelChangePossible():
                     self.start_level_change(plan.plan, reference)
                 case LevelReached():
-                    self.arrive(plan, reference)
+                    outputs += self.arrive_by(plan, reference, known_at)
                     arrived = True
                 case _:
                     self.cancel_level_change()
         if (strides or arrived) and self.rows:
+            outputs += self.give_up_heading(here, known_at)
             outputs.append(self._report_place(plan, here, known_at))
         return outputs
 
@@ -207,7 +208,7 @@ class Placing(LevelChanges):
         self.stride_count = (self.stride_count + 1) % OUTSIDE_INTERVAL
         if self.stride_count == 0:
             rows = penalise_outside(plan, rows)
-        not_moved = _have_not_moved(rows, previous_rows)
+        not_moved = have_not_moved(rows, previous_rows)
         self.stuck_distance = self.stuck_distance + hypot(*move) if not_moved else 0.0
         self.rows = round_rows(rows) if self.stuck_distance <= MAX_STUCK_DISTANCE else []
         if not self.rows:
@@ -286,13 +287,3 @@ class Placing(LevelChanges):
             candidates=candidates,
         )
         return self.newest_placed
-
-
-def _have_not_moved(rows: list[Row], previous: list[Row]) -> bool:
-    """Return whether every row has the place of a previous row; checking the first one first is fast."""
-    if rows:
-        x, y = rows[0][:2]
-        if not any([row[0] == x and row[1] == y for row in previous]):
-            return False
-    places = {row[:2] for row in previous}
-    return all([row[:2] in places for row in rows])

@@ -187,3 +187,13 @@ def turn_rows(rows: list[Row], yaw: float) -> list[Row]:
     """Return the rows for a track that was turned by `yaw`, rad: their moves in the plan stay as they are."""
     c, s = cos(yaw), sin(yaw)
     return [(x, y, c * a + s * b, c * b - s * a, w, level, origin, at) for x, y, a, b, w, level, origin, at in rows]
+
+
+def have_not_moved(rows: list[Row], previous: list[Row]) -> bool:
+    """Return whether every row has the place of a previous row; checking the first one first is fast."""
+    if rows:
+        x, y = rows[0][:2]
+        if not any([row[0] == x and row[1] == y for row in previous]):
+            return False
+    places = {row[:2] for row in previous}
+    return all([row[:2] in places for row in rows])

@@ -232,15 +232,15 @@ def table(sensors: Sensors, outcomes: dict[str, WalkOutcome], walks: int) -> lis
     return lines + [line(row.name, outcomes[row.name], walks, row.plan) for row in sensors.rows]
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Print the tables."""
+def main(arguments: Sequence[str] | None = None, tables: Sequence[Sensors] = TABLES) -> None:
+    """Print these tables."""
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.emulated.evidence", description=__doc__)
     parser.add_argument("--walks", metavar="N", type=int, default=WALKS, help="number of seeds")
     parser.add_argument("--seed", metavar="S", type=int, default=FIRST_SEED, help="first seed")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the figures too")
     options = parser.parse_args(arguments)
     figures: dict[str, dict[str, object]] = {}
-    for number, sensors in enumerate(TABLES):
+    for number, sensors in enumerate(tables):
         total = {row.name: WalkOutcome() for row in sensors.rows}
         for seed in range(options.seed, options.seed + options.walks):
             total = {name: total[name] + outcome for name, outcome in score_seed(sensors, seed).items()}

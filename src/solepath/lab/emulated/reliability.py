@@ -1,10 +1,11 @@
 """Weights of candidates against how often such a candidate is the true one, in the emulated building.
 
-    python -m solepath.lab.emulated.reliability [--walks N] [--seed S] [--json FILE]
+    python -m solepath.lab.emulated.reliability [--walks N] [--seed S] [--apart] [--json FILE]
 
 prints the table of docs/accuracy.md as Markdown. Every candidate of every scored stride (place.py) of walks without a
-known start is counted in the bin of its weight. Weights are calibrated when the share of true candidates in a bin is
-their mean weight. Strides of one walk are far from independent: the number of walks says how much a bin shows."""
+known start is counted in the bin of its weight. Candidates near a heavier one on its level are one place with it, and
+their weights are added, unless each is counted `--apart`. Weights are calibrated when the share of true places in a bin
+is their mean weight. Strides of one walk are far from independent: the number of walks says how much a bin shows."""
 
 from __future__ import annotations
 
@@ -24,7 +25,7 @@ from ...emulate.sensors.insole_device import Insole
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import emulate
 from ...emulate.wearers.shoe import IN_SOLE
-from ...events import Placed
+from ...events import Candidate, Placed
 from ...floorplan.index import IndexedPlan
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot
@@ -33,7 +34,7 @@ from .place import is_near, is_on_floor
 FIRST_SEED, WALKS = 5001, 25
 """First seed and number of walks."""
 BINS = 10
-"""Number of bins of equal width; a candidate that is the only one has a bin of its own after them."""
+"""Number of bins of equal width; a place that is the only one has a bin of its own after them."""
 DEVICES: dict[str, Device] = {"default": Insole(cells=8), "footstep-tracker": CC2541(rate=20.0, mounting=IN_SOLE)}
 """Device on both feet by the name of the recipe."""
 TITLES = {"default": "`default`, insoles", "footstep-tracker": "`footstep-tracker`, CC2541"}
@@ -41,28 +42,42 @@ TITLES = {"default": "`default`, insoles", "footstep-tracker": "`footstep-tracke
 
 @define
 class WeightBin:
-    """The candidates whose weights lie in one bin."""
+    """The places whose weights lie in one bin."""
 
     count: int = 0
+    """Number of places."""
     true: int = 0
-    """Number of those that were the true candidate."""
+    """Number of those that were the true one."""
     weight_sum: float = 0.0
     seeds: set[int] = field(factory=set)
     """Seeds of the walks that have one of them."""
 
     @property
     def mean_weight(self) -> float | None:
-        """Mean weight; None without candidates."""
+        """Mean weight; None without places."""
         return self.weight_sum / self.count if self.count else None
 
     @property
     def share_true(self) -> float | None:
-        """Share that was true; None without candidates."""
+        """Share that was true; None without places."""
         return self.true / self.count if self.count else None
 
 
-def candidates(recipe: str, seed: int) -> Iterator[tuple[float, bool, bool]]:
-    """Yield weight, whether it is the only candidate, and whether it is the true one, of each scored candidate."""
+def join(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
+    """Return the candidates in groups, each of those near its heaviest one on the same level."""
+    groups: list[list[Candidate]] = []
+    for candidate in candidates:  # the heaviest first
+        x, y, _ = candidate.position
+        group = next((group for group in groups if is_near(group[0], candidate.level, x, y)), None)
+        if group is None:
+            groups.append([candidate])
+        else:
+            group.append(candidate)
+    return groups
+
+
+def scored_places(recipe: str, seed: int, apart: bool) -> Iterator[tuple[float, bool, bool]]:
+    """Yield the weight of each scored place, whether it is the only one, and whether it is the true one."""
     way = wandering(seed)
     walk = emulate(way.route, devices={SITE_OF_FOOT[foot]: DEVICES[recipe] for foot in Foot}, seed=seed)
     session = Session(recipes.by_name(recipe), floorplan=IndexedPlan(BUILDING))
@@ -70,15 +85,17 @@ def candidates(recipe: str, seed: int) -> Iterator[tuple[float, bool, bool]]:
     places = way.places(walk.walker, np.array([one.t for one in placed])) if placed else []
     for one, place in zip(placed, places, strict=True):
         if is_on_floor(walk.truth, one.t):
-            for candidate in one.candidates:
-                yield candidate.weight, len(one.candidates) == 1, is_near(candidate, *place)
+            groups = [[candidate] for candidate in one.candidates] if apart else join(one.candidates)
+            for group in groups:
+                weight = sum([candidate.weight for candidate in group])
+                yield weight, len(groups) == 1, any([is_near(candidate, *place) for candidate in group])
 
 
-def reliability(recipe: str, seeds: Sequence[int]) -> list[WeightBin]:
-    """Return the bins of all walks, with that of only candidates at the end."""
+def reliability(recipe: str, seeds: Sequence[int], apart: bool = False) -> list[WeightBin]:
+    """Return the bins of all walks, with that of only places at the end."""
     bins = [WeightBin() for _ in range(BINS + 1)]
     for seed in seeds:
-        for weight, is_only, is_true in candidates(recipe, seed):
+        for weight, is_only, is_true in scored_places(recipe, seed, apart):
             one = bins[BINS if is_only else min(int(weight * BINS), BINS - 1)]
             one.count, one.true, one.weight_sum = one.count + 1, one.true + is_true, one.weight_sum + weight
             one.seeds.add(seed)
@@ -86,7 +103,7 @@ def reliability(recipe: str, seeds: Sequence[int]) -> list[WeightBin]:
 
 
 def table(results: dict[str, list[WeightBin]]) -> list[str]:
-    """Return the table as Markdown: for each recipe mean weight, share true, and numbers of candidates and walks."""
+    """Return the table as Markdown: for each recipe mean weight, share true, and numbers of places and walks."""
     lines = ["| weight | " + " | ".join(TITLES[recipe] for recipe in results) + " |", "|---|" + "---:|" * len(results)]
     for k in range(BINS + 1):
         name = "the only one" if k == BINS else f"{k / BINS:.1f} to {(k + 1) / BINS:.1f}"
@@ -106,10 +123,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.emulated.reliability", description=__doc__)
     parser.add_argument("--walks", metavar="N", type=int, default=WALKS, help="number of walks of each recipe")
     parser.add_argument("--seed", metavar="S", type=int, default=FIRST_SEED, help="first seed")
+    parser.add_argument("--apart", action="store_true", help="count each candidate by itself")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the figures too")
     options = parser.parse_args(arguments)
     seeds = range(options.seed, options.seed + options.walks)
-    results = {recipe: reliability(recipe, seeds) for recipe in DEVICES}
+    results = {recipe: reliability(recipe, seeds, options.apart) for recipe in DEVICES}
     print("\n".join(table(results)))
     if options.json is not None:
         figures = {

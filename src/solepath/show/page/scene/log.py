@@ -25,6 +25,7 @@ from ....events import (
     LinkTrouble,
     PacketsDropped,
     PlaceLost,
+    PlanContradicted,
     PositionRejected,
     StreamRestarted,
     StreamResumed,
@@ -143,7 +144,7 @@ def _gait(event: Event) -> tuple[str, str] | None:
         case LiftRidden(up=up, height=height, final=True):
             height_text = "" if height is None else f", {abs(height):.1f} m"
             return "gait", f"a lift {'up' if up else 'down'}{height_text}"
-        case PlaceLost(what=what):
+        case PlaceLost(what=what) | PlanContradicted(what=what):
             return "place", what
         case TrackRevised() | PositionRejected():
             return "here", outcome_words(event)

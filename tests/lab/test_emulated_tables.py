@@ -1,0 +1,64 @@
+"""Tables of emulated walks: what each kind of evidence earns, and how reliable the weights of places are."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from attrs import evolve
+
+from solepath import Packet, Sample, Site
+from solepath.events import Candidate
+from solepath.lab.emulated import evidence, reliability
+from solepath.lab.emulated.evidence import EVERYTHING, NO_AIR_PRESSURE, NO_GYROSCOPE, NO_HEADING, ONE_FOOT, TABLES
+from solepath.lab.emulated.reliability import BINS, WeightBin, join
+
+SAMPLE = Sample(1.0, Site.RIGHT_FOOT, (0.0, 0.0, 9.8), (0.1, 0.0, 0.0), air_pressure=101325.0)
+TAGS = TABLES[-1]
+
+
+def packet(channel: str) -> Packet:
+    return Packet(1.0, Site.LEFT_FOOT, channel, b"")
+
+
+def test_evidence_is_taken_from_samples_and_from_packets_and_the_rest_stays() -> None:
+    gyro, air, acc = map(packet, ("cc2541/gyroscope", "cc2541/barometer", "cc2541/accelerometer"))
+    assert NO_GYROSCOPE.remove is not None and NO_AIR_PRESSURE.remove is not None and ONE_FOOT.remove is not None
+    assert NO_GYROSCOPE.remove(SAMPLE) == evolve(SAMPLE, gyro=None)
+    assert [NO_GYROSCOPE.remove(one) for one in (gyro, air, acc)] == [None, air, acc]
+    assert NO_AIR_PRESSURE.remove(SAMPLE) == evolve(SAMPLE, air_pressure=None)
+    assert [NO_AIR_PRESSURE.remove(one) for one in (gyro, air, acc)] == [gyro, None, acc]
+    assert [ONE_FOOT.remove(one) for one in (SAMPLE, acc)] == [None, acc]
+
+
+def test_a_row_without_evidence_is_scored_beside_that_with_everything(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    short = evolve(TAGS, rows=(EVERYTHING, ONE_FOOT, NO_HEADING))
+    evidence.main(["--walks", "1", "--seed", "5001", "--json", str(tmp_path / "figures.json")], [short])
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split("|")[1].strip() for line in lines[2:]] == ["everything", "one foot", "no first heading"]
+    assert lines[2] != lines[3] and " of 1 |" in lines[2]
+    assert lines[4].split("|")[2:6] == ["  "] * 4, "activities do not use the heading"
+    (rows,) = json.loads((tmp_path / "figures.json").read_text())["tables"].values()
+    assert rows["everything"]["accuracy"] > rows["one foot"]["accuracy"] and rows["everything"]["rides_true"] == 4
+    assert rows["everything"]["place_mean"] < rows["one foot"]["place_mean"]
+
+
+def test_candidates_near_a_heavier_one_on_its_level_are_one_place() -> None:
+    first, near, above, far = [
+        Candidate(level, (x, 0.0, 0.0), None, weight, "start")
+        for level, x, weight in (("0", 0.0, 0.4), ("0", 2.0, 0.3), ("1", 0.0, 0.2), ("0", 4.0, 0.1))
+    ]
+    assert join([first, near, above, far]) == [[first, near], [above], [far]]
+
+
+def test_weights_are_counted_in_bins_and_the_only_place_by_itself() -> None:
+    bins = reliability.reliability("footstep-tracker", [5001])
+    assert bins[BINS].mean_weight == pytest.approx(1.0) and bins[BINS].seeds == {5001}
+    for k, one in enumerate(bins[:BINS]):
+        assert one.mean_weight is None or k / BINS <= one.mean_weight <= (k + 1) / BINS
+        assert 0 <= one.true <= one.count
+    lines = reliability.table({"footstep-tracker": [WeightBin(4, 3, 2.0, {1, 2}) for _ in range(BINS + 1)]})
+    assert lines[2] == "| 0.0 to 0.1 | 0.500: 0.750 (4 in 2) |" and lines[-1].startswith("| the only one |")
