@@ -80,20 +80,22 @@ def _sway(
         k = (k + 367) % NOISE_ENTRIES
         ex, ey, eh, es = NOISE_TABLE[k]
         side, passed = (1.0 if eh > 0.0 else -1.0), False
+        px, py = x0 + x, y0 + y
+        error_x, error_y = 2.0 * move_error * ex, 2.0 * move_error * ey
         for bend in bends:
             w *= BEND_WEIGHT
             # bend to one side, then to the other; the row keeps the changed heading
             for h in (side * bend, -side * bend):
                 h, s = h + turn * es, 1.0 - 0.5 * h * h
                 a1, b1 = a * s - b * h, b * s + a * h
-                nx, ny = x + a1 * dx - b1 * dy + 2.0 * move_error * ex, y + b1 * dx + a1 * dy + 2.0 * move_error * ey
-                if not crosses(level, x0 + x, y0 + y, x0 + nx, y0 + ny):
+                nx, ny = x + a1 * dx - b1 * dy + error_x, y + b1 * dx + a1 * dy + error_y
+                if not crosses(level, px, py, x0 + nx, y0 + ny):
                     kept.append((nx, ny, a1, b1, w, level, origin, 0))
                     passed = True
                     if not both_sides:
                         break
             if passed:
                 break
-        if not passed and is_near_landing(plan, level, x0 + x, y0 + y):
+        if not passed and is_near_landing(plan, level, px, py):
             kept.append((x, y, a, b, row[4] * STAY_WEIGHT, level, origin, 0))
     return kept

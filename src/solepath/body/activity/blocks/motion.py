@@ -187,6 +187,4 @@ def _weighted_sums(rows: Sequence[Row], half: Row, inputs: Row) -> list[float]:
     length = hypot(*inputs)
     square = 0.5 * length * length
     distances = map(dist, rows, repeat(inputs))
-    return [
-        constant + square - 0.5 * distance * distance for constant, distance in zip(half, distances, strict=True)
-    ]
+    return [constant + square - 0.5 * distance * distance for constant, distance in zip(half, distances, strict=True)]
