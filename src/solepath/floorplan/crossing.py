@@ -35,6 +35,9 @@ _PIECE_SHARE = 0.999
 _SIDE_MARGIN = 1e-6
 """Distance from a wall's line beyond which the side is certain, m: coordinates below 1e7 m are accurate to 1e-8 m."""
 
+_UNDERFLOW = 1e-300
+"""Bound above the loss by underflow of a product, m^2."""
+
 _Wall = tuple[float, float, float, float, float, float, float]
 """(a, b, c) with a x + b y - c the signed distance from the wall's line, and the wall's ends ax, ay, bx, by."""
 
@@ -131,14 +134,34 @@ class Walls:
 
 
 def _touches_any(walls: tuple[_Wall, ...], x0: float, y0: float, x1: float, y1: float) -> bool:
+    dx, dy = x1 - x0, y1 - y0
+    margin = _SIDE_MARGIN * (abs(dx) + abs(dy)) + _UNDERFLOW
     for a, b, c, ax, ay, bx, by in walls:
         before = a * x0 + b * y0 - c
         after = a * x1 + b * y1 - c
         if before > _SIDE_MARGIN:
             if after > _SIDE_MARGIN:
                 continue
-        elif before < -_SIDE_MARGIN and after < -_SIDE_MARGIN:
-            continue
+            is_across = after < -_SIDE_MARGIN
+        elif before < -_SIDE_MARGIN:
+            if after < -_SIDE_MARGIN:
+                continue
+            is_across = after > _SIDE_MARGIN
+        else:
+            is_across = False
+        if is_across:  # the move crosses the wall's line: does it pass between its ends?
+            left = dx * (ay - y0) - dy * (ax - x0)
+            right = dx * (by - y0) - dy * (bx - x0)
+            if left > margin:
+                if right > margin:
+                    continue
+                if right < -margin:
+                    return True
+            elif left < -margin:
+                if right < -margin:
+                    continue
+                if right > margin:
+                    return True
         if touch(ax, ay, bx, by, x0, y0, x1, y1):
             return True
     return False

@@ -14,7 +14,7 @@ from .crossing import MAX_CELLS, Walls
 from .enclosure import MAX_LATTICE_POINTS, Enclosure
 from .grid import MAX_CELLS_PER_PLAN, MAX_LATTICE_POINTS_PER_PLAN, share_limit
 from .outlines import Ring
-from .plan import FloorPlan, FloorPlanError
+from .plan import FloorPlan, FloorPlanError, Point
 from .room_names import MAX_CELLS as MAX_NAME_CELLS
 from .room_names import RoomNames
 from .rooms import MAX_CELLS as MAX_ROOM_CELLS
@@ -29,7 +29,7 @@ class IndexedPlan:
 
     Raises FloorPlanError when the plan cannot be used."""
 
-    __slots__ = ("_insides", "_numbers", "_room_names", "_walls", "fingerprint", "plan")
+    __slots__ = ("_insides", "_numbers", "_room_names", "_walls", "fingerprint", "plan", "stop_places")
 
     def __init__(self, plan: FloorPlan) -> None:
         fault = find_fault(plan)
@@ -46,7 +46,10 @@ class IndexedPlan:
             if densest > MAX_WALLS_NEAR:
                 raise FloorPlanError(f"level {level.id!r}: {densest} walls lie around ({x:.0f}, {y:.0f})")
         outlines: list[list[Ring]] = [[] for _ in plan.levels]
+        self.stop_places: list[list[Point]] = [[] for _ in plan.levels]
+        """Places at which stairs and elevators are entered and left, m, plan frame, of each level."""
         for stop in [stop for connector in plan.connectors for stop in connector.stops]:
+            self.stop_places[self._numbers[stop.level]].append(stop.place)
             outlines[self._numbers[stop.level]].append(stop.outline)
         room_cells = share_limit(MAX_ROOM_CELLS, MAX_CELLS_PER_PLAN, count)
         n_enclosures = sum([not level.rooms for level in plan.levels])

@@ -30,7 +30,7 @@ from .blocks.foot_blocks import MAX_STRIDE_TIME, FootBlocks
 from .blocks.motion import MotionModel, load_released_model
 from .blocks.stride_slope import slope_evidence
 from .blocks.votes import block_force, motion_votes
-from .early import ActivityCue, EarlyActivities, cue_of_block, cue_of_stride
+from .early import ActivityCue, BlockSigns, EarlyActivities, cue_of_stride
 from .flights import Flights
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
 from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
@@ -160,7 +160,7 @@ class Activities(ActivityPart):
         complete = min([index for index in open_blocks if newest - index < SILENT_BLOCKS]) - 1
         if complete <= self.newest_block:
             return []
-        self.newest_block = complete
+        followed, self.newest_block = self.newest_block, complete
         events: list[Event] = []
         empty_blocks = 0
         while self.next_block <= complete - WINDOW_REACH:
@@ -168,7 +168,7 @@ class Activities(ActivityPart):
             self.next_block += 1
             if empty_blocks > MAX_EMPTY_BLOCKS:
                 self.next_block = max(self.next_block, complete - 2 * WINDOW_REACH)
-        events += self._report(known_at)
+        events += self._report(followed, known_at)
         self._count_flights(t, known_at, events)
         return events
 
@@ -200,20 +200,33 @@ class Activities(ActivityPart):
     def _forces(self, index: int) -> tuple[BlockForce | None, ...]:
         return tuple([block_force(side.block(index), side.resolution) for side in (self.left, self.right)])
 
-    def _report(self, known_at: float) -> list[Event]:
-        """Return the events by which what was reported changes with the newest block."""
+    def _report(self, followed: int, known_at: float) -> list[Event]:
+        """Return the events by which what was reported changes with the newest block.
+
+        `followed` is the newest block of the report before. When that one, the newest block and the sequence all show
+        the same activity, it goes on; otherwise every block that is not in the sequence yet is judged again."""
         best, model = self.hypotheses.best, self.settings.model or load_released_model()
         newest = NO_ACTIVITY if best is None or not best.path else best.path[-1]
+        levels, chain = None if best is None else best.ride.levels, model.chain
+        t, shown = self._time(self.newest_block), self._show(self.newest_block)
         early = EarlyActivities([(newest, 1.0)])
-        for index in range(max(self.next_block, self.newest_block + 1 - WINDOW_REACH), self.newest_block + 1):
-            features = self._features(index)
-            if all([one is None for one in features]):
-                continue
-            votes, elevator = motion_votes(model, features), ElevatorEvidence(self._forces(index))
-            levels = None if best is None else best.ride.levels
-            early.follow(self._time(index), cue_of_block(votes, early.activity, elevator, levels), model.chain)
+        early.follow_block(t, shown, levels, chain)
+        is_same = early.activity is newest.activity and self.early[-1][0].activity is newest.activity
+        if shown is None or followed != self.newest_block - 1 or not is_same:
+            early = EarlyActivities([(newest, 1.0)])
+            for index in range(max(self.next_block, self.newest_block + 1 - WINDOW_REACH), self.newest_block):
+                early.follow_block(self._time(index), self._show(index), levels, chain)
+            early.follow_block(t, shown, levels, chain)
         self.early = early.found
         return self._report_early(known_at)
+
+    def _show(self, index: int) -> BlockSigns | None:
+        """Return what a block shows, with as many later blocks as there are; None without samples."""
+        features = self._features(index)
+        if all([one is None for one in features]):
+            return None
+        model = self.settings.model or load_released_model()
+        return motion_votes(model, features), ElevatorEvidence(self._forces(index))
 
     def _report_early(self, known_at: float) -> list[Event]:
         """Return the events by which what was reported changes with the newest stride."""

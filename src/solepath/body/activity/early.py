@@ -96,6 +96,10 @@ def printed_table() -> str:
     return "\n".join(["  ".join(line).rstrip() for line in lines])
 
 
+BlockSigns = tuple[tuple[float, ...], ElevatorEvidence]
+"""What a block shows: the log-likelihoods of `MOTIONS` and of an unknown one, and the forces on both feet."""
+
+
 class EarlyActivities:
     """The newest activity of the likeliest sequence and those after it, for one report; not part of the state."""
 
@@ -118,6 +122,11 @@ class EarlyActivities:
             return
         t += chain.shift[STATE_OF_ACTIVITY[newest.activity]][STATE_OF_ACTIVITY[following]]
         self.found.append((ActivitySegment(max(t, newest.t + TIE), following), cue[1]))
+
+    def follow_block(self, t: float, shown: BlockSigns | None, levels: RestLevels | None, chain: Chain) -> None:
+        """Follow what a block that starts at `t`, s, shows; `levels` are the forces on the feet at rest."""
+        if shown is not None:
+            self.follow(t, cue_of_block(shown[0], self.activity, shown[1], levels), chain)
 
 
 def cue_of_block(

@@ -45,6 +45,8 @@ from .ride import (
 
 DROP_LIMIT = 13.0
 """A token whose log-likelihood is further than this below that of the best token is dropped."""
+MOST_FORCE_EVIDENCE = 4.0
+"""Above any log-likelihood of the forces in a block: with both feet's `SWAY_DEVIATION` alone it is 2.9."""
 AGREEMENT_LIMIT = 8.0
 """Tokens whose log-likelihood is further than this below that of the best token need not agree with a segment."""
 RIDE_SETTLING_TIME = 12.0
@@ -148,7 +150,9 @@ class Hypotheses:
                     if score > highest:
                         best, highest = i, score
             predecessor = (token_of_state[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None
-            if predecessor is not None:
+            motion_score = block.motion_scores[STAND if state in RIDE_STATES else state]
+            most = highest + motion_score + block.pressure_scores[state] + MOST_FORCE_EVIDENCE
+            if predecessor is not None and most >= top_score - DROP_LIMIT:
                 candidate = _score_path(predecessor, highest, state, block, elevator)
                 candidates.append(candidate)
                 if candidate[0] > top_score:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import exp, hypot
 
+from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types.attrs import frozen
 
@@ -107,6 +108,6 @@ def _list_connector_landings(landings: list[Landing], entered: Landing) -> list[
     return landings[first:last]
 
 
-def is_near_landing(landings: list[Landing], level: int, x: float, y: float) -> bool:
+def is_near_landing(plan: IndexedPlan, level: int, x: float, y: float) -> bool:
     """Return whether a wearer at (x, y), m, plan frame, may already be on stairs or in an elevator."""
-    return any([one.level == level and hypot(one.place[0] - x, one.place[1] - y) < NEAR_LANDING for one in landings])
+    return any([hypot(px - x, py - y) < NEAR_LANDING for px, py in plan.stop_places[level]])

@@ -144,39 +144,47 @@ def _group_rows(rows: list[Row], limit: float) -> list[_Group]:
         # the length of (a, b) is about 1 for all rows
         return [(sw, sx, sy, sa, sb, sw, level, row_origin, landing)]
     groups: list[_Group] = []
-    for x, y, a, b, w, row_level, row_origin, landing in sorted(rows, key=_row_weight, reverse=True):
-        best, nearest = -1, CANDIDATE_RADIUS * CANDIDATE_RADIUS
-        is_full = len(groups) >= MAX_CANDIDATES
-        if is_full:
-            nearest = 5.0 * MAX_DISTANCE * MAX_DISTANCE  # above any distance2 on the same level
+    centres: list[tuple[float, float, int]] = []
+    for x, y, a, b, w, level, row_origin, landing in sorted(rows, key=_row_weight, reverse=True):
         length = w * sqrt(a * a + b * b)
-        for k, (gw, gx, gy, ga, gb, gl, level, _, _) in enumerate(groups):
-            if level == row_level or is_full:
-                distance2 = (
-                    (gx / gw - x) ** 2
-                    + (gy / gw - y) ** 2
-                    + (0.0 if level == row_level else MAX_DISTANCE * MAX_DISTANCE)
-                )
-                if distance2 < nearest and (
-                    is_full
-                    or distance2 < NARROW_RADIUS * NARROW_RADIUS
-                    or w * (ga * a + gb * b) > MIN_TURN_COSINE * gl * length
-                ):
-                    best, nearest = k, distance2
-        if best < 0:
-            if is_full:
-                best = 0
-            else:
-                groups.append((w, w * x, w * y, w * a, w * b, length, row_level, row_origin, landing))
+        if len(groups) >= MAX_CANDIDATES:
+            best = _nearest_centre(centres, x, y, level)
+        else:
+            best, nearest = -1, CANDIDATE_RADIUS * CANDIDATE_RADIUS
+            for k, (cx, cy, centre_level) in enumerate(centres):
+                if centre_level == level:
+                    ex, ey = cx - x, cy - y
+                    distance2 = ex * ex + ey * ey
+                    if distance2 < nearest and (
+                        distance2 < NARROW_RADIUS * NARROW_RADIUS or _has_heading(groups[k], w * a, w * b, length)
+                    ):
+                        best, nearest = k, distance2
+            if best < 0:
+                groups.append((w, w * x, w * y, w * a, w * b, length, level, row_origin, landing))
+                centres.append((w * x / w, w * y / w, level))
                 continue
-        gw, gx, gy, ga, gb, gl, level, origin, entry = groups[best]
-        if level != row_level:  # the list is full: add the weight of the row, not its place
+        gw, gx, gy, ga, gb, gl, group_level, origin, entry = groups[best]
+        if group_level == level:
+            gw, gx, gy, ga, gb, gl = gw + w, gx + w * x, gy + w * y, ga + w * a, gb + w * b, gl + length
+        else:  # the list is full: add the weight of the row, not its place
             ratio = (gw + w) / gw
             gw, gx, gy, ga, gb, gl = gw * ratio, gx * ratio, gy * ratio, ga * ratio, gb * ratio, gl * ratio
-            groups[best] = (gw, gx, gy, ga, gb, gl, level, origin, entry)
-        else:
-            groups[best] = (gw + w, gx + w * x, gy + w * y, ga + w * a, gb + w * b, gl + length, level, origin, entry)
+        groups[best] = (gw, gx, gy, ga, gb, gl, group_level, origin, entry)
+        centres[best] = (gx / gw, gy / gw, group_level)
     return groups
+
+
+def _has_heading(group: _Group, a: float, b: float, length: float) -> bool:
+    """Return whether a heading (a, b) of this length is nearly equal to that of the group."""
+    _, _, _, group_a, group_b, group_length, _, _, _ = group
+    return group_a * a + group_b * b > MIN_TURN_COSINE * group_length * length
+
+
+def _nearest_centre(centres: list[tuple[float, float, int]], x: float, y: float, level: int) -> int:
+    """Return the index of the centre (x, y, level) nearest to a place; those of its level are nearer than others."""
+    far = MAX_DISTANCE * MAX_DISTANCE
+    distances2 = [(cx - x) ** 2 + (cy - y) ** 2 + (0.0 if on == level else far) for cx, cy, on in centres]
+    return distances2.index(min(distances2))
 
 
 def _row_weight(row: Row) -> float:

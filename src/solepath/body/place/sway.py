@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import chain, cycle
 from math import hypot
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
-from .landings import Landing, is_near_landing, list_landings
+from .landings import is_near_landing
 from .noise import NOISE_ENTRIES, NOISE_TABLE
 from .rows import Row
 
@@ -62,10 +63,9 @@ def _sway(
     crosses = plan.crosses
     kept: list[Row] = []
     blocked: list[Row] = []
-    for row in rows:
+    noise = chain(NOISE_TABLE[k + 1 :], cycle(NOISE_TABLE))
+    for row, (ex, ey, eh, es) in zip(rows, noise, strict=False):
         x, y, a, b, w, level, origin, _ = row
-        k = k + 1 if k < NOISE_ENTRIES - 1 else 0
-        ex, ey, eh, es = NOISE_TABLE[k]
         s = 1.0 + STRETCH_DECAY * (1.0 - a * a - b * b) + stretch * es
         h = turn * eh
         a1, b1 = a * s - b * h, b * s + a * h
@@ -74,30 +74,28 @@ def _sway(
             blocked.append(row)
         else:
             kept.append((nx, ny, a1, b1, w, level, origin, 0))
-    if not blocked:
-        return kept
-    landings: list[Landing] | None = None
+    k += len(rows)
     for row in blocked:
         x, y, a, b, w, level, origin, _ = row
         k = (k + 367) % NOISE_ENTRIES
         ex, ey, eh, es = NOISE_TABLE[k]
         side, passed = (1.0 if eh > 0.0 else -1.0), False
+        px, py = x0 + x, y0 + y
+        error_x, error_y = 2.0 * move_error * ex, 2.0 * move_error * ey
         for bend in bends:
             w *= BEND_WEIGHT
             # bend to one side, then to the other; the row keeps the changed heading
             for h in (side * bend, -side * bend):
                 h, s = h + turn * es, 1.0 - 0.5 * h * h
                 a1, b1 = a * s - b * h, b * s + a * h
-                nx, ny = x + a1 * dx - b1 * dy + 2.0 * move_error * ex, y + b1 * dx + a1 * dy + 2.0 * move_error * ey
-                if not crosses(level, x0 + x, y0 + y, x0 + nx, y0 + ny):
+                nx, ny = x + a1 * dx - b1 * dy + error_x, y + b1 * dx + a1 * dy + error_y
+                if not crosses(level, px, py, x0 + nx, y0 + ny):
                     kept.append((nx, ny, a1, b1, w, level, origin, 0))
                     passed = True
                     if not both_sides:
                         break
             if passed:
                 break
-        if not passed:
-            landings = list_landings(plan.plan) if landings is None else landings
-            if is_near_landing(landings, level, x0 + x, y0 + y):
-                kept.append((x, y, a, b, row[4] * STAY_WEIGHT, level, origin, 0))
+        if not passed and is_near_landing(plan, level, px, py):
+            kept.append((x, y, a, b, row[4] * STAY_WEIGHT, level, origin, 0))
     return kept

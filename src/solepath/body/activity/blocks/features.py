@@ -17,8 +17,8 @@ WINDOW_REACH = 2
 """Number of blocks before and after the judged one in its window: five blocks, 2.5 s."""
 BIN_COUNT = 10
 """Number of bins of |acc|, 2 m/s^2 wide, and of |gyro|, 1 rad/s wide; the last bin has no upper limit."""
-ACC_LIMIT, SQUARED_RATE_LIMIT = 2.0 * BIN_COUNT, BIN_COUNT * BIN_COUNT
-"""Lower limits of the last bins: |acc|, m/s^2, and |gyro|^2, (rad/s)^2."""
+ACC_LIMIT, RATE_LIMIT = 2.0 * BIN_COUNT, 1.0 * BIN_COUNT
+"""Lower limits of the last bins: |acc|, m/s^2, and |gyro|, rad/s."""
 WINDOW_PARTS = 3
 """Number of parts of a window: the blocks before the judged one, the judged one, and the blocks after it."""
 FIRST_GYRO_FEATURE = 4 + WINDOW_PARTS * BIN_COUNT

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from math import sqrt
+from math import dist, hypot, sqrt
 from typing import Protocol
 
 from ....events import Event, FootFlat, HeelStrike, StrideTaken
@@ -15,7 +15,7 @@ from .features import (
     ACC_LIMIT,
     BIN_COUNT,
     BLOCK_DURATION,
-    SQUARED_RATE_LIMIT,
+    RATE_LIMIT,
     WINDOW_REACH,
     ActivityBlock,
     BlockStride,
@@ -98,22 +98,15 @@ class FootBlocks:
 
     def add(self, acc: Vec3, gyro: Vec3 | None, track: FootTrack | None) -> None:
         """Add a sample to the block under way; `track` is the foot's motion after it, None when it is not known."""
-        x, y, z = acc
-        square = x * x + y * y + z * z
-        length = sqrt(square)
+        length = hypot(*acc)
         self.force += length
-        self.squares += square
+        self.squares += length * length
         self.acc_bins[int(length * 0.5) if length < ACC_LIMIT else BIN_COUNT - 1] += 1
         if gyro is None:
             return
-        x, y, z = gyro
-        bx, by, bz = self.bias
-        x -= bx
-        y -= by
-        z -= bz
-        square = x * x + y * y + z * z
-        self.rate_squares += square
-        self.gyro_bins[int(sqrt(square)) if square < SQUARED_RATE_LIMIT else BIN_COUNT - 1] += 1
+        rate = dist(gyro, self.bias)
+        self.rate_squares += rate * rate
+        self.gyro_bins[int(rate) if rate < RATE_LIMIT else BIN_COUNT - 1] += 1
         if track is None:
             return
         self.tracked = True

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache, cached_property
+from itertools import repeat
 from math import dist, exp, fsum, hypot, log, tanh
 from operator import truediv
 from typing import Any
@@ -59,7 +60,7 @@ class Network:
 
         Features beyond the network's inputs are ignored."""
         inputs = tuple(features[: len(self.hidden[0])])
-        hidden_values = tuple([tanh(value) for value in _weighted_sums(self.hidden, self.hidden_half, inputs)])
+        hidden_values = tuple(map(tanh, _weighted_sums(self.hidden, self.hidden_half, inputs)))
         output_values = _weighted_sums(self.output, self.output_half, hidden_values)
         highest = max(output_values)
         total = highest + log(fsum([exp(value - highest) for value in output_values]))
@@ -102,7 +103,7 @@ class MotionModel:
         nearest = min(distances)
         return nearest * nearest / FIRST_GYRO_FEATURE
 
-    @property
+    @cached_property
     def chain(self) -> Chain:
         """Chain of activities with the learnt chances and delays."""
         return chain_of(self.chances, self.shifts)
@@ -185,7 +186,5 @@ def _weighted_sums(rows: Sequence[Row], half: Row, inputs: Row) -> list[float]:
     """Return bias + w x for each row w; `half` has the bias plus w w / 2."""
     length = hypot(*inputs)
     square = 0.5 * length * length
-    return [
-        constant + square - 0.5 * (distance := dist(row, inputs)) * distance
-        for row, constant in zip(rows, half, strict=True)
-    ]
+    distances = map(dist, rows, repeat(inputs))
+    return [constant + square - 0.5 * distance * distance for constant, distance in zip(half, distances, strict=True)]

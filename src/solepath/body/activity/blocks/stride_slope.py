@@ -7,6 +7,7 @@ in twelve is level by it. A track without heights has strides without rise, whic
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import exp, log
 
 from ....types.attrs import frozen
@@ -38,6 +39,7 @@ class SlopeEvidence:
     down: float
 
 
+@lru_cache(maxsize=16)  # the evidence of a stride is used for several blocks, with more and more blocks after them
 def slope_evidence(length: float, rise: float) -> SlopeEvidence:
     """Return the evidence of a stride, or a step to the side, with this length and rise, m, for one block."""
     error = RISE_ERROR + RISE_ERROR_SHARE * length
