@@ -7,17 +7,18 @@ from math import atan2, cos, degrees, fsum, hypot, inf, pi, radians, sin
 
 from ...events import PlanContradicted
 from ...floorplan.plan import ConnectorKind, FloorPlan
-from .arrivals import Heading
+from .arrivals import START_HEADING_ERROR, Heading
 from .landings import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, list_landings, usual_rise
 from .reference import LevelReached
 from .rows import Row
 
-HEADING_RATIO = 2.0
-"""Deviation of every candidate's heading from the first one at which that was wrong, as a ratio to its largest error.
+HEADING_MARGIN = START_HEADING_ERROR
+"""Deviation of every candidate's heading from the first one, above its largest error, at which that was wrong, rad.
 
-In 12 emulated walks with SensorTags no right heading came to 1.0, and all that were 45 degrees off came to 2.0."""
+In 12 emulated walks with SensorTags no right heading came to the largest error, and all that were 45 degrees off came
+to twice of it."""
 HEADING_DRIFT = radians(6.0) / 60.0
-"""Drift of the track's heading that is allowed for in addition, rad/s: that of a SensorTag at 20 Hz."""
+"""Drift of a track's heading whose error is not known, rad/s: that of a SensorTag at 20 Hz."""
 AGREEMENT = 0.9
 """Least length of the mean of all candidates' headings, as unit vectors, with which it is reported."""
 HEIGHT_RATIO = 2.0
@@ -32,7 +33,8 @@ def contradicted_heading(
     rows: list[Row], heading: Heading, since: float, t: float, known_at: float
 ) -> PlanContradicted | None:
     """Return the event if at `t`, s, all rows have other headings than the first one that was given, at `since`, s."""
-    limit = min(HEADING_RATIO * heading[1] + HEADING_DRIFT * (t - since), pi)
+    drift = HEADING_DRIFT * (t - since) if heading[1] <= START_HEADING_ERROR else 0.0
+    limit = min(heading[1] + HEADING_MARGIN + drift, pi)
     x = y = 0.0
     for _, _, a, b, w, _, _, _ in rows:
         off = atan2(b, a) - heading[0]
