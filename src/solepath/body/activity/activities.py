@@ -21,7 +21,7 @@ from typing import ClassVar, Final
 from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Site
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
 from .activity_report import ActivityReport
@@ -280,22 +280,6 @@ class Activities(ActivityPart):
 
 def _reduce(stride: StrideTaken, known_at: float) -> StrideTaken:
     """Return a copy of the stride with only the times and heights that flights need."""
-    return StrideTaken(
-        t=stride.t,
-        known_at=known_at,
-        final=stride.final,
-        foot=stride.foot,
-        number=stride.number,
-        t_start=stride.t_start,
-        t_end=stride.t_end,
-        displacement=ZERO,
-        position=ZERO,
-        length=stride.length,
-        heading_change=stride.heading_change,
-        height_change=stride.height_change,
-        covariance=NO_COVARIANCE,
-        t_toe_off=stride.t_toe_off,
-        t_heel_strike=stride.t_heel_strike,
-        degraded=stride.degraded,
-        features=NO_FEATURES,
+    return evolve(
+        stride, known_at=known_at, displacement=ZERO, position=ZERO, covariance=NO_COVARIANCE, features=NO_FEATURES
     )

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from math import exp, inf, log
+from operator import attrgetter
 
 from ...types import Activity
 from ...types.attrs import define, field
@@ -120,7 +121,7 @@ class Hypotheses:
     @property
     def best(self) -> Token | None:
         """The likeliest token; None before any evidence."""
-        return max(self.tokens, key=_score, default=None)
+        return max(self.tokens, key=attrgetter("score"), default=None)
 
     def update(self, block: BlockEvidence, chain: Chain) -> None:
         """Extend the paths by one block."""
@@ -201,10 +202,6 @@ class Hypotheses:
             if activity is segment.activity:
                 agreeing += likelihood
         return agreeing / total if total > 0.0 else 1.0
-
-
-def _score(token: Token) -> float:
-    return token.score
 
 
 def _settled_by(path: Sequence[ActivitySegment], now: float) -> float:
