@@ -22,8 +22,10 @@ HALT_ACCELERATION, HALT_DEVIATION = 0.25, 0.15
 """Mean and standard deviation of the acceleration of an elevator that has crept on to its floor and stops, m/s^2.
 
 It creeps at 0.1 to 0.25 m/s and stops within half a second or a second; lifts of hugadb show 0.1 to 0.45."""
-FIRST_LEVEL_DEVIATION = 0.4
-"""Standard deviation of |acc| of a sensor at rest from 1 g, when nothing else is known of the sensor, m/s^2."""
+FIRST_LEVEL_DEVIATION = 0.8
+"""Standard deviation of |acc| of a sensor at rest from 1 g, when nothing else is known of the sensor, m/s^2.
+
+Offsets of up to 125 mg are within the sheets of cheap accelerometers (Kionix KXTJ9)."""
 MOVED_LEVEL_DEVIATION = 0.08
 """Standard deviation of a rest level after the foot has moved, m/s^2; a new posture changes the error."""
 LEVEL_WANDER = 1e-5
