@@ -97,7 +97,7 @@ def printed_table() -> str:
 
 
 BlockSigns = tuple[tuple[float, ...], ElevatorEvidence]
-"""What a block shows: the log-likelihoods of `MOTIONS` and of an unknown one, and the forces on both feet."""
+"""Signs of activity in a block: the log-likelihoods of `MOTIONS` and of an unknown one, and the forces on both feet."""
 
 
 class EarlyActivities:
