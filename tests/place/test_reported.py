@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import cos, dist, hypot, inf, sin
 
 import pytest
+from attrs import evolve
 from floors import HIGH, LOW, OFFICE, RIGHT, Method, Pedestrian, follow, lost, placed
 
 from solepath import Session, Site
@@ -12,7 +13,7 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.ways import corridor
 from solepath.emulate.walk import sampled
 from solepath.events import Event, Placed, PositionRejected, PositionReported, TrackRevised
-from solepath.floorplan.plan import Point, Start
+from solepath.floorplan.plan import ConnectorKind, FloorPlanError, Point, Start
 
 
 def reported(t: float, place: Point, sigma: float = 1.0, level: str = "0") -> PositionReported:
@@ -125,3 +126,25 @@ def test_a_session_on_a_plan_corrects_track_and_place_by_a_position_on_a_level()
         session.here((x, y), level="attic")
     with pytest.raises(ValueError, match="without a floor plan"):
         fed_without_a_plan.here((x, y), level=newest.level)
+
+
+def test_whoever_stands_at_a_lift_reports_its_name() -> None:
+    session = Session(floorplan=BUILDING)
+    walk = corridor()
+    session.feed([sample for sample in sampled(walk.route).samples if sample.t < 5.0])
+    (lift,) = [one for one in BUILDING.connectors if one.kind is ConnectorKind.LIFT][:1]
+    stop = lift.stops[0]
+    reported_there, *_ = session.here(lift.name, level=stop.level)
+    assert isinstance(reported_there, PositionReported)
+    assert reported_there.position == pytest.approx(stop.place, abs=0.01) and reported_there.level == stop.level
+    with pytest.raises(ValueError, match=lift.name):
+        session.here("the printer", level=stop.level)
+    with pytest.raises(ValueError, match="attic"):
+        session.here(lift.name, level="attic")
+
+
+def test_a_name_that_two_stairs_share_is_no_landmark() -> None:
+    (stairs,) = BUILDING.connectors[:1]
+    level = stairs.stops[0].level
+    with pytest.raises(FloorPlanError, match="2 stairs or lifts"):
+        evolve(BUILDING, connectors=(stairs, stairs)).landmark(stairs.name, level)

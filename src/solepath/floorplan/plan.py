@@ -151,6 +151,19 @@ class FloorPlan:
         known = ", ".join(level.id for level in self.levels)
         raise FloorPlanError(f"the plan has no level {name!r}, only {known or 'none at all'}")
 
+    def landmark(self, name: str, level: str) -> Point:
+        """Return where a person steps on and off the stairs or lift of this name on a level, m.
+
+        Raises FloorPlanError when there is no such level, or not exactly one stop of that name on it."""
+        self.level(level)
+        stops = [(connector.name, stop) for connector in self.connectors for stop in connector.stops]
+        places = [stop.place for named, stop in stops if named == name and stop.level == level]
+        if len(places) == 1:
+            return places[0]
+        known = ", ".join([repr(named) for named, stop in stops if named and stop.level == level])
+        number = "no stairs or lift" if not places else f"{len(places)} stairs or lifts"
+        raise FloorPlanError(f"level {level!r} has {number} of the name {name!r}; its names are {known or 'not known'}")
+
 
 @frozen
 class Start:

@@ -115,8 +115,8 @@ class Session:
     ) -> list[Event]:
         """Report where the wearer is, to `sigma`, m: x and y, m, the name of a place, or None for the start.
 
-        With a `level`, x and y are in the plan's frame. Returns PositionReported and what follows. Raises ValueError
-        for impossible values."""
+        With a `level`, x and y are the plan's, and a name that of stairs or a lift. Returns PositionReported and what
+        follows. Raises ValueError for impossible values."""
         from ..link.receiver import reported_position
         from ..wire.receiver import PositionFrame, build_position, parse_position
 
@@ -126,7 +126,9 @@ class Session:
         if text(level):
             if self._plan is None:
                 raise ValueError("a level without a floor plan")
-            self._plan.number(level)  # raises FloorPlanError, a ValueError, for a level that is not there
+            plan = self._plan.plan  # what is not there raises FloorPlanError, a ValueError
+            where = plan.landmark(where, level) if isinstance(where, str) else where
+            plan.level(level)
         # the values that a packet would have, so that a replay of one is exact
         position, place = (None, where or "") if where is None or isinstance(where, str) else (check_pair(where), "")
         frame = parse_position(build_position(PositionFrame(position, sigma, place, text(level))))
