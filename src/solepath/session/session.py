@@ -113,10 +113,10 @@ class Session:
     def here(
         self, where: tuple[float, float] | str | None = None, sigma: float = 1.0, *, level: str = ""
     ) -> list[Event]:
-        """Report where the wearer is, to `sigma`, m: x and y, m, the name of a place, or None for the start.
+        """Report where the wearer is, to `sigma`, m: x and y, m, a place's name, or None for the start.
 
-        With a `level`, x and y are the plan's, and a name that of stairs or a lift. Returns PositionReported and what
-        follows. Raises ValueError for impossible values."""
+        With a `level`, x and y are the plan's, a name that of stairs or a lift. Returns PositionReported and what
+        follows. Raises ValueError for impossible ones."""
         from ..link.receiver import reported_position
         from ..wire.receiver import PositionFrame, build_position, parse_position
 

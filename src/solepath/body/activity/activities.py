@@ -2,8 +2,8 @@
 
 The samples of each foot are cut into blocks of half a second (features.py), and every block gives a likelihood of each
 motion (motion.py). Three kinds of evidence feed a Markov chain of sixteen states (chain.py): the motion likelihoods of
-both feet, the force that an elevator adds on a standing foot (ride.py), and the slope of the air pressure when there is
-a barometer (pressure_height.py). Viterbi's algorithm finds the likeliest sequence of activities (hypotheses.py).
+both feet, the force that an elevator adds on a standing foot (elevator_evidence.py), and the slope of the air pressure
+when there is a barometer (pressure_height.py). Viterbi's algorithm finds the likeliest sequence (hypotheses.py).
 
 Latency: a block enters the sequence when two more blocks have come, 1 to 1.5 s after it. Until then a state machine
 (early.py) reports what the newest blocks show, up to half a second after it happens, and each stride at its end. All of
@@ -31,10 +31,10 @@ from .blocks.motion import MotionModel, load_released_model
 from .blocks.stride_slope import slope_evidence
 from .blocks.votes import block_force, motion_votes
 from .early import ActivityCue, BlockSigns, EarlyActivities, cue_of_stride
+from .elevator_evidence import BlockForce, ElevatorEvidence
 from .flights import Flights
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
 from .pressure_height import BLOCKS_BEFORE, NO_EVIDENCE, PressureHeight
-from .ride import BlockForce, ElevatorEvidence
 
 LEFT: Final = Foot.LEFT
 """The left foot, looked up once: access to an enum member costs as much as five multiplications."""

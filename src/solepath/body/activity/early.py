@@ -14,8 +14,8 @@ from ...types.vector import TIE
 from .blocks.motion import MOTIONS
 from .blocks.stride_slope import SlopeEvidence
 from .chain import ACTIVITIES, STAND, UNKNOWN, Chain
+from .elevator_evidence import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
 from .hypotheses import ActivitySegment
-from .ride import PULSE_ACCELERATION, PULSE_DEVIATION, ElevatorEvidence, RestLevels
 
 LEAST_MARGIN = 1.0
 """Least difference of the log-likelihoods of a new motion and of the present one: 2.7 to 1.

@@ -29,20 +29,18 @@ from .chain import (
     UNACCELERATED_STATES,
     Chain,
 )
-from .pressure_height import Height, ride_evidence, stairs_evidence
-from .ride import (
-    DWELL_TIME,
+from .elevator_evidence import (
     HALT_ACCELERATION,
     HALT_DEVIATION,
     PULSE_ACCELERATION,
     PULSE_DEVIATION,
-    SHORT_DWELL_COST,
     BlockForce,
     ElevatorEvidence,
-    ElevatorRide,
     RestLevel,
     RestLevels,
 )
+from .pressure_height import Height, ride_evidence, stairs_evidence
+from .ride import DWELL_TIME, SHORT_DWELL_COST, ElevatorRide
 
 DROP_LIMIT = 13.0
 """A token whose log-likelihood is further than this below that of the best token is dropped."""

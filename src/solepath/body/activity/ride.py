@@ -1,49 +1,15 @@
-"""Elevator rides, detected by the specific force ("force" in this file, m/s^2) on standing feet.
+"""Elevator rides: the motion of an elevator, integrated from its acceleration, in one hypothesis.
 
-An elevator adds its own acceleration to the force on a foot at rest: a pulse of 0.3 to 1.2 m/s^2 when it sets off, and
-a pulse in the other direction when it stops. Each pulse lasts a second or more; between them the acceleration is zero.
-The errors of accelerometers are larger than that and differ in every posture. The evidence is therefore the difference
-between the force and the rest level, which is the force on the same foot at rest. A scalar Kalman filter estimates the
-rest level of each foot. Each hypothesis has its own filters, because "the elevator sets off" and "it stands" explain
-the same force by different levels. Accelerations and heights are positive upwards."""
+elevator_evidence.py has the acceleration. Velocities and heights are positive upwards."""
 
 from __future__ import annotations
 
-from math import exp, log, pi, sqrt
-from operator import is_
-
 from ...types.attrs import define
-from ...types.vector import GRAVITY
+from .elevator_evidence import RestLevels
 from .pressure_height import Height
 
-PULSE_ACCELERATION, PULSE_DEVIATION = 0.6, 0.35
-"""Mean and standard deviation of the acceleration of an elevator that starts or stops, m/s^2."""
-HALT_ACCELERATION, HALT_DEVIATION = 0.25, 0.15
-"""Mean and standard deviation of the acceleration of an elevator that has crept on to its floor and stops, m/s^2.
-
-It creeps at 0.1 to 0.25 m/s and stops within half a second or a second; lifts of hugadb show 0.1 to 0.45."""
-FIRST_LEVEL_DEVIATION = 0.8
-"""Standard deviation of |acc| of a sensor at rest from 1 g, when nothing else is known of the sensor, m/s^2.
-
-Offsets of up to 125 mg are within the sheets of cheap accelerometers (Kionix KXTJ9)."""
-MOVED_LEVEL_DEVIATION = 0.08
-"""Standard deviation of a rest level after the foot has moved, m/s^2; a new posture changes the error."""
-LEVEL_WANDER = 1e-5
-"""Growth of the variance of a rest level in each half second, (m/s^2)^2."""
-SWAY_DEVIATION = 0.03
-"""Standard deviation of the mean force over half a second of a standing wearer, m/s^2."""
-OUTLIER_SHARE = 0.03
-"""Share of blocks at rest with a standard deviation of 1 m/s^2, because the wearer shifts weight or lifts a heel."""
-MOVING_OUTLIER_SHARE = 0.2
-"""Share of blocks of moving feet that deviate by `MOVING_OUTLIER`."""
-MOVING_OUTLIER = 8.0
-"""Standard deviation of these blocks, m/s^2; it is 1 m/s^2 for other blocks of moving feet."""
 DWELL_TIME = 5.0
 """Least usual time between two rides, s: an elevator opens and closes its doors before it sets off again."""
-SHORT_DWELL_COST = 6.0
-"""Penalty (minus log-likelihood) for less than `DWELL_TIME` between two rides."""
-LEAST_DENSITY = 1e-6
-"""Lowest probability density of an acceleration, s^2/m."""
 PULSE_HEIGHT_ERROR = 0.1
 """Standard deviation of a ride's height that is integrated from its pulses, as a share of the height."""
 SLOWEST_ELEVATOR_SPEED, SPEED_DEVIATION = 0.4, 0.1
@@ -52,148 +18,8 @@ STOP_ERROR_SHARE, STOP_ERROR = 0.3, 0.1
 """Standard deviation of the integrated velocity at a stop: share of the top speed, and constant part, m/s."""
 MAX_STOP_PENALTY, MAX_SCORE_PENALTY = 4.0, 8.0
 """Largest penalties (minus log-likelihood) for the velocity at a stop, and in all."""
-
-
-@define
-class BlockForce:
-    """The force on one foot in half a second: mean |acc|, m/s^2, and its variance, (m/s^2)^2."""
-
-    force: float
-    variance: float
-    moved: bool
-    """Flag: the foot moved in the block."""
-    posture_variance: float = MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION
-    """Variance of the rest level after the foot has moved, (m/s^2)^2."""
-
-
-@define
-class RestLevel:
-    """The estimated |acc| of one foot at rest, m/s^2, and its variance, (m/s^2)^2."""
-
-    value: float = GRAVITY
-    variance: float = FIRST_LEVEL_DEVIATION * FIRST_LEVEL_DEVIATION
-
-
-RestLevels = tuple[RestLevel, ...]
-"""Rest levels of the left foot and of the right foot, in this order."""
-
-
-class ElevatorEvidence:
-    """The forces on both feet in half a second, compared with their levels at rest.
-
-    Most paths share the same `RestLevels` object, so each result is computed once and cached. An instance is used
-    for one block only and is not part of the state."""
-
-    __slots__ = ("_accelerations", "_pulses", "_standing", "_walks", "forces")
-
-    def __init__(self, forces: tuple[BlockForce | None, ...]) -> None:
-        self.forces = forces
-        # keys are ids of levels; they stay valid because tokens hold the levels longer than this object exists
-        self._accelerations: dict[int, tuple[float, float] | None] = {}
-        self._standing: dict[int, tuple[RestLevels, float]] = {}
-        self._walks: dict[int, tuple[RestLevels, float]] = {}
-        self._pulses: dict[tuple[int, float], tuple[RestLevels, float, float]] = {}
-
-    def add_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
-        """Return the levels after a block without acceleration, and the log-likelihood of the forces."""
-        result = self._standing.get(id(levels))
-        if result is None:
-            result = self._standing[id(levels)] = self._compute_rest(levels)
-        return result
-
-    def _compute_rest(self, levels: RestLevels) -> tuple[RestLevels, float]:
-        excess = self.estimate_acceleration(levels)
-        if excess is None:
-            return levels, 0.0
-        acceleration, variance = excess
-        regular = (1.0 - OUTLIER_SHARE) * _density(acceleration, variance)
-        stray = OUTLIER_SHARE * _density(acceleration, variance + 1.0)
-        # the variance of 1e9 keeps a stray block from changing the levels
-        return self._update_levels(levels, 0.0, 0.0 if regular > stray else 1e9), log(regular + stray + LEAST_DENSITY)
-
-    def add_pulse(self, levels: RestLevels, mean: float, deviation: float) -> tuple[RestLevels, float, float]:
-        """Return the levels after a block of a pulse, its acceleration, m/s^2, and the log-likelihood of the forces.
-
-        `mean` and `deviation` are the prior of the acceleration, m/s^2."""
-        result = self._pulses.get((id(levels), mean))
-        if result is None:
-            result = self._pulses[id(levels), mean] = self._compute_pulse(levels, mean, deviation)
-        return result
-
-    def _compute_pulse(self, levels: RestLevels, mean: float, deviation: float) -> tuple[RestLevels, float, float]:
-        excess = self.estimate_acceleration(levels)
-        if excess is None:
-            return levels, mean, 0.0
-        acceleration, variance = excess
-        residual = acceleration - mean
-        log_likelihood = log(_density(residual, variance + deviation * deviation) + LEAST_DENSITY)
-        share = deviation * deviation / (deviation * deviation + variance)
-        pulse_acceleration = mean + share * residual
-        return self._update_levels(levels, pulse_acceleration, share * variance), pulse_acceleration, log_likelihood
-
-    def add_walking(self, levels: RestLevels) -> tuple[RestLevels, float]:
-        """Return the levels after a block of moving feet, and the log-likelihood of the forces outside an elevator."""
-        result = self._walks.get(id(levels))
-        if result is None:
-            result = self._walks[id(levels)] = self._compute_walking(levels)
-        return result
-
-    def _compute_walking(self, levels: RestLevels) -> tuple[RestLevels, float]:
-        excess = self.estimate_acceleration(levels)
-        walked = tuple(
-            [
-                level
-                if block is None or not block.moved or level.variance >= block.posture_variance
-                else RestLevel(level.value, block.posture_variance)
-                for level, block in zip(levels, self.forces, strict=True)
-            ]
-        )
-        if all(map(is_, walked, levels)):
-            walked = levels
-        if excess is None:
-            return walked, 0.0
-        near = _density(excess[0], excess[1] + 1.0)
-        far = _density(excess[0], excess[1] + MOVING_OUTLIER * MOVING_OUTLIER)
-        return walked, log((1.0 - MOVING_OUTLIER_SHARE) * near + MOVING_OUTLIER_SHARE * far + LEAST_DENSITY)
-
-    def estimate_acceleration(self, levels: RestLevels) -> tuple[float, float] | None:
-        """Return the mean force above the rest levels, m/s^2, and its variance, (m/s^2)^2; None without samples."""
-        if id(levels) not in self._accelerations:
-            self._accelerations[id(levels)] = self._compute_acceleration(levels)
-        return self._accelerations[id(levels)]
-
-    def _compute_acceleration(self, levels: RestLevels) -> tuple[float, float] | None:
-        total = weights = 0.0
-        residuals = []
-        for level, block in zip(levels, self.forces, strict=True):
-            if block is not None:
-                residual = block.force - level.value
-                weight = 1.0 / (level.variance + block.variance)
-                residuals.append((residual, 1.0 / weight))
-                total += weight * residual
-                weights += weight
-        if weights == 0.0:
-            return None
-        variance = 1.0 / weights
-        if len(residuals) == 2:  # an elevator moves both feet alike
-            (a, va), (b, vb) = residuals
-            variance += 0.25 * max(0.0, (a - b) * (a - b) - va - vb)
-        return total / weights, variance
-
-    def _update_levels(self, levels: RestLevels, acceleration: float, acceleration_variance: float) -> RestLevels:
-        """Return the levels after half a second in which the elevator has this acceleration, m/s^2."""
-        updated = []
-        for level, block in zip(levels, self.forces, strict=True):
-            if block is None:
-                updated.append(level)
-                continue
-            variance = level.variance + LEVEL_WANDER
-            if block.moved:
-                variance = max(variance, block.posture_variance)
-            gain = variance / (variance + block.variance + acceleration_variance)
-            residual = block.force - acceleration - level.value
-            updated.append(RestLevel(round(level.value + gain * residual, 7), round((1.0 - gain) * variance, 9)))
-        return tuple(updated)
+SHORT_DWELL_COST = 6.0
+"""Penalty (minus log-likelihood) for less than `DWELL_TIME` between two rides."""
 
 
 @define
@@ -290,8 +116,3 @@ class ElevatorRide:
         air_variance = height[1] + start[1]
         share = air_variance / (air_variance + (PULSE_HEIGHT_ERROR * by_pressure) ** 2)
         return by_pressure + share * (by_pulses - by_pressure)
-
-
-def _density(residual: float, variance: float) -> float:
-    """Return the density of a normal distribution with mean 0."""
-    return exp(-0.5 * min(residual * residual / variance, 1400.0)) / sqrt(2.0 * pi * variance)

@@ -30,7 +30,7 @@ from ...body.activity.blocks.features import BLOCK_DURATION, FEATURE_COUNT, FIRS
 from ...body.activity.blocks.foot_blocks import FootBlocks
 from ...body.activity.blocks.motion import MotionModel, to_json
 from ...body.activity.blocks.votes import block_force
-from ...body.activity.ride import BlockForce
+from ...body.activity.elevator_evidence import BlockForce
 from ...emulate.sensors.device import Device
 from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
 from ...emulate.sensors.sensortags import CC2541, CC2650

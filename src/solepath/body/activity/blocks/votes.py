@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..ride import MOVED_LEVEL_DEVIATION, SWAY_DEVIATION, BlockForce
+from ..elevator_evidence import SWAY_DEVIATION, BlockForce
 from .features import FIRST_GYRO_FEATURE, ActivityBlock, stride_of
 from .motion import MOTIONS, MotionModel
 from .stride_slope import slope_evidence
@@ -62,10 +62,10 @@ def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> 
 def block_force(block: ActivityBlock | None, resolution: float) -> BlockForce | None:
     """Return the force on a foot in a block, for elevator detection; None without a block or above the limit.
 
-    `resolution` is the accelerometer's, m/s^2 per count. Rounding is the same as long as the foot stays as it is."""
+    `resolution` is the accelerometer's, m/s^2 per count."""
     if block is None or block.force >= MAX_STANDING_FORCE:
         return None
-    rounding = resolution * resolution / 12.0
-    variance = SWAY_DEVIATION * SWAY_DEVIATION + VARIANCE_SHARE * min(block.variance, 1e4) + rounding
-    posture_variance = MOVED_LEVEL_DEVIATION * MOVED_LEVEL_DEVIATION + rounding
-    return BlockForce(block.force, variance, block.variance > MOVING_VARIANCE, posture_variance)
+    variance = (
+        SWAY_DEVIATION * SWAY_DEVIATION + VARIANCE_SHARE * min(block.variance, 1e4) + resolution * resolution / 12.0
+    )
+    return BlockForce(block.force, variance, block.variance > MOVING_VARIANCE, resolution)
