@@ -1,6 +1,6 @@
 """Activities and place of emulated walks with pieces of evidence taken away: what each kind of evidence earns.
 
-    python -m solepath.lab.emulated.evidence [--walks N] [--seed S] [--json FILE]
+    python -m solepath.lab.emulated.evidence [--walks N] [--seed S] [--only ROW] [--processes P] [--json FILE]
 
 prints the tables of docs/activities.md as Markdown. For each seed a wearer walks a route of stairs, elevators and
 corridors (train/emulated.py), which gives the activities, and another one through the emulated building (ways.py),
@@ -34,6 +34,7 @@ from ...types import SITE_OF_FOOT, Activity, Foot, Packet, Sample, Site
 from ..evaluate.activity import score_rides, score_windows
 from ..evaluate.gathered import EventCollection
 from ..measures.confusion import ActivityScore
+from ..processes import run_jobs
 from ..train.emulated import RATE, draw_route
 from .place import score
 
@@ -232,19 +233,32 @@ def table(sensors: Sensors, outcomes: dict[str, WalkOutcome], walks: int) -> lis
     return lines + [line(row.name, outcomes[row.name], walks, row.plan) for row in sensors.rows]
 
 
-def main(arguments: Sequence[str] | None = None, tables: Sequence[Sensors] = TABLES) -> None:
-    """Print these tables."""
+def _score_job(job: tuple[int, int, tuple[str, ...]]) -> dict[str, WalkOutcome]:
+    """Return the outcome of a seed for the rows of a table, by the number of the table, the seed and their names."""
+    number, seed, names = job
+    sensors = TABLES[number]
+    return score_seed(evolve(sensors, rows=tuple([row for row in sensors.rows if row.name in names])), seed)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Print the tables."""
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.emulated.evidence", description=__doc__)
     parser.add_argument("--walks", metavar="N", type=int, default=WALKS, help="number of seeds")
     parser.add_argument("--seed", metavar="S", type=int, default=FIRST_SEED, help="first seed")
+    parser.add_argument("--only", metavar="ROW", action="append", help="a row, such as 'everything', instead of all")
+    parser.add_argument("--processes", metavar="P", type=int, default=1)
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the figures too")
     options = parser.parse_args(arguments)
     figures: dict[str, dict[str, object]] = {}
-    for number, sensors in enumerate(tables):
-        total = {row.name: WalkOutcome() for row in sensors.rows}
-        for seed in range(options.seed, options.seed + options.walks):
-            total = {name: total[name] + outcome for name, outcome in score_seed(sensors, seed).items()}
-        print("\n".join(([""] if number else []) + table(sensors, total, options.walks)), flush=True)
+    for number, sensors in enumerate(TABLES):
+        rows = tuple([row for row in sensors.rows if not options.only or row.name in options.only])
+        total = {row.name: WalkOutcome() for row in rows}
+        seeds = range(options.seed, options.seed + options.walks)
+        jobs = [(number, seed, tuple(total)) for seed in seeds]
+        for outcomes in run_jobs(_score_job, jobs, processes=options.processes):
+            total = {name: total[name] + outcome for name, outcome in outcomes.items()}
+        lines = table(evolve(sensors, rows=rows), total, options.walks)
+        print("\n".join(([""] if number else []) + lines), flush=True)
         figures[sensors.title] = {name: _figures(outcome) for name, outcome in total.items()}
     if options.json is not None:
         options.json.write_text(json.dumps({"walks": options.walks, "seed": options.seed, "tables": figures}, indent=1))
