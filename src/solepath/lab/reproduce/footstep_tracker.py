@@ -42,6 +42,7 @@ def reproduce(
         _row("step, one foot m", [abs(off) for one in results for off in one.one_foot_stride_errors]),
         _row("step, two feet m", [abs(off) for one in results for off in one.two_feet_stride_errors]),
         _row("activities %", [100.0 * (one.windows.accuracy or 0.0) for one in results]),
+        _row("activities, as printed %", [100.0 * (one.printed_windows.accuracy or 0.0) for one in results]),
         _row("turn angle deg", [off for one in results for off in one.turn_errors.values()], digits=1),
         _row("turn classes %", [_share(one.classes.values()) for one in results]),
         _row("place m", [sum(place.off) / len(place.off) for place in places if place.off]),
@@ -78,11 +79,14 @@ def _floor(one: FootstepResults) -> FloorPanel:
 def _notes(results: list[FootstepResults]) -> tuple[str, ...]:
     lines = []
     windows = sum([one.windows for one in results], ActivityScore())
+    printed = sum([one.printed_windows for one in results], ActivityScore())
     for activity in Activity:
-        reported = windows.reported_for(activity)
-        if reported:
-            share = 100.0 * reported.get(activity, 0) / sum(reported.values())
-            lines.append(f"{activity.value}: {share:.1f} % of {sum(reported.values())} windows right.")
+        count = sum(windows.reported_for(activity).values())
+        if count:
+            ours, as_printed = [
+                100.0 * one.reported_for(activity).get(activity, 0) / count for one in (windows, printed)
+            ]
+            lines.append(f"{activity.value}: {ours:.1f} % of {count} windows right; as printed {as_printed:.1f} %.")
     for turn in Turn:
         pairs = [one.classes[turn] for one in results]
         lines.append(f"Turn {turn.value}: {_share(pairs):.1f} % right.")

@@ -18,7 +18,7 @@ from ...emulate.walk import EmulatedWalk, emulate
 from ...emulate.wearers.gait import Wearer, random_wearer
 from ...emulate.wearers.shoe import IN_SOLE
 from ...events import StrideTaken, TurnMade
-from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
+from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
 from ...papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Turn
@@ -69,6 +69,8 @@ class FootstepResults:
     """Mean of the length errors of each stride and of the other foot's last stride before it, m."""
     windows: ActivityScore
     """Score of two-second windows on another walk of another wearer, with stairs and elevators."""
+    printed_windows: ActivityScore
+    """The same by the paper's tree and hidden Markov model."""
     turn_errors: dict[float, float]
     """Error of the turn angle, degrees, by true angle, degrees."""
     classes: dict[Turn, tuple[int, int]]
@@ -81,10 +83,13 @@ def score_wearer(seed: int) -> FootstepResults:
     """Return the results of all walks of one wearer."""
     wearer_data = WearerData(*random_wearer(np.random.default_rng([seed, 17])))
     calibration = _calibrate(wearer_data, seed)
-    windows = emulated_activity.score(FOOTSTEP_TRACKER, seed).windows
+    windows, printed_windows = [
+        emulated_activity.score(recipe, seed).windows for recipe in (FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED)
+    ]
     turn_errors, classes = _score_turns(wearer_data, calibration, seed)
     places = tuple(_score_place(wearer_data, calibration, way, seed) for way in (case_study(), wandering(seed)))
-    return FootstepResults(*_score_corridor(wearer_data, calibration, seed), windows, turn_errors, classes, places)
+    corridor_errors = _score_corridor(wearer_data, calibration, seed)
+    return FootstepResults(*corridor_errors, windows, printed_windows, turn_errors, classes, places)
 
 
 def _emulate_walk(wearer_data: WearerData, route: Route, seed: int) -> EmulatedWalk:

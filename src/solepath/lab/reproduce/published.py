@@ -128,6 +128,7 @@ FOOTSTEP_TRACKER: Table = {
     "corridor, by height %": Statistics(mean=14.60),
     "corridor, two feet %": Statistics(mean=4.19),
     "activities %": Statistics(mean=96.2),
+    "activities, as printed %": Statistics(mean=96.2),
     "turn classes %": Statistics(mean=98.3),
     "place m": Statistics(mean=1.0),
     "steps until decided": Statistics(mean=6.0),
