@@ -102,7 +102,7 @@ class Activities(ActivityPart):
         if site.foot is None:
             return
         (self.left if site.foot is LEFT else self.right).restart()
-        self.pressure_height.use_again(site.foot)
+        self.pressure_height.restart(site.foot)
         self.flights.reset()
         self.strides.clear()
         if self.left.index is None and self.right.index is None:

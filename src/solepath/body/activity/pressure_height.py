@@ -46,12 +46,16 @@ MAX_AGE = 3
 """Age of the other barometer's newest reading up to which both are compared, blocks."""
 BLOCKS_BEFORE, BLOCKS_AFTER = 3, 2
 """Numbers of blocks before and after the judged one; the slope is computed over all of them."""
+MOST_BLOCKS = BLOCKS_BEFORE + BLOCKS_AFTER + 5
+"""Number of blocks that are kept: those of a slope, and some that wait until both feet have sent theirs."""
 MIN_SLOPE_SPAN = 1.0
 """Least time between the first and the last of these blocks with air pressure, s."""
 SLOPE_WEIGHT = 1.0 / 3.0
 """Weight of one slope's log-likelihood; it is below 1 because neighbouring slopes share samples."""
-MAX_SLOPE_PENALTY = 3.0
-"""Largest penalty by a slope (natural logarithm); a door that opens changes the pressure suddenly."""
+MAX_SLOPE_PENALTY = 0.6
+"""Largest penalty by a slope (natural logarithm).
+
+A door that opens changes five slopes. Together they may say as much as a change over a whole stretch (`DOOR_SHARE`)."""
 STAIR_SPEED, STAIR_SPEED_DEVIATION = 0.3, 0.1
 """Mean vertical speed on stairs and its standard deviation between wearers, m/s: two treads of 0.16 m per second."""
 LEAST_RIDE_HEIGHT = 2.2
@@ -113,14 +117,8 @@ class PressureHeight:
     """Number of readings that were compared with the other barometer's, at most 1 / `OFFSET_WEIGHT`."""
     newest: float = 0.0
     """Newest height, m above the first reading."""
-    index: int | None = None
-    """Number of the block under way."""
-    height_sum: float = 0.0
-    """Sum of the heights in the block under way, m."""
-    height_count: int = 0
-    """Number of heights in the block under way."""
     blocks: deque[tuple[int, float, int]] = field(factory=deque)
-    """Number, mean height, m, and number of readings of each of the newest blocks, oldest first."""
+    """Number, mean height, m, and number of readings of each of the newest blocks, in the order of their numbers."""
     walked: bool = False
     """Flag: the wearer has taken a stride. Before, no force can have shown that an elevator set off, and a slope of the
     air pressure alone is no ride."""
@@ -145,11 +143,7 @@ class PressureHeight:
             barometer.index, barometer.newest, barometer.previous = index, height, barometer.newest
             self._compare(foot, barometer)
             self.newest = height - barometer.offset
-        if index != self.index:
-            self._close()
-            self.index = index
-        self.height_sum += self.newest
-        self.height_count += 1
+        self._add_to_block(index)
 
     def _compare(self, foot: Foot, barometer: BarometerReadings) -> None:
         """Move the offsets of both barometers so that their heights come closer; their mean stays."""
@@ -166,19 +160,25 @@ class PressureHeight:
             self.faulty.append(foot)
         self.barometers = {one: readings for one, readings in self.barometers.items() if one is not foot}
         self.blocks.clear()
-        self.index, self.height_sum, self.height_count = None, 0.0, 0
 
-    def use_again(self, foot: Foot) -> None:
-        """Use a foot's barometer, or another one in its place."""
+    def restart(self, foot: Foot) -> None:
+        """Forget what is known of a foot's barometer, in whose place another one may be."""
+        self.barometers = {one: readings for one, readings in self.barometers.items() if one is not foot}
         if foot in self.faulty:
             self.faulty.remove(foot)
 
-    def _close(self) -> None:
-        if self.index is not None and self.height_count:
-            self.blocks.append((self.index, self.height_sum / self.height_count, self.height_count))
-            if len(self.blocks) > BLOCKS_BEFORE + BLOCKS_AFTER + 4:
-                self.blocks.popleft()
-        self.height_sum, self.height_count = 0.0, 0
+    def _add_to_block(self, index: int) -> None:
+        """Add the newest height to its block; a foot whose samples come later adds to blocks before the last one."""
+        blocks, k = self.blocks, len(self.blocks)
+        while k > 0 and blocks[k - 1][0] > index:
+            k -= 1
+        if k > 0 and blocks[k - 1][0] == index:
+            _, mean, count = blocks[k - 1]
+            blocks[k - 1] = (index, mean + (self.newest - mean) / (count + 1), count + 1)
+        else:
+            blocks.insert(k, (index, self.newest, 1))
+            if len(blocks) > MOST_BLOCKS:
+                blocks.popleft()
 
     def height(self, first: int, last: int) -> Height | None:
         """Return the mean height over the blocks `first` to `last`; None when they have no pressure."""

@@ -92,7 +92,7 @@ class AirPressure(Part):
             return ()
         t, z = view.t, view.position[2]
         barometer = self.left if view.foot is Foot.LEFT else self.right
-        if self.stride_at is None or not 0.0 <= t - self.stride_at <= STRIDE_PAUSE:
+        if self.stride_at is None or abs(t - self.stride_at) > STRIDE_PAUSE:
             barometer.count = 0
             return ()
         height = height_of(pressure)
@@ -122,7 +122,7 @@ def _found(t: float, known_at: float, site: Site, change: float) -> DefectFound:
     pascal = STANDARD_PRESSURE / SCALE_HEIGHT * abs(change)
     what = (
         f"the air pressure {'fell' if change > 0.0 else 'rose'} by {pascal:.0f} Pa against what the height of the "
-        "strides explains, as behind the door of a pressurised stairwell, or by a barometer that drifts or is stuck; "
-        "it is not used from now on. If no door and no ventilation explains it, replace the sensor"
+        "strides explains, as behind the door of a pressurised stairwell, on an escalator, or by a barometer that "
+        "drifts or is stuck; it is not used from now on. If nothing but the barometer explains it, replace the sensor"
     )
     return DefectFound(t=t, known_at=known_at, site=site, defect=Defect.AIR_PRESSURE, what=what, spoils=False)

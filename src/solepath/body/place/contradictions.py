@@ -33,7 +33,7 @@ def contradicted_heading(
     rows: list[Row], heading: Heading, since: float, t: float, known_at: float
 ) -> PlanContradicted | None:
     """Return the event if at `t`, s, all rows have other headings than the first one that was given, at `since`, s."""
-    drift = HEADING_DRIFT * (t - since) if heading[1] <= START_HEADING_ERROR else 0.0
+    drift = HEADING_DRIFT * max(0.0, t - since) if heading[1] <= START_HEADING_ERROR else 0.0
     limit = min(heading[1] + HEADING_MARGIN + drift, pi)
     x = y = 0.0
     for _, _, a, b, w, _, _, _ in rows:

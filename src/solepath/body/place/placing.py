@@ -118,6 +118,8 @@ class Placing(LevelChanges):
         )
         self.set_rows(rows)
         self.rejected = None if rejected is None else (place, (x, y))
+        if rejected is None:
+            self.unmapped = []
         return [] if rejected is None else [rejected]
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
@@ -131,7 +133,7 @@ class Placing(LevelChanges):
             self._start(plan, here, known_at, outputs)
         if self.t is not None and here.t < self.t - 1.0:
             self.references.reset()
-            self.arrived_at = None
+            self.arrived_at, self.heading_since, self.unmapped = None, here.t, []
         self.t = here.t
         self.widen_heading(here.heading_sigma)
         strides = [event for event in events if isinstance(event, StrideTaken)]
@@ -226,7 +228,7 @@ class Placing(LevelChanges):
         self.wide_strides = ABOUT_TURN_STRIDES
 
     def _lose_place(self) -> None:
-        self.rows, self.newest_placed, self.strides_outside, self.stuck_distance = [], None, 0, 0.0
+        self.rows, self.unmapped, self.newest_placed, self.strides_outside, self.stuck_distance = [], [], None, 0, 0.0
 
     def _report_place(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
         rows = self.rows

@@ -7,8 +7,8 @@ stride_length.py has the equations for a stride's length and turn. The paper lea
   position is, minus the drift that the remaining velocity at rest implies.
 - A foot that pivots on its sole may seem to be in a static zone. Then its attitude follows the gyroscope.
 - The paper's track has no height. Here a stride's rise is integrated like its length, so that stairs can be told from
-  level ground by it.
-- `as_printed` uses the equations without the changes of stride_length.py, ignores pivots, and its height is always 0.
+  level ground by it. A stride whose rise is likelier on level ground ends as high as it started.
+- `as_printed` uses the equations without the changes of stride_length.py, ignores pivots, and its strides have no rise.
 
 Numbers without a source were chosen by hand."""
 
@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from math import atan2, cos, fsum, hypot, inf, sin
 
+from ...body.activity.blocks.stride_slope import slope_evidence
 from ...body.gait.turning_steps import TurningStrideFilter
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
@@ -44,6 +45,8 @@ STRIDE_ERROR, TURN_ERROR, MOST_TURN_ERRORS = 0.1, 0.05, 1000
 """Error of a stride as a share of its length (figure 11), error of its turn, rad, and largest number of such errors."""
 RISE_ERROR = 0.1
 """Standard deviation of a stride's rise, m: that of level strides of emulated wearers with a CC2541 at 20 Hz."""
+LEAST_LEVELNESS = 1.0
+"""Least evidence of a stride against stairs (stride_slope.py) with which it ends as high as it started."""
 LONGEST_LEVELLING = 0.1
 """Longest time by which one sample at rest advances the levelling, s."""
 UNSEEN_DISTANCE = 1.0
@@ -177,6 +180,13 @@ class Projection(Strapdown):
         k = LONGEST_STRIDE / max(LONGEST_STRIDE, hypot(x - x0, y - y0))
         rise = min(max(z - z0, -LARGEST_RISE), LARGEST_RISE)
         return x0 + k * (x - x0), y0 + k * (y - y0), z0 + rise
+
+    def flat(self, start: Vec3, turn: float) -> None:
+        """Keep the height of a stride whose rise speaks for level ground; the rises of a track drift otherwise."""
+        (x, y, z), (x0, y0, z0) = self.position, start
+        slope = slope_evidence(hypot(x - x0, y - y0), z - z0)
+        if max(slope.up, slope.down) < -LEAST_LEVELNESS:
+            self.position = self.rest_position = (x, y, z0)
 
     def repair(self, yaw: float, position: Vec3) -> None:
         """Do nothing, because only strides with a gap need a repair, and `_dedrifted_end` ends those."""

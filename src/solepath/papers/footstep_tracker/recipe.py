@@ -21,7 +21,8 @@ FOOTSTEP_TRACKER = Recipe(
 )
 """Liu et al. 2015: strides between static zones, projected onto the ground; turns; a floor-plan game.
 
-Beyond the paper, strides have a rise, and the activities and heights are those of `recipes.DEFAULT`."""
+Beyond the paper, strides have a rise, and the activities are those of `recipes.DEFAULT`. The wearer's height is that of
+elevators and air pressure; stairs count in it only where there is a barometer."""
 
 FOOTSTEP_TRACKER_PRINTED = Recipe(
     "footstep-tracker-printed",

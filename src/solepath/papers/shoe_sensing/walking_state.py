@@ -11,7 +11,7 @@ from typing import ClassVar
 from ...body.activity.flights import Flights
 from ...body.activity.steepness import is_stair_rise, steepness
 from ...body.part import ActivityPart, PartOutput
-from ...events import ActivityChanged, Event, StrideTaken
+from ...events import ActivityChanged, Event, Limitation, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Phase, Site
 from ...types.attrs import define, field
@@ -46,6 +46,8 @@ class AnglePerMetre(ActivityPart):
 
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
     """Activity of the last event."""
+    limitation_reported: bool = field(default=False, init=False)
+    """Flag: what these activities cannot tell was reported."""
     flights: Flights = field(factory=Flights, init=False)
     reported_t: float | None = field(default=None, init=False)
     """Time `t` of the last event, s; None when that event is on a clock that is no longer used."""
@@ -81,6 +83,10 @@ class AnglePerMetre(ActivityPart):
             self.moved_at = self.stride_t = t
         known_at = view.known_at
         events: list[Event] = []
+        if not self.limitation_reported:
+            self.limitation_reported = True
+            what = "activities as printed: running counts as walking, and rides in lifts as standing"
+            events.append(Limitation(t=t, known_at=known_at, site=None, what=what))
         for event in view.events:
             if isinstance(event, StrideTaken):
                 t_start = event.t_start if event.t_toe_off is None else max(event.t_start, event.t_toe_off)

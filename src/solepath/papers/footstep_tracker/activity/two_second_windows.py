@@ -38,7 +38,7 @@ from math import fsum
 from typing import ClassVar
 
 from ....body.part import ActivityPart, PartOutput
-from ....events import ActivityChanged, Event, LiftRidden
+from ....events import ActivityChanged, Event, LiftRidden, Limitation
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
 from ....types.attrs import define, field, frozen
@@ -115,6 +115,8 @@ class TwoSecondWindows(ActivityPart):
     """Pulses of the present elevator ride; None without one."""
     moving_windows: int = field(default=0, init=False)
     """Number of consecutive moving windows up to now."""
+    limitation_reported: bool = field(default=False, init=False)
+    """Flag: what these activities cannot tell was reported."""
     reported_t: float | None = field(default=None, init=False)
     """Time `t` of the newest event, s."""
 
@@ -140,9 +142,14 @@ class TwoSecondWindows(ActivityPart):
             feet = {**self.feet, view.foot: FootWindows()}
             self.feet = {one: feet[one] for one in Foot if one in feet}
             self.standing.setdefault(view.foot, StandingForce())
-        if not self.feet[view.foot].update(t - self.origin, acc, view.sample.gyro):
-            return ()
-        return self._decide_ready(view.known_at)
+        events: list[Event] = []
+        if not self.limitation_reported:
+            self.limitation_reported = True
+            what = "activities as printed: running counts as walking, and rides in lifts have no height"
+            events.append(Limitation(t=t, known_at=view.known_at, site=None, what=what))
+        if self.feet[view.foot].update(t - self.origin, acc, view.sample.gyro):
+            events += self._decide_ready(view.known_at)
+        return events
 
     def _decide_ready(self, known_at: float) -> list[Event]:
         """Classify every window that is complete for all feet that still send samples."""
