@@ -68,7 +68,7 @@ def long_recording(recording: Path) -> Path:
     header, *packets = map(json.loads, recording.read_text().splitlines())
     length = packets[-1]["t"]
     file = recording.parent / "long.jsonl"
-    again = [packet | {"t": packet["t"] + k * length} for k in range(30) for packet in packets]
+    again = [packet | {"t": packet["t"] + k * length} for k in range(60) for packet in packets]
     file.write_text("".join(f"{json.dumps(line)}\n" for line in [header, *again]))
     return file
 

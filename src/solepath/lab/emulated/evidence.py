@@ -233,14 +233,11 @@ def table(sensors: Sensors, outcomes: dict[str, WalkOutcome], walks: int) -> lis
     return lines + [line(row.name, outcomes[row.name], walks, row.plan) for row in sensors.rows]
 
 
-def _score_job(job: tuple[int, int, tuple[str, ...]]) -> dict[str, WalkOutcome]:
-    """Return the outcome of a seed for the rows of a table, by the number of the table, the seed and their names."""
-    number, seed, names = job
-    sensors = TABLES[number]
-    return score_seed(evolve(sensors, rows=tuple([row for row in sensors.rows if row.name in names])), seed)
+def _score_job(job: tuple[Sensors, int]) -> dict[str, WalkOutcome]:
+    return score_seed(*job)
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
+def main(arguments: Sequence[str] | None = None, tables: Sequence[Sensors] = TABLES) -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.emulated.evidence", description=__doc__)
     parser.add_argument("--walks", metavar="N", type=int, default=WALKS, help="number of seeds")
@@ -250,14 +247,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the figures too")
     options = parser.parse_args(arguments)
     figures: dict[str, dict[str, object]] = {}
-    for number, sensors in enumerate(TABLES):
-        rows = tuple([row for row in sensors.rows if not options.only or row.name in options.only])
-        total = {row.name: WalkOutcome() for row in rows}
+    for number, every_row in enumerate(tables):
+        rows = tuple([row for row in every_row.rows if not options.only or row.name in options.only])
+        sensors, total = evolve(every_row, rows=rows), {row.name: WalkOutcome() for row in rows}
         seeds = range(options.seed, options.seed + options.walks)
-        jobs = [(number, seed, tuple(total)) for seed in seeds]
+        jobs = [(sensors, seed) for seed in seeds]
         for outcomes in run_jobs(_score_job, jobs, processes=options.processes):
             total = {name: total[name] + outcome for name, outcome in outcomes.items()}
-        lines = table(evolve(sensors, rows=rows), total, options.walks)
+        lines = table(sensors, total, options.walks)
         print("\n".join(([""] if number else []) + lines), flush=True)
         figures[sensors.title] = {name: _figures(outcome) for name, outcome in total.items()}
     if options.json is not None:
