@@ -115,8 +115,8 @@ class Session:
     ) -> list[Event]:
         """Report where the wearer is, to `sigma`, m: x and y, m, a place's name, or None for the start.
 
-        With a `level`, x and y are the plan's, a name that of stairs or a lift. Returns PositionReported and what
-        follows. Raises ValueError for impossible ones."""
+        With a `level`, x and y are the plan's, and a name is that of stairs or a lift. Returns PositionReported and
+        what follows. Raises ValueError."""
         from ..link.receiver import reported_position
         from ..wire.receiver import PositionFrame, build_position, parse_position
 

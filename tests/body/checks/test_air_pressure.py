@@ -48,8 +48,10 @@ def stuck(t: float, pascal: float) -> float:
 
 
 @cache
-def session(route: Route, disturb: Disturb) -> tuple[Session, list[Event]]:
-    """Return a session, and its events, of a walk whose feet read a barometer once a second."""
+def session(route: Route, disturb: Disturb, late: float = 0.0) -> tuple[Session, list[Event]]:
+    """Return a session, and its events, of a walk whose feet read a barometer once a second.
+
+    The samples of the right foot come `late` s after those of the left one."""
     walk, read, samples = walked(route), dict[Site, float](), list[Sample]()
     for sample in walk.samples:
         if sample.t - read.get(sample.site, -9.0) >= 1.0:
@@ -58,6 +60,7 @@ def session(route: Route, disturb: Disturb) -> tuple[Session, list[Event]]:
             pascal = disturb(sample.t, STANDARD_PRESSURE * exp(-z / SCALE_HEIGHT))
             sample = evolve(sample, air_pressure=pascal)
         samples.append(sample)
+    samples.sort(key=lambda sample: sample.t + (late if sample.site is Site.RIGHT_FOOT else 0.0))
     one = Session()
     return one, one.feed(samples) + one.finish()
 
@@ -93,6 +96,11 @@ def test_it_is_reported_once_for_each_foot_and_no_stride_is_degraded_by_it(route
     assert sorted(event.site.value for event in found) == ["left_foot", "right_foot"]
     assert all(" Pa " in event.what for event in found)
     assert not any(event.degraded for event in events if isinstance(event, StrideTaken))
+
+
+@pytest.mark.parametrize("late", [0.25, 0.5, 1.0])
+def test_it_is_reported_for_both_feet_when_one_foot_sends_later(late: float) -> None:
+    assert {event.site for event in defects(session(LEVEL, drifts, late)[1])} == set(FEET)
 
 
 def test_a_lift_is_as_high_as_its_pulses_when_the_barometer_drifts() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf, nan
+
 import numpy as np
 import pytest
 
@@ -72,3 +74,17 @@ def test_both_barometers_see_a_door_at_once() -> None:
         one.site: one.t for one, other in reversed(list(zip(plain, stepped, strict=True))) if one.data != other.data
     }
     assert len(first) == 2 and all(5.0 < t < 6.6 for t in first.values())
+
+
+@pytest.mark.parametrize(
+    "numbers", [(nan, 5.0, 0.5, inf), (2.0, inf, 0.5, inf), (2.0, 5.0, 0.0, inf), (2.0, 5.0, 0.5, 0.4)]
+)
+def test_a_door_that_takes_no_time_or_never_opens_fully_is_none(numbers: tuple[float, ...]) -> None:
+    with pytest.raises(ValueError, match="pressure step"):
+        PressureStep(*numbers)
+
+
+@pytest.mark.parametrize(("trend", "gusts"), [(nan, 0.0), (0.0, -1.0), (0.0, inf)])
+def test_weather_is_finite(trend: float, gusts: float) -> None:
+    with pytest.raises(ValueError, match="finite"):
+        Air(trend, gusts)

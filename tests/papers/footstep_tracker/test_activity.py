@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from views import fed
 
+from solepath import Session, recipes
 from solepath.emulate.wearers.turning import matrices
-from solepath.events import ActivityChanged, LiftRidden
+from solepath.events import ActivityChanged, LiftRidden, Limitation
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
@@ -281,3 +282,11 @@ def test_the_activities_of_an_emulated_wearer_are_found():
     scores = score(FOOTSTEP_TRACKER, 2)
     assert (scores.windows.accuracy or 0.0) >= 0.93
     assert scores.time.rides_found == scores.time.rides_true == 4
+
+
+@pytest.mark.parametrize("name", ["footstep-tracker-printed", "shoe-sensing-printed"])
+def test_activities_as_printed_report_once_that_they_do_not_know_running(name: str) -> None:
+    session = Session(recipes.by_name(name))
+    events = session.feed(emulated.walk(12).packets[:4000])
+    limits = [event.what for event in events if isinstance(event, Limitation) and event.site is None]
+    assert len(limits) == 1 and "running counts as walking" in limits[0]

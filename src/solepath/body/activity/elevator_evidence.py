@@ -28,7 +28,7 @@ FIRST_LEVEL_DEVIATION = 0.4
 
 A count of the sensor is added to it: the offset of coarse ones may be two counts (Kionix KXTJ9: 125 mg at 8 bits)."""
 UNKNOWN_VARIANCE = 1e4
-"""Variance of a rest level before the foot's first block, (m/s^2)^2."""
+"""Variance of a rest level of which nothing is known, (m/s^2)^2; with the first block, `first_variance` limits it."""
 MOVED_LEVEL_DEVIATION = 0.08
 """Standard deviation of a rest level after the foot has moved, m/s^2; a new posture changes the error."""
 LEVEL_WANDER = 1e-5
@@ -56,7 +56,7 @@ class BlockForce:
 
     @property
     def first_variance(self) -> float:
-        """Variance of the rest level before the foot's first block, (m/s^2)^2."""
+        """Largest variance of a rest level, that of a foot of which nothing else is known, (m/s^2)^2."""
         return FIRST_LEVEL_DEVIATION * FIRST_LEVEL_DEVIATION + self.resolution * self.resolution
 
     @property

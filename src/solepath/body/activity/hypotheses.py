@@ -123,13 +123,13 @@ class Hypotheses:
 
     def update(self, block: BlockEvidence, chain: Chain) -> None:
         """Extend the paths by one block."""
-        scores, stop_scores = [-inf] * len(ACTIVITIES), [0.0] * len(ACTIVITIES)
+        scores, end_scores = [-inf] * len(ACTIVITIES), [0.0] * len(ACTIVITIES)
         token_of_state: list[Token | None] = [None] * len(ACTIVITIES)
         for token in self.tokens:
             state = token.state
             token_of_state[state], scores[state] = token, token.score
             if state in RIDE_STATES or state in STAIR_SIGNS:
-                stop_scores[state] = _score_end(token, block)
+                end_scores[state] = _score_end(token, block)
         elevator = ElevatorEvidence(block.forces)
         candidates: list[tuple[float, int, Token, RestLevels, float]] = []
         top_score = -inf
@@ -145,7 +145,7 @@ class Hypotheses:
                         best, highest = i, score
             else:
                 for i, chance in predecessors:
-                    score = scores[i] + chance + (stop_scores[i] if i != state else 0.0)
+                    score = scores[i] + chance + (end_scores[i] if i != state else 0.0)
                     if score > highest:
                         best, highest = i, score
             predecessor = (token_of_state[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None

@@ -73,9 +73,9 @@ class Route:
         return self._then(Walk(_positive("distance", distance), _positive("speed", speed), SHUFFLING_STEP))
 
     def crowded(self, distance: float, seed: int, speed: float | None = None) -> Route:
-        """Go `distance` m ahead through a crowd: walks of 1 to 4 m and shuffles, with halts of 0.5 to 3 s between them.
+        """Go `distance` m ahead through a crowd: walks of 1 to 5 m and shuffles, with halts of 0.5 to 3 s between them.
 
-        The walks have 0.4 to 0.9 of `speed`, m/s, which is not kept. The way ends without a halt. All numbers are
+        The walks have 0.4 to 0.9 of `speed`, m/s, which is not kept. No halt follows the last of them. All numbers are
         assumed; in dense crowds people stop and go (Portz and Seyfried 2011, Pedestrian and Evacuation Dynamics)."""
         rng, route, left = np.random.default_rng([seed, 34]), self, _positive("distance", distance)
         usual_speed = self.speed if speed is None else _positive("speed", speed)

@@ -17,7 +17,7 @@ the pressure per metre by some percent, is left out."""
 from __future__ import annotations
 
 from functools import cached_property
-from math import inf, pi, sqrt
+from math import inf, isfinite, pi, sqrt
 
 import numpy as np
 from attrs import frozen
@@ -45,6 +45,10 @@ class PressureStep:
     lasting: float = inf
     """Time after `t` at which the pressure starts to change back, s: that of the door that closes; inf: it stays."""
 
+    def __attrs_post_init__(self) -> None:
+        if not (isfinite(self.t) and isfinite(self.change) and 0.0 < self.duration <= self.lasting):
+            raise ValueError(f"a pressure step has finite numbers and lasts longer than it takes, unlike {self}")
+
     def at(self, t: Array) -> Array:
         """Return the change of pressure that has been reached at times `t`, s, (N), Pa."""
         return np.asarray(
@@ -59,11 +63,15 @@ class Air:
     trend: float = 0.0
     """Rate at which the weather changes the pressure, Pa/s."""
     gusts: float = 0.0
-    """Root mean square of the gusts in the building, Pa."""
+    """Root mean square of the gusts in the building, Pa; what they have at t = 0 is subtracted."""
     steps: tuple[PressureStep, ...] = ()
     """Steps of doors, ventilation and fronts."""
     seed: int = 0
     """Seed of the gusts."""
+
+    def __attrs_post_init__(self) -> None:
+        if not (isfinite(self.trend) and 0.0 <= self.gusts < inf):
+            raise ValueError(f"trend and gusts are finite, gusts not negative, unlike {self.trend}, {self.gusts}")
 
     def at(self, t: Array) -> Array:
         """Return what the air adds to the pressure of the height at times `t`, s, (N), Pa; without steps 0 at t = 0."""

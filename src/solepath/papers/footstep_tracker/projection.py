@@ -6,8 +6,8 @@ stride_length.py has the equations for a stride's length and turn. The paper lea
 - The integrals do not hold for a stride with a gap longer than `LONGEST_GAP`. Such a stride ends where the live
   position is, minus the drift that the remaining velocity at rest implies.
 - A foot that pivots on its sole may seem to be in a static zone. Then its attitude follows the gyroscope.
-- The paper's track has no height. Here a stride's rise is integrated like its length, so that stairs can be told from
-  level ground by it. A stride whose rise is likelier on level ground ends as high as it started.
+- The paper's track has no height. Here the rise of a stride is integrated like its length, because it distinguishes
+  stairs from level ground. A stride whose rise is much likelier on level ground ends as high as it started.
 - `as_printed` uses the equations without the changes of stride_length.py, ignores pivots, and its strides have no rise.
 
 Numbers without a source were chosen by hand."""
@@ -44,7 +44,9 @@ LONGEST_STRIDE, LARGEST_RISE = 3.0, 1.0
 STRIDE_ERROR, TURN_ERROR, MOST_TURN_ERRORS = 0.1, 0.05, 1000
 """Error of a stride as a share of its length (figure 11), error of its turn, rad, and largest number of such errors."""
 RISE_ERROR = 0.1
-"""Standard deviation of a stride's rise, m: that of level strides of emulated wearers with a CC2541 at 20 Hz."""
+"""Standard deviation of a stride's rise, m: that of level strides of emulated wearers with a CC2541 at 20 Hz.
+
+Errors are taken as independent of each other, which they are not quite: a sensor's own bias repeats in every stride."""
 LEAST_LEVELNESS = 1.0
 """Least evidence of a stride against stairs (stride_slope.py) with which it ends as high as it started."""
 LONGEST_LEVELLING = 0.1
