@@ -82,6 +82,10 @@ class Position:
     """Covariance of `position`: xx, xy, xz, yy, yz, zz, m^2."""
     heading_sigma: float | None = None
     """Standard deviation of the angle by which the whole track may be turned, rad; None if it is not known."""
+    north: tuple[float, float] | None = None
+    """Direction of magnetic north in the world frame, counter-clockwise from x, and its standard deviation, rad.
+
+    None without magnetometers in the feet, and until turns have proven them (docs/compass.md)."""
 
 
 PartOutput = Happening | Shift | HeightShift | Replacement

@@ -36,6 +36,8 @@ class WearerMoved(Happening):
     """Covariance of `position`: xx, xy, xz, yy, yz, zz, m^2."""
     heading_sigma: float | None = None
     """Standard deviation of the angle by which the whole track may be turned, rad; None if it is not known."""
+    north: tuple[float, float] | None = None
+    """Direction of magnetic north in the world frame and its standard deviation, rad; None if it is not known."""
     final: bool = False
 
 

@@ -48,7 +48,7 @@ class Placed(Happening):
 
 @frozen(kw_only=True)
 class PlanContradicted(Happening):
-    """A first heading that was given, or the height of a ride, does not fit the floor plan; the place goes on.
+    """A heading that was given or is the compass's, or the height of a ride, does not fit the plan; the place goes on.
 
     `t` is the newest sample, or the end of the ride. It is reported with the stride after which no candidate has the
     heading, or with the ride. From then on the heading is not used, and the candidates stay where they were as well as
@@ -57,7 +57,7 @@ class PlanContradicted(Happening):
     what: str
     """Sentences for the person who gave the heading, or who maintains the plan."""
     heading_off: float | None = None
-    """Angle to add to the first heading that was given, rad, counter-clockwise; None for a ride."""
+    """Angle to add to the heading that was given or to that by the compass, rad, counter-clockwise; None for a ride."""
     height_off: float | None = None
     """Height of the ride minus that of the nearest one which the plan allows, m, both without sign; None if no lift
     leads in its direction, and for a heading."""

@@ -216,7 +216,8 @@ class WearerParts:
         t = position.t
         return WearerMoved(
             t=t, known_at=max(t, known_at),
-            position=position.position, covariance=position.covariance, heading_sigma=position.heading_sigma,
+            position=position.position, covariance=position.covariance,
+            heading_sigma=position.heading_sigma, north=position.north,
         )  # fmt: skip
 
     def _feed_limb(self, sample: Sample) -> list[Event]:

@@ -88,6 +88,8 @@ class Compass:
     """Distance walked since the newest comparison, m."""
     strange: int = field(default=0, init=False)
     """Number of strange blocks in a row."""
+    is_another: bool = field(default=False, init=False)
+    """Flag: the field was learnt again, so it may be that of steel, whose direction is not north."""
     first: int = field(default=-1, init=False)
     """First row of the compass among the common errors; -1 before any stance."""
 
@@ -151,7 +153,7 @@ class Compass:
         if self.strange == LONG_STRANGE:
             self.trust.note(foot, "strange")
         elif self.strange >= MOST_STRANGE:
-            self.strange = 0
+            self.strange, self.is_another = 0, True
             self._renew(first + B, _without_iron(mean, yaw, iron, error), FIELD * FIELD, error)
             self._renew(first + D, (0.0, 0.0), SHARE * self.disturbance.usual, error)
             return NO_MOVE
@@ -195,6 +197,20 @@ class Compass:
         for block in self.blocks:
             (x, y), (p, q) = block.flux, block.yaw
             block.flux, block.yaw = (c * x - s * y, s * x + c * y), (c * p - s * q, s * p + c * q)
+
+    def north(self, error: CommonError) -> Pair | None:
+        """Return the direction of magnetic north, common frame, and its standard deviation, rad.
+
+        None until turns have proven the compass, and when the field has become another one. It is the direction of b:
+        both disturbances are 0 on average. The heading of the track is among its errors."""
+        if self.first < 0 or self.is_another or not self.trust.is_proven:
+            return None
+        bx, by = error.aids[self.first - SIZE : self.first - SIZE + 2]
+        square = bx * bx + by * by
+        if square < LEAST_SIZE * LEAST_SIZE:
+            return None
+        terms = [(self.first + B, -by / square), (self.first + B + 1, bx / square), (HEADING, -1.0)]
+        return (atan2(by, bx), sqrt(error.along(error.column(terms), terms)))
 
     def reset(self, foot: int, error: CommonError) -> None:
         """Forget the iron of the shoe of foot 0 (left) or 1, and its stance: another device may be worn."""

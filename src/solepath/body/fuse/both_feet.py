@@ -152,7 +152,8 @@ class BothFeet(MeanOfFeet):
         xx, xy, yy = self.evidence.covariance(mean.position, self.common)
         # corrections make the covariance of height and horizontal position unknown: it is set to 0
         covariance = (xx + FOOTPRINT_VARIANCE, xy, 0.0, yy + FOOTPRINT_VARIANCE, 0.0, mean.covariance[5])
-        return Position(mean.t, mean.position, covariance, self.common.heading_sigma)
+        north = self.evidence.north(self.common)
+        return Position(mean.t, mean.position, covariance, self.common.heading_sigma, north)
 
     def _start(self) -> None:
         self.started, self.width = True, WALKING_WIDTH

@@ -45,6 +45,9 @@ class Aid(Protocol):
     def turned(self, yaw: float) -> None:
         """Turn what is in the common frame with both tracks, by `yaw`, rad."""
 
+    def north(self, error: CommonError) -> tuple[float, float] | None:
+        """Return the direction of magnetic north, common frame, and its standard deviation, rad; None if unknown."""
+
     def reset(self, foot: int, error: CommonError) -> None:
         """Forget what depends on the device of foot 0 (left) or 1."""
 
@@ -130,6 +133,10 @@ class SharedEvidence:
         """Turn what is in the common frame with both tracks, by `yaw`, rad."""
         if self.compass is not None:
             self.compass.turned(yaw)
+
+    def north(self, error: CommonError) -> tuple[float, float] | None:
+        """Return the direction of magnetic north, common frame, and its standard deviation, rad; None if unknown."""
+        return None if self.compass is None else self.compass.north(error)
 
     def reset(self, foot: Foot, error: CommonError) -> None:
         """Forget what depends on the clock or the device of a foot."""

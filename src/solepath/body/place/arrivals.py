@@ -7,9 +7,9 @@ from math import cos, fsum, pi, sin, sqrt
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Start
-from .landings import Landing, find_exits, find_nearest_landing, list_landings
+from .connectors.landings import Landing, find_exits, find_nearest_landing, list_landings
+from .connectors.references import LevelReached
 from .noise import NOISE_ENTRIES, NOISE_TABLE
-from .reference import LevelReached
 from .rows import Row
 
 MAX_START_SPREAD, SPREAD_FACTOR = 20.0, 1.2

@@ -1,4 +1,4 @@
-"""Contradictions to the floor plan: a first heading that was given, and the height of a ride in a lift."""
+"""Contradictions to the floor plan: a heading that was given or is the compass's, and the height of a lift's ride."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from math import atan2, cos, degrees, fsum, hypot, inf, pi, radians, sin
 from ...events import PlanContradicted
 from ...floorplan.plan import ConnectorKind, FloorPlan
 from .arrivals import START_HEADING_ERROR, Heading
-from .landings import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, list_landings, usual_rise
-from .reference import LevelReached
+from .connectors.landings import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, list_landings, usual_rise
+from .connectors.references import LevelReached
 from .rows import Row
 
 HEADING_MARGIN = START_HEADING_ERROR
@@ -30,9 +30,11 @@ CONTRADICTED_CERTAINTY = 0.5
 
 
 def contradicted_heading(
-    rows: list[Row], heading: Heading, since: float, t: float, known_at: float
+    rows: list[Row], heading: Heading, since: float, t: float, known_at: float, by_compass: bool = False
 ) -> PlanContradicted | None:
-    """Return the event if at `t`, s, all rows have other headings than the first one that was given, at `since`, s."""
+    """Return the event if at `t`, s, all rows have other headings than the first one, at `since`, s.
+
+    It was given, or is that `by_compass`."""
     drift = HEADING_DRIFT * max(0.0, t - since) if heading[1] <= START_HEADING_ERROR else 0.0
     limit = min(heading[1] + HEADING_MARGIN + drift, pi)
     x = y = 0.0
@@ -46,8 +48,9 @@ def contradicted_heading(
     if hypot(x, y) < AGREEMENT * fsum([row[4] for row in rows]):
         return None
     off = atan2(y, x)
+    source = "the heading by the compass in the feet" if by_compass else "the first heading that was given"
     what = (
-        f"the first heading that was given does not fit the plan by {abs(degrees(off)):.0f} degrees: the compass was "
+        f"{source} does not fit the plan by {abs(degrees(off)):.0f} degrees: the compass was "
         "disturbed, or the plan's north is wrong. The walls decide without it"
     )
     return PlanContradicted(t=t, known_at=known_at, what=what, heading_off=round(off, 4))

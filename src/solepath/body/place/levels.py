@@ -15,11 +15,12 @@ from ...types import Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import ZERO
 from .arrivals import START_HEADING_ERROR, Heading, find_level_changes, rows_at_all_exits, rows_at_exits
+from .connectors.landings import HEIGHT_ERROR, Landing, find_exits, list_landings
+from .connectors.references import FAIR_CERTAINTY, LevelChangePossible, LevelReached, References
 from .contradictions import CONTRADICTED_CERTAINTY, contradicted_heading, contradicted_height
-from .landings import HEIGHT_ERROR, Landing, find_exits, list_landings
 from .noise import next_random
+from .north import HeadingSource, heading_by_north, weigh_headings
 from .place_hypotheses import PlaceHypotheses
-from .reference import FAIR_CERTAINTY, LevelChangePossible, LevelReached, References
 from .rows import Row, resample_rows, round_rows, turn_rows
 from .stride_scale import StrideScale
 
@@ -58,8 +59,9 @@ class LevelChanges(PlaceHypotheses):
     unmapped_height: float = field(default=0.0, init=False)
     """Height of all rides since then, m, upwards."""
     known_heading: Heading | None = field(default=None, init=False)
-    """Angle of the track's x axis from the plan's, and its largest error, rad; None without a first heading, or if it
-    was wrong."""
+    """Angle of the track's x axis from the plan's, and its largest error, rad; None without a first heading and a
+    compass, or if it was wrong."""
+    heading_source: HeadingSource = field(default=HeadingSource.NONE, init=False)
     heading_since: float | None = field(default=None, init=False)
     """Time of the first position, s, at which the first heading was known."""
 
@@ -89,22 +91,31 @@ class LevelChanges(PlaceHypotheses):
         self.rows = round_rows(turn_rows(self.rows, event.turn))
         self.unmapped = round_rows(turn_rows(self.unmapped, event.turn))
 
-    def widen_heading(self, sigma: float | None) -> None:
-        """Allow the known heading the error of the track now, whose standard deviation is `sigma`, rad, if known.
+    def update_heading(self, plan: FloorPlan, here: WearerMoved) -> None:
+        """Allow the first heading the error of the track now; without one, take that by the compass, if there is one.
 
-        Two of them are 95 % of the errors; with pi, any heading is possible."""
-        if self.known_heading is not None and sigma is not None and isfinite(sigma):
-            self.known_heading = (self.known_heading[0], min(START_HEADING_ERROR + 2.0 * sigma, pi))
+        Two standard deviations of the track are 95 % of its errors; with pi, any heading is possible. When the compass
+        shows the heading for the first time, the rows are weighed by it."""
+        sigma = here.heading_sigma
+        if self.heading_source is HeadingSource.GIVEN:
+            if self.known_heading is not None and sigma is not None and isfinite(sigma):
+                self.known_heading = (self.known_heading[0], min(START_HEADING_ERROR + 2.0 * sigma, pi))
+        elif self.heading_source is not HeadingSource.CONTRADICTED:
+            self.known_heading = heading_by_north(plan, here.north)
+            if self.known_heading is not None and self.heading_source is HeadingSource.NONE:
+                self.heading_source = HeadingSource.COMPASS
+                self.rows = round_rows(weigh_headings(self.rows, self.known_heading))
 
     def give_up_heading(self, here: WearerMoved, known_at: float) -> list[PlanContradicted]:
-        """Use the first heading no longer if no row has it, and return the event that says so."""
+        """Use the known heading no longer if no row has it, and return the event that says so."""
         if self.known_heading is None:
             return []
         since = here.t if self.heading_since is None else self.heading_since
-        wrong = contradicted_heading(self.rows, self.known_heading, since, here.t, known_at)
+        by_compass = self.heading_source is HeadingSource.COMPASS
+        wrong = contradicted_heading(self.rows, self.known_heading, since, here.t, known_at, by_compass)
         if wrong is None:
             return []
-        self.known_heading = None
+        self.known_heading, self.heading_source = None, HeadingSource.CONTRADICTED
         return [wrong]
 
     def displacement_since(self, t: float) -> Point:

@@ -4,8 +4,8 @@ The shape of the track is known, but its position and heading in the plan are no
 give a position. Walls do the rest: a placement of the track that leads through walls is wrong (Liu et al. 2015, section
 IV.E). Stairs and elevators lead to another level and end where the plan has them.
 
-The track itself is not changed. Latency: a place is reported with the stride that leads there; reference.py has the
-latency of a level."""
+The track itself is not changed. Latency: a place is reported with the stride that leads there;
+connectors/references.py has the latency of a level."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ from ...types.attrs import NOT_SAVED, define, field
 from ..fuse.position_covariance import LEAST_WAY
 from ..part import MOVEMENTS, PartInput, PartOutput
 from .arrivals import START_HEADING_ERROR, spread_rows, start_error
+from .connectors.references import LevelChangePossible, LevelReached
 from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
+from .north import HeadingSource
 from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
-from .reference import LevelChangePossible, LevelReached
 from .reported import use_report
 from .rows import ONE_CANDIDATE_SPREAD, candidates_of, effective_count, have_not_moved, round_rows
 
@@ -88,6 +89,7 @@ class Placing(LevelChanges):
         self.start = start
         if start.heading is not None:
             self.known_heading = (start.heading, START_HEADING_ERROR)
+            self.heading_source = HeadingSource.GIVEN
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Receive an event and hold it back until the wearer's position after it is known."""
@@ -135,7 +137,7 @@ class Placing(LevelChanges):
             self.references.reset()
             self.arrived_at, self.heading_since, self.unmapped = None, here.t, []
         self.t = here.t
-        self.widen_heading(here.heading_sigma)
+        self.update_heading(plan.plan, here)
         strides = [event for event in events if isinstance(event, StrideTaken)]
         for stride in strides:
             self.stride_scale.add_stride(stride, here.position)

@@ -7,7 +7,7 @@ from math import hypot
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
-from .landings import is_near_landing
+from .connectors.landings import is_near_landing
 from .noise import NOISE_ENTRIES, NOISE_TABLE
 from .rows import Row
 

@@ -13,10 +13,10 @@ from __future__ import annotations
 from collections import deque
 from math import hypot, isfinite
 
-from ...events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
-from ...floorplan.plan import ConnectorKind, FloorPlan
-from ...types import Activity, Foot, Vec3
-from ...types.attrs import define, field, frozen
+from ....events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
+from ....floorplan.plan import ConnectorKind, FloorPlan
+from ....types import Activity, Foot, Vec3
+from ....types.attrs import define, field, frozen
 from .landings import MAX_STOREY_HEIGHT, MIN_STOREY_HEIGHT
 from .passage import Passage
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from math import hypot
 
-from ...floorplan.plan import ConnectorKind
-from ...types import Vec3
-from ...types.attrs import define
+from ....floorplan.plan import ConnectorKind
+from ....types import Vec3
+from ....types.attrs import define
 
 RISER_HEIGHT = 0.165
 """Height of one riser of stairs, m, used when the track gives no height."""
