@@ -39,6 +39,8 @@ class Placed(Happening):
     """Mean position of the best candidate, plan frame, m."""
     room: str | None = None
     """Name of the room at `position`; None outside of all named rooms, and on a level without names of rooms."""
+    door: str | None = None
+    """Name of the nearest door within 1.5 m of `position` that has one and is not behind a wall; None without one."""
     spread: float
     """Root mean square distance from `position`, weighted by the probability of all candidates, m."""
     candidates: tuple[Candidate, ...]

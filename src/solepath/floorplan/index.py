@@ -1,7 +1,8 @@
 """A floor plan, indexed for thousands of queries during each stride.
 
 `crosses` takes 1.5 us for a move of the length of a step (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py),
-and `room` 1 us (room_names.py).
+`room` 1 us (room_names.py),
+and `door` 1 us where no named door is near (door_names.py).
 Construction takes about 0.1 ms for each wall, some seconds for the largest usable plans. The index is not saved: the
 same plan gives the same index again."""
 
@@ -11,6 +12,7 @@ from math import isfinite
 
 from .checks import find_fault
 from .crossing import MAX_CELLS, Walls
+from .door_names import DoorNames
 from .enclosure import MAX_LATTICE_POINTS, Enclosure
 from .grid import MAX_CELLS_PER_PLAN, MAX_LATTICE_POINTS_PER_PLAN, share_limit
 from .outlines import Ring
@@ -29,7 +31,7 @@ class IndexedPlan:
 
     Raises FloorPlanError when the plan cannot be used."""
 
-    __slots__ = ("_insides", "_numbers", "_room_names", "_walls", "fingerprint", "plan", "stop_places")
+    __slots__ = ("_door_names", "_insides", "_numbers", "_room_names", "_walls", "fingerprint", "plan", "stop_places")
 
     def __init__(self, plan: FloorPlan) -> None:
         fault = find_fault(plan)
@@ -61,6 +63,10 @@ class IndexedPlan:
         name_cells = share_limit(MAX_NAME_CELLS, MAX_CELLS_PER_PLAN, count)
         self._room_names = [RoomNames(level, name_cells) if any(level.room_names) else None for level in plan.levels]
 
+        self._door_names = [
+            DoorNames(level, name_cells) if any([door.name for door in level.doors]) else None for level in plan.levels
+        ]
+
     def number(self, level: str) -> int:
         """Return the index in `plan.levels` of the level with this id; raise FloorPlanError when there is none."""
         if level not in self._numbers:
@@ -90,3 +96,14 @@ class IndexedPlan:
         The smallest of several named rooms counts. Accepts any floats."""
         room_names = self._room_names[level]
         return None if room_names is None else room_names.find(x, y)
+
+    def door(self, level: int, x: float, y: float) -> str | None:
+        """Return the name of the nearest door within 1.5 m of (x, y), m, plan frame, on this level; None without one.
+
+        Doors without a name, and those behind a wall, do not count. Accepts any floats."""
+        door_names = self._door_names[level]
+        if door_names is not None:
+            for door, at_x, at_y in door_names.near(x, y):
+                if not self.crosses(level, x, y, at_x, at_y):
+                    return door.name
+        return None

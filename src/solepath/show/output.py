@@ -58,7 +58,7 @@ CYCLE_COLUMNS = (
     "degraded",
     "steady",
 )
-PLACE_COLUMNS = ("t_s", "level", "room", "x_m", "y_m", "z_m", "spread_m", "heading_deg", "candidates", "weight")
+PLACE_COLUMNS = ("t_s", "level", "room", "door", "x_m", "y_m", "z_m", "spread_m", "heading_deg", "candidates", "weight")
 
 
 def _stride_row(event: StrideTaken) -> list[str]:
@@ -86,7 +86,14 @@ def _place_row(event: Placed) -> list[str]:
     numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
     heading = "" if heaviest.heading is None else f"{degrees(heaviest.heading):.2f}"
     shares = [heading, str(len(event.candidates)), f"{heaviest.weight:.4f}"]
-    return [repr(event.t), event.level, printable(event.room or "", 80), *numbers, *shares]
+    return [
+        repr(event.t),
+        event.level,
+        printable(event.room or "", 80),
+        printable(event.door or "", 80),
+        *numbers,
+        *shares,
+    ]
 
 
 @contextmanager

@@ -281,12 +281,14 @@ class Placing(LevelChanges):
             self.rows = round_rows(rows)
         if not is_small:
             self.rows = round_rows(self.thin(rows, count))
+        number = plan.number(heaviest.level)
         self.newest_placed = Placed(
             t=here.t,
             known_at=known_at,
             level=heaviest.level,
             position=heaviest.position,
-            room=plan.room(plan.number(heaviest.level), heaviest.position[0], heaviest.position[1]),
+            room=plan.room(number, *heaviest.position[:2]),
+            door=plan.door(number, *heaviest.position[:2]),
             spread=spread,
             candidates=candidates,
         )

@@ -171,7 +171,7 @@ def place_lines(counts: PlaceCounts) -> list[str]:
 
 
 def place_line(place: Placed) -> str:
-    """Return a line with the wearer's present level, room if it has a name, and position, m, plan frame."""
+    """Return a line with the wearer's present level, room and door if they have names, and position, m, plan frame."""
     x, y, _ = place.position
     count = len(place.candidates)
     text = f"place: {_level_and_room(place)}, ({number(x, 1)}, {number(y, 1)}) m"
@@ -181,5 +181,9 @@ def place_line(place: Placed) -> str:
 
 
 def _level_and_room(place: Placed) -> str:
-    level = f"level {printable(place.level)}"
-    return level if place.room is None else f"{level}, {printable(place.room)}"
+    names = [f"level {printable(place.level)}"]
+    if place.room is not None:
+        names.append(printable(place.room))
+    if place.door is not None:
+        names.append(f"at door {printable(place.door)}")
+    return ", ".join(names)

@@ -85,6 +85,7 @@ def _place(place: Placed) -> dict[str, Any]:
     return {
         "level": place.level,
         "room": None if place.room is None else printable(place.room),
+        "door": None if place.door is None else printable(place.door),
         "position": rounded_all(place.position),
         "decided": len(place.candidates) <= 1,
         "spread": rounded(place.spread, 2),

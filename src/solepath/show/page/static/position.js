@@ -7,9 +7,9 @@ export function nameOf(plan, id) {
   return plan?.levels.find((level) => level.id === id)?.name ?? id;
 }
 
-// Level of the wearer, and the room if it has a name.
-export function whereOf(plan, { level, room }) {
-  return room ? `${nameOf(plan, level)}, ${room}` : nameOf(plan, level);
+// Level of the wearer, and the room and a door close by if they have names.
+export function whereOf(plan, { level, room, door }) {
+  return [nameOf(plan, level), room, door && `at door ${door}`].filter(Boolean).join(", ");
 }
 
 // Note below a drawing of this level; "" when there is none.
@@ -18,7 +18,8 @@ export function noteOnPlan({ place, places, plan }, level) {
   if (!place) return "Where on the plan is not known yet.";
   if (!place.decided) return possible(place, plan);
   if (place.level !== level.id) return `The wearer is on ${whereOf(plan, place)}.`;
-  return place.room ? `The wearer is in ${place.room}.` : "";
+  const where = [place.room && `in ${place.room}`, place.door && `at door ${place.door}`].filter(Boolean);
+  return where.length > 0 ? `The wearer is ${where.join(", ")}.` : "";
 }
 
 // Note below the track without a plan.

@@ -220,8 +220,8 @@ function place(value) {
       weight: number(one.weight) ?? 0,
     }));
   const decided = value.decided === true;
-  const [level, room] = [text(value.level), text(value.room)]; // room: "" while none is known
-  return { level, room, position: value.position, decided, spread: number(value.spread), candidates };
+  const [level, room, door] = [text(value.level), text(value.room), text(value.door)]; // "" while none is known
+  return { level, room, door, position: value.position, decided, spread: number(value.spread), candidates };
 }
 
 function activity(value) {
