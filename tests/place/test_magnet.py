@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import radians
+from math import atan2, pi, radians
 
 import pytest
 from attrs import evolve
@@ -12,11 +12,12 @@ from solepath import ActivityChanged, DefectFound, Event, LiftRidden, Placed, Se
 from solepath.emulate import Insole, sampled
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.ways import case_study
-from solepath.emulate.sensors.magnetic_field import MagneticField
+from solepath.emulate.sensors.magnetic_field import EARTH, MagneticField
 from solepath.emulate.sensors.parts import AK8963
 from solepath.emulate.walk import SampledWalk
 from solepath.events import Defect
 from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Anchor
 from solepath.lab.emulated.place import is_near, is_on_floor
 from solepath.types import SITE_OF_FOOT, Foot, Site, Vec3
 
@@ -33,16 +34,23 @@ def walk() -> SampledWalk:
     return sampled(WAY.route, insoles=insoles, field=MagneticField(radians(20.0), seed=4), seed=3)
 
 
+NORTHERN = IndexedPlan(evolve(BUILDING, anchor=Anchor(48.0, 11.0, atan2(EARTH[1], EARTH[0]) - 0.5 * pi)))
+"""The building with its north: the walk's first heading is the plan's x axis."""
+
+
 @cache
-def events(magnet: Vec3 | None) -> list[Event]:
-    """Return the events of a walk with a magnet at the left shoe, or without magnetometers."""
+def events(magnet: Vec3 | None, by_north: bool = False) -> list[Event]:
+    """Return the events of a walk with a magnet at the left shoe, or without magnetometers.
+
+    The first heading is given, or it is found `by_north` of the plan and the compass."""
     samples = []
     for sample in walk().samples:
         mag = None if magnet is None else sample.mag
         if mag is not None and magnet is not None and sample.site is Site.LEFT_FOOT and sample.t > CAME:
             mag = (mag[0] + magnet[0], mag[1] + magnet[1], mag[2] + magnet[2])
         samples.append(evolve(sample, mag=mag))
-    session = Session(floorplan=PLAN, start=Start(heading=WAY.start.heading))
+    start = None if by_north else Start(heading=WAY.start.heading)
+    session = Session(floorplan=NORTHERN if by_north else PLAN, start=start)
     return session.feed(samples) + session.finish()
 
 
@@ -51,9 +59,10 @@ def activities(found: list[Event]) -> list[tuple[str, float]]:
     return [(str(event), event.t) for event in found if isinstance(event, ActivityChanged | LiftRidden)]
 
 
+@pytest.mark.parametrize("by_north", [False, True])
 @pytest.mark.parametrize("magnet", [NEAR_MAGNET, AT_SENSOR])
-def test_the_place_stays_right_and_the_activities_are_the_same(magnet: Vec3) -> None:
-    plain, disturbed = events(None), events(magnet)
+def test_the_place_stays_right_and_the_activities_are_the_same(magnet: Vec3, by_north: bool) -> None:
+    plain, disturbed = events(None), events(magnet, by_north)
     assert activities(plain) == activities(disturbed) != []
     late = [one for one in disturbed if isinstance(one, Placed) and one.t > CAME and is_on_floor(walk().truth, one.t)]
     assert len(late) > 50

@@ -1,0 +1,107 @@
+"""A compass in the feet, on a plan that knows its north, settles which end of a building it is."""
+
+from __future__ import annotations
+
+from math import atan2, cos, dist, pi, sin
+
+import pytest
+from attrs import evolve
+from floors import OFFICE, FloorEvents, Method, follow, office, placed, tour
+
+from solepath import PlanContradicted, Start
+from solepath.body.place.north import DECLINATION, LARGEST_ERROR, HeadingSource, heading_by_north
+from solepath.floorplan.index import IndexedPlan
+from solepath.floorplan.plan import Anchor, FloorPlan
+
+SEEDS = range(1, 9)
+BEARING = 0.6
+"""Bearing of the office in these tests, rad, clockwise from north."""
+PLAN = IndexedPlan(office(Anchor(48.0, 11.0, BEARING)))
+PROVEN_AFTER = 20
+"""Number of events after which the compass knows where north is."""
+
+
+def with_north(received: list[FloorEvents], turned: float, sigma: float = 0.1) -> list[FloorEvents]:
+    """Return what is received with a compass for which the track is turned by `turned`, rad, against the plan."""
+    north = (0.5 * pi + BEARING + turned, sigma)
+    return [
+        evolve(one, here=evolve(one.here, north=north)) if number >= PROVEN_AFTER else one
+        for number, one in enumerate(received)
+    ]
+
+
+def decided(part: Method, received: list[FloorEvents], plan: IndexedPlan = PLAN) -> int:
+    """Return the number of places until one candidate was left."""
+    places = placed(follow(part, received, plan))
+    return next((k for k, place in enumerate(places) if len(place.candidates) == 1), len(places))
+
+
+def test_with_the_compass_fewer_strides_decide_where_the_wearer_is(part: Method) -> None:
+    new, with_compass, without = type(part), 0, 0
+    for seed in SEEDS:
+        pedestrian = tour(seed)
+        with_compass += decided(new(), with_north(pedestrian.received, pedestrian.turned))
+        without += decided(new(), pedestrian.received)
+    assert with_compass < 0.8 * without
+
+
+def test_a_north_that_is_wrong_leaves_the_true_place_among_the_candidates(part: Method) -> None:
+    new = type(part)
+    for seed in SEEDS:
+        pedestrian = tour(seed)
+        events = placed(follow(new(), with_north(pedestrian.received, pedestrian.turned + 0.5 * pi), PLAN))
+        true = [one.place for one in pedestrian.received if one.place is not None][-1]
+        assert any(dist(one.position[:2], true) < 4.0 for one in events[-1].candidates), seed
+
+
+def test_walls_that_contradict_the_compass_are_reported_once_and_it_is_used_no_longer(part: Method) -> None:
+    new, found = type(part), 0
+    for seed in SEEDS:
+        pedestrian, one = tour(seed), new()
+        events = follow(one, with_north(pedestrian.received, pedestrian.turned + 0.5 * pi), PLAN)
+        contradicted = [event for event in events if isinstance(event, PlanContradicted)]
+        assert len(contradicted) <= 1
+        if contradicted:
+            found += 1
+            assert contradicted[0].what.startswith("the heading by the compass in the feet does not fit the plan by")
+            assert one.known_heading is None and one.heading_source is HeadingSource.CONTRADICTED
+    assert found > 0
+
+
+def test_a_compass_that_is_right_is_not_contradicted(part: Method) -> None:
+    for seed in SEEDS:
+        pedestrian = tour(seed)
+        events = follow(type(part)(), with_north(pedestrian.received, pedestrian.turned + 0.15), PLAN)
+        assert not any(isinstance(event, PlanContradicted) for event in events)
+
+
+def test_without_a_north_in_the_plan_or_with_a_vague_one_in_the_feet_nothing_changes(part: Method) -> None:
+    new, pedestrian = type(part), tour(3)
+    plain = follow(new(), pedestrian.received, PLAN)
+    vague = 0.51 * (LARGEST_ERROR - DECLINATION)
+    assert follow(new(), with_north(pedestrian.received, pedestrian.turned, vague), PLAN) == plain
+    assert follow(new(), with_north(pedestrian.received, pedestrian.turned), OFFICE) == plain
+    assert follow(new(), with_north(pedestrian.received, pedestrian.turned), PLAN) != plain
+
+
+def test_a_first_heading_that_the_app_gave_counts_and_not_the_compass(part: Method) -> None:
+    new, pedestrian = type(part), tour(4)
+    parts = [new(), new()]
+    for one in parts:
+        one.set_out(Start(heading=-pedestrian.turned))
+    received = with_north(pedestrian.received, pedestrian.turned + 0.5 * pi)
+    assert follow(parts[0], received, PLAN) == follow(parts[1], pedestrian.received, PLAN)
+
+
+@pytest.mark.parametrize(("bearing", "direction", "heading"), [
+    (0.0, 0.5 * pi, 0.0),  # the plan's y axis and the first heading's left are north: the wearer set out to the east
+    (0.0, 0.0, 0.5 * pi),  # the first heading is north, and so is the plan's y axis
+    (0.5 * pi, 0.0, pi),  # the plan's y axis is east, so its x axis is south
+])  # fmt: skip
+def test_the_heading_follows_from_the_bearing_and_the_direction_of_north(
+    bearing: float, direction: float, heading: float
+) -> None:
+    known = heading_by_north(FloorPlan("", (), (), Anchor(0.0, 0.0, bearing)), (direction, 0.1))
+    assert known is not None
+    assert atan2(sin(known[0] - heading), cos(known[0] - heading)) == pytest.approx(0.0, abs=1e-9)
+    assert known[1] == pytest.approx(DECLINATION + 0.2)
