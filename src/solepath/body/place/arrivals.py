@@ -132,9 +132,9 @@ def _weigh_exits(
     opposite = max(arrived.opposite_share, LEAST_OPPOSITE_SHARE[arrived.kind])
     expected = [
         (exit_landing, share * (1.0 - opposite))
-        for exit_landing, share in find_exits(plan, landings, entered, arrived.up, arrived.height)
+        for exit_landing, share in find_exits(plan, landings, entered, arrived.up, arrived.height, arrived.flights)
     ]
-    other = find_exits(plan, landings, entered, not arrived.up, arrived.height)
+    other = find_exits(plan, landings, entered, not arrived.up, arrived.height, arrived.flights)
     return expected + [(exit_landing, share * opposite) for exit_landing, share in other]
 
 

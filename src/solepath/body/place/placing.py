@@ -147,7 +147,8 @@ class Placing(LevelChanges):
             if isinstance(event, TurnMade) and abs(event.angle) > ABOUT_TURN_ANGLE and self.rows:
                 self._add_about_turn(plan, event.t)
         arrived = False
-        for reference in self.references.update(plan.plan, events, here):
+        levels = frozenset([row[5] for row in self.rows])
+        for reference in self.references.update(plan.plan, events, here, levels):
             match reference:
                 case LevelChangePossible():
                     self.start_level_change(plan.plan, reference)

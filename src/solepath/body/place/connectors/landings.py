@@ -20,6 +20,9 @@ HEIGHT_ERROR_SHARE = 0.12
 """Standard deviation of a reported height: part that grows with the height, m per m."""
 MIN_STOREY_HEIGHT, MAX_STOREY_HEIGHT = 2.4, 5.0
 """Least and largest usual height of a storey, m."""
+WRONG_FLIGHT, MIN_FLIGHTS_LIKELIHOOD = 0.2, 0.04
+"""Likelihood of one flight too many or too few, as a landing of one stride hides it, and the least of any number
+(assumed; of 50 emulated walks the number was right in 48 or more, docs/activities.md)."""
 MIN_EXIT_LIKELIHOOD = 0.02
 """Least likelihood of an exit, as a share of that of the likeliest exit."""
 
@@ -71,11 +74,17 @@ def find_nearest_landing(
 
 
 def find_exits(
-    plan: FloorPlan, landings: list[Landing], entered: Landing, up: bool, height: float | None
+    plan: FloorPlan,
+    landings: list[Landing],
+    entered: Landing,
+    up: bool,
+    height: float | None,
+    flights: int | None = None,
 ) -> list[tuple[Landing, float]]:
     """Return the exits after a climb of `height`, m (None: any), from the landing `entered`, with their likelihoods.
 
-    When the plan has no heights, all usual heights of a storey are equally likely."""
+    When the plan has no heights, all usual heights of a storey are equally likely. If it has the number of flights of
+    the stairs, the number that was climbed counts too, None if it is not known."""
     exits = []
     for landing in _list_connector_landings(landings, entered):
         rise = landing.elevation - entered.elevation
@@ -83,11 +92,21 @@ def find_exits(
             low, high = usual_rise(plan, entered, landing)
             misfit = 0.0 if height is None else max(low - height, height - high, 0.0)
             deviation = misfit / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low)
-            exits.append((landing, exp(-0.5 * min(deviation * deviation, 1000.0))))
+            by_flights = _flights_likelihood(plan, entered, landing, flights)
+            exits.append((landing, by_flights * exp(-0.5 * min(deviation * deviation, 1000.0))))
     most = max([weight for _, weight in exits], default=0.0)
     if most <= 0.0:
         return [(landing, 1.0 / len(exits)) for landing, _ in exits]
     return [(landing, weight / most) for landing, weight in exits if weight >= MIN_EXIT_LIKELIHOOD * most]
+
+
+def _flights_likelihood(plan: FloorPlan, entered: Landing, left: Landing, flights: int | None) -> float:
+    """Return the likelihood of `flights` between two landings, relative to that of the number that the plan has."""
+    usual = plan.connectors[entered.connector].flights
+    if usual is None or flights is None:
+        return 1.0
+    missed = abs(flights - usual * max(abs(left.ordinal - entered.ordinal), 1))
+    return max(WRONG_FLIGHT**missed, MIN_FLIGHTS_LIKELIHOOD)
 
 
 def usual_rise(plan: FloorPlan, entered: Landing, left: Landing) -> tuple[float, float]:

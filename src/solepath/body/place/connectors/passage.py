@@ -9,13 +9,17 @@ from ....types import Vec3
 from ....types.attrs import define
 
 RISER_HEIGHT = 0.165
-"""Height of one riser of stairs, m, used when the track gives no height."""
+"""Height of one riser of stairs, m, used when neither the track gives a height nor the plan its risers'."""
 MAX_LENGTH_RATIO, LANDING_LENGTH = 2.5, 4.0
 """Largest horizontal length of stairs as a multiple of their height, and additional length for landings, m."""
 MIN_TRACK_SHARE = 0.5
 """Least height by the track that is used on stairs, as a share of the height by counted risers."""
 MIN_TRACK_HEIGHT, MIN_RIDE_HEIGHT = 0.3, 1.0
 """Least heights by the track that are used on stairs and after a ride, m."""
+
+
+MAX_REST, MAX_LANDING_WIDTH = 120.0, 6.0
+"""Longest rest on a half-way landing, s, and largest distance between the flights that meet there, m (assumed)."""
 
 
 @define
@@ -41,18 +45,40 @@ class Passage:
     """Position of the track at `t_left`, m."""
     strides_since: int = 0
     """Number of strides since `t_left`."""
+    riser: float = RISER_HEIGHT
+    """Height of one riser of the stairs, m."""
+    flights: int = 0
+    """Number of flights upwards minus the number downwards."""
+    height_before: float = 0.0
+    """Height up to the half-way landing at which the passage starts, m, positive upwards; 0 from a level on."""
 
     def height(self, here: Vec3) -> float | None:
         """Return the height, m, not negative, by the track or else by flights or counted risers; None when unknown."""
-        track = self._track_height(here)
         if self.kind is ConnectorKind.LIFT:
+            track = self._track_height(here)
             return track if track > MIN_RIDE_HEIGHT else None
-        return track if self.is_measured(here) else max(abs(self.flight_height), self._counted_height)
+        return abs(self.height_signed(here))
+
+    def height_signed(self, here: Vec3) -> float:
+        """Return the height of stairs from the last level on, m, positive upwards."""
+        own = self._track_height(here) if self.is_measured(here) else max(abs(self.flight_height), self._counted_height)
+        return self.height_before + (own if self.net_up > 0 else -own)
+
+    def is_continued(self, t: float, start: Vec3) -> bool:
+        """Return whether stairs that start at `t`, s, and `start`, m, continue this passage from a half-way landing."""
+        if self.t_left is None or self.end is None or not 0.0 <= t - self.t_left <= MAX_REST:
+            return False
+        return hypot(start[0] - self.end[0], start[1] - self.end[1]) <= MAX_LANDING_WIDTH
 
     def is_measured(self, here: Vec3) -> bool:
         """Return whether the height of the track can be used for stairs."""
         track = self._track_height(here)
         return track > MIN_TRACK_SHARE * self._counted_height and track > MIN_TRACK_HEIGHT
+
+    def measured_up(self, here: Vec3) -> bool | None:
+        """Return whether stairs lead up by the track and by what was reported; None if one of them does not say so."""
+        rise = (here if self.end is None else self.end)[2] - self.start[2]
+        return rise > 0.0 if self.is_measured(here) and (rise > 0.0) == (self.net_up > 0) else None
 
     def _track_height(self, here: Vec3) -> float:
         return abs((here if self.end is None else self.end)[2] - self.start[2])
@@ -62,12 +88,14 @@ class Passage:
         # a stride of one foot climbs two risers; with both feet there is a stride for each riser
         # only strides in the direction of the majority count: the others may be wrong or not on stairs
         strides = 0.5 * (self.left + self.right + abs(self.net_up))
-        return RISER_HEIGHT * strides * (1.0 if self.left and self.right else 2.0)
+        return self.riser * strides * (1.0 if self.left and self.right else 2.0)
 
     @property
     def height_one_way(self) -> float:
         """Height, m, if all strides had the same direction, whatever direction was reported."""
-        return RISER_HEIGHT * (self.left + self.right) * (1.0 if self.left and self.right else 2.0)
+        return abs(self.height_before) + self.riser * (self.left + self.right) * (
+            1.0 if self.left and self.right else 2.0
+        )
 
     @property
     def opposite_share(self) -> float:

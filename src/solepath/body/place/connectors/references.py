@@ -11,14 +11,14 @@ known with the next activity, or up to `MAX_WAIT` s or `WAIT_DISTANCE` m later w
 from __future__ import annotations
 
 from collections import deque
-from math import hypot, isfinite
+from math import hypot, inf, isfinite
 
 from ....events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
 from ....floorplan.plan import ConnectorKind, FloorPlan
 from ....types import Activity, Foot, Vec3
 from ....types.attrs import define, field, frozen
-from .landings import MAX_STOREY_HEIGHT, MIN_STOREY_HEIGHT
 from .passage import Passage
+from .storeys import MAX_RISERS, riser_height, storeys_of
 
 MAX_WAIT = 8.0
 """Longest wait for the end of stairs whose height fits no storey, s."""
@@ -80,6 +80,8 @@ class LevelReached:
     """Share of the strides that were reported in the other direction."""
     certainty: float = SURE_CERTAINTY
     """Probability that the wearer is on another level now; less than 1."""
+    flights: int | None = None
+    """Number of flights that were climbed; None when none was reported."""
 
 
 Reference = LevelChangePossible | LevelChangeCancelled | LevelReached
@@ -96,10 +98,12 @@ class References:
     """Newest positions of the track: t, s, and x, y, z, m."""
     ride_end: float | None = field(default=None, init=False)
     """End of the last ride, s."""
+    partial: Passage | None = field(default=None, init=False)
+    """Newest passage that ended on a half-way landing; None otherwise."""
 
     def reset(self) -> None:
-        """Discard the passage, the last ride and the track, because the clock restarts."""
-        self.passage = self.ride_end = None
+        """Discard the passages, the last ride and the track, because the clock restarts."""
+        self.passage = self.ride_end = self.partial = None
         self.track.clear()
 
     def position_at(self, t: float) -> Vec3:
@@ -130,8 +134,12 @@ class References:
         """Return the position of the track at `t`, s, and all later positions that are kept, m."""
         return [self.position_at(t), *(position[1:] for position in self.track if position[0] > t)]
 
-    def update(self, plan: FloorPlan, events: list[Event], here: WearerMoved) -> list[Reference]:
-        """Return the references that follow from `events`; the wearer is at `here` now."""
+    def update(
+        self, plan: FloorPlan, events: list[Event], here: WearerMoved, levels: frozenset[int] = frozenset()
+    ) -> list[Reference]:
+        """Return the references that follow from `events`; the wearer is at `here` now.
+
+        `levels` are those on which the wearer may be, as indices in the plan; none if that is not known."""
         x, y, z = here.position
         self.track.append((here.t, round(x, 3), round(y, 3), round(z, 3)))
         if len(self.track) > MAX_TRACK_POSITIONS:
@@ -141,9 +149,9 @@ class References:
             if isinstance(event, StrideTaken):
                 self._add_stride(event.foot)
             elif isinstance(event, ActivityChanged):
-                self._change_activity(event, references)
+                self._change_activity(plan, event, references)
             elif isinstance(event, FlightClimbed):
-                self._add_flight(event, references)
+                self._add_flight(plan, event, references)
             elif isinstance(event, LiftRidden):
                 if self.ride_end is None or event.t > self.ride_end + SAME_RIDE_TIME:
                     height = None if event.height is None or not isfinite(event.height) else abs(event.height)
@@ -156,7 +164,7 @@ class References:
                     self.passage = None
         if self.passage is not None:
             if self.passage.t_left is not None:
-                self._decide(self.passage, self.passage.t_left, plan, here, references)
+                self._decide(self.passage, self.passage.t_left, plan, levels, here, references)
             elif self.passage.leads_away(here.position):
                 self.passage = None
                 references.append(LevelChangeCancelled())
@@ -176,7 +184,7 @@ class References:
             else:
                 passage.right += 1
 
-    def _change_activity(self, event: ActivityChanged, references: list[Reference]) -> None:
+    def _change_activity(self, plan: FloorPlan, event: ActivityChanged, references: list[Reference]) -> None:
         self.activity = event.activity
         connector, passage = CONNECTOR_OF_ACTIVITY.get(event.activity), self.passage
         if connector is None:
@@ -195,29 +203,43 @@ class References:
         else:
             if passage is not None:
                 references.append(LevelChangeCancelled())
-            passage = self.passage = Passage(kind, event.t, self.position_at(event.t))
+            passage = self.passage = self._enter(plan, kind, event.t)
             references.append(LevelChangePossible(kind, event.t))
         if kind is ConnectorKind.LIFT:
             passage.net_up += 1 if up else -1
 
-    def _add_flight(self, event: FlightClimbed, references: list[Reference]) -> None:
+    def _add_flight(self, plan: FloorPlan, event: FlightClimbed, references: list[Reference]) -> None:
         """Add a flight to the passage over stairs; without one, the flight starts a passage."""
         passage = self.passage
         if passage is not None and passage.kind is not ConnectorKind.STAIRS:
             return
         if passage is None:
             t = min(event.t_start, event.t)
-            self.passage = passage = Passage(
-                ConnectorKind.STAIRS, t, self.position_at(t), t_left=event.t, end=self.position_at(event.t)
-            )
+            self.passage = passage = self._enter(plan, ConnectorKind.STAIRS, t)
+            passage.t_left, passage.end = event.t, self.position_at(event.t)
             references.append(LevelChangePossible(ConnectorKind.STAIRS, t))
             passage.net_up = 1 if event.up else -1
         passage.flight_height += event.height if abs(event.height) < 100.0 else 0.0
+        passage.flights += 1 if event.up else -1
         if passage.t_left is not None and event.t > passage.t_left:
             passage.t_left, passage.end = event.t, self.position_at(event.t)
 
+    def _enter(self, plan: FloorPlan, kind: ConnectorKind, t: float) -> Passage:
+        """Return a new passage from `t`, s, on; from a half-way landing it continues the one that ended there."""
+        start, partial = self.position_at(t), self.partial
+        passage, self.partial = Passage(kind, t, start, riser=riser_height(plan)), None
+        if partial is not None and kind is ConnectorKind.STAIRS and partial.is_continued(t, start):
+            passage.height_before, passage.flights = partial.height_signed(start), partial.flights
+        return passage
+
     def _decide(
-        self, passage: Passage, t_left: float, plan: FloorPlan, here: WearerMoved, references: list[Reference]
+        self,
+        passage: Passage,
+        t_left: float,
+        plan: FloorPlan,
+        levels: frozenset[int],
+        here: WearerMoved,
+        references: list[Reference],
     ) -> None:
         """Decide whether a passage that was left led to another level, when that is certain or the wait is over."""
         up, height = passage.net_up > 0, passage.height(here.position)
@@ -228,7 +250,9 @@ class References:
                 self.ride_end = t_left
                 references.append(LevelReached(passage.kind, up, height, passage.t, t_left, certainty=RIDE_CERTAINTY))
             return
-        least, most = storey_heights(plan)
+        # only the height of the track shows the direction beyond doubt
+        storeys = storeys_of(plan, levels, passage.measured_up(here.position))
+        least, most = storeys.heights
         if height is None or not most > 0.0:
             self.passage = None
             references.append(LevelChangeCancelled())
@@ -236,12 +260,17 @@ class References:
         end, measured = passage.end or passage.start, passage.is_measured(here.position)
         if not measured and height < MIN_STOREY_SHARE * least <= passage.height_one_way:
             height = passage.height_one_way  # half of the directions are wrong, or the wearer went up and down again
-        is_storey = height >= MIN_STOREY_SHARE * least
-        is_possible = KERB_SHARE * least <= height <= MAX_CLIMB_RATIO * most and not passage.leads_away(end)
-        fits = (
-            plan.heights_known
-            and min([abs(height - rise) for rise in connector_heights(plan, ConnectorKind.STAIRS)]) <= FIT_SHARE * least
+        fits = min([abs(height - rise) for rise in storeys.rises], default=inf) <= FIT_SHARE * least
+        flights = abs(passage.flights) or None
+        is_partial = (
+            not fits
+            and storeys.flights is not None
+            and flights is not None
+            and flights < storeys.flights
+            and height <= flights * MAX_RISERS * passage.riser  # a higher one is two flights, taken for one
         )
+        is_storey = height >= MIN_STOREY_SHARE * least and not is_partial
+        is_possible = KERB_SHARE * least <= height <= MAX_CLIMB_RATIO * most and not passage.leads_away(end)
         # counted risers include steps on landings, so a flight and a landing must not count as a storey
         is_settled = is_storey and is_possible and fits and (measured or height >= COUNTED_SHARE * least)
         if (
@@ -250,30 +279,13 @@ class References:
             or is_settled
         ):
             self.passage = None
-            fits_plan = fits or (is_storey and not plan.heights_known)
+            fits_plan = (fits or not storeys.rises) and is_storey
             certainty = (SURE_CERTAINTY if fits_plan else FAIR_CERTAINTY if is_storey else HALF_CERTAINTY) * (
                 1.0 - passage.opposite_share
             )
-            arrived = LevelReached(passage.kind, up, height, passage.t, t_left, passage.opposite_share, certainty)
+            arrived = LevelReached(
+                passage.kind, up, height, passage.t, t_left, passage.opposite_share, certainty, flights
+            )
             references.append(arrived if is_possible else LevelChangeCancelled())
-
-
-def storey_heights(plan: FloorPlan) -> tuple[float, float]:
-    """Return the least and the largest climb, m, of the plan's stairs; both 0 without stairs."""
-    heights = connector_heights(plan, ConnectorKind.STAIRS)
-    if not heights:
-        return (0.0, 0.0)
-    if plan.heights_known:
-        return (heights[0], heights[-1])
-    ordinals = [level.ordinal for level in plan.levels]
-    return (MIN_STOREY_HEIGHT, MAX_STOREY_HEIGHT * max(max(ordinals) - min(ordinals), 1))
-
-
-def connector_heights(plan: FloorPlan, kind: ConnectorKind) -> list[float]:
-    """Return every height difference, m, between two stops of connectors of this kind, least first."""
-    heights = set()
-    for connector in plan.connectors:
-        if connector.kind is kind:
-            elevations = [plan.level(stop.level).elevation for stop in connector.stops]
-            heights |= {round(abs(b - a), 3) for i, a in enumerate(elevations) for b in elevations[i + 1 :]}
-    return sorted(heights - {0.0})
+            is_climb = is_possible or (passage.flights != 0 and not passage.leads_away(end))
+            self.partial = passage if is_climb and not is_storey else None
