@@ -7,8 +7,9 @@ from math import cos, fsum, pi, sin, sqrt
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, Start
+from ...types.attrs import frozen
 from .connectors.landings import Landing, find_exits, find_nearest_landing, list_landings
-from .connectors.references import LevelReached
+from .connectors.level_changes import LevelReached
 from .noise import NOISE_ENTRIES, NOISE_TABLE
 from .rows import Row
 
@@ -136,6 +137,37 @@ def _weigh_exits(
     ]
     other = find_exits(plan, landings, entered, not arrived.up, arrived.height, arrived.flights)
     return expected + [(exit_landing, share * opposite) for exit_landing, share in other]
+
+
+@frozen
+class Arrival:
+    """The levels to which the newest stairs may have led."""
+
+    expected: tuple[int, ...]
+    """Levels in the direction that was reported, as indices in the plan."""
+    opposite: tuple[int, ...]
+    """Levels in the other direction."""
+    share: float
+    """Probability of the other direction at the arrival."""
+
+
+def arrival_by(plan: FloorPlan, changing: list[Row], arrived: LevelReached) -> Arrival | None:
+    """Return the levels to which stairs lead from the landings at which rows changed level; None for a lift."""
+    if arrived.kind is not ConnectorKind.STAIRS:
+        return None
+    landings, levels = list_landings(plan), [set[int](), set[int]()]
+    for entered in {row[7] for row in changing}:
+        for found, up in zip(levels, (arrived.up, not arrived.up), strict=True):
+            found |= {one.level for one, _ in find_exits(plan, landings, landings[entered - 1], up, arrived.height)}
+    expected, opposite = [tuple(sorted(found - other)) for found, other in (levels, levels[::-1])]
+    return Arrival(expected, opposite, max(arrived.opposite_share, LEAST_OPPOSITE_SHARE[arrived.kind]))
+
+
+def reversed_rows(rows: list[Row], arrival: Arrival) -> list[Row]:
+    """Return the rows with the weights that they would have if the stairs had been reported in the other direction."""
+    odds = arrival.share / (1.0 - arrival.share)
+    factors = {**dict.fromkeys(arrival.expected, odds), **dict.fromkeys(arrival.opposite, 1.0 / odds)}
+    return [(*row[:4], factors.get(row[5], 1.0) * row[4], *row[5:]) for row in rows]
 
 
 def start_error(plan: IndexedPlan, start: Start) -> str | None:

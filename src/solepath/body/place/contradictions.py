@@ -9,7 +9,7 @@ from ...events import PlanContradicted
 from ...floorplan.plan import ConnectorKind, FloorPlan
 from .arrivals import START_HEADING_ERROR, Heading
 from .connectors.landings import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, list_landings, usual_rise
-from .connectors.references import LevelReached
+from .connectors.level_changes import LevelReached
 from .rows import Row
 
 HEADING_MARGIN = START_HEADING_ERROR

@@ -14,12 +14,22 @@ from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types import Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import ZERO
-from .arrivals import START_HEADING_ERROR, Heading, find_level_changes, rows_at_all_exits, rows_at_exits
+from .arrivals import (
+    START_HEADING_ERROR,
+    Arrival,
+    Heading,
+    arrival_by,
+    find_level_changes,
+    reversed_rows,
+    rows_at_all_exits,
+    rows_at_exits,
+)
 from .connectors.landings import HEIGHT_ERROR, Landing, find_exits, list_landings
-from .connectors.references import FAIR_CERTAINTY, LevelChangePossible, LevelReached, References
+from .connectors.level_changes import FAIR_CERTAINTY, LevelChangePossible, LevelReached
+from .connectors.references import References
 from .contradictions import CONTRADICTED_CERTAINTY, contradicted_heading, contradicted_height
 from .noise import next_random
-from .north import HeadingSource, heading_by_north, weigh_headings
+from .north import HeadingSource, heading_by_north, hold_headings, weigh_headings
 from .place_hypotheses import PlaceHypotheses
 from .rows import Row, resample_rows, round_rows, turn_rows
 from .stride_scale import StrideScale
@@ -50,6 +60,8 @@ class LevelChanges(PlaceHypotheses):
     """Newest position of the track that was used, m, world frame."""
     references: References = field(factory=References, init=False)
     stride_scale: StrideScale = field(factory=StrideScale, init=False)
+    arrival: Arrival | None = field(default=None, init=False)
+    """Newest arrival by stairs, whose direction may be revised; None before any."""
     level_uncertain: bool = field(default=False, init=False)
     """Flag: the level depends on the reported direction of stairs, which is often wrong."""
     arrived_at: float | None = field(default=None, init=False)
@@ -102,9 +114,10 @@ class LevelChanges(PlaceHypotheses):
                 self.known_heading = (self.known_heading[0], min(START_HEADING_ERROR + 2.0 * sigma, pi))
         elif self.heading_source is not HeadingSource.CONTRADICTED:
             self.known_heading = heading_by_north(plan, here.north)
-            if self.known_heading is not None and self.heading_source is HeadingSource.NONE:
+            if self.known_heading is not None:
+                is_new = self.heading_source is HeadingSource.NONE
                 self.heading_source = HeadingSource.COMPASS
-                self.rows = round_rows(weigh_headings(self.rows, self.known_heading))
+                self.rows = round_rows((weigh_headings if is_new else hold_headings)(self.rows, self.known_heading))
 
     def give_up_heading(self, here: WearerMoved, known_at: float) -> list[PlanContradicted]:
         """Use the known heading no longer if no row has it, and return the event that says so."""
@@ -181,6 +194,7 @@ class LevelChanges(PlaceHypotheses):
         exit_weight = fsum([row[4] for row in exit_rows])
         if exit_weight <= MIN_LANDING_SHARE * total:
             if arrived.certainty <= MIN_CERTAINTY:
+                self.arrival = None
                 self.cancel_level_change()
                 return
             exit_rows = rows_at_all_exits(self.scatter, plan, arrived, self.settings.max_rows, self.known_heading)
@@ -193,12 +207,19 @@ class LevelChanges(PlaceHypotheses):
             k = arrived.certainty / (1.0 - arrived.certainty)
             self.level_uncertain = False
         self.arrived_at = arrived.t
+        self.arrival = arrival_by(plan.plan, changing, arrived)
         exit_rows = [(x, y, a, b, k * w, level, origin, 0) for x, y, a, b, w, level, origin, _ in exit_rows]
         if len(exit_rows) > self.settings.max_rows:
             exit_rows = self.thin(exit_rows, self.settings.max_rows)
         exit_rows = self._move_to_now(plan, exit_rows, arrived.t) + resample_rows(rows, KNOWN_ROWS, 0.5)
         if exit_rows:
             self.set_rows(exit_rows)
+
+    def revise_direction(self) -> None:
+        """Exchange the weights of the levels above and below after the newest stairs, as they led the other way."""
+        if self.arrival is not None:
+            self.rows = round_rows(reversed_rows(self.rows, self.arrival))
+            self.arrival = evolve(self.arrival, expected=self.arrival.opposite, opposite=self.arrival.expected)
 
     def _move_to_now(self, plan: IndexedPlan, rows: list[Row], t: float) -> list[Row]:
         """Return rows of the time `t`, s, moved along the track up to now."""

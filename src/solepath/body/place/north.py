@@ -8,7 +8,7 @@ given: a wrong north is survived."""
 from __future__ import annotations
 
 from enum import Enum
-from math import atan2, cos, pi, sin
+from math import cos, fsum, hypot, pi, sin
 
 from ...floorplan.plan import FloorPlan
 from .arrivals import ANY_HEADING_SHARE, Heading
@@ -24,6 +24,10 @@ LARGEST_ERROR = 1.0
 """Largest error of the track's heading by the compass with which it is used, rad.
 
 It is that of 19 degrees of standard deviation, after some 20 m, and leaves out a heading that is a quarter-turn off."""
+OTHER_SHARES, HOLD_FACTOR = (0.05, ANY_HEADING_SHARE), 0.9
+"""Shares of the weight between which other headings than the compass's are kept, and the factor for each stride.
+
+The least share keeps some rows alive in case that north is wrong (assumed)."""
 
 
 class HeadingSource(Enum):
@@ -49,15 +53,34 @@ def heading_by_north(plan: FloorPlan, north: tuple[float, float] | None) -> Head
 
 
 def weigh_headings(rows: list[Row], heading: Heading) -> list[Row]:
-    """Return the rows, with less weight for those whose heading of the track is not the known one.
+    """Return the rows, with less weight for those whose heading of the track is not the one that is known now.
 
     The weights are those of a known heading at arrivals: `ANY_HEADING_SHARE` is spread over the whole circle, the rest
     over the known heading and its error."""
-    angle, error = heading
-    share = ANY_HEADING_SHARE / ((1.0 - ANY_HEADING_SHARE) * pi / error + ANY_HEADING_SHARE)
-    weighed: list[Row] = []
-    for row in rows:
-        off = atan2(row[3], row[2]) - angle
-        is_known = abs(atan2(sin(off), cos(off))) <= error
-        weighed.append(row if is_known else (*row[:4], share * row[4], *row[5:]))
-    return weighed
+    share = ANY_HEADING_SHARE / ((1.0 - ANY_HEADING_SHARE) * pi / heading[1] + ANY_HEADING_SHARE)
+    return _scaled(rows, _have_heading(rows, heading), share)
+
+
+def hold_headings(rows: list[Row], heading: Heading) -> list[Row]:
+    """Return the rows after a stride, with the weight of other headings kept between `OTHER_SHARES`.
+
+    Walls say nothing about alike ends, but which of few rows survive there is chance, which would outweigh the compass
+    in the course of a walk. Strong evidence of walls is faster than `HOLD_FACTOR`."""
+    have = _have_heading(rows, heading)
+    total = fsum([row[4] for row in rows])
+    others = fsum([row[4] for row, has in zip(rows, have, strict=True) if not has])
+    least, most = OTHER_SHARES
+    if most * total < others < total:
+        return _scaled(rows, have, HOLD_FACTOR)
+    return _scaled(rows, have, 1.0 / HOLD_FACTOR) if 0.0 < others < least * total else rows
+
+
+def _have_heading(rows: list[Row], heading: Heading) -> list[bool]:
+    """Return for each row whether its heading of the track is the known one, within its error."""
+    c, s, least = cos(heading[0]), sin(heading[0]), cos(heading[1])
+    return [c * row[2] + s * row[3] >= least * hypot(row[2], row[3]) for row in rows]
+
+
+def _scaled(rows: list[Row], have: list[bool], factor: float) -> list[Row]:
+    """Return the rows, the weights of those that do not have the heading times `factor`."""
+    return [row if has else (*row[:4], factor * row[4], *row[5:]) for row, has in zip(rows, have, strict=True)]

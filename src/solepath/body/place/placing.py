@@ -20,7 +20,7 @@ from ...types.attrs import NOT_SAVED, define, field
 from ..fuse.position_covariance import LEAST_WAY
 from ..part import MOVEMENTS, PartInput, PartOutput
 from .arrivals import START_HEADING_ERROR, spread_rows, start_error
-from .connectors.references import LevelChangePossible, LevelReached
+from .connectors.level_changes import DirectionRevised, LevelChangePossible, LevelReached
 from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
 from .north import HeadingSource
 from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
@@ -155,6 +155,8 @@ class Placing(LevelChanges):
                 case LevelReached():
                     outputs += self.arrive_by(plan, reference, known_at)
                     arrived = True
+                case DirectionRevised():
+                    self.revise_direction()
                 case _:
                     self.cancel_level_change()
         if (strides or arrived) and self.rows:

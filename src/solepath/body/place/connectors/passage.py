@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import hypot
 
 from ....floorplan.plan import ConnectorKind
-from ....types import Vec3
-from ....types.attrs import define
+from ....types import Foot, Vec3
+from ....types.attrs import define, field
 
 RISER_HEIGHT = 0.165
 """Height of one riser of stairs, m, used when neither the track gives a height nor the plan its risers'."""
@@ -20,6 +20,24 @@ MIN_TRACK_HEIGHT, MIN_RIDE_HEIGHT = 0.3, 1.0
 
 MAX_REST, MAX_LANDING_WIDTH = 120.0, 6.0
 """Longest rest on a half-way landing, s, and largest distance between the flights that meet there, m (assumed)."""
+
+
+MAX_SPANS = 6
+"""Largest number of spans that are kept; the oldest two become one, which later reports revise together."""
+
+
+@define
+class StairSpan:
+    """The strides of stairs that were reported in one direction."""
+
+    t: float
+    """Time from which the activity was reported, s."""
+    net_up: int = 0
+    """Number of strides upwards minus the number downwards."""
+    left: int = 0
+    """Number of strides of the left foot."""
+    right: int = 0
+    """Number of strides of the right foot."""
 
 
 @define
@@ -37,6 +55,8 @@ class Passage:
     """Number of strides of the left foot."""
     right: int = 0
     """Number of strides of the right foot."""
+    spans: list[StairSpan] = field(factory=list)
+    """These strides by the reported activities, the oldest first."""
     flight_height: float = 0.0
     """Sum of the heights of the flights, m, positive upwards."""
     t_left: float | None = None
@@ -51,6 +71,36 @@ class Passage:
     """Number of flights upwards minus the number downwards."""
     height_before: float = 0.0
     """Height up to the half-way landing at which the passage starts, m, positive upwards; 0 from a level on."""
+
+    def report(self, t: float, up: bool, revises: float | None) -> None:
+        """Count further strides in the direction that is reported from `t`, s, on, and revise those reported before.
+
+        The report replaces every one from `revises`, s, on (None: none), and is repeated whenever one before it is
+        revised. So the direction is that of the whole stretch, whatever was reported of it at first."""
+        since = t if revises is None else min(t, revises)
+        for span in self.spans:
+            if span.t >= since:
+                strides = span.left + span.right
+                span.net_up = strides if up else -strides
+        self.spans = [*[span for span in self.spans if span.left + span.right], StairSpan(t)]
+        if len(self.spans) > MAX_SPANS:
+            old, one = self.spans[:2]
+            merged = StairSpan(old.t, old.net_up + one.net_up, old.left + one.left, old.right + one.right)
+            self.spans[:2] = [merged]
+        self._count()
+
+    def add_stride(self, foot: Foot, up: bool) -> None:
+        """Add a stride of the newest report."""
+        if not self.spans:
+            self.spans.append(StairSpan(self.t))
+        span = self.spans[-1]
+        span.net_up += 1 if up else -1
+        span.left, span.right = span.left + (foot is Foot.LEFT), span.right + (foot is Foot.RIGHT)
+        self._count()
+
+    def _count(self) -> None:
+        self.net_up = sum([span.net_up for span in self.spans])
+        self.left, self.right = sum([span.left for span in self.spans]), sum([span.right for span in self.spans])
 
     def height(self, here: Vec3) -> float | None:
         """Return the height, m, not negative, by the track or else by flights or counted risers; None when unknown."""

@@ -16,7 +16,18 @@ from math import hypot, inf, isfinite
 from ....events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, WearerMoved
 from ....floorplan.plan import ConnectorKind, FloorPlan
 from ....types import Activity, Foot, Vec3
-from ....types.attrs import define, field, frozen
+from ....types.attrs import define, field
+from .level_changes import (
+    FAIR_CERTAINTY,
+    HALF_CERTAINTY,
+    RIDE_CERTAINTY,
+    SURE_CERTAINTY,
+    DirectionRevised,
+    LevelChangeCancelled,
+    LevelChangePossible,
+    LevelReached,
+    Reference,
+)
 from .passage import Passage
 from .storeys import MAX_RISERS, riser_height, storeys_of
 
@@ -34,8 +45,6 @@ KERB_SHARE = 0.35
 """Share of the least storey below which a height is a kerb.
 
 Heights between this and `MIN_STOREY_SHARE` are half a storey, or a storey of which only half was detected."""
-SURE_CERTAINTY, FAIR_CERTAINTY, HALF_CERTAINTY, RIDE_CERTAINTY = 0.97, 0.9, 0.1, 0.99
-"""Certainties of an arrival: the height fits a storey; it is large enough; it is about half a storey; it is a ride."""
 RIDE_END_TIME = 4.0
 """Time after the end of an elevator activity at which a ride without an event has ended, s; two strides also end it."""
 SAME_RIDE_TIME = 5.0
@@ -52,41 +61,6 @@ CONNECTOR_OF_ACTIVITY = {
 """Kind of connector for each activity, and a flag: the activity leads up."""
 
 
-@frozen
-class LevelChangePossible:
-    """The reference that the wearer may be on stairs or in an elevator from `t`, s, on."""
-
-    kind: ConnectorKind
-    t: float
-
-
-@frozen
-class LevelChangeCancelled:
-    """The reference that a possible change of level did not happen."""
-
-
-@frozen
-class LevelReached:
-    """The reference that the wearer left stairs or an elevator on another level at `t`, s."""
-
-    kind: ConnectorKind
-    up: bool
-    height: float | None
-    """Height of the climb, m, not negative; None when it is not known."""
-    t_start: float
-    """Time at which the stairs or the elevator were entered, s."""
-    t: float
-    opposite_share: float = 0.0
-    """Share of the strides that were reported in the other direction."""
-    certainty: float = SURE_CERTAINTY
-    """Probability that the wearer is on another level now; less than 1."""
-    flights: int | None = None
-    """Number of flights that were climbed; None when none was reported."""
-
-
-Reference = LevelChangePossible | LevelChangeCancelled | LevelReached
-
-
 @define
 class References:
     """Derives references from the wearer's activities and the newest positions of the track."""
@@ -98,12 +72,14 @@ class References:
     """Newest positions of the track: t, s, and x, y, z, m."""
     ride_end: float | None = field(default=None, init=False)
     """End of the last ride, s."""
+    decided: tuple[float, bool] | None = field(default=None, init=False)
+    """End of the newest stairs that led to another level, s, and a flag: they led up; None before any."""
     partial: Passage | None = field(default=None, init=False)
     """Newest passage that ended on a half-way landing; None otherwise."""
 
     def reset(self) -> None:
         """Discard the passages, the last ride and the track, because the clock restarts."""
-        self.passage = self.ride_end = self.partial = None
+        self.passage = self.ride_end = self.partial = self.decided = None
         self.track.clear()
 
     def position_at(self, t: float) -> Vec3:
@@ -178,11 +154,7 @@ class References:
         if passage.t_left is not None or connector is None:
             passage.strides_since += 1
         elif passage.kind is ConnectorKind.STAIRS:
-            passage.net_up += 1 if connector[1] else -1
-            if foot is Foot.LEFT:
-                passage.left += 1
-            else:
-                passage.right += 1
+            passage.add_stride(foot, connector[1])
 
     def _change_activity(self, plan: FloorPlan, event: ActivityChanged, references: list[Reference]) -> None:
         self.activity = event.activity
@@ -198,6 +170,8 @@ class References:
         kind, up = connector
         if kind is ConnectorKind.LIFT and self.ride_end is not None and event.t < self.ride_end:
             return
+        if passage is None and self._revises_decided(event, kind, up, references):
+            return
         if passage is not None and passage.kind is kind:
             passage.t_left = passage.end = None
         else:
@@ -207,6 +181,22 @@ class References:
             references.append(LevelChangePossible(kind, event.t))
         if kind is ConnectorKind.LIFT:
             passage.net_up += 1 if up else -1
+        else:
+            passage.report(event.t, up, event.revises)
+
+    def _revises_decided(
+        self, event: ActivityChanged, kind: ConnectorKind, up: bool, references: list[Reference]
+    ) -> bool:
+        """Return whether an activity is a later report of the newest stairs, which were left already."""
+        if self.decided is None or kind is not ConnectorKind.STAIRS or event.revises is None:
+            return False
+        t_left, was_up = self.decided
+        if event.t >= t_left:
+            return False
+        if up is not was_up:
+            self.decided = (t_left, up)
+            references.append(DirectionRevised())
+        return True
 
     def _add_flight(self, plan: FloorPlan, event: FlightClimbed, references: list[Reference]) -> None:
         """Add a flight to the passage over stairs; without one, the flight starts a passage."""
@@ -287,5 +277,7 @@ class References:
                 passage.kind, up, height, passage.t, t_left, passage.opposite_share, certainty, flights
             )
             references.append(arrived if is_possible else LevelChangeCancelled())
+            if is_possible:
+                self.decided = (t_left, up)
             is_climb = is_possible or (passage.flights != 0 and not passage.leads_away(end))
             self.partial = passage if is_climb and not is_storey else None
