@@ -53,7 +53,7 @@ def test_a_wearer_on_the_doorstep_is_at_the_door_from_post_to_post() -> None:
     assert {plan.door(0, 4.6 + 0.05 * k, 0.0) for k in range(1, 20)} == {"west door"}
 
 
-def test_a_door_without_a_name_is_passed_over_and_no_number_is_too_strange_to_ask_for() -> None:
+def test_a_door_without_a_name_does_not_count_and_any_number_is_a_place() -> None:
     plan = IndexedPlan(flat(evolve(LEFT, name=""), RIGHT))
     assert plan.door(0, 5.2, -0.3) == "east door"
     assert [plan.door(0, *place) for place in ((math.nan, 0.0), (0.0, math.inf), (1e300, -1e300))] == [None] * 3

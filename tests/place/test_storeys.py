@@ -113,7 +113,7 @@ def test_without_elevations_two_flights_of_two_are_one_storey_of_any_height() ->
     assert counted == dict(find_exits(plan, list_landings(plan), landing(plan, 0), True, 5.6, 2))
 
 
-def test_one_flight_too_few_as_one_is_often_missed_leaves_the_other_floor_possible() -> None:
+def test_one_flight_more_than_the_plan_has_leaves_both_floors_possible() -> None:
     plan = unequal(2, heights_known=False)
     exits = {
         found.level: weight for found, weight in find_exits(plan, list_landings(plan), landing(plan, 0), True, 5.6, 3)
@@ -136,7 +136,7 @@ def test_risers_have_the_height_that_the_plan_gives_them() -> None:
     assert riser_height(plan) == RISER_HEIGHT and riser_height(evolve(plan, connectors=steep)) == pytest.approx(0.2)
 
 
-def test_counted_risers_of_a_track_without_height_are_as_high_as_the_plan_says(part: Method) -> None:
+def test_counted_risers_of_a_track_without_height_have_the_height_of_the_plan(part: Method) -> None:
     """Climb 9 risers of 0.2 m twice: 3.6 m, of which usual risers would be less than 3."""
     plan = office()
     steep = tuple(evolve(one, rise=0.2) if one.kind is ConnectorKind.STAIRS else one for one in plan.connectors)

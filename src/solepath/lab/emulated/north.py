@@ -1,4 +1,4 @@
-"""What a compass in the feet is worth on a plan that knows its north, in the building whose halves are alike.
+"""Worth of a compass in the feet on a plan that knows its north, in the building whose halves are alike.
 
     python -m solepath.lab.emulated.north [--walks N] [--seed S] [--disturbance DEGREES] [--recipe NAME]
 

@@ -105,8 +105,8 @@ def _flights_likelihood(plan: FloorPlan, entered: Landing, left: Landing, flight
     usual = plan.connectors[entered.connector].flights
     if usual is None or flights is None:
         return 1.0
-    missed = abs(flights - usual * max(abs(left.ordinal - entered.ordinal), 1))
-    return max(WRONG_FLIGHT**missed, MIN_FLIGHTS_LIKELIHOOD)
+    difference = abs(flights - usual * max(abs(left.ordinal - entered.ordinal), 1))
+    return max(WRONG_FLIGHT**difference, MIN_FLIGHTS_LIKELIHOOD)
 
 
 def usual_rise(plan: FloorPlan, entered: Landing, left: Landing) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""What is known about changes of level on stairs and in elevators (references.py)."""
+"""Changes of level on stairs and in elevators, as references (references.py) report them."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ MAX_RISERS = 18
 
 @frozen
 class Storeys:
-    """What the plan says about the stairs from the levels on which the wearer may be."""
+    """Storeys of a plan by its stairs from the levels on which the wearer may be."""
 
     heights: tuple[float, float]
     """Least and largest climb, m; both 0 without stairs."""
