@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -33,6 +35,15 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--seed", metavar="S", type=parse_whole_number, default=1, help="other walks and other sensors (default: 1)"
     )
+    command.add_argument(
+        "--seeds", metavar="N", type=parse_count, default=1, help="so many seeds, from --seed on (default: 1)"
+    )
+    command.add_argument(
+        "--resume",
+        metavar="FILE",
+        type=Path,
+        help="append the result of each walk to this file, and do not walk again what it already has",
+    )
     command.add_argument("--json", metavar="FILE", type=Path, help="write the table as JSON too")
     command.add_argument(
         "--figure",
@@ -61,17 +72,22 @@ def run(options: argparse.Namespace) -> int:
     for output in outputs:
         check_writable(output.path)
 
+    from ..lab.reproduce.done_jobs import DoneJobs, DoneJobsError
+    from ..lab.reproduce.runner import Runner
+    from ..lab.reproduce.seeds import reproduce_seeds
     from ..lab.reproduce.tables import as_json
     from ..lab.tables.comparison import comparison_with_paper
-    from ..show.tables.progress import progress_bar
 
-    with progress_bar("walks", 100) as show:
-
-        def percent(done: int, total: int) -> None:
-            show(100 * done // total)
-
-        module = import_module(f"solepath.lab.reproduce.{options.name.replace('-', '_')}")
-        experiment = module.reproduce(options.walks, options.seed, processes=options.processes, progress=percent)
+    done_jobs = None if options.resume is None else DoneJobs(options.resume, options.name)
+    runner = Runner(options.processes, partial(print, file=sys.stderr, flush=True), done_jobs)
+    module = import_module(f"solepath.lab.reproduce.{options.name.replace('-', '_')}")
+    seeds = range(options.seed, options.seed + options.seeds)
+    try:
+        if done_jobs is not None:
+            done_jobs.open_file()
+        experiment = reproduce_seeds(module.reproduce, options.walks, seeds, runner)
+    except DoneJobsError as error:
+        raise Failure(f"{printable(str(options.resume))}: {error}") from None
     print(comparison_with_paper(experiment))
     if table is not None:
         write_json(table, as_json(experiment))

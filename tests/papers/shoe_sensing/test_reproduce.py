@@ -11,6 +11,7 @@ from solepath.events import StrideTaken
 from solepath.lab.reproduce import shoe_sensing, shoe_walks
 from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
 from solepath.lab.reproduce.published import TABLE_2_DIVISOR
+from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.shoe_walks import FOOT, STATES, matched, route_of, sample_walk, score_strides, tour_route
 from solepath.lab.reproduce.walks import run_session
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
@@ -82,7 +83,7 @@ def test_on_the_stairs_those_strides_count_that_climb_two_risers() -> None:
 def test_a_row_stands_for_every_figure_of_the_paper(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shoe_walks, "STRIDES", 10)
     monkeypatch.setattr(shoe_walks, "LAPS", 0)
-    done = shoe_sensing.reproduce(1, 1)
+    done = shoe_sensing.reproduce(1, 1, Runner())
     assert set(PAPER) <= set(done.table)
     assert all(len(row.values) for row in done.rows)
     assert done.table["walking, height of 100 steps after m"].mean == pytest.approx(0.0, abs=0.1)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
 
 from attrs import field, frozen
 
@@ -21,7 +20,7 @@ CHECKS = ("right_inside", *DELAYS)
 class ActivityScore:
     """The counts of labelled samples and of elevator rides. Scores of several recordings can be added."""
 
-    samples: Mapping[tuple[Activity, Activity], int] = field(factory=dict)
+    samples: dict[tuple[Activity, Activity], int] = field(factory=dict)
     """Number of samples by (true activity, reported activity)."""
     rides_true: int = 0
     """Number of true rides."""
@@ -29,7 +28,7 @@ class ActivityScore:
     """Number of true rides that were found with the right direction."""
     rides_invented: int = 0
     """Number of reported rides that match no true one."""
-    checks: Mapping[tuple[str, bool], int] = field(factory=dict)
+    checks: dict[tuple[str, bool], int] = field(factory=dict)
     """Number of samples by the name of a figure of `CHECKS` and by whether the right activity was reported."""
 
     def __add__(self, other: ActivityScore) -> ActivityScore:

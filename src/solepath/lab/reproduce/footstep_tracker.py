@@ -15,9 +15,9 @@ from ...emulate.routes.building import BUILDING
 from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...types import Activity, Turn
 from ..measures.confusion import ActivityScore
-from ..processes import Progress, run_jobs
 from . import footstep_walks, published
 from .footstep_walks import CORRIDOR_LENGTH, FootstepResults, score_wearer
+from .runner import Runner
 from .tables import DrawStyle, FloorPanel, PictureTrack, Reproduction, row_of
 
 NAME = FOOTSTEP_TRACKER.name
@@ -27,13 +27,11 @@ WEARERS = 8
 """Number of wearers; section V-E: "we invited eight different users"."""
 
 
-def reproduce(
-    walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
-) -> Reproduction:
+def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     """Return the results of `walks` wearers, each of whom does every experiment."""
     count = WEARERS if walks is None else walks
     seeds = [FIRST_SEED + 1000 * seed + k for k in range(count)]
-    results = list(run_jobs(score_wearer, seeds, processes=processes, progress=progress))
+    results = runner.run(score_wearer, seeds, _describe)
     places = [place for one in results for place in one.places]
     rows = [
         _row("corridor, one foot %", [100.0 * one.one_foot_error / CORRIDOR_LENGTH for one in results]),
@@ -56,6 +54,14 @@ def reproduce(
         rows=tuple(rows),
         panels=tuple(_floor(one) for one in results[:1]),
         notes=_notes(results),
+    )
+
+
+def _describe(one: FootstepResults) -> str:
+    places = [sum(place.off) / len(place.off) for place in one.places if place.off]
+    return (
+        f"corridor off by {one.two_feet_error:+.2f} m with two feet, {100.0 * (one.windows.accuracy or 0.0):.1f} % of "
+        f"activities, places off by {', '.join(f'{place:.2f}' for place in places)} m"
     )
 
 

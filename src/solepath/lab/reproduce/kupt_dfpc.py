@@ -27,8 +27,8 @@ from ...papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC, ZUPT
 from ...papers.kupt_dfpc.shoe import fit_shoe
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
-from ..processes import Progress, run_jobs
 from . import published
+from .runner import Runner
 from .tables import BoxPlots, DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of, statistics
 from .walks import align_track, cut_walk, find_halt, join_routes, run_session, thin_out
 
@@ -72,15 +72,13 @@ class KuptResults:
     """Distance from the start to the end of each track, m; only of a corridor walk, which is a closed loop."""
 
 
-def reproduce(
-    walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
-) -> Reproduction:
+def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     """Return the results of `walks` walks of 20 m, and of one corridor walk for every WALKS_PER_CORRIDOR of them."""
     count = WALKS if walks is None else walks
     corridors = max(1, count // WALKS_PER_CORRIDOR)
     jobs = [KuptJob(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
     jobs += [KuptJob(1000 * seed + k) for k in range(1, count + 1)]
-    results = list(run_jobs(walk, jobs, processes=processes, progress=progress))
+    results = runner.run(walk, jobs, _describe)
     corridor_walks, short_walks = results[:corridors], results[corridors:]
     paper = published.KUPT_DFPC
     rows = tuple([row_of(paper, name, [one.distances[name] for one in short_walks]) for name in paper])
@@ -98,6 +96,10 @@ def reproduce(
         ),
         notes=_notes(rows, short_walks, corridor_walks),
     )
+
+
+def _describe(one: KuptResults) -> str:
+    return ", ".join(f"{name} {distance:.2f}" for name, distance in one.distances.items()) + " m"
 
 
 def _notes(

@@ -29,8 +29,8 @@ from ...papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
 from ...papers.pressure_contour.square import square_drift
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
-from ..processes import Progress, run_jobs
 from . import published
+from .runner import Runner
 from .tables import DrawStyle, FloorPanel, PictureTrack, Reproduction, row_of
 from .walks import align_track, cut_walk, find_halt, join_routes, run_session, thin_out
 
@@ -84,14 +84,12 @@ class ContourResults:
     """True path and then the track of each recipe."""
 
 
-def reproduce(
-    walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
-) -> Reproduction:
+def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     """Return the results of `walks` half-hour walks."""
     count = WALKS if walks is None else walks
     numbers = [LOOP_ORDER[k % len(LOOP_ORDER)] for k in range(count)]
     jobs = [ContourJob(1000 * seed + k, number, WALK_DURATION, CALIBRATION_LAPS) for k, number in enumerate(numbers)]
-    results = list(run_jobs(walk, jobs, processes=processes, progress=progress))
+    results = runner.run(walk, jobs, _describe)
     paper = published.PRESSURE_CONTOUR
     rows = [row_of(paper, f"{name} m", [one.closing_errors[name] for one in results]) for name in RECIPES]
     for name in RECIPES:
@@ -108,6 +106,11 @@ def reproduce(
         panels=tuple(panels),
         notes=_notes(results),
     )
+
+
+def _describe(one: ContourResults) -> str:
+    errors = ", ".join(f"{name.lower()} {error:.2f}" for name, error in one.closing_errors.items())
+    return f"{one.distance:.0f} m, closing errors {errors} m"
 
 
 def _notes(results: list[ContourResults]) -> tuple[str, ...]:

@@ -111,6 +111,8 @@ class Reproduction:
     panels: tuple[Panel, ...] = ()
     """Panels of the paper's main figure."""
     notes: tuple[str, ...] = ()
+    by_seed: tuple[tuple[int, Table], ...] = ()
+    """Statistics of each seed's values by row; empty for a single seed."""
 
     @property
     def table(self) -> Table:
@@ -126,10 +128,17 @@ class Reproduction:
 def as_json(reproduction: Reproduction) -> dict[str, Any]:
     """Return {"name", "emulated": true, "table": {row: {"mean", "std", "q1", "median", "q3"}}, "paper": ...}.
 
-    "paper" has the form of "table". Null stands for a statistic of too few walks, or one that is not in the paper."""
+    "paper" has the form of "table". Null stands for a statistic of too few walks, or one that is not in the paper.
+    With several seeds, "seeds" has such a table for each seed."""
+    seeds = {str(seed): _table_as_json(table) for seed, table in reproduction.by_seed}
     return {
         "name": reproduction.name,
         "emulated": True,
-        "table": {row: attrs.asdict(of) for row, of in reproduction.table.items()},
-        "paper": {row: attrs.asdict(of) for row, of in reproduction.paper.items()},
+        "table": _table_as_json(reproduction.table),
+        "paper": _table_as_json(reproduction.paper),
+        **({"seeds": seeds} if seeds else {}),
     }
+
+
+def _table_as_json(table: Table) -> dict[str, Any]:
+    return {row: attrs.asdict(of) for row, of in table.items()}

@@ -13,6 +13,7 @@ over marks on the floor (section 3.3). These are other walks, for which the sens
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import hypot
 
 import numpy as np
 from attrs import evolve, frozen
@@ -33,9 +34,9 @@ from ...recipes import Recipe
 from ...recording.decoded import DecodedRecording
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
-from ..processes import Progress, run_jobs
 from . import published
 from .published import corner_row
+from .runner import Runner
 from .tables import DrawStyle, FloorPanel, PictureTrack, Reproduction, row_of, statistics
 from .walks import run_session
 
@@ -82,18 +83,16 @@ class ModesResults:
     """Deviation (x, y) by method and corner, m."""
 
 
-def reproduce(
-    walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
-) -> Reproduction:
+def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     """Return the results of `walks` rectangles, walked by the four wearers in turn."""
     count = WALKS if walks is None else walks
     wearers = list(range(min(count, len(SUBJECTS))))
     marked_walks = [
         MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, MARKED_STEPS, MARKED_REPEATS) for subject in wearers
     ]
-    calibrations = list(run_jobs(learn, marked_walks, processes=processes, progress=progress, jobs_after=count))
+    calibrations = runner.run(learn, marked_walks, lambda _: "walks over marks of one wearer")
     jobs = [ModesJob(k % len(wearers), 1000 * seed + k, calibrations[k % len(wearers)]) for k in range(count)]
-    results = list(run_jobs(walk, jobs, processes=processes, progress=progress, jobs_before=len(wearers)))
+    results = runner.run(walk, jobs, _describe)
     rows = tuple(
         row_of(
             published.WALKING_MODES,
@@ -114,6 +113,11 @@ def reproduce(
         panels=_panels(results),
         notes=_notes(results),
     )
+
+
+def _describe(one: ModesResults) -> str:
+    lengths = {method: np.mean([hypot(*off) for off in by.values()]) for method, by in one.deviations.items()}
+    return "mean deviation " + ", ".join(f"{method} {100.0 * off:.1f}" for method, off in lengths.items()) + " cm"
 
 
 def _panels(results: Sequence[ModesResults]) -> tuple[FloorPanel, FloorPanel]:

@@ -50,7 +50,19 @@ def comparison_with_paper(reproduction: Reproduction) -> str:
         f"{reproduction.name}: ours is emulated ({reproduction.emulation}), "
         f"theirs was walked ({reproduction.paper_title})."
     )
-    return "\n".join([title, "", table(header, rows), *([""] if reproduction.notes else []), *reproduction.notes])
+    seeds = [] if not reproduction.by_seed else ["", _seeds_table(reproduction)]
+    notes = [] if not reproduction.notes else ["", *reproduction.notes]
+    return "\n".join([title, "", table(header, rows), *seeds, *notes])
+
+
+def _seeds_table(reproduction: Reproduction) -> str:
+    """Return the table of the mean of each row by seed."""
+    header = ["mean by seed", *(str(seed) for seed, _ in reproduction.by_seed)]
+    rows = [
+        [row.name, *(number(by_row[row.name].mean, row.digits) for _, by_row in reproduction.by_seed)]
+        for row in reproduction.rows
+    ]
+    return table(header, rows)
 
 
 def _cells(shown: Statistics, row: FigureRow) -> list[str]:

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from solepath.lab.reproduce import kupt_dfpc, pressure_contour, walking_modes
+from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.tables import Reproduction
 
 pytestmark = pytest.mark.soak
@@ -29,7 +30,7 @@ def rms(off: np.ndarray) -> float:
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_known_velocity_scatters_and_errs_less_than_zero_velocity_and_the_fusion_less_still(seed: int) -> None:
-    found = kupt_dfpc.reproduce(seed=seed, processes=2)
+    found = kupt_dfpc.reproduce(None, seed, Runner(processes=2))
     both = values(found, "KUPT+DFPC")
     for foot in "LR":
         zupt, kupt = values(found, f"ZUPT-{foot}"), values(found, f"KUPT-{foot}")
@@ -42,13 +43,13 @@ def test_known_velocity_scatters_and_errs_less_than_zero_velocity_and_the_fusion
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_half_hour_loops_end_nearer_than_the_papers(seed: int) -> None:
-    found = pressure_contour.reproduce(seed=seed, processes=2)
+    found = pressure_contour.reproduce(None, seed, Runner(processes=2))
     assert values(found, "Pressure m").mean() <= 4.3
     assert values(found, "Gyroscope m").mean() <= 4.87
 
 
 def test_compensated_touchdowns_are_the_nearest_at_all_four_corners() -> None:
-    found = walking_modes.reproduce(seed=1, processes=2)
+    found = walking_modes.reproduce(None, 1, Runner(processes=2))
     for corner in "ABCD":
         off = {
             method: float(np.hypot(values(found, f"{corner} {method} x"), values(found, f"{corner} {method} y")).mean())

@@ -1,0 +1,108 @@
+"""A file with the results of jobs that are done, from which an interrupted experiment goes on.
+
+The first line names the experiment and the code: {"experiment", "source"}, where `source` is a checksum of all modules
+of solepath, because other code gives other results. Each further line is {"job", "result"}: the job's description
+and its result as saving/codec.py writes it. A line that was cut off when the program was stopped is left out."""
+
+from __future__ import annotations
+
+import json
+from binascii import crc32
+from collections.abc import Callable
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, TypeVar, get_type_hints
+
+from attrs import define, field
+
+from ...saving.codec import Json, SnapshotError, load, save
+
+Job = TypeVar("Job")
+JobResult = TypeVar("JobResult")
+
+
+class DoneJobsError(ValueError):
+    """Error for a file that is not of this experiment and this code, in one sentence without the file's name."""
+
+
+def source_checksum() -> int:
+    """Return the CRC-32 of all Python modules of solepath, in the order of their paths."""
+    root = Path(str(files("solepath")))
+    checksum = 0
+    for path in sorted(root.rglob("*.py")):
+        checksum = crc32(path.read_bytes(), crc32(path.relative_to(root).as_posix().encode(), checksum))
+    return checksum
+
+
+def describe_job(work: Callable[[Any], Any], job: object) -> str:
+    """Return a text that is the same for equal jobs of the same function, in every process."""
+    return f"{work.__module__}.{work.__qualname__}({job!r})"
+
+
+@define
+class DoneJobs:
+    """The results of jobs in the file `path`. `open_file` reads it, or begins it when it is absent or empty."""
+
+    path: Path
+    experiment: str
+    _results: dict[str, Json] = field(factory=dict, init=False)
+    """Saved results by job."""
+
+    def open_file(self) -> None:
+        """Read the results that the file has, and remove a last line that was cut off.
+
+        Raises DoneJobsError for a file of another experiment, other code or other content, and OSError."""
+        header = json.dumps({"experiment": self.experiment, "source": source_checksum()})
+        try:
+            text = self.path.read_text(encoding="utf-8")
+        except FileNotFoundError:
+            text = ""
+        except UnicodeDecodeError:
+            raise DoneJobsError("has no results of walks") from None
+        whole = text[: text.rfind("\n") + 1]
+        if not whole:
+            if text and not header.startswith(text):
+                raise DoneJobsError("has no results of walks")
+            self.path.write_text(header + "\n", encoding="utf-8")
+            return
+        first, *lines = whole.splitlines()
+        if first != header:
+            self._reject(first)
+        try:
+            for line in lines:
+                entry = json.loads(line)
+                self._results[entry["job"]] = entry["result"]
+        except (ValueError, TypeError, KeyError):
+            raise DoneJobsError(f"line {len(self._results) + 2} is no result of a walk") from None
+        if whole != text:
+            self.path.write_text(whole, encoding="utf-8")
+
+    def _reject(self, header: str) -> None:
+        """Raise the DoneJobsError that says what the file is instead."""
+        try:
+            found = json.loads(header)
+            experiment = found["experiment"]
+        except (ValueError, TypeError, KeyError):
+            raise DoneJobsError("has no results of walks") from None
+        if experiment != self.experiment:
+            raise DoneJobsError(f"has walks of {experiment!r}, not of {self.experiment!r}")
+        raise DoneJobsError("has walks that other code of solepath scored: use another file")
+
+    def find(self, work: Callable[[Job], JobResult], job: Job) -> JobResult | None:
+        """Return the result of the job if the file has it, else None. Raises DoneJobsError if it cannot be read."""
+        saved = self._results.get(describe_job(work, job))
+        if saved is None:
+            return None
+        try:
+            result: JobResult = load(get_type_hints(work)["return"], saved)
+        except SnapshotError as error:
+            raise DoneJobsError(f"has a result that cannot be read: {error}") from None
+        return result
+
+    def add(self, work: Callable[[Job], JobResult], job: Job, result: JobResult) -> None:
+        """Append the result of a job to the file; raises OSError when that fails."""
+        saved = save(result)
+        name = describe_job(work, job)
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps({"job": name, "result": saved}) + "\n")
+        self._results[name] = saved

@@ -1,0 +1,132 @@
+"""`solepath reproduce --resume` and `--seeds`: walks that are done are not walked again, and seeds are pooled."""
+
+import json
+
+import attrs
+import pytest
+from commands import run, run_failing
+
+from solepath.lab.reproduce import kupt_dfpc
+from solepath.lab.reproduce.done_jobs import DoneJobs, DoneJobsError
+from solepath.lab.reproduce.runner import Runner
+from solepath.lab.reproduce.seeds import reproduce_seeds
+from solepath.lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json
+from solepath.lab.tables.comparison import comparison_with_paper
+
+
+@attrs.frozen
+class Walked:
+    """A result with its length, m."""
+
+    length: float
+
+
+WALKED: list[int] = []
+"""Numbers that were walked in this process."""
+
+
+def walk_number(number: int) -> Walked:
+    WALKED.append(number)
+    return Walked(number / 3.0)
+
+
+def runner_of(path, lines=None):
+    done_jobs = DoneJobs(path, "kupt-dfpc")
+    done_jobs.open_file()
+    return Runner(report=[].append if lines is None else lines.append, done_jobs=done_jobs)
+
+
+def run_numbers(path, numbers, lines=None):
+    WALKED.clear()
+    return runner_of(path, lines).run(walk_number, numbers, lambda one: f"{one.length:.1f} m")
+
+
+def test_an_experiment_goes_on_where_it_stopped(tmp_path):
+    file, lines = tmp_path / "walks.jsonl", []
+    assert run_numbers(file, [1, 2]) == [Walked(1 / 3), Walked(2 / 3)] and WALKED == [1, 2]
+    assert run_numbers(file, [3, 2, 1], lines) == [Walked(1.0), Walked(2 / 3), Walked(1 / 3)] and WALKED == [3]
+    assert lines == ["2 of 3 were already done", "3 of 3: 1.0 m"]
+
+
+def test_a_walk_that_was_being_written_is_walked_again(tmp_path):
+    file = tmp_path / "walks.jsonl"
+    run_numbers(file, [1, 2, 3])
+    whole = file.read_bytes()
+    for cut in range(len(whole)):
+        file.write_bytes(whole[:cut])
+        n_done = max(0, whole[:cut].count(b"\n") - 1)
+        assert run_numbers(file, [1, 2, 3]) == [Walked(k / 3) for k in (1, 2, 3)]
+        assert [1, 2, 3][n_done:] == WALKED
+        assert file.read_bytes() == whole
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"a letter\n", "has no results of walks"),
+        (b"a letter", "has no results of walks"),
+        (b"\xff\xfe\n", "has no results of walks"),
+        (b"[]\n", "has no results of walks"),
+        (b'{"experiment": "shoe-sensing", "source": 1}\n', "has walks of 'shoe-sensing', not of 'kupt-dfpc'"),
+        (b'{"experiment": "kupt-dfpc", "source": 1}\n', "other code of solepath"),
+    ],
+)
+def test_a_file_of_something_else_stays_as_it_is(tmp_path, content, words):
+    file = tmp_path / "walks.jsonl"
+    file.write_bytes(content)
+    with pytest.raises(DoneJobsError, match=words):
+        runner_of(file)
+    assert file.read_bytes() == content
+    line = run_failing("reproduce", "kupt-dfpc", "--walks", 1, "--resume", file)
+    assert line.startswith(f"solepath: {file}: ") and words in line and line.count("\n") == 1
+
+
+@pytest.mark.parametrize("line", ["[]", "{", '{"job": "walk"}', "3"])
+def test_a_line_that_is_no_result_is_named(tmp_path, line):
+    file = tmp_path / "walks.jsonl"
+    run_numbers(file, [1])
+    file.write_text(file.read_text() + line + "\n")
+    with pytest.raises(DoneJobsError, match="line 3 is no result of a walk"):
+        runner_of(file)
+
+
+def test_a_result_of_other_fields_is_reported(tmp_path):
+    file = tmp_path / "walks.jsonl"
+    run_numbers(file, [1])
+    file.write_text(file.read_text().replace('"length"', '"width"'))
+    with pytest.raises(DoneJobsError, match="cannot be read"):
+        run_numbers(file, [1])
+
+
+def of_seed(walks, seed, runner):
+    runner.report(f"{runner.title}walked")
+    rows = (FigureRow("ZUPT-L", (10.0 * seed, 10.0 * seed + walks), Statistics(3.0)),)
+    return Reproduction("kupt-dfpc", "a paper", "2 walks", "m", rows, notes=(f"{seed} m.", "For all."))
+
+
+def test_several_seeds_are_one_table_with_the_mean_of_each():
+    lines: list[str] = []
+    pooled = reproduce_seeds(of_seed, 2, (1, 2), Runner(report=lines.append))
+    assert lines == ["seed 1, walked", "seed 2, walked"]
+    assert pooled.rows[0].values == (10.0, 12.0, 20.0, 22.0)
+    assert pooled.notes == ("Seed 1: 1 m.", "Seed 2: 2 m.", "For all.")
+    text = comparison_with_paper(pooled).splitlines()
+    assert text[0].startswith("kupt-dfpc: ours is emulated (2 walks; seeds 1, 2)")
+    assert [line.split() for line in text[6:9:2]] == [["mean", "by", "seed", "1", "2"], ["ZUPT-L", "11.00", "21.00"]]
+    assert [as_json(pooled)["seeds"][seed]["ZUPT-L"]["mean"] for seed in ("1", "2")] == [11.0, 21.0]
+
+
+def test_a_single_seed_is_the_experiment_itself():
+    assert reproduce_seeds(of_seed, 2, (7,), Runner()) == of_seed(2, 7, Runner())
+
+
+def test_walks_taken_from_the_file_give_the_same_table(tmp_path, monkeypatch):
+    monkeypatch.setattr(kupt_dfpc, "CORRIDOR_LENGTH", 20.0)
+    options = ("reproduce", "kupt-dfpc", "--walks", 1, "--seed", 5, "--seeds", 2, "--processes", 1)
+    file, table = tmp_path / "walks.jsonl", tmp_path / "table.json"
+    fresh = run(*options, "--json", table)
+    first, second = [run(*options, "--resume", file) for _ in range(2)]
+    assert fresh.returncode == first.returncode == second.returncode == 0
+    assert fresh.stdout.startswith(first.stdout) and first.stdout == second.stdout
+    assert second.stderr.splitlines() == [f"seed {seed}, 2 of 2 were already done" for seed in (5, 6)]
+    assert list(json.loads(table.read_text())["seeds"]) == ["5", "6"]
