@@ -31,9 +31,9 @@ def with_north(received: list[FloorEvents], turned: float, sigma: float = 0.1) -
 
 
 def decided(part: Method, received: list[FloorEvents], plan: IndexedPlan = PLAN) -> int:
-    """Return the number of places until one candidate was left."""
+    """Return the number of places until one candidate had nine tenths of the weight."""
     places = placed(follow(part, received, plan))
-    return next((k for k, place in enumerate(places) if len(place.candidates) == 1), len(places))
+    return next((k for k, place in enumerate(places) if place.candidates[0].weight >= 0.9), len(places))
 
 
 def test_with_the_compass_fewer_strides_decide_where_the_wearer_is(part: Method) -> None:
