@@ -25,7 +25,7 @@ from floors import (
 )
 
 from solepath import Activity, LiftRidden, TurnMade
-from solepath.body.place.rows import round_rows
+from solepath.body.place.rows.rows import round_rows
 from solepath.floorplan.index import IndexedPlan
 
 NEAR_DISTANCE = 3.5

@@ -10,8 +10,8 @@ from ...floorplan.plan import ConnectorKind, FloorPlan, FloorPlanError, Point, S
 from ...types.attrs import frozen
 from .connectors.landings import Landing, find_exits, find_nearest_landing, list_landings
 from .connectors.level_changes import LevelReached
-from .noise import NOISE_ENTRIES, NOISE_TABLE
-from .rows import Row
+from .rows.noise import NOISE_ENTRIES, NOISE_TABLE
+from .rows.rows import Row
 
 MAX_START_SPREAD, SPREAD_FACTOR = 20.0, 1.2
 """Largest rms error of a start place that is used, m, and ratio of the largest error on each axis to the rms error."""
@@ -21,6 +21,11 @@ START_STRETCH_ERROR = 0.05
 """Largest deviation of the stretch of a new row from 1."""
 EXIT_ERROR = 0.5
 """Largest distance between a landing and the place at which the wearer leaves it, on each axis, m."""
+EXIT_TIMES = {ConnectorKind.STAIRS: (0.0, 0.4, 0.8), ConnectorKind.LIFT: (0.0,)}
+"""Times before an arrival at which the wearer may have left the landing, s.
+
+Stairs end with the end of the stride that leads from them, so that the wearer is up to a stride beyond the landing:
+0.3 to 1.7 m in emulated walks. A lift ends with its stop, when the wearer stands in it."""
 TURN_ERROR, STRETCH_ERROR = 0.07, 0.02
 """Largest errors of the track's heading, rad, and of its stretch that stairs or a ride add."""
 ON_STAIRS_WEIGHT = 2.0
@@ -182,3 +187,9 @@ def start_error(plan: IndexedPlan, start: Start) -> str | None:
         x, y = start.place
         return f"start: ({x:g}, {y:g}) is nowhere on level {start.level}: no room or corridor of the plan is there"
     return None
+
+
+def has_exit(plan: FloorPlan, changing: list[Row], up: bool) -> bool:
+    """Return whether a landing at which a row of `changing` started has an exit in this direction."""
+    landings: list[Landing] = list_landings(plan)
+    return any([find_exits(plan, landings, landings[index - 1], up, None) for index in {row[7] for row in changing}])

@@ -10,7 +10,7 @@ from ...floorplan.plan import ConnectorKind, FloorPlan
 from .arrivals import START_HEADING_ERROR, Heading
 from .connectors.landings import HEIGHT_ERROR, HEIGHT_ERROR_SHARE, list_landings, usual_rise
 from .connectors.level_changes import LevelReached
-from .rows import Row
+from .rows.rows import Row
 
 HEADING_MARGIN = START_HEADING_ERROR
 """Deviation of every candidate's heading from the first one, above its largest error, at which that was wrong, rad.

@@ -15,11 +15,13 @@ from ...types import Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import ZERO
 from .arrivals import (
+    EXIT_TIMES,
     START_HEADING_ERROR,
     Arrival,
     Heading,
     arrival_by,
     find_level_changes,
+    has_exit,
     reversed_rows,
     rows_at_all_exits,
     rows_at_exits,
@@ -28,10 +30,11 @@ from .connectors.landings import HEIGHT_ERROR, Landing, find_exits, list_landing
 from .connectors.level_changes import FAIR_CERTAINTY, LevelChangePossible, LevelReached
 from .connectors.references import References
 from .contradictions import CONTRADICTED_CERTAINTY, contradicted_heading, contradicted_height
-from .noise import next_random
+from .first_arrival import MOST_ROWS, FirstArrival
 from .north import HeadingSource, heading_by_north, hold_headings, weigh_headings
 from .place_hypotheses import PlaceHypotheses
-from .rows import Row, resample_rows, round_rows, turn_rows
+from .rows.noise import next_random
+from .rows.rows import Row, resample_rows, round_rows, turn_rows
 from .stride_scale import StrideScale
 
 KNOWN_ROWS = 64
@@ -62,6 +65,8 @@ class LevelChanges(PlaceHypotheses):
     stride_scale: StrideScale = field(factory=StrideScale, init=False)
     arrival: Arrival | None = field(default=None, init=False)
     """Newest arrival by stairs, whose direction may be revised; None before any."""
+    first_arrival: FirstArrival | None = field(default=None, init=False)
+    """First arrival while its exits are not decided; None before, afterwards, and with a known heading."""
     level_uncertain: bool = field(default=False, init=False)
     """Flag: the level depends on the reported direction of stairs, which is often wrong."""
     arrived_at: float | None = field(default=None, init=False)
@@ -173,7 +178,7 @@ class LevelChanges(PlaceHypotheses):
         k = FAIR_CERTAINTY / (1.0 - FAIR_CERTAINTY) * other_weight / weight if weight and other_weight else 1.0
         found = [(x, y, a, b, k * w, level, origin, 0) for x, y, a, b, w, level, origin, _ in found]
         self.arrived_at = whole.t
-        self.set_rows(self._move_to_now(plan, found, whole.t) + others)
+        self.set_rows(self._move_from_exits(plan, found, whole) + others)
 
     def arrive(self, plan: IndexedPlan, arrived: LevelReached) -> None:
         """Continue each row that may have changed level from its exits, and keep rows that stayed."""
@@ -198,6 +203,7 @@ class LevelChanges(PlaceHypotheses):
                 self.cancel_level_change()
                 return
             exit_rows = rows_at_all_exits(self.scatter, plan, arrived, self.settings.max_rows, self.known_heading)
+            self.first_arrival = FirstArrival(arrived) if self.known_heading is None and not rows else None
             self.level_uncertain = arrived.kind is ConnectorKind.STAIRS
             exit_weight = fsum([row[4] for row in exit_rows])
             landing_share = 1.0 - STAYING_SHARE[arrived.kind]
@@ -205,13 +211,13 @@ class LevelChanges(PlaceHypotheses):
             k = total * landing_share / (1.0 - landing_share) / exit_weight if has_weights else 1.0
         else:
             k = arrived.certainty / (1.0 - arrived.certainty)
-            self.level_uncertain = False
+            self.level_uncertain, self.first_arrival = False, None
         self.arrived_at = arrived.t
         self.arrival = arrival_by(plan.plan, changing, arrived)
         exit_rows = [(x, y, a, b, k * w, level, origin, 0) for x, y, a, b, w, level, origin, _ in exit_rows]
         if len(exit_rows) > self.settings.max_rows:
             exit_rows = self.thin(exit_rows, self.settings.max_rows)
-        exit_rows = self._move_to_now(plan, exit_rows, arrived.t) + resample_rows(rows, KNOWN_ROWS, 0.5)
+        exit_rows = self._move_from_exits(plan, exit_rows, arrived) + resample_rows(rows, KNOWN_ROWS, 0.5)
         if exit_rows:
             self.set_rows(exit_rows)
 
@@ -220,6 +226,26 @@ class LevelChanges(PlaceHypotheses):
         if self.arrival is not None:
             self.rows = round_rows(reversed_rows(self.rows, self.arrival))
             self.arrival = evolve(self.arrival, expected=self.arrival.opposite, opposite=self.arrival.expected)
+            if self.first_arrival is not None:
+                self.first_arrival.reverse()
+
+    def start_again(self, plan: IndexedPlan) -> None:
+        """Start rows from all exits again after a stride, if the first arrival is not decided (first_arrival.py)."""
+        first = self.first_arrival
+        if first is None:
+            return
+        is_due, is_lost = first.count_stride(), not (self.rows and self.references.reach_back_to(first.arrived.t))
+        if is_lost or first.is_over:
+            self.first_arrival = None
+        if is_due and not is_lost and not any([row[7] for row in self.rows]):
+            rows = rows_at_all_exits(self.scatter, plan, first.arrived, MOST_ROWS, self.known_heading)
+            self.set_rows(self._move_from_exits(plan, rows, first.arrived) or self.rows)
+
+    def _move_from_exits(self, plan: IndexedPlan, rows: list[Row], arrived: LevelReached) -> list[Row]:
+        """Return rows at exits moved along the track up to now; they left at different times before `arrived.t`."""
+        t, n = arrived.t, len(EXIT_TIMES[arrived.kind])
+        groups = [self._move_to_now(plan, rows[k::n], t - dt) for k, dt in enumerate(EXIT_TIMES[arrived.kind])]
+        return [row for group in groups for row in group]
 
     def _move_to_now(self, plan: IndexedPlan, rows: list[Row], t: float) -> list[Row]:
         """Return rows of the time `t`, s, moved along the track up to now."""
@@ -272,9 +298,3 @@ class LevelChanges(PlaceHypotheses):
         rise = above.elevation - entered.elevation
         height = min(passage.height(here.position) or 0.0, abs(rise))
         return (height if rise > 0.0 else -height), above
-
-
-def has_exit(plan: FloorPlan, changing: list[Row], up: bool) -> bool:
-    """Return whether a landing at which a row of `changing` started has an exit in this direction."""
-    landings: list[Landing] = list_landings(plan)
-    return any([find_exits(plan, landings, landings[index - 1], up, None) for index in {row[7] for row in changing}])

@@ -12,7 +12,7 @@ from math import cos, fsum, hypot, pi, sin
 
 from ...floorplan.plan import FloorPlan
 from .arrivals import ANY_HEADING_SHARE, Heading
-from .rows import Row
+from .rows.rows import Row
 
 DECLINATION = 0.35
 """Largest angle between magnetic and true north that is allowed for, rad: 20 degrees.

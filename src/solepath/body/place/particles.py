@@ -9,10 +9,10 @@ from __future__ import annotations
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define
-from .noise import NOISE_ENTRIES, NOISE_TABLE, next_random
 from .placing import Placing
-from .rows import Row, resample_rows
-from .sway import sway_rows
+from .rows.noise import NOISE_ENTRIES, NOISE_TABLE, next_random
+from .rows.rows import Row, resample_rows
+from .rows.sway import sway_rows
 
 
 @define

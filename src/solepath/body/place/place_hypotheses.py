@@ -9,8 +9,8 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define, field, frozen
 from ..part import Part
-from .noise import NOISE_ENTRIES, NOISE_TABLE, next_random
-from .rows import Row, resample_rows, round_rows
+from .rows.noise import NOISE_ENTRIES, NOISE_TABLE, next_random
+from .rows.rows import Row, resample_rows, round_rows
 
 MAX_MOVE = 4.0
 """Longest move between two strides, m; a longer move is across a gap, in which the path is not known."""

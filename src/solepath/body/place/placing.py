@@ -25,7 +25,7 @@ from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
 from .north import HeadingSource
 from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
 from .reported import use_report
-from .rows import ONE_CANDIDATE_SPREAD, candidates_of, effective_count, have_not_moved, round_rows
+from .rows.rows import ONE_CANDIDATE_SPREAD, candidates_of, effective_count, have_not_moved, round_rows
 
 ROWS_PER_CANDIDATE = 30
 """Number of additional rows that are kept for each candidate but the heaviest; fewer for a weight below 0.1.
@@ -121,7 +121,7 @@ class Placing(LevelChanges):
         self.set_rows(rows)
         self.rejected = None if rejected is None else (place, (x, y))
         if rejected is None:
-            self.unmapped = []
+            self.unmapped, self.first_arrival = [], None
         return [] if rejected is None else [rejected]
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
@@ -135,7 +135,7 @@ class Placing(LevelChanges):
             self._start(plan, here, known_at, outputs)
         if self.t is not None and here.t < self.t - 1.0:
             self.references.reset()
-            self.arrived_at, self.heading_since, self.unmapped = None, here.t, []
+            self.arrived_at, self.heading_since, self.unmapped, self.first_arrival = None, here.t, [], None
         self.t = here.t
         self.update_heading(plan.plan, here)
         strides = [event for event in events if isinstance(event, StrideTaken)]
@@ -143,6 +143,7 @@ class Placing(LevelChanges):
             self.stride_scale.add_stride(stride, here.position)
         if strides:
             self._move(plan, here, strides, known_at, outputs)
+            self.start_again(plan)
         for event in events:
             if isinstance(event, TurnMade) and abs(event.angle) > ABOUT_TURN_ANGLE and self.rows:
                 self._add_about_turn(plan, event.t)
@@ -230,7 +231,7 @@ class Placing(LevelChanges):
         """Add rows for an about-turn of the wearer that ended at `t`, s."""
         rows = self.rows
         self.set_rows(rows + rows_after_wrong_turn(plan, rows, self.displacement_since(t)))
-        self.wide_strides = ABOUT_TURN_STRIDES
+        self.wide_strides, self.first_arrival = ABOUT_TURN_STRIDES, None
 
     def _lose_place(self) -> None:
         self.rows, self.unmapped, self.newest_placed, self.strides_outside, self.stuck_distance = [], [], None, 0, 0.0

@@ -10,7 +10,7 @@ from ...floorplan.plan import Point, Start
 from ..fuse.position_covariance import LEAST_WAY, POSITION_GATE
 from .arrivals import EXIT_ERROR, START_HEADING_ERROR, Heading, Scatter, spread_rows, start_error
 from .levels import KNOWN_ROWS
-from .rows import MAX_DISTANCE, Row
+from .rows.rows import MAX_DISTANCE, Row
 
 ROW_SIGMA = 1.0
 """Standard deviation of the place of a row on each axis, m, because there are few rows."""

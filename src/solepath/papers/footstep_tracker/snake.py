@@ -15,10 +15,10 @@ from __future__ import annotations
 
 from math import atan2
 
-from ...body.place.noise import next_random
 from ...body.place.placing import Placing
-from ...body.place.rows import Row, resample_rows
-from ...body.place.sway import sway_rows
+from ...body.place.rows.noise import next_random
+from ...body.place.rows.rows import Row, resample_rows
+from ...body.place.rows.sway import sway_rows
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define

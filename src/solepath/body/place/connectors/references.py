@@ -106,6 +106,10 @@ class References:
                 x, y, z = self.passage.end
                 self.passage.end = (x + dx, y + dy, z)
 
+    def reach_back_to(self, t: float) -> bool:
+        """Return whether the positions that are kept go back to `t`, s."""
+        return bool(self.track) and self.track[0][0] <= t
+
     def path_since(self, t: float) -> list[Vec3]:
         """Return the position of the track at `t`, s, and all later positions that are kept, m."""
         return [self.position_at(t), *(position[1:] for position in self.track if position[0] > t)]
