@@ -11,7 +11,7 @@ from ...types.attrs import define, field
 from ...types.vector import single
 
 HeightInput = tuple[float, int, float, float]
-"""Time, s; source (left barometer, right barometer or change of the correction); value, m; its variance, m^2."""
+"""Time, s; source (altitude.py lists them); value, m; its variance, m^2."""
 
 PackedInput = tuple[int, int, int, float]
 """A `HeightInput` in compact form: ticks, source, value in units of 1/`PARTS_PER_M` m, variance as float32."""
@@ -43,6 +43,11 @@ class RecentInputs:
     def oldest(self) -> float | None:
         """Time of the oldest input, s; None when nothing is kept."""
         return self.rows[0][0] / TICKS_PER_S if self.rows else None
+
+    @property
+    def newest(self) -> HeightInput | None:
+        """The newest input; None when nothing is kept."""
+        return _unpack(self.rows[-1]) if self.rows else None
 
     def pop(self) -> HeightInput:
         """Remove the oldest input and return it; there must be one."""
