@@ -16,8 +16,7 @@ from walks import samples
 from solepath import ClockReset, Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.height.altitude import LEFT, MOVE, RIGHT, Altitude
 from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
-from solepath.body.height.height_estimate import UNKNOWN_VARIANCE
-from solepath.body.height.recent_inputs import HeightInput, RecentInputs
+from solepath.body.height.height_filter import UNKNOWN_VARIANCE, HeightInput, RecentInputs
 from solepath.body.part import HeightShift, Replacement
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole

@@ -29,8 +29,7 @@ from ...types import Foot, Site
 from ...types.attrs import define, evolve, field
 from ..part import HeightShift, Part, PartInput, PartOutput, Replacement
 from .barometric import height_of
-from .height_estimate import UNKNOWN_VARIANCE, HeightEstimate
-from .recent_inputs import HeightInput, RecentInputs
+from .height_filter import UNKNOWN_VARIANCE, HeightEstimate, HeightInput, RecentInputs
 
 READING_INTERVAL = 0.5
 """Shortest interval between two readings of the filter, s; all pressures in between are averaged into one reading."""
