@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from functools import cache
 from math import exp, sin
 
@@ -12,10 +13,10 @@ from hypothesis import strategies as st
 from views import fed
 from walks import samples
 
-from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
-from solepath.body.height.altitude import LEFT, MOVE, RIGHT, UNKNOWN_VARIANCE, Altitude
+from solepath import ClockReset, Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
+from solepath.body.height.altitude import LEFT, MOVE, RIGHT, Altitude
 from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
-from solepath.body.height.recent_inputs import HeightInput, RecentInputs
+from solepath.body.height.height_filter import UNKNOWN_VARIANCE, HeightInput, RecentInputs
 from solepath.body.part import HeightShift, Replacement
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -25,12 +26,13 @@ from solepath.recipes import Recipe
 
 RIDE = 6.4
 LIFT = Route().stand(2.0).walk(3.0).lift(RIDE, speed=1.2).walk(3.0).stop(1.0)
+FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 BLIND = recipes.DEFAULT.exchanged(Altitude, None)
 
 
 @cache
 def lift() -> SampledWalk:
-    return sampled(LIFT, insoles={site: Insole(cells=24) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}, seed=101)
+    return sampled(LIFT, insoles={site: Insole(cells=24) for site in FEET}, seed=101)
 
 
 def pressure(height: float) -> float:
@@ -77,6 +79,39 @@ def test_with_a_barometer_the_height_after_a_lift_is_within_30_cm() -> None:
     heights_found, (ride,) = heights(breathing(lift(), drift=0.01))
     assert ride.height == pytest.approx(RIDE, abs=0.3)
     assert heights_found[-1] == pytest.approx(RIDE, abs=0.3)
+
+
+IN_THE_LIFT = (9.0, 11.7, 15.0, 16.5)
+"""Times after the lift of `LIFT` has started, and one just after it has stopped, s."""
+
+
+def ride_with_new_clock(t: float, *resets: Site, read: Container[Site] = FEET) -> tuple[float, LiftRidden]:
+    """Return the height at the end, m, and the ride, when the clocks of some feet restart at `t`, s.
+
+    Only the feet in `read` have a barometer."""
+    session, rides, waiting = Session(), list[LiftRidden](), list(resets)
+    for sample in breathing(lift()):
+        while waiting and sample.t >= t:
+            site = waiting.pop(0)
+            session._state.wearer.receive(site, ClockReset(t=sample.t, known_at=sample.t, site=site, restarted=True))
+        fed_sample = sample if sample.site in read else evolve(sample, air_pressure=None)
+        rides += [event for event in session.feed(fed_sample) if isinstance(event, LiftRidden)]
+    rides += [event for event in session.finish() if isinstance(event, LiftRidden)]
+    (ride,) = rides
+    return height(session), ride
+
+
+@pytest.mark.parametrize("site", FEET)
+@pytest.mark.parametrize("t", IN_THE_LIFT)
+def test_a_clock_of_one_foot_that_restarts_in_a_lift_leaves_the_height_of_the_ride(t: float, site: Site) -> None:
+    above, ride = ride_with_new_clock(t, site)
+    assert ride.height == pytest.approx(RIDE, abs=0.15) and above == pytest.approx(RIDE, abs=0.15)
+
+
+@pytest.mark.parametrize("t", IN_THE_LIFT)
+def test_when_the_only_barometer_restarts_in_a_lift_no_more_than_a_second_of_it_is_missing(t: float) -> None:
+    above, ride = ride_with_new_clock(t, Site.LEFT_FOOT, read=(Site.LEFT_FOOT,))
+    assert ride.height == pytest.approx(RIDE, abs=1.2) and above == pytest.approx(ride.height, abs=0.15)
 
 
 def test_without_this_part_a_lift_leaves_the_height_as_it_was() -> None:

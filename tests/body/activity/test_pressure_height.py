@@ -7,7 +7,15 @@ from math import exp, sqrt
 import numpy as np
 import pytest
 
-from solepath.body.activity.chain import STAIRS_DOWN, STAIRS_UP, STAND
+from solepath.body.activity.chain import (
+    ELEVATOR_CREEPS_DOWN,
+    ELEVATOR_CREEPS_UP,
+    ELEVATOR_MOVES_DOWN,
+    ELEVATOR_MOVES_UP,
+    STAIRS_DOWN,
+    STAIRS_UP,
+    STAND,
+)
 from solepath.body.activity.pressure_height import PressureHeight, ride_evidence, stairs_evidence
 from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
 from solepath.types import Foot
@@ -105,6 +113,16 @@ def test_a_block_on_stairs_favours_their_direction() -> None:
     scores = heights.score_slope(8, BLOCK)
     assert scores[STAIRS_UP] > scores[STAND] and scores[STAIRS_UP] > scores[STAIRS_DOWN]
     assert scores[STAIRS_UP] - scores[STAIRS_DOWN] > 0.5
+
+
+@pytest.mark.parametrize("speed", [0.25, -0.25])
+def test_air_pressure_that_changes_as_on_an_escalator_does_not_speak_against_standing(speed: float) -> None:
+    heights = PressureHeight(walked=True)
+    for k in range(12):
+        heights.add(Foot.LEFT, k, pressure(speed * BLOCK * k))
+    scores = heights.score_slope(8, BLOCK)
+    rides = (ELEVATOR_MOVES_UP, ELEVATOR_MOVES_DOWN, ELEVATOR_CREEPS_UP, ELEVATOR_CREEPS_DOWN)
+    assert scores[STAND] >= max([scores[state] for state in rides])
 
 
 @pytest.mark.parametrize("late", [0, 1, 3])

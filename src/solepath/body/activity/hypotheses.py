@@ -19,6 +19,8 @@ from .blocks.features import BLOCK_DURATION
 from .chain import (
     ACTIVITIES,
     ELEVATOR_ACTIVITIES,
+    ELEVATOR_STARTS_DOWN,
+    ELEVATOR_STARTS_UP,
     FIRST_CHANCES,
     HALT_SIGNS,
     PULSE_SIGNS,
@@ -59,6 +61,8 @@ PULSES = {
 """Mean and standard deviation of an elevator's acceleration, m/s^2, in each state that has one."""
 ACCELERATED_STATES = RIDE_STATES - UNACCELERATED_STATES
 """States of a ride with acceleration; `ElevatorRide.score_stop` scores a path that ends the ride after one of them."""
+START_STATES = frozenset((ELEVATOR_STARTS_UP, ELEVATOR_STARTS_DOWN))
+"""States of the first pulse of a ride; after it the elevator has its speed (`ElevatorRide.score_speed`)."""
 STAIR_SIGNS = {STAIRS_UP: 1.0, STAIRS_DOWN: -1.0}
 """Sign of the height gained in each state on stairs."""
 MAX_SEGMENTS = 8
@@ -97,7 +101,7 @@ class BlockEvidence:
 
     t: float
     motion_scores: tuple[float, ...]
-    """Log-likelihoods of the first six states of chain.py by the motion of the feet (motion.py)."""
+    """Log-likelihoods of the first six states of chain.py by the motion of the feet (votes.py)."""
     forces: tuple[BlockForce | None, ...]
     """Force on the left and on the right foot."""
     pressure_scores: tuple[float, ...]
@@ -123,13 +127,15 @@ class Hypotheses:
 
     def update(self, block: BlockEvidence, chain: Chain) -> None:
         """Extend the paths by one block."""
-        scores, end_scores = [-inf] * len(ACTIVITIES), [0.0] * len(ACTIVITIES)
+        scores, end_scores, started_scores = ([value] * len(ACTIVITIES) for value in (-inf, 0.0, 0.0))
         token_of_state: list[Token | None] = [None] * len(ACTIVITIES)
         for token in self.tokens:
             state = token.state
             token_of_state[state], scores[state] = token, token.score
             if state in RIDE_STATES or state in STAIR_SIGNS:
                 end_scores[state] = _score_end(token, block)
+            if state in START_STATES:
+                started_scores[state] = token.ride.score_speed()
         elevator = ElevatorEvidence(block.forces)
         candidates: list[tuple[float, int, Token, RestLevels, float]] = []
         top_score = -inf
@@ -138,19 +144,15 @@ class Hypotheses:
             best, highest = -1, -inf
             if not self.tokens:
                 best, highest = state, FIRST_TOKENS[state].score
-            elif state in RIDE_STATES:
-                for i, chance in predecessors:
-                    score = scores[i] + chance
-                    if score > highest:
-                        best, highest = i, score
             else:
+                left_scores = started_scores if state in RIDE_STATES else end_scores
                 for i, chance in predecessors:
-                    score = scores[i] + chance + (end_scores[i] if i != state else 0.0)
+                    score = scores[i] + chance + (left_scores[i] if i != state else 0.0)
                     if score > highest:
                         best, highest = i, score
             predecessor = (token_of_state[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None
-            motion_score = block.motion_scores[STAND if state in RIDE_STATES else state]
-            most = highest + motion_score + block.pressure_scores[state] + MOST_FORCE_EVIDENCE
+            most = highest + block.motion_scores[STAND if state in RIDE_STATES else state]
+            most += block.pressure_scores[state] + MOST_FORCE_EVIDENCE
             if predecessor is not None and most >= top_score - DROP_LIMIT:
                 candidate = _score_path(predecessor, highest, state, block, elevator)
                 candidates.append(candidate)

@@ -210,6 +210,8 @@ class PressureHeight:
         for mean, deviation in _SLOPE_OF_STATE:
             total = variance + deviation * deviation
             scores.append(-0.5 * (min((slope - mean) ** 2 / total, 1e3) + log(total)))
+        # an escalator carries a standing wearer no faster than an elevator creeps
+        scores[STAND] = max(scores[STAND], scores[ELEVATOR_CREEPS_UP], scores[ELEVATOR_CREEPS_DOWN])
         best = max(scores)
         return tuple([max(SLOPE_WEIGHT * (score - best), -MAX_SLOPE_PENALTY) for score in scores])
 

@@ -29,7 +29,7 @@ from ...types import Foot, Site
 from ...types.attrs import define, evolve, field
 from ..part import HeightShift, Part, PartInput, PartOutput, Replacement
 from .barometric import height_of
-from .recent_inputs import HeightInput, RecentInputs
+from .height_filter import UNKNOWN_VARIANCE, HeightEstimate, HeightInput, RecentInputs
 
 READING_INTERVAL = 0.5
 """Shortest interval between two readings of the filter, s; all pressures in between are averaged into one reading."""
@@ -41,14 +41,12 @@ NOISE_WEIGHT, MAX_NOISE_RATIO = 0.05, 3.0
 """Weight of one value in the low-pass filter of `Altitude.noise`, and largest ratio of a value to the filter's."""
 MIN_NOISE = 1e-4
 """Least variance of a reading, m^2."""
-JUMP_LIMIT = 25.0
-"""Squared innovation, divided by its variance, above which the offset has changed suddenly: a door or a gust."""
-UNKNOWN_VARIANCE = 1e4
-"""Variance of an unknown height, m^2."""
 MAX_TRACK_HEIGHT = 1e5
 """Largest height of a track, and of a ride, that is used, m; also the largest variance of a stride's height, m^2."""
 LEFT, RIGHT, MOVE = 0, 1, 2
 """Sources of an input: left barometer, right barometer, or a change of the correction by a stride or ride."""
+FORGET = 3
+"""Added to `LEFT` or `RIGHT`: from this input on, the offset of that barometer is not known."""
 RIDE_MARGIN = 0.7
 """Time before the start of a ride and after its end in which the wearer does not stand still, s."""
 LEVEL_LIMIT = 0.02
@@ -67,57 +65,6 @@ RIDE_ERROR = 0.1
 """Standard deviation of a reported ride's height, as a share of the height."""
 MIN_RIDE_HEIGHT, MIN_RIDE_SPEED, MAX_RIDE_SPEED = 1.8, 0.25, 4.0
 """Limits for a ride without air pressure: least height, m, least mean speed and largest mean speed, m/s."""
-
-
-@define
-class HeightEstimate:
-    """The filter's estimate of the correction and the two offsets."""
-
-    values: list[float] = field(factory=lambda: [0.0, 0.0, 0.0])
-    """The correction and the offsets of the left and the right barometer, m."""
-    covariance: list[float] = field(factory=lambda: [0.0] * 9)
-    """Covariance of the three values, row by row, m^2."""
-    read_at: list[float | None] = field(factory=lambda: [None, None])
-    """Time of the newest reading of each barometer, s; None: never read."""
-
-    def move(self, by: float, variance: float) -> None:
-        """Change the correction by `by`, m; `variance` is that of the change, m^2."""
-        self.values[0] += by
-        self.covariance[0] = min(self.covariance[0] + variance, UNKNOWN_VARIANCE)
-
-    def read(self, source: int, t: float, height: float, noise: float, wander: float) -> None:
-        """Correct the estimate with `height`, m: the height by the barometer minus the height of the track.
-
-        `noise` is the variance of the reading, m^2, and `wander` the growth of the offset's variance, m^2/s."""
-        x, p, i = self.values, self.covariance, 1 + source
-        previous = self.read_at[source]
-        self.read_at[source] = t
-        if previous is None:
-            # the offset is unknown: set it so that the reading fits the correction
-            x[i] = height - x[0]
-            for j in range(3):
-                if j != i:
-                    p[3 * i + j] = p[3 * j + i] = -p[j]
-            p[4 * i] = p[0] + noise
-            return
-        p[4 * i] = min(p[4 * i] + wander * max(0.0, t - previous), UNKNOWN_VARIANCE)
-        innovation = height - x[0] - x[i]
-        innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
-        if innovation * innovation > JUMP_LIMIT * innovation_variance:
-            p[4 * i] = min(p[4 * i] + innovation * innovation, UNKNOWN_VARIANCE)
-            innovation_variance = p[0] + 2.0 * p[i] + p[4 * i] + noise
-        covariances = [p[3 * j] + p[3 * j + i] for j in range(3)]
-        for j in range(3):
-            x[j] += covariances[j] / innovation_variance * innovation
-        for j in range(3):
-            for k in range(3):
-                p[3 * j + k] -= covariances[j] * covariances[k] / innovation_variance
-        for j in range(3):
-            p[4 * j] = max(p[4 * j], 0.0)
-
-    def copy(self) -> HeightEstimate:
-        """Return a copy of the estimate."""
-        return HeightEstimate(list(self.values), list(self.covariance), list(self.read_at))
 
 
 @define
@@ -214,15 +161,25 @@ class Altitude(Part):
         return HeightShift(self.now.values[0], self.ride_variance)
 
     def reset(self, site: Site) -> None:
-        """Reset the offset of a foot's barometer, because its clock restarts or the device has changed."""
+        """Forget the offset of a foot's barometer, because its clock restarts or the device has changed.
+
+        What the other foot has measured is kept: a ride under way still has its start."""
         if site.foot is None:
             return
         source = LEFT if site.foot is Foot.LEFT else RIGHT
         self.sides[source], self.faulty[source] = PendingReadings(), False
-        self.now.read_at[source] = None
-        self.base = self.now.copy()
-        self.inputs_kept.clear()
-        self.strides.clear()
+        newest = self.inputs_kept.newest
+        if newest is not None and newest[1] == FORGET + 1 - source:
+            # the clocks of both feet restart: no time that is kept can be compared with those to come
+            self.inputs_kept.clear()
+            self.strides.clear()
+            self.now.forget_offset(source)
+            self.base = self.now.copy()
+        elif newest is not None:
+            self._add_input((newest[0], FORGET + source, 0.0, 0.0))
+        else:
+            self.now.forget_offset(source)
+            self.base = self.now.copy()
 
     def _add_stride(self, stride: StrideTaken) -> Sequence[PartOutput]:
         self.strides.append((float(round(100.0 * stride.t_start)), float(round(100.0 * stride.t_end))))
@@ -246,7 +203,7 @@ class Altitude(Part):
         start, end = ride.t_start, ride.t
         inputs = self.inputs_kept.all()
         readings = [
-            entry for entry in inputs if entry[1] != MOVE and not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
+            entry for entry in inputs if entry[1] < MOVE and not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
         ]
         enclosed = any([entry[0] < start for entry in readings]) and any([entry[0] > end for entry in readings])
         if not enclosed and not self._is_plausible(ride):
@@ -255,7 +212,7 @@ class Altitude(Part):
         variance = (RIDE_ERROR * by) ** 2 if by else UNKNOWN_VARIANCE
         previous = self.now.values[0]
         inputs_kept = [
-            entry for entry in inputs if entry[1] == MOVE or not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
+            entry for entry in inputs if entry[1] >= MOVE or not start - RIDE_MARGIN < entry[0] < end + RIDE_MARGIN
         ]
         first = [entry for entry in inputs_kept if entry[0] <= end]
         later = [entry for entry in inputs_kept if entry[0] > end]
@@ -290,5 +247,7 @@ class Altitude(Part):
         t, source, value, variance = entry
         if source == MOVE:
             estimate.move(value, variance)
+        elif source >= FORGET:
+            estimate.forget_offset(source - FORGET)
         else:
             estimate.read(source, t, value, variance, OFFSET_DRIFT * OFFSET_DRIFT)
