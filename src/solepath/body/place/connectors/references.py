@@ -107,8 +107,8 @@ class References:
                 self.passage.end = (x + dx, y + dy, z)
 
     def reach_back_to(self, t: float) -> bool:
-        """Return whether the positions that are kept go back to `t`, s."""
-        return bool(self.track) and self.track[0][0] <= t
+        """Return whether no position since `t`, s, was discarded."""
+        return len(self.track) < MAX_TRACK_POSITIONS or self.track[0][0] <= t
 
     def path_since(self, t: float) -> list[Vec3]:
         """Return the position of the track at `t`, s, and all later positions that are kept, m."""
