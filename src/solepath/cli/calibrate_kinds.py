@@ -121,7 +121,7 @@ def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibratio
     x, y = drift.slope
     if drift.agreed:
         verdict = "the laps agree on it, and it is taken off later"
-    elif options.whole:
+    elif options.whole or not drift.gated:
         verdict = "the laps do not agree on it, and it is taken off all the same"
     else:
         verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"

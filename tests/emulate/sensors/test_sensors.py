@@ -158,7 +158,7 @@ def test_a_steady_tilt_stays_about_the_same_direction_of_the_world_whichever_way
         error = multiply_quaternions(read, true * (1.0, -1.0, -1.0, -1.0))
         means.append(2.0 * error[:, 1:].mean(axis=0))
     tilt, heading = np.std([mean[:2] for mean in means]), np.std([mean[2] for mean in means])
-    # five hours are 67 times the correlation time of what varies
+    # five hours are 670 times the correlation time of what varies
     assert tilt == pytest.approx(TILTED_INERTIACUBE3.steady_tilt, rel=0.2)
     assert heading < 0.3 * TILTED_INERTIACUBE3.heading
 

@@ -230,8 +230,8 @@ class AttitudeErrors:
 INERTIACUBE3 = AttitudeErrors("InertiaCube3", tilt=radians(0.25), heading=radians(1.0))
 """InterSense InertiaCube3 (*): accuracy 1 degree in yaw, 0.25 degrees in pitch and roll at 25 degrees C."""
 
-TILTED_INERTIACUBE3 = evolve(INERTIACUBE3, steady_tilt=radians(0.25), correlation_time=300.0)
-"""Errors of INERTIACUBE3, and as large a tilt that stays; what varies varies as slowly as a temperature (assumed).
+TILTED_INERTIACUBE3 = evolve(INERTIACUBE3, steady_tilt=radians(0.25))
+"""Errors of INERTIACUBE3, and a tilt as large as its accuracy that stays (assumed).
 
 The users of Bebek et al. 2010 found "drifts toward a fixed direction" and suspected the device's gravity compensation
 (section V-B)."""

@@ -34,6 +34,12 @@ class BiasZuptSettings(DedriftSettings):
     swing is assumed to have grown evenly, so half of it times the time since the foot last stood is subtracted from the
     position. The paper only sets the velocity to zero. Then a tilt error of a quarter of a degree, the accuracy of its
     sensor, costs a centimetre per stride."""
+    estimate_bias: bool = True
+    """Flag: the bias of the accelerometer is estimated (7) to (10); without it the paper's "position", with it its
+    "calibrated position"."""
+    gate_drift: bool = True
+    """Flag: the slope of calibration laps is used only if it is larger than chance explains (square.py). The paper uses
+    every slope."""
     turn_error: float = 0.0175
     """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 
@@ -110,7 +116,8 @@ class BiasZupt(LinearDedrift):
         if not self.settings.remove_swing_drift:
             self.position = position
         self.standing_time += self.last_dt
-        self.bias.correct(self.motion_acc)
+        if self.settings.estimate_bias:
+            self.bias.correct(self.motion_acc)
         return True
 
     def bridge(self, dt: float) -> float:
