@@ -50,7 +50,7 @@ MAIN: dict[str, Recipe] = {
 }
 """The two detectors with our corrector, and with the printed one."""
 
-WITHOUT_BIAS_ROW = "as printed, no bias filter"
+WITHOUT_BIAS_ROW = "Pressure as printed, no bias filter"
 WITHOUT_SWING_DRIFT_ROW, WITHOUT_SHARES_ROW = "Pressure, swing drift stays", "Pressure, levels in kPa"
 WITHOUT_OWN_THRESHOLD_ROW, WITHOUT_GATE_ROW = "Pressure, 4 mm/s for all", "Pressure, every slope used"
 
@@ -67,8 +67,12 @@ LESS: dict[str, Recipe] = {
     WITHOUT_OWN_THRESHOLD_ROW: _ours(ContourVelocity(ContourVelocitySettings(leave=0.004)), BiasZuptSettings()),
     WITHOUT_GATE_ROW: _ours(ContourVelocity(), BiasZuptSettings(gate_drift=False)),
     WITHOUT_BIAS_ROW: evolve(PRESSURE_CONTOUR_PRINTED, corrector=BiasZupt(evolve(AS_PRINTED, estimate_bias=False))),
+    **{
+        f"Gyroscope, {threshold:g} rad/s for all": evolve(GYROSCOPE, detector=fixed_gyroscope(threshold))
+        for threshold in (0.1, 0.25)
+    },
 }
-"""Ours without one of its additions, and the printed one without the filter of (4) to (10)."""
+"""Ours without one of its additions, the printed one without the filter of (4) to (10), and a stricter gyroscope."""
 
 VARIANTS = {**MAIN, **LESS}
 

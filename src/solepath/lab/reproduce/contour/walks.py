@@ -27,7 +27,7 @@ from ..tables import DrawStyle, PictureTrack
 from ..walks import align_track, find_halt, join_routes, thin_out
 from .figures import bias_curves, stance_curves
 from .runs import ContourRun, run_foot, stance_velocities
-from .variants import FOOT, MAIN, PRESSURE_ROW, VARIANTS, WITHOUT_GATE_ROW, Setup
+from .variants import FOOT, MAIN, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, WITHOUT_GATE_ROW, Setup
 
 HALF_HOUR = 1800.0
 """Duration of the paper's walks, s."""
@@ -72,7 +72,7 @@ class ContourResults:
     found: dict[str, float]
     """Share of the stances that were found."""
     tracks: tuple[PictureTrack, ...]
-    """True path and then the tracks of MAIN."""
+    """True path, then the tracks of MAIN and of the printed recipe without its filter."""
     stance: tuple[PictureTrack, ...]
     """Curves of figure 7: time in a stance, ms, and velocities, mm/s."""
     bias_filter: tuple[PictureTrack, ...]
@@ -120,7 +120,7 @@ def walk(job: ContourJob) -> ContourResults:
             else run_foot(recipe, FOOT, after, merged(known, Calibration(drift={FOOT: drift})))
         )
     velocities = {name: stance_velocities(run, walked.truth, FOOT, t_halt) for name, run in runs.items()}
-    shown: Mapping[str, ContourRun] = {name: run for name, run in runs.items() if name in MAIN}
+    shown = {name: run for name, run in runs.items() if name in MAIN or name == WITHOUT_BIAS_ROW}
     return ContourResults(
         number=job.number,
         distance=whole.length - laps.length,
