@@ -6,7 +6,7 @@ that calibration laps have shown (papers/pressure_contour/square.py) is subtract
 
 from __future__ import annotations
 
-from math import atan2, inf
+from math import atan2, inf, sqrt
 
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
@@ -72,8 +72,12 @@ class BiasZupt(LinearDedrift):
     """Flag: the attitude of the last sample is integrated, not reported by the device."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
-        drift = calibration.drift.get(foot)
-        return self if drift is None else evolve(self, settings=evolve(self.settings, drift=drift))
+        drift, rest = calibration.drift.get(foot), calibration.rest.get(foot)
+        settings = self.settings if drift is None else evolve(self.settings, drift=drift)
+        bias = self.bias
+        if rest is not None:
+            bias = AccelerometerBias(rest.acc_density * sqrt(0.5 * rest.rate), rest.acc_wander)
+        return self if drift is None and rest is None else evolve(self, settings=settings, bias=bias)
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         LinearDedrift.start(self, attitude, tilt_sigma)
