@@ -248,7 +248,7 @@ def test_the_patch_under_a_heel_with_a_pad_grows_with_the_fourth_root_of_the_loa
 
 
 @pytest.mark.parametrize("pad", [HeelPad(roll=0.0), HeelPad(fore_aft_share=0.0)], ids=["it yields", "it rolls"])
-def test_the_patch_moves_by_millimetres_under_a_heel_that_rests(pad: HeelPad) -> None:
+def test_the_patch_moves_by_millimetres_under_a_heel_at_rest(pad: HeelPad) -> None:
     walker = Walker(STRAIGHT, Wearer(pad=pad), seed=3)
     one, two = walker.plan.strides[Foot.LEFT][1:3]
     t = np.linspace(one.foot_flat + 0.15, two.heel_off - 0.04, 40)  # the patch lies within the cells from then on

@@ -109,10 +109,7 @@ class HeadingCalibration:
 
 @frozen
 class RestNoise:
-    """Noise of the accelerometer and the gyroscope of one sensor, from a recording at rest (`solepath calibrate rest`).
-
-    The filter of Bebek et al. 2010 uses it: Sigma_v is the variance of one sample, acc_density^2 rate / 2, and Sigma_w
-    is acc_wander^2 times the time between two samples."""
+    """Noise of one sensor at rest (`solepath calibrate rest`), for the filter of Bebek et al. 2010."""
 
     acc_density: float
     """Density of the accelerometer's white noise, m/s^2/sqrt(Hz), as in data sheets."""

@@ -83,7 +83,7 @@ def test_cells_of_unknown_scale_are_reported_because_they_have_no_pressure_in_pa
     assert detector.lacking is not None and ours.lacking is None
 
 
-def test_the_heel_is_slower_where_pressure_says_that_it_rests_than_where_the_gyroscope_does_printed_or_ours() -> None:
+def test_the_heel_is_slower_at_the_zero_velocities_of_pressure_than_at_those_of_the_gyroscope() -> None:
     gyroscope, ours, printed = (
         stance_velocities(walked(name), lap().truth, RIGHT)
         for name in ("gyroscope", "pressure-contour", "pressure-contour-printed")
@@ -98,8 +98,8 @@ def test_as_printed_the_drift_of_a_swing_stays_in_the_position_and_every_slope_i
     printed, ours = PRESSURE_CONTOUR_PRINTED.corrector.settings, PRESSURE_CONTOUR.corrector.settings  # type: ignore[attr-defined]
     assert (printed.remove_swing_drift, printed.gate_drift) == (False, False)
     assert (ours.remove_swing_drift, ours.gate_drift) == (True, True)
-    doubtful = SquareDrift(RIGHT, (0.01, 0.0), 0.02, agreed=False, marks=40, visits=200)
-    assert doubtful.kept == (0.0, 0.0) and evolve(doubtful, gated=False).kept == (0.01, 0.0)
+    uncertain = SquareDrift(RIGHT, (0.01, 0.0), 0.02, agreed=False, marks=40, visits=200)
+    assert uncertain.kept == (0.0, 0.0) and evolve(uncertain, gated=False).kept == (0.01, 0.0)
 
 
 def test_without_the_filter_no_bias_is_learnt() -> None:
@@ -133,7 +133,7 @@ def test_rest_that_is_reported_in_a_swing_counts_as_the_velocity_of_the_swing() 
     ("first", "second", "smaller", "pairs", "p"),
     [([1.0] * 20, [2.0] * 20, 20, 20, 2e-5), ([1.0, 3.0] * 10, [2.0] * 20, 10, 20, 1.0), ([np.nan], [1.0], 0, 0, 1.0)],
 )
-def test_a_sign_test_counts_pairs_and_says_how_probable_they_are(
+def test_a_sign_test_counts_pairs_and_gives_their_probability(
     first: list[float], second: list[float], smaller: int, pairs: int, p: float
 ) -> None:
     found = sign_test(np.array(first), np.array(second))

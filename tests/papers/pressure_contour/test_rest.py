@@ -84,15 +84,15 @@ def test_too_short_a_rest_and_a_sensor_that_moved_are_no_calibration(samples: li
         rest_noise(samples)
 
 
-def test_the_filter_trusts_a_standing_foot_as_far_as_the_sensor_at_rest_was_quiet() -> None:
+def test_the_filter_trusts_a_standing_foot_by_the_noise_of_its_sensor_at_rest() -> None:
     (fit,) = rest_noise(at_rest(150.0))
     known = merged(Calibration(rest={Foot.LEFT: RestNoise(0.01, 1e-3, 1e-4, 1e-5, 100.0)}), rest_calibration([fit]))
     assert set(known.rest) == set(Foot)
     bias = BiasZupt().calibrated(Foot.RIGHT, known).bias
-    assert bias.sample_noise == pytest.approx(ACC[0] * sqrt(0.5 * RATE), rel=0.1)
-    assert BiasZupt().calibrated(Foot.LEFT, known).bias.sample_noise == pytest.approx(0.01 * sqrt(50.0))
+    assert bias.settings.sample_noise == pytest.approx(ACC[0] * sqrt(0.5 * RATE), rel=0.1)
+    assert BiasZupt().calibrated(Foot.LEFT, known).bias.settings.sample_noise == pytest.approx(0.01 * sqrt(50.0))
     bias.correct((-0.1, 0.0, 0.0))
     usual = BiasZupt().bias
     usual.correct((-0.1, 0.0, 0.0))
     assert usual.variance is not None and bias.variance is not None
-    assert (bias.variance > usual.variance) == (bias.sample_noise > usual.sample_noise)
+    assert (bias.variance > usual.variance) == (bias.settings.sample_noise > usual.settings.sample_noise)

@@ -50,7 +50,7 @@ class HeelPad:
     smallest: float = 0.35
     """Smallest half-axes, as a share of those of the zone (assumed)."""
     shear_stiffness: float = 40e3
-    """Stiffness of the pad in shear, N/m.
+    """Force by which the pad resists a shift of one m in shear, N/m.
 
     It is a third of the stiffness in compression, as in all incompressible material, and that is 32 N/mm for a small
     load and 212 N/mm for the whole one in walking (Wearing et al. 2014, Med Sci Sports Exerc 46 (*))."""

@@ -16,7 +16,7 @@ from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
-from .acc_bias import AccelerometerBias
+from .acc_bias import AccelerometerBias, BiasNoise
 
 STANDING_DELAY = 1.0
 """Time after the start of a stance from which the calibrated drift is no longer subtracted, s; chosen by hand."""
@@ -76,7 +76,7 @@ class BiasZupt(LinearDedrift):
         settings = self.settings if drift is None else evolve(self.settings, drift=drift)
         bias = self.bias
         if rest is not None:
-            bias = AccelerometerBias(rest.acc_density * sqrt(0.5 * rest.rate), rest.acc_wander)
+            bias = AccelerometerBias(BiasNoise(rest.acc_density * sqrt(0.5 * rest.rate), rest.acc_wander))
         return self if drift is None and rest is None else evolve(self, settings=settings, bias=bias)
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:

@@ -21,7 +21,7 @@ from ...measures.alignment import Floats
 
 @frozen(eq=False)
 class ContourRun:
-    """What one recipe made of the samples of one foot."""
+    """The results of one recipe on the samples of one foot."""
 
     strides: tuple[StrideTaken, ...]
     """Final strides of the foot."""

@@ -104,7 +104,7 @@ TABLE = Setup(
     Wearer(rest_pitch=0.01, pad=HeelPad()),
     evolve(boot(FOOT, RATE), attitude=TILTED_INERTIACUBE3, borne_share=0.5),
 )
-"""What is worn in the half-hour walks.
+"""Setup of the half-hour walks.
 
 The array bears half of the load above it (assumed). With all of it the emulated pressure would exceed the array's range
 of 140 kPa, and the contours of figure 4 would lie outside of the array in most of the stance."""
