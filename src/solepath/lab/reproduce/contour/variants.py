@@ -86,7 +86,7 @@ class Setup:
     wearer: Wearer
     device: Insole
     speed: float = 0.8
-    """Walking speed of the short walks, m/s: that of the calibration walks, 235 m in 5 min (section V-D)."""
+    """Walking speed of the laps, m/s: 235 m in 5 min (section V-D). If it is another one, the whole walk has it."""
 
 
 def _attitude_source(tilt_degrees: float, memory: float) -> Insole:

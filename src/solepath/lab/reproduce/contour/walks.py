@@ -83,6 +83,8 @@ def route_of(job: ContourJob) -> tuple[Route, Route]:
     """Return the route of the calibration laps with a halt of half a minute, and the whole route."""
     distance = published.LOOPS[job.number].distance * job.duration / HALF_HOUR
     pace = job.setup.speed
+    if pace != PACE:
+        distance = pace * job.duration
     laps = square(job.laps, speed=pace).stand(28.0)
     if job.square:
         lap = square(1, speed=pace)
