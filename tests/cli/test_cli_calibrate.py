@@ -131,6 +131,18 @@ def test_the_drift_is_learnt_from_laps_of_a_square(tmp_path):
     assert set(calibrated(out).drift) == {Foot.RIGHT}
 
 
+def test_the_noise_of_a_sensor_is_learnt_from_a_rest(tmp_path):
+    still = emulate(Route().stand(130.0), devices={Site.RIGHT_FOOT: Insole(rate=50.0)}, seed=2)
+    out = tmp_path / "me.json"
+    result = run("calibrate", "rest", recorded(tmp_path / "still.jsonl", still.packets), "--out", out)
+    assert result.returncode == 0 and result.stderr == ""
+    assert result.stdout.startswith("right foot, 1") and "degrees/h" in result.stdout
+    noise = calibrated(out).rest[Foot.RIGHT]
+    assert 0.5e-3 < noise.acc_density < 2.5e-3  # 110 ug/sqrt(Hz) and the rounding to 0.488 mg
+    moving = recorded(tmp_path / "walk.jsonl", emulate(Route().stand(60).walk(20).stop(60), seed=2).packets)
+    assert "moved" in run_failing("calibrate", "rest", moving, "--out", out)
+
+
 def test_the_drift_of_headings_is_learnt_from_a_walk_there_and_back(tmp_path):
     route = Route().stand(6.0)
     for leg in range(4):

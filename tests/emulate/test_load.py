@@ -13,7 +13,8 @@ from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.walker import Walker
-from solepath.types import Foot, Layout, Site
+from solepath.emulate.wearers.zones import HeelPad
+from solepath.types import Cell, Foot, Layout, Site
 from solepath.types.vector import GRAVITY
 from solepath.wire.insole_info import parse_info
 
@@ -221,3 +222,58 @@ def test_an_insole_with_a_layout_reports_it_in_info_and_fits_only_that_foot() ->
     assert [cell.x for cell in info.cells] == pytest.approx([c.x for c in heel_array(Foot.LEFT).cells], abs=1e-4)
     with pytest.raises(ValueError, match="left foot"):
         emulate(STRAIGHT, devices={Site.RIGHT_FOOT: boot(Foot.LEFT)}, seed=3)
+
+
+def heel_patch(walker: Walker, t: Array) -> tuple[Array, Array]:
+    """Return the length of the loaded part of a left heel and its middle, m, by many narrow cells along the foot."""
+    cells = tuple(Cell(0.0005 + 0.001 * k, 0.0, 1e-6) for k in range(90))  # the midfoot begins at 91 mm
+    loads = walker.cell_loads(Layout(90, Foot.LEFT, cells, 0.285), t)
+    loaded = loads > 0.0
+    return loaded.sum(axis=1) * 0.001, (loaded * np.array([cell.x for cell in cells])).sum(axis=1) / loaded.sum(axis=1)
+
+
+def test_the_patch_under_a_heel_with_a_pad_grows_with_the_fourth_root_of_the_load_up_to_the_shoe() -> None:
+    wearer = Wearer(pad=HeelPad(fore_aft_share=0.0, roll=0.0))
+    walker, fixed = Walker(STRAIGHT, wearer, seed=3), Walker(STRAIGHT, seed=3)
+    one, two = walker.plan.strides[Foot.LEFT][1:3]
+    t = np.linspace(one.foot_flat + 0.02, two.heel_off - 0.04, 20)
+    load = walker.loads.zone_shares(Foot.LEFT, t)[0] * walker.loads.total(Foot.LEFT, t) / walker.loads.weight
+    length, _ = heel_patch(walker, t)
+    half = 0.17 * 0.285  # m, of the zone, whose middle is as far from the heel's end
+    spread = half * np.clip(load**0.25, 0.35, 1.0)
+    assert length == pytest.approx(np.minimum(half + spread, 0.090) - (half - spread), abs=0.002)
+    assert length[0] > 1.1 * length[-1]
+    assert heel_patch(fixed, t)[0] == pytest.approx(0.090, abs=0.001)
+    assert (walker.loads.total(Foot.LEFT, t) == fixed.loads.total(Foot.LEFT, t)).all()
+
+
+@pytest.mark.parametrize("pad", [HeelPad(roll=0.0), HeelPad(fore_aft_share=0.0)], ids=["it yields", "it rolls"])
+def test_the_patch_moves_by_millimetres_under_a_heel_at_rest(pad: HeelPad) -> None:
+    walker = Walker(STRAIGHT, Wearer(pad=pad), seed=3)
+    one, two = walker.plan.strides[Foot.LEFT][1:3]
+    t = np.linspace(one.foot_flat + 0.15, two.heel_off - 0.04, 40)  # the patch lies within the cells from then on
+    shift = walker.loads.pad_shift(Foot.LEFT, walker.loads.zone_shares(Foot.LEFT, t)[0], t)
+    assert 0.0005 < np.ptp(shift) < 0.005
+    assert np.abs(np.diff(shift) / np.diff(t)).max() > 0.004, "faster than the paper's threshold for a heel that moves"
+    _, middle = heel_patch(walker, t)
+    assert middle - middle[0] == pytest.approx(shift - shift[0], abs=0.0011)
+
+
+def test_a_pad_of_half_the_stiffness_yields_twice_as_far() -> None:
+    t = np.linspace(4.0, 6.0, 100)
+    softer, stiffer = (
+        Walker(STRAIGHT, Wearer(pad=HeelPad(shear_stiffness=stiffness, roll=0.0)), seed=3).loads
+        for stiffness in (20e3, 40e3)
+    )
+    heel = softer.zone_shares(Foot.LEFT, t)[0]
+    shift = stiffer.pad_shift(Foot.LEFT, heel, t)
+    assert np.ptp(shift) > 0.001
+    assert softer.pad_shift(Foot.LEFT, heel, t) == pytest.approx(2.0 * shift)
+
+
+def test_a_foot_turns_in_its_stances_as_much_as_its_wearer_lets_it() -> None:
+    for rest_pitch in (4e-4, 0.01):
+        walker = Walker(STRAIGHT, Wearer(rest_pitch=rest_pitch), seed=3)
+        stances = stance_times(walker, Foot.LEFT)[1:-1]
+        pitches = [walker.motions[Foot.LEFT].pitch(np.linspace(flat, off, 50)) for _, flat, off, _ in stances]
+        assert 0.5 * rest_pitch < np.abs(pitches).max() <= rest_pitch

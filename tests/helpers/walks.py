@@ -218,6 +218,7 @@ RECIPES = (
     "kupt-dfpc",
     "zupt",
     "pressure-contour",
+    "pressure-contour-printed",
     "gyroscope",
     "walking-modes",
     "touchdown-acceleration",

@@ -7,6 +7,7 @@ from .records import (
     InsoleCalibration,
     Limbs,
     Newtons,
+    RestNoise,
     ShoeGeometry,
     merged,
 )
@@ -18,6 +19,7 @@ __all__ = [
     "InsoleCalibration",
     "Limbs",
     "Newtons",
+    "RestNoise",
     "ShoeGeometry",
     "merged",
 ]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ..types import Cell, Foot, Layout, WalkingMode
 from ..types.attrs import fields
-from .records import Calibration, HeadingCalibration, InsoleCalibration, Limbs, Newtons, ShoeGeometry
+from .records import Calibration, HeadingCalibration, InsoleCalibration, Limbs, Newtons, RestNoise, ShoeGeometry
 
 _Limit = tuple[str, object, float, float, str]
 """Key, value, smallest and largest allowed value, and unit of one number of a calibration."""
@@ -65,6 +65,9 @@ def _type_problems(calibration: Calibration) -> Iterator[str]:
     yield from _check_dict("headings", calibration.headings, Foot)
     for foot, heading in calibration.headings.items():
         yield from _check_type(f"headings.{foot.value}", heading, HeadingCalibration)
+    yield from _check_dict("rest", calibration.rest, Foot)
+    for foot, noise in calibration.rest.items():
+        yield from _check_type(f"rest.{foot.value}", noise, RestNoise)
 
 
 def _check_type(key: str, value: object, kind: type) -> Iterator[str]:
@@ -104,6 +107,12 @@ def _limits(calibration: Calibration) -> Iterator[_Limit]:
         yield f"headings.{foot.value}.turning", heading.turning, -0.1, 0.1, ""
         yield f"headings.{foot.value}.drift_sigma", heading.drift_sigma, 1e-6, 0.05, " rad"
         yield f"headings.{foot.value}.turning_sigma", heading.turning_sigma, 1e-6, 0.2, ""
+    for foot, noise in calibration.rest.items():
+        yield f"rest.{foot.value}.acc_density", noise.acc_density, 1e-6, 1.0, " m/s^2/sqrt(Hz)"
+        yield f"rest.{foot.value}.acc_wander", noise.acc_wander, 0.0, 0.1, " m/s^2/sqrt(s)"
+        yield f"rest.{foot.value}.gyro_density", noise.gyro_density, 1e-7, 0.1, " rad/s/sqrt(Hz)"
+        yield f"rest.{foot.value}.gyro_wander", noise.gyro_wander, 0.0, 0.01, " rad/s/sqrt(s)"
+        yield f"rest.{foot.value}.rate", noise.rate, 1.0, 10_000.0, " Hz"
     if calibration.limbs is not None:
         for one in fields(Limbs):
             yield f"limbs.{one.name}", getattr(calibration.limbs, one.name), 0.001, 1.5, " m"

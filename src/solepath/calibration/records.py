@@ -108,6 +108,22 @@ class HeadingCalibration:
 
 
 @frozen
+class RestNoise:
+    """Noise of one sensor at rest (`solepath calibrate rest`), for the filter of Bebek et al. 2010."""
+
+    acc_density: float
+    """Density of the accelerometer's white noise, m/s^2/sqrt(Hz), as in data sheets."""
+    acc_wander: float
+    """Standard deviation by which the accelerometer's bias changes in one second, m/s^2/sqrt(s)."""
+    gyro_density: float
+    """Density of the gyroscope's white noise, rad/s/sqrt(Hz)."""
+    gyro_wander: float
+    """Standard deviation by which the gyroscope's bias changes in one second, rad/s/sqrt(s)."""
+    rate: float
+    """Sampling rate of the recording, Hz."""
+
+
+@frozen
 class Calibration:
     """The calibration of one wearer; a value that was not calibrated is None or absent."""
 
@@ -130,6 +146,8 @@ class Calibration:
     (1))."""
     headings: dict[Foot, HeadingCalibration] = field(factory=dict)
     """Drift of the heading of each foot."""
+    rest: dict[Foot, RestNoise] = field(factory=dict)
+    """Noise of each foot's sensor at rest."""
 
     def insole(self, foot: Foot) -> InsoleCalibration:
         """Return the calibration of this foot's insole, or an empty one."""
@@ -149,12 +167,14 @@ def merged(known: Calibration, newer: Calibration) -> Calibration:
     drift = {**known.drift, **newer.drift}
     toe_out = {**known.toe_out, **newer.toe_out}
     headings = {**known.headings, **newer.headings}
+    rest = {**known.rest, **newer.rest}
     return evolve(
         _replace_values(known, newer),
         insoles={foot: insoles[foot] for foot in Foot if foot in insoles},
         drift={foot: drift[foot] for foot in Foot if foot in drift},
         toe_out={foot: toe_out[foot] for foot in Foot if foot in toe_out},
         headings={foot: headings[foot] for foot in Foot if foot in headings},
+        rest={foot: rest[foot] for foot in Foot if foot in rest},
     )
 
 

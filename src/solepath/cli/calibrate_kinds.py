@@ -121,7 +121,7 @@ def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibratio
     x, y = drift.slope
     if drift.agreed:
         verdict = "the laps agree on it, and it is taken off later"
-    elif options.whole:
+    elif options.whole or not drift.gated:
         verdict = "the laps do not agree on it, and it is taken off all the same"
     else:
         verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"
@@ -259,5 +259,30 @@ def _walk(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     return heading_calibration(fits), [table(header, rows)]
 
 
-KINDS = (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, _add_modes, _add_walk)
+def _add_rest(kinds: Any) -> None:
+    command: argparse.ArgumentParser = kinds.add_parser(
+        "rest",
+        help="the noise of a sensor, from a recording at rest",
+        description="From a sensor that lies still for two minutes or more, best an hour: the noise of its "
+        "accelerometer and gyroscope, and how fast their biases change. pressure-contour and gyroscope use it.",
+        epilog="example: solepath calibrate rest still.jsonl --out me.json",
+    )
+    command.set_defaults(learn=_rest)
+    _add_recording(command)
+
+
+def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
+    from ..papers.pressure_contour.rest import rest_calibration, rest_noise
+
+    fits = rest_noise(source_of(options.file, foot_of(options)), foot_of(options))
+    lines = [
+        f"{fit.foot} foot, {fit.duration:.0f} s: accelerometer {1e3 * fit.noise.acc_density:.3g} mm/s^2/sqrt(Hz), bias "
+        f"steady within {1e3 * fit.acc_instability:.3g} mm/s^2; gyroscope {degrees(fit.noise.gyro_density):.2g} "
+        f"degrees/s/sqrt(Hz), bias steady within {3600.0 * degrees(fit.gyro_instability):.3g} degrees/h"
+        for fit in fits
+    ]
+    return rest_calibration(fits), lines
+
+
+KINDS = (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, _add_modes, _add_walk, _add_rest)
 """Functions that add the kinds to the parser, in the order of the help text."""

@@ -17,6 +17,7 @@ from solepath.emulate.sensors.parts import (
     MPU9250,
     RESISTIVE,
     T5400,
+    TILTED_INERTIACUBE3,
     AttitudeErrors,
     BarometerErrors,
     Imu,
@@ -35,6 +36,7 @@ from solepath.emulate.sensors.sensors import (
     take_samples,
     to_counts,
 )
+from solepath.emulate.wearers.turning import multiply_quaternions
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 from solepath.types.vector import GRAVITY, from_rotation_vector, multiply
@@ -143,6 +145,22 @@ def test_an_attitude_has_the_slow_errors_of_its_sheet_from_the_start(part: Attit
         tilt, heading = 2.0 * read[:, moment, 1:3].std(), 2.0 * read[:, moment, 3].std()
         assert tilt == pytest.approx(part.tilt, rel=0.1) and heading == pytest.approx(part.heading, rel=0.1)
     assert np.abs(np.diff(2.0 * read[:, :, 1:], axis=1)).max() < 0.1 * max(part.tilt, part.heading)
+
+
+def test_a_steady_tilt_stays_about_the_same_direction_of_the_world_whichever_way_the_sensor_points() -> None:
+    t = np.arange(0.0, 20_000.0, 10.0)
+    yaw = 0.3 * t
+    true = np.stack([np.cos(0.5 * yaw), 0.0 * t, 0.0 * t, np.sin(0.5 * yaw)], axis=1)
+    means = []
+    for k in range(60):
+        read = read_attitudes(true, t, TILTED_INERTIACUBE3, 0.0, np.random.default_rng(k))
+        # the part of the read attitude that remains when the true turn is undone, on the world's side
+        error = multiply_quaternions(read, true * (1.0, -1.0, -1.0, -1.0))
+        means.append(2.0 * error[:, 1:].mean(axis=0))
+    tilt, heading = np.std([mean[:2] for mean in means]), np.std([mean[2] for mean in means])
+    # five hours are 670 times the correlation time of what varies
+    assert tilt == pytest.approx(TILTED_INERTIACUBE3.steady_tilt, rel=0.2)
+    assert heading < 0.3 * TILTED_INERTIACUBE3.heading
 
 
 def test_a_device_with_another_north_turns_the_world_about_the_vertical() -> None:

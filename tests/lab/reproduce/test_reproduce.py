@@ -131,6 +131,8 @@ LONGEST = ("footstep-tracker", "walking-modes", "pressure-contour")
 def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeypatch):
     pytest.importorskip("matplotlib")
     monkeypatch.setattr(pressure_contour, "WALK_DURATION", 60.0)
+    monkeypatch.setattr(pressure_contour, "SHORT_DURATION", 30.0)
+    monkeypatch.setattr(pressure_contour, "SETUPS", pressure_contour.SETUPS[:2])
     monkeypatch.setattr(pressure_contour, "CALIBRATION_LAPS", 3)
     monkeypatch.setattr(walking_modes, "MARKED_STEPS", 10)
     monkeypatch.setattr(walking_modes, "MARKED_REPEATS", 1)

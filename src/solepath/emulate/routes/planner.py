@@ -182,7 +182,7 @@ class _Planner:
                 speed=footfall.speed * min(reach, 1.0) if style is None else footfall.speed,
                 clearance=(wearer.clearance if style is None else style.clearance) * self.footfalls.vary(0.08),
                 deviation=deviation,
-                rest_pitch=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
+                rest_pitch=wearer.rest_pitch * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
                 curvature=footfall.curvature,
                 step_speed=0.5 * displacement / step_time,
                 kind=kind,

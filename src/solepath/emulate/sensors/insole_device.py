@@ -133,6 +133,8 @@ class Insole:
     `samples` has its values."""
     cell_part: CellErrors = RESISTIVE
     """Errors of the cells."""
+    borne_share: float = 1.0
+    """Share of the load above the cells that they bear; the rest passes beside them through the shoe."""
     ppm: float | None = None
     """Rate error of the clock, ppm; None: random."""
     ticks: int | None = None
@@ -174,7 +176,7 @@ class Insole:
             rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0))
         )
         loads = read_cells(
-            walker.cell_loads(cell_layout, sampling.times),
+            self.borne_share * walker.cell_loads(cell_layout, sampling.times),
             sampling.times,
             self.cell_part,
             cell_layout.scale or LOAD_PER_COUNT,

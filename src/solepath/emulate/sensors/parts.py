@@ -220,10 +220,21 @@ class AttitudeErrors:
     """Error about the vertical axis, rad."""
     correlation_time: float = 30.0
     """Correlation time of the errors, s (assumed)."""
+    steady_tilt: float = 0.0
+    """Tilt that stays the same about either horizontal axis of the device's world, rad, added to `tilt`.
+
+    A device that takes away gravity in a wrong direction has such an error: the false acceleration then has a fixed
+    direction in the world."""
 
 
 INERTIACUBE3 = AttitudeErrors("InertiaCube3", tilt=radians(0.25), heading=radians(1.0))
 """InterSense InertiaCube3 (*): accuracy 1 degree in yaw, 0.25 degrees in pitch and roll at 25 degrees C."""
+
+TILTED_INERTIACUBE3 = evolve(INERTIACUBE3, steady_tilt=radians(0.25))
+"""Errors of INERTIACUBE3, and a tilt as large as its accuracy that stays (assumed).
+
+The users of Bebek et al. 2010 found "drifts toward a fixed direction" and suspected the device's gravity compensation
+(section V-B)."""
 
 CRE_CC02 = AttitudeErrors("CRE-CC02", tilt=radians(0.81), heading=radians(0.81))
 """Nine-axis unit of Gong et al. 2023, Sensors 23, 5417, section 3.1: absolute angle accuracy 0.81 degrees."""

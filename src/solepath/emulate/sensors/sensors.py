@@ -205,9 +205,11 @@ def read_attitudes(true: Array, t: Array, chip: AttitudeErrors, north: float, rn
     """Return the attitudes (N, 4), sensor to device's world, that a device reports for `true` (N, 4) at times `t`, s.
 
     The device's world is the walk's world turned about the vertical by `north` rad. Errors are added: about each axis a
-    Gauss-Markov process whose standard deviation is the same from the start on."""
+    Gauss-Markov process whose standard deviation is the same from the start on, and the steady tilt."""
     initial = np.exp(-(t - t[0]) / chip.correlation_time)[:, None] * rng.standard_normal(3)
     turned = (initial + random_drift(t, chip.correlation_time, 3, rng)) * (chip.tilt, chip.tilt, chip.heading)
+    if chip.steady_tilt:
+        turned += chip.steady_tilt * np.append(rng.standard_normal(2), 0.0)
     angle = np.linalg.norm(turned, axis=1, keepdims=True)
     axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
     # Coordinates turn by -north when the frame turns by north.

@@ -19,6 +19,7 @@ from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind
 from .curves import Array, Rng
 from .shoe import Rocker, Shoe
+from .zones import HeelPad
 
 SETTLE_TIME = 0.45
 """Time in which the weight settles on both feet at a halt, and longest time in which it rolls along the sole, s."""
@@ -66,6 +67,13 @@ class Wearer:
     """Standard deviation of the body's lateral displacement from the path, m; 0: the body keeps to the path."""
     sway: float = 0.0
     """Standard deviation of pitch and roll of a foot while the wearer stands, rad; 0: a standing foot is still."""
+    rest_pitch: float = 4e-4
+    """Standard deviation of the largest pitch of a foot that stands between two strides, rad, cut off at one of them.
+
+    The angular rate in the stillest 30 ms of a stance is 0.03 to 0.2 rad/s in tied shoes (papers/pressure_contour), as
+    with 0.01 rad; the default is a foot that hardly turns (assumed)."""
+    pad: HeelPad | None = None
+    """Pad under the heels; None: the patch of pressure under a heel has a fixed size and moves with the pitch only."""
     centre_height: float = 0.97
     """Height of the body's centre of mass, m.
 

@@ -33,7 +33,7 @@ from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
 from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
-from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, cell_shares
+from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, HeelPad, cell_shares
 
 BOUNCE_AMPLITUDE = 0.17
 """Amplitude A of the load in walking at 1.3 m/s, as a share of the weight; A grows with the square of the speed."""
@@ -83,6 +83,8 @@ class Loads:
     """Share of the load that lands on the forefoot in each stance, (n)."""
     rides: tuple[GroundRide, ...] = ()
     """Rides of the wearer in elevators and on escalators."""
+    pad: HeelPad | None = None
+    """Pad of either heel; None: the patch under a heel has a fixed size and moves with the pitch only."""
 
     def total(self, foot: Foot, t: Array) -> Array:
         """Return the load under one foot at times `t`, s, in newtons, (N)."""
@@ -137,6 +139,10 @@ class Loads:
         inward = -0.10 * fore / fore.max(initial=1e-9)
         total = self.total(foot, t)
         lateral_shift = self.lateral_shift(foot, t)
+        spread = np.ones_like(t)
+        if self.pad is not None:
+            heel += self.pad_shift(foot, shares[0], t) / layout.length
+            spread = self.pad.spread(shares[0] * total / self.weight)
         cell_loads = np.zeros((len(t), len(layout.cells)))
         no_shift = np.zeros_like(t)
         zone_shifts = (
@@ -149,9 +155,18 @@ class Loads:
             loaded = np.flatnonzero(share * total > 0.0)
             for start in range(0, len(loaded), _BLOCK_SIZE):
                 block = loaded[start : start + _BLOCK_SIZE]
-                shares_of_cells = cell_shares(layout, width, zone, ahead[block], aside[block], lateral_shift[block])
-                cell_loads[block] += (share * total)[block, None] * shares_of_cells
+                moved = (ahead[block], aside[block], lateral_shift[block], spread[block] if zone is HEEL else 1.0)
+                cell_loads[block] += (share * total)[block, None] * cell_shares(layout, width, zone, *moved)
         return cell_loads
+
+    def pad_shift(self, foot: Foot, heel_share: Array, t: Array) -> Array:
+        """Return how far the pad lets the patch under a heel be ahead of its place at `t`, s, in m, (N)."""
+        if self.pad is None or not len(self.start):
+            return np.zeros_like(t)
+        rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
+        # the amplitude grows with the square of the speed
+        speed = np.interp(t, self.beat_times, np.sqrt(self.load_amplitude / BOUNCE_AMPLITUDE))
+        return self.pad.shift(self.stances[foot][rows], heel_share, self.weight, speed, t)
 
     def lateral_shift(self, foot: Foot, t: Array) -> Array:
         """Return the shift of the load to the left under a foot at `t`, s, in m, (N); in a bend it is outwards."""
@@ -207,6 +222,7 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
             foot: np.array([0.0, *(_forefoot_share(stride) for stride in plan.strides[foot])]) for foot in Foot
         },
         rides=(*plan.rides, *plan.escalators),
+        pad=wearer.pad,
     )
 
 

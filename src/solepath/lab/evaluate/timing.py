@@ -12,7 +12,7 @@ import numpy as np
 from ...events import HeelStrike, ToeOff
 from ...types import Foot, Turn
 from ..measures.alignment import at_times
-from ..measures.contacts import force_contacts, merged, switch_contacts
+from ..measures.contacts import force_contacts, is_loaded, merged, switch_contacts
 from ..measures.drift import drift_figures, drift_of_strides
 from ..measures.legs import leg_errors, turn_times
 from ..measures.matching import TOLERANCE, Errors, Matching, interval_errors, match
@@ -177,6 +177,9 @@ def score_pressed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 def _against_switches(path: Path, meta: Meta, result: RecordingRun) -> Scored:
     """Score against the switches and, on a straight walk, against its length.
 
+    A toe-off is the opening of the toe switch while the heel switch bears no load. A foot whose heel is on the ground
+    does not leave it: so a standing wearer opens the toe switch, whose gyroscopes show no motion.
+
     The leg of a foot goes from its first to its last position. The wearer stood at both ends of the walk, but nobody
     recorded how near to the ends of the measured way."""
     truth = truth_of(path)
@@ -186,7 +189,7 @@ def _against_switches(path: Path, meta: Meta, result: RecordingRun) -> Scored:
         if heel := switch_contacts(t, counts[:, 1]):
             heel_strikes[foot] = [start for start, _ in heel]
         if toe := switch_contacts(t, counts[:, 0]):
-            toe_offs[foot] = [end for _, end in toe]
+            toe_offs[foot] = [end for _, end in toe if not is_loaded(t, counts[:, 1], end)]
         if "straight_path_m" in meta and len(foot_run.t):
             ends = [float(foot_run.t[0]), float(foot_run.t[-1])]
             legs += leg_errors(ends, [float(meta["straight_path_m"])], foot_run.t, foot_run.positions)

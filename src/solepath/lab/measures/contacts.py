@@ -40,6 +40,13 @@ def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, 
     return [(a, b) for (a, on), (b, _) in zip(edges, edges[1:], strict=False) if on]
 
 
+def is_loaded(t: NDArray[Any], counts: NDArray[Any], at: float) -> bool:
+    """Return True when a working switch reads more at the time `at`, s, than the level at which it closes."""
+    unloaded, loaded = np.percentile(counts, [UNLOADED_PERCENTILE, LOADED_PERCENTILE])
+    reading = counts[min(int(np.searchsorted(t, at)), len(counts) - 1)]
+    return bool(loaded - unloaded >= MIN_SWITCH_RANGE and reading > unloaded + CLOSING_SHARE * (loaded - unloaded))
+
+
 def force_contacts(t: NDArray[Any], force: NDArray[Any]) -> list[tuple[float, float]]:
     """Return the spans of contact (start, end), s, of a foot with the `force` (n,), N, at `t` (n,), s.
 

@@ -48,7 +48,18 @@ class BoxPlots:
     target: float | None = None
 
 
-Panel = FloorPanel | BoxPlots
+@frozen
+class Curves:
+    """A panel with curves over the x axis. `limits` are those of the y axis; None: all of the curves."""
+
+    title: str
+    curves: tuple[PictureTrack, ...]
+    x_label: str
+    y_label: str
+    limits: tuple[float, float] | None = None
+
+
+Panel = FloorPanel | BoxPlots | Curves
 
 
 @frozen

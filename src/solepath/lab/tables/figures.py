@@ -9,7 +9,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.tables import BoxPlots, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
+from ..reproduce.tables import BoxPlots, Curves, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Colours that colour-blind people can distinguish (Okabe and Ito 2008)."""
@@ -35,6 +35,8 @@ def draw(reproduction: Reproduction, path: Path, extension: str) -> None:
     for ax, panel in zip(axes, reproduction.panels, strict=False):
         if isinstance(panel, BoxPlots):
             _draw_boxes(ax, panel, reproduction)
+        elif isinstance(panel, Curves):
+            _draw_curves(ax, panel)
         else:
             _draw_floor(ax, panel)
         ax.set_title(panel.title, fontsize=10)
@@ -102,6 +104,19 @@ def _draw_floor(ax: Axes, panel: FloorPanel) -> None:
     ax.grid(color="0.92")
     ax.set_axisbelow(True)
     ax.legend(fontsize=8, loc="center" if len(panel.marks) > 1 else "best")
+
+
+def _draw_curves(ax: Axes, panel: Curves) -> None:
+    for k, curve in enumerate(panel.curves):
+        line = "--" if curve.style is DrawStyle.TRUTH else "-"
+        ax.plot(*_columns(curve), color=COLOURS[k % len(COLOURS)], linestyle=line, linewidth=1.2, label=curve.name)
+    if panel.limits is not None:
+        ax.set_ylim(*panel.limits)
+    ax.set_xlabel(panel.x_label)
+    ax.set_ylabel(panel.y_label)
+    ax.grid(color="0.92")
+    ax.set_axisbelow(True)
+    ax.legend(fontsize=8)
 
 
 def _columns(track: PictureTrack) -> tuple[list[float], list[float]]:

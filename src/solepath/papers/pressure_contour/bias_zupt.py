@@ -6,7 +6,7 @@ that calibration laps have shown (papers/pressure_contour/square.py) is subtract
 
 from __future__ import annotations
 
-from math import atan2, inf
+from math import atan2, inf, sqrt
 
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
@@ -16,7 +16,7 @@ from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
-from .acc_bias import AccelerometerBias
+from .acc_bias import AccelerometerBias, BiasNoise
 
 STANDING_DELAY = 1.0
 """Time after the start of a stance from which the calibrated drift is no longer subtracted, s; chosen by hand."""
@@ -34,6 +34,12 @@ class BiasZuptSettings(DedriftSettings):
     swing is assumed to have grown evenly, so half of it times the time since the foot last stood is subtracted from the
     position. The paper only sets the velocity to zero. Then a tilt error of a quarter of a degree, the accuracy of its
     sensor, costs a centimetre per stride."""
+    estimate_bias: bool = True
+    """Flag: the bias of the accelerometer is estimated (7) to (10); without it the paper's "position", with it its
+    "calibrated position"."""
+    gate_drift: bool = True
+    """Flag: the slope of calibration laps is used only if it is larger than chance explains (square.py). The paper uses
+    every slope."""
     turn_error: float = 0.0175
     """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 
@@ -66,8 +72,12 @@ class BiasZupt(LinearDedrift):
     """Flag: the attitude of the last sample is integrated, not reported by the device."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
-        drift = calibration.drift.get(foot)
-        return self if drift is None else evolve(self, settings=evolve(self.settings, drift=drift))
+        drift, rest = calibration.drift.get(foot), calibration.rest.get(foot)
+        settings = self.settings if drift is None else evolve(self.settings, drift=drift)
+        bias = self.bias
+        if rest is not None:
+            bias = AccelerometerBias(BiasNoise(rest.acc_density * sqrt(0.5 * rest.rate), rest.acc_wander))
+        return self if drift is None and rest is None else evolve(self, settings=settings, bias=bias)
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         LinearDedrift.start(self, attitude, tilt_sigma)
@@ -110,7 +120,8 @@ class BiasZupt(LinearDedrift):
         if not self.settings.remove_swing_drift:
             self.position = position
         self.standing_time += self.last_dt
-        self.bias.correct(self.motion_acc)
+        if self.settings.estimate_bias:
+            self.bias.correct(self.motion_acc)
         return True
 
     def bridge(self, dt: float) -> float:

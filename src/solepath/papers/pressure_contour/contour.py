@@ -20,7 +20,8 @@ integral of (u . r_hat) r_hat is pi u. The paper leaves two more points open:
   and in a twentieth with the paper's 24 cells. A level that is a fixed share of the heel's present mean pressure
   does not depend on the weight or on the cells' scale. With such levels a still heel seems to move at 1 to 2 mm/s, and
   the contours are slower than 4 mm/s in two thirds of the stance with 96 and with 24 cells. So shares are the default.
-  The setting `pascals` selects fixed levels, as in the paper.
+  That holds for a patch of fixed size. With one that spreads with the load, levels in kPa do about as well beside a
+  threshold of the wearer's own. The setting `pascals` selects fixed levels, as in the paper.
 
 Cost of a sample: a weighted sum of three cells for each of some 60 points, and one pass along each ray. Numbers without
 a source were chosen by hand."""

@@ -1,0 +1,98 @@
+"""Noise of a sensor at rest: what is put in comes out, and a sensor that moved is no calibration."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+import pytest
+
+from solepath.calibration import Calibration, CalibrationError, RestNoise, merged
+from solepath.papers.pressure_contour.bias_zupt import BiasZupt
+from solepath.papers.pressure_contour.rest import allan_variance, fit_noise, rest_calibration, rest_noise
+from solepath.types import Foot, Sample, Site
+from solepath.types.vector import GRAVITY
+
+RATE = 50.0
+ACC, GYRO = (1.2e-3, 1.5e-4), (6e-5, 2e-6)
+"""Density, u/sqrt(Hz), and walk, u/sqrt(s), of an accelerometer, m/s^2, and a gyroscope, rad/s."""
+
+
+def noise(density: float, walk: float, count: int, rng: np.random.Generator) -> np.ndarray:
+    white = density * sqrt(0.5 * RATE) * rng.standard_normal((count, 3))
+    return white + np.cumsum(walk / sqrt(RATE) * rng.standard_normal((count, 3)), axis=0)
+
+
+def at_rest(duration: float, site: Site = Site.RIGHT_FOOT, seed: int = 1) -> list[Sample]:
+    count, rng = int(duration * RATE), np.random.default_rng(seed)
+    acc = noise(*ACC, count, rng) + (0.3, -0.2, GRAVITY)
+    gyro = noise(*GYRO, count, rng) + (0.01, 0.0, -0.02)
+    return [
+        Sample(k / RATE, site, tuple(a), tuple(g))
+        for k, (a, g) in enumerate(zip(acc.tolist(), gyro.tolist(), strict=True))
+    ]
+
+
+def test_the_densities_and_walks_of_an_hour_at_rest_come_out() -> None:
+    (fit,) = rest_noise(at_rest(3600.0))
+    assert fit.foot is Foot.RIGHT and fit.duration == pytest.approx(3600.0, abs=0.1)
+    found = fit.noise
+    assert found.acc_density == pytest.approx(ACC[0], rel=0.03) and found.gyro_density == pytest.approx(
+        GYRO[0], rel=0.03
+    )
+    assert found.acc_wander == pytest.approx(ACC[1], rel=0.35) and found.gyro_wander == pytest.approx(GYRO[1], rel=0.35)
+    assert found.rate == pytest.approx(RATE)
+    assert fit.acc_instability < ACC[0]
+
+
+def test_two_minutes_show_the_densities() -> None:
+    left, right = rest_noise([*at_rest(150.0, Site.LEFT_FOOT, 2), *at_rest(150.0, Site.RIGHT_FOOT, 3)])
+    assert (left.foot, right.foot) == (Foot.LEFT, Foot.RIGHT)
+    for fit in (left, right):
+        assert fit.noise.acc_density == pytest.approx(ACC[0], rel=0.1)
+        assert fit.noise.gyro_density == pytest.approx(GYRO[0], rel=0.1)
+        assert fit.noise.acc_wander < 5.0 * ACC[1]
+
+
+def test_white_noise_averages_down_with_the_time_and_has_no_walk() -> None:
+    values = 0.02 * np.random.default_rng(4).standard_normal((100_000, 3))
+    tau, variance = allan_variance(values, 0.02)
+    assert tau[0] == 0.02 and variance[0] == pytest.approx(4e-4, rel=0.02)
+    assert variance[5] == pytest.approx(variance[0] / 32.0, rel=0.1)
+    density, walk = fit_noise(tau, variance, 2000.0)
+    assert density == pytest.approx(0.02 * sqrt(2.0 * 0.02), rel=0.02)
+    assert walk < 2e-4
+
+
+@pytest.mark.parametrize(
+    ("samples", "reason"),
+    [
+        (at_rest(60.0), "60 s without a gap; 120 s of rest"),
+        ([Sample(0.0, Site.RIGHT_FOOT, pressure=(1.0,))], "no foot's accelerations"),
+        (
+            [
+                Sample(one.t, one.site, (one.acc[0] + (2.0 if 90.0 < one.t < 93.0 else 0.0), *one.acc[1:]), one.gyro)
+                for one in at_rest(150.0)
+                if one.acc is not None
+            ],
+            "moved 90 s after the start",
+        ),
+    ],
+)
+def test_too_short_a_rest_and_a_sensor_that_moved_are_no_calibration(samples: list[Sample], reason: str) -> None:
+    with pytest.raises(CalibrationError, match=reason):
+        rest_noise(samples)
+
+
+def test_the_filter_trusts_a_standing_foot_by_the_noise_of_its_sensor_at_rest() -> None:
+    (fit,) = rest_noise(at_rest(150.0))
+    known = merged(Calibration(rest={Foot.LEFT: RestNoise(0.01, 1e-3, 1e-4, 1e-5, 100.0)}), rest_calibration([fit]))
+    assert set(known.rest) == set(Foot)
+    bias = BiasZupt().calibrated(Foot.RIGHT, known).bias
+    assert bias.settings.sample_noise == pytest.approx(ACC[0] * sqrt(0.5 * RATE), rel=0.1)
+    assert BiasZupt().calibrated(Foot.LEFT, known).bias.settings.sample_noise == pytest.approx(0.01 * sqrt(50.0))
+    bias.correct((-0.1, 0.0, 0.0))
+    usual = BiasZupt().bias
+    usual.correct((-0.1, 0.0, 0.0))
+    assert usual.variance is not None and bias.variance is not None
+    assert (bias.variance > usual.variance) == (bias.settings.sample_noise > usual.settings.sample_noise)
