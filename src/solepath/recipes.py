@@ -106,6 +106,7 @@ RECIPES: dict[str, str] = {
     "pressure-contour": "papers.pressure_contour.recipe:PRESSURE_CONTOUR",
     "gyroscope": "papers.pressure_contour.recipe:GYROSCOPE",
     "walking-modes": "papers.walking_modes.recipe:WALKING_MODES",
+    "walking-modes-printed": "papers.walking_modes.recipe:WALKING_MODES_PRINTED",
     "touchdown-height": "papers.walking_modes.recipe:TOUCHDOWN_HEIGHT",
     "touchdown-acceleration": "papers.walking_modes.recipe:TOUCHDOWN_ACCELERATION",
     "touchdown-pressure": "papers.walking_modes.recipe:TOUCHDOWN_PRESSURE",

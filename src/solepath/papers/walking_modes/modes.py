@@ -103,7 +103,7 @@ class Modes(TrackPart):
         """Return the part with the wearer's limbs, weight and compensation; methods I to III take no compensation."""
         settings = self.settings
         compensation = settings.compensation
-        if compensation is not None and calibration.modes:
+        if compensation is not None and settings.own_compensation and calibration.modes:
             compensation = merge_own(compensation, calibration.modes)
         limbs, weight = calibration.limbs or settings.limbs, calibration.weight or settings.weight
         return evolve(self, settings=evolve(settings, limbs=limbs, weight=weight, compensation=compensation))
@@ -136,6 +136,7 @@ class Modes(TrackPart):
                 heading = None if view.north is None else atan2(-view.north[1], view.north[0])
                 self.places.chain.set_own_attitude(SITE_OF_FOOT[foot], t, view.attitude, heading)
         self.signs.add_view(view, self.places.sides[foot].track[2])
+        self.recognition.soles[foot].turn.add_view(view)
         events = [] if view.pressed is None else self._add_pressure(view, view.pressed)
         return events + self._update_reference(foot, t, known_at)
 
