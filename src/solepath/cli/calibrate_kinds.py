@@ -205,7 +205,8 @@ def _add_modes(kinds: Any) -> None:
         "--heading",
         metavar="DEGREES",
         type=parse_degrees,
-        help="where the wearer looks at the start, in the world that all sensors share (default: the first step says)",
+        help="where the wearer looks at the start, in the world that all sensors share; x of the marks must be that "
+        "direction (default: the first step says, and the marks may be in any frame)",
     )
 
 
