@@ -62,8 +62,7 @@ def gives(number: int, seed: int, scale: float = 1.0) -> dict[Site, Give]:
         new = np.random.default_rng([seed, 9, order]).standard_normal((4, 3))
         units = np.array((radians(1.0), radians(1.0), 1e-3, 1e-3))[:, None]
         knee_turn, load_turn, knee_shift, load_shift = (
-            (float(x), float(y), float(z))
-            for x, y, z in scale * units * np.array(spreads) * (own + NEW_SHARE * new)
+            (float(x), float(y), float(z)) for x, y, z in scale * units * np.array(spreads) * (own + NEW_SHARE * new)
         )
         found[site] = Give(knee_turn, load_turn, knee_shift, load_shift)
     return found
@@ -92,9 +91,10 @@ class SkinnedBody(Body):
         return origin + np.einsum("nij,nj->ni", turn, shift), turn @ matrices(_from_rotation_vectors(angles))
 
     def _knee(self, foot: Foot, t: Array) -> Array:
-        """Return the angle by which the knee is bent at `t`, s, rad, (N, 1)."""
-        leg = self.leg(foot, t)
-        return np.arccos(np.clip(np.sum(leg.thigh[:, :, 2] * leg.shank[:, :, 2], axis=1), -1.0, 1.0))[:, None]
+        """Return by how much more than at time 0 the knee is bent at `t`, s, rad, (N, 1)."""
+        leg = self.leg(foot, np.concatenate(([0.0], t)))
+        angle = np.arccos(np.clip(np.sum(leg.thigh[:, :, 2] * leg.shank[:, :, 2], axis=1), -1.0, 1.0))
+        return np.asarray(angle[1:, None] - angle[0])
 
 
 def skinned(body: Body, load_shares: dict[Foot, Array], give: dict[Site, Give]) -> Body:

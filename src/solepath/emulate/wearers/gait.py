@@ -22,6 +22,7 @@ from ..routes.styles import StrideKind
 from .curves import Array, Rng
 from .shoe import Rocker, Shoe
 
+
 class LoadLaw(Enum):
     """Where the load under both feet moves in a bend (load.py)."""
 

@@ -35,7 +35,7 @@ def panels(results: Sequence[Mapping[str, Corners]], methods: tuple[str, ...], s
         deviation_tracks.append(PictureTrack(method, tuple(deviation for _, deviation in deviations), DrawStyle.DOTS))
     marks = tuple((point, x, y) for point, (x, y) in CORNER_POSITIONS.items())
     boxes = [
-        BoxPlots(f"deviation in {axis} (fig. 16)", tuple(corner_row("C", m, axis) for m in methods), "m", 0.0)
+        BoxPlots(f"deviation in {axis} at C (fig. 16)", tuple(corner_row("C", m, axis) for m in methods), "m", 0.0)
         for axis in "xy"
     ]
     return (

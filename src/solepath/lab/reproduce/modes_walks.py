@@ -74,10 +74,10 @@ class Conditions:
 
     def samples(self, walker: Walker, calibration: Calibration, seed: int) -> list[Sample]:
         """Return the samples of the seven sensors and both insoles, whose errors and mounting are drawn from `seed`."""
-        layouts = {SITE_OF_FOOT[foot]: one.layout for foot, one in calibration.insoles.items() if one.layout is not None}
-        return limb_samples(
-            walker, RATE, seed=seed, layouts=layouts, cell_part=WORN_RESISTIVE, tissue=self.tissue
-        )
+        layouts = {
+            SITE_OF_FOOT[foot]: one.layout for foot, one in calibration.insoles.items() if one.layout is not None
+        }
+        return limb_samples(walker, RATE, seed=seed, layouts=layouts, cell_part=WORN_RESISTIVE, tissue=self.tissue)
 
 
 USUAL = Conditions()

@@ -115,7 +115,9 @@ def reproduce(
         for k in range(count)
     ]
     results = list(run_jobs(walk, jobs, processes=processes, progress=progress, **counted(count)))
-    bends = [BendsJob(subject, 1000 * seed + 700 + subject, BEND_STEPS, c) for c in BENDS.values() for subject in wearers]
+    bends = [
+        BendsJob(subject, 1000 * seed + 700 + subject, BEND_STEPS, c) for c in BENDS.values() for subject in wearers
+    ]
     shares = list(run_jobs(recognise, bends, processes=processes, progress=progress, **counted(n_bends)))
     others = [c for c in CONDITIONS.values() if c != USUAL]
     again = [

@@ -107,9 +107,7 @@ def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None
     return sorted([event for event in events if isinstance(event, TouchedDown)], key=attrgetter("t"))
 
 
-def step_errors(
-    marks: Iterable[ModeMark], downs: list[TouchedDown], turn: float | None = None
-) -> list[StepError]:
+def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown], turn: float | None = None) -> list[StepError]:
     """Return the error of every step to the last of four consecutive marked touchdowns of alternate feet.
 
     The first two touchdowns serve to compute the direction of walking. `turn` is the angle from the session's frame to

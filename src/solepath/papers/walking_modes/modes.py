@@ -108,6 +108,9 @@ class Modes(TrackPart):
         limbs, weight = calibration.limbs or settings.limbs, calibration.weight or settings.weight
         return evolve(self, settings=evolve(settings, limbs=limbs, weight=weight, compensation=compensation))
 
+    def headed(self, heading: float) -> Modes:
+        return evolve(self, settings=evolve(self.settings, heading=heading))
+
     def feed_limb(self, sample: Sample) -> Sequence[PartOutput]:
         """Add a sample of pelvis, thigh or shank: its attitude, or acceleration and angular velocity."""
         t = sample.t
