@@ -1,4 +1,4 @@
-"""Skin moves over the bones as the literature has it: some degrees and centimetres at the thigh, nothing in standing."""
+"""Skin moves over the bones as the literature has it: some degrees and centimetres at the thigh, none in standing."""
 
 from __future__ import annotations
 

@@ -35,8 +35,8 @@ def add_recipe(command: argparse.ArgumentParser) -> None:
         "--heading",
         metavar="DEGREES",
         type=parse_degrees,
-        help="where the wearer looks at the start, to the left of x of the world that all sensors share, which is north "
-        "for most suits; for walking-modes with body sensors (default: the first steps say)",
+        help="where the wearer looks at the start, to the left of x of the world that all sensors share (for most "
+        "suits, north); for walking-modes with body sensors (default: the first steps say)",
     )
 
 

@@ -98,7 +98,7 @@ def worn_body(walker: Walker, bones: Body, seed: int, tissue: float = 1.0) -> Bo
     """Return the body as sensors see it that are strapped on with this seed: the motion of the skin, not of the bones.
 
     `tissue` is the motion of soft tissue as a multiple of that of soft_tissue.py."""
-    t = bones.t_start + INTERVAL * np.arange(len(bones.track))
+    t = np.asarray(bones.t_start + INTERVAL * np.arange(len(bones.track)), dtype=np.float64)
     load_shares = {foot: walker.loads.share(foot, t) for foot in Foot}
     return skinned(bones, load_shares, gives(walker.wearer.number, seed, tissue))
 

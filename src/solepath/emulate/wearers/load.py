@@ -18,8 +18,8 @@ feet so that most of this distance is compensated. The share LOAD_SHIFT_SHARE of
 in a turn to the left, towards the right edge of both feet. Insoles show this under the heels (Turcato et al. 2015, J
 NeuroEng Rehabil 12:4: the lateral heel of the outer foot bears more, the lateral heel of the inner foot less). Under
 the metatarsal heads they show the opposite. So there are two laws (`LoadLaw`): by one the load moves outward under the
-whole foot, by the other outward under the heel and, assumed as far, inward under forefoot and toes. Numbers without a source were chosen by hand for
-plausible loads and not swept."""
+whole foot, by the other outward under the heel and, assumed as far, inward under forefoot and toes. Numbers without a
+source were chosen by hand for plausible loads and not swept."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Emulated walks of Gong et al. 2023: over marks on the floor, around a rectangle, and along bends by two load laws.
 
 What the methods know of a wearer is not what the emulator has. The lengths of the limbs are measured from outside, with
-errors (`measured_limbs`). The sensors sit on skin that moves (emulate/sensors/soft_tissue.py). The load in bends moves by
-the law of the literature and by chance, not by that of the rules of table 2."""
+errors (`measured_limbs`). The sensors sit on skin that moves (emulate/sensors/soft_tissue.py). The load in bends moves
+by the law of the literature and by chance, not by that of the rules of table 2."""
 
 from __future__ import annotations
 

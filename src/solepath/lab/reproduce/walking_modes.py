@@ -157,7 +157,7 @@ def _methods(calibration: Calibration, ours: Compensation) -> dict[str, tuple[Re
     own = calibration.modes or {}
     modes = next(part for part in WALKING_MODES.parts if isinstance(part, Modes))
     by_table_2 = evolve(modes, settings=evolve(modes.settings, rule=ModeRule.TABLE_2))
-    one = {foot: dict.fromkeys(MODES, _mean(list(row.values()))) for foot, row in own.items()}
+    one: Compensation = {foot: {mode: _mean(list(row.values())) for mode in MODES} for foot, row in own.items()}
     recipes = {
         **METHODS,
         "IV printed": WALKING_MODES_PRINTED,
@@ -250,8 +250,7 @@ def _notes(results: Sequence[Mapping[str, Corners]], rows: Sequence[FigureRow]) 
             of_mean.append(f"{method} {100.0 * float(np.hypot(*deviations.mean(axis=0))):.1f}")
             mean_of.append(f"{method} {100.0 * float(np.hypot(*deviations.T).mean()):.1f}")
             if method in METHODS:
-                mean, _, _ = published.CORNERS[point][method]
-                paper.append(f"{method} {100.0 * float(np.hypot(*mean)):.1f}")
+                paper.append(f"{method} {100.0 * float(np.hypot(*published.CORNERS[point][method][0])):.1f}")
         better = sum(np.hypot(*one["IV"][point]) < np.hypot(*one["III"][point]) for one in results)
         lines.append(f"{point}: the length of our mean deviation, the paper's statistic, is {', '.join(of_mean)} cm; "
                      f"that of the paper is {', '.join(paper)} cm.")  # fmt: skip

@@ -23,8 +23,8 @@ WALKING_MODES = Recipe(
 )
 """Method IV of Gong et al. 2023, and ours in two places: touchdowns by maximum pressure, compensated by walking mode.
 
-The mode follows from how the feet turn (turning.py), and the compensation is the wearer's own if there is one (`solepath
-calibrate modes`). Without it, it is the paper's table 1, which holds for the paper's wearers."""
+The mode follows from how the feet turn (turning.py), and the compensation is the wearer's own if there is one
+(`solepath calibrate modes`). Without it, it is the paper's table 1, which holds for the paper's wearers."""
 
 WALKING_MODES_PRINTED = WALKING_MODES.exchanged(
     Modes,

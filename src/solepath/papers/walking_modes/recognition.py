@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from math import fsum
 
+from ...foot.view import FootView
 from ...types import OTHER, Foot, Layout, WalkingMode
 from ...types.attrs import define, field
 from .mode import LEAST_STEP_LENGTH, LONGEST_CONTACT, STANDING_WEIGHT, Contact, at_reference_speed, decide
@@ -62,6 +63,10 @@ class Recognition:
     def __attrs_post_init__(self) -> None:
         self.soles = {foot: SoleContacts() for foot in Foot}
 
+    def add_view(self, view: FootView) -> None:
+        """Add a sample of a foot, which may turn."""
+        self.soles[view.foot].turn.add_view(view)
+
     def add_pressure(
         self, foot: Foot, state: FootState, cells: tuple[float, ...], layout: Layout | None, t: float, both_feet: bool
     ) -> WalkingMode | None:
@@ -104,7 +109,7 @@ class Recognition:
         self.soles[foot].turn.reset()
 
     def is_blind(self, foot: Foot) -> bool:
-        """Return whether the mode is wanted of cells that do not show left and right, so that they show only standing."""
+        """Return whether the mode is asked of cells that do not show left and right: they show only standing."""
         return self.settings.rule is not ModeRule.TURN and self.soles[foot].contact.blind
 
     def add_touchdown(self, foot: Foot, step: float) -> None:
