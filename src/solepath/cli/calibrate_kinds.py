@@ -10,6 +10,7 @@ from typing import Any
 from ..calibration import Calibration, InsoleCalibration
 from ..show.tables.table import number, table
 from ..types import Foot
+from .calibrate_limbs import add_limbs
 from .common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
 from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
@@ -260,5 +261,5 @@ def _walk(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     return heading_calibration(fits), [table(header, rows)]
 
 
-KINDS = (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, _add_modes, _add_walk)
+KINDS = (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk)
 """Functions that add the kinds to the parser, in the order of the help text."""

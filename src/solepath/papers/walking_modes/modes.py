@@ -7,7 +7,7 @@ without a compensation. Method IV is III with it.
 
 places.py has P_L, P_R and V_change, compensation.py epsilon_P, recognition.py the walking mode. P_L and P_R come from
 the chain of seven attitudes (limbs.py). Without sensors above the ankles they come from the feet's own inertial tracks;
-a Limitation reports that once.
+a Limitation reports that once. Numbers without a source were chosen by hand.
 
 The paper leaves these points open:
 
@@ -19,9 +19,7 @@ The paper leaves these points open:
   without the chain method I compares heights above each foot's last foot-flat.
 - Undetected touchdowns. One is also reported if a foot becomes the reference after it has moved, or if the reference
   foot comes down elsewhere. If a foot's sign fails (evidence.py), its own strides replace it. If one foot is absent,
-  the other is the only reference and follows its own track.
-
-Numbers without a source were chosen by hand."""
+  the other is the only reference and follows its own track."""
 
 from __future__ import annotations
 
