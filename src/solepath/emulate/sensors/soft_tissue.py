@@ -41,12 +41,16 @@ per rad of the knee and from half to the whole load on the leg, and displacement
 
 @frozen
 class Give:
-    """The constants of one sensor's soft tissue: rotation, rad, and displacement, m, in the frame of the segment."""
+    """The constants of one sensor's soft tissue, in the frame of the segment."""
 
     knee_turn: Vec3
+    """Rotation per rad by which the knee is bent, rad."""
     load_turn: Vec3
+    """Rotation when the leg takes the whole load instead of half of it, rad."""
     knee_shift: Vec3
+    """Displacement per rad by which the knee is bent, m."""
     load_shift: Vec3
+    """Displacement when the leg takes the whole load instead of half of it, m."""
 
 
 def gives(number: int, seed: int, scale: float = 1.0) -> dict[Site, Give]:

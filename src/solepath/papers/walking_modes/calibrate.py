@@ -194,17 +194,19 @@ def fit_modes(
     Each walk is a recording and its csv file of marks (`read_marks`). `known` has the wearer's limbs and insoles.
     `heading` is the direction, rad, that the wearer faces at the start of each walk, in the world that the sensors
     share; x of the marks must be that direction. None takes the direction of the first step, which must then be
-    straight, and marks in any frame. Raises CalibrationError when a walk
-    has no four consecutive marks."""
+    straight, and marks in any frame; so do feet without body sensors, whose own tracks know no north. Raises
+    CalibrationError when a walk has no four consecutive marks."""
     known = Calibration() if known is None else known
     errors: list[StepError] = []
+    known_heading = heading is not None
     for walk, path in walks:
-        turn = None if heading is None else 0.0
+        known_heading = known_heading and any([sample.site.foot is None for sample in walk.samples])
+        turn = 0.0 if known_heading else None
         walk_errors = step_errors(read_marks(path), touchdowns(walk, known, heading), turn)
         if not walk_errors:
             raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
         errors += walk_errors
-    return Calibration(modes=mean_errors(errors, heading is not None))
+    return Calibration(modes=mean_errors(errors, known_heading))
 
 
 def _touchdown_index(mark: ModeMark, downs: list[TouchedDown]) -> int:
