@@ -7,7 +7,7 @@ import pytest
 
 from solepath.emulate.routes.laps import straight
 from solepath.emulate.sensors.soft_tissue import gives
-from solepath.emulate.sensors.suit import worn_body
+from solepath.emulate.sensors.suit import limb_samples, worn_body
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import SUBJECTS, Wearer
 from solepath.emulate.wearers.walker import Walker
@@ -61,3 +61,18 @@ def test_a_study_may_take_it_away_or_double_it(scale: float) -> None:
     assert set(scaled) == (set(usual) if scale else set())
     for site, give in scaled.items():
         assert give.knee_turn == pytest.approx([scale * value for value in usual[site].knee_turn])
+
+
+def test_attitudes_alone_are_those_of_whole_samples() -> None:
+    walker = Walker(straight(2.0), SUBJECTS[0], seed=2)
+    whole, alone = (
+        [
+            s
+            for s in limb_samples(walker, 25.0, attitude=None, errors=None, limb_attitudes_only=only)
+            if s.site in SHANKS
+        ]
+        for only in (False, True)
+    )
+    for one, other in zip(whole, alone, strict=True):
+        assert one.quat is not None and other.quat is not None and one.acc is not None and other.acc is None
+        assert abs(float(np.dot(one.quat, other.quat))) == pytest.approx(1.0, abs=1e-12)

@@ -15,6 +15,7 @@ from ...types.vector import from_rotation_vector
 from ..wearers.curves import Array, Rng
 from ..wearers.limbs import INTERVAL, Body, body
 from ..wearers.shoe import ON_INSTEP, Mounting
+from ..wearers.turning import multiply_quaternions, quaternions
 from ..wearers.walker import Walker
 from .device import Device
 from .dot import Dot
@@ -57,6 +58,7 @@ def limb_samples(
     layouts: Mapping[Site, Layout] | None = None,
     cell_part: CellErrors | None = None,
     tissue: float = 1.0,
+    limb_attitudes_only: bool = False,
 ) -> list[Sample]:
     """Return samples of all seven sites on the true clock at k / rate s, in the order of time and of Site.
 
@@ -65,7 +67,8 @@ def limb_samples(
     neither saturated nor rounded. None: exact values. The default is MPU9250, because Gong et al. 2023 give only the
     attitude errors of their device. `limbs` are the wearer's own by default; `turned` is that of `limb_mounting`. With
     `layouts`, foot samples have the loads of the cells, N, exact or read by `cell_part` at the layout's scale. `tissue`
-    is the motion of soft tissue under the sensors above the ankles, as a multiple of that of soft_tissue.py."""
+    is the motion of soft tissue under the sensors above the ankles, as a multiple of that of soft_tissue.py. With
+    `limb_attitudes_only` these send nothing but `quat`, which takes a fifth of the time to emulate."""
     wearer = walker.wearer
     limbs = limbs or wearer.limbs
     if limbs == wearer.limbs:
@@ -78,7 +81,12 @@ def limb_samples(
     for order, site in enumerate(Site):
         rng = np.random.default_rng([seed, 6, order])
         mounting = limb_mounting(site, limbs, seed, turned)
-        if errors is None:
+        acc: Array | None
+        gyro: Array | None
+        if limb_attitudes_only and site.foot is None:
+            skin = quaternions(body_motion.segment(site, sampling.times)[1])
+            acc, gyro, turn = None, None, multiply_quaternions(skin, np.array([mounting.attitude]))
+        elif errors is None:
             true = body_motion.at(site, sampling.times, mounting)
             acc, gyro, turn = true.force, true.rate, true.attitude
         else:

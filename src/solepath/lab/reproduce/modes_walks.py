@@ -77,7 +77,15 @@ class Conditions:
         layouts = {
             SITE_OF_FOOT[foot]: one.layout for foot, one in calibration.insoles.items() if one.layout is not None
         }
-        return limb_samples(walker, RATE, seed=seed, layouts=layouts, cell_part=WORN_RESISTIVE, tissue=self.tissue)
+        return limb_samples(
+            walker,
+            RATE,
+            seed=seed,
+            layouts=layouts,
+            cell_part=WORN_RESISTIVE,
+            tissue=self.tissue,
+            limb_attitudes_only=True,
+        )
 
 
 USUAL = Conditions()
