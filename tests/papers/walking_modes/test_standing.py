@@ -22,7 +22,7 @@ def samples() -> tuple[Sample, ...]:
     return tuple(limb_samples(Walker(straight(3.0), seed=4), 50.0, seed=4))
 
 
-def test_who_stands_with_seven_sensors_can_begin_to_walk() -> None:
+def test_who_stands_with_seven_sensors_may_walk_on() -> None:
     stood = check_standing([sample for sample in samples() if sample.t < 1.5])
     assert [sensor.site for sensor in stood] == list(SEGMENTS)
     assert all(sensor.tilt < 0.6 and not sensor.own_world for sensor in stood)

@@ -24,7 +24,7 @@ from .shoe import Rocker, Shoe
 
 
 class LoadLaw(Enum):
-    """Where the load under both feet moves in a bend (load.py)."""
+    """Law by which the load under both feet moves in a bend (load.py)."""
 
     OUTWARD = "outward"
     """Away from the centre of the bend under the whole foot."""
@@ -71,7 +71,7 @@ class Wearer:
     load_variation: float = 0.0
     """Variation of the load's lateral position under the foot, m."""
     load_law: LoadLaw = LoadLaw.OUTWARD
-    """Where the load moves in a bend."""
+    """Law by which the load moves in a bend."""
     mark_error: float = 0.01
     """Standard deviation of the distance along the path from a mark to the foot that steps on it, m (assumed)."""
     swerve: tuple[float, float] = (1.0, 1.0)

@@ -88,7 +88,7 @@ class Loads:
     rides: tuple[GroundRide, ...] = ()
     """Rides of the wearer in elevators and on escalators."""
     law: LoadLaw = LoadLaw.OUTWARD
-    """Where the load moves in a bend."""
+    """Law by which the load moves in a bend."""
 
     def total(self, foot: Foot, t: Array) -> Array:
         """Return the load under one foot at times `t`, s, in newtons, (N)."""

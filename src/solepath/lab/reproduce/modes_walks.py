@@ -56,7 +56,7 @@ class Conditions:
     tissue: float = 1.0
     """Motion of soft tissue, as a multiple of that of soft_tissue.py."""
     law: LoadLaw = LoadLaw.HEEL_OUT_FOREFOOT_IN
-    """Where the load moves in a bend."""
+    """Law by which the load moves in a bend."""
     variation: float = LOAD_VARIATION
     """Variation of the load's lateral position, m."""
 

@@ -20,7 +20,7 @@ from ...types.attrs import define, field
 from .mode import LEAST_STEP_LENGTH, LONGEST_CONTACT, STANDING_WEIGHT, Contact, at_reference_speed, decide
 from .settings import ModeRule, ModesSettings
 from .touchdown import FootState, PressureTouchdown
-from .turning import FootTurn, mode_of_curvature
+from .turning import StrideTurn, mode_of_curvature
 
 MEAN_SAMPLES = 2000
 """Number of samples over which the mean load of both feet is a plain mean; later samples have weight 1/2000 each."""
@@ -38,7 +38,7 @@ class SoleContacts:
     """Flag: the foot is in contact now."""
     mode: WalkingMode | None = field(default=None, init=False)
     """Latest mode of the foot's contacts; None before the first."""
-    turn: FootTurn = field(factory=FootTurn, init=False)
+    turn: StrideTurn = field(factory=StrideTurn, init=False)
     """Turn of the foot in its newest stride."""
     curvature: float | None = field(default=None, init=False)
     """Curvature of the path in the foot's newest stride, 1/m, left positive; None if unknown or in standing."""

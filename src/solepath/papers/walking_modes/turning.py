@@ -38,7 +38,7 @@ def mode_of_curvature(curvature: float) -> WalkingMode:
 
 
 @define
-class FootTurn:
+class StrideTurn:
     """The turn of one foot in its newest stride."""
 
     flat: Quat | None = field(default=None, init=False)
