@@ -85,6 +85,16 @@ class Recipe:
         parts = tuple([part for part in replaced if part is not None])
         return evolve(self, name=self.name if name is None else name, parts=parts)
 
+    def headed(self, heading: float) -> Recipe:
+        """Return the recipe for a wearer who starts with this heading, rad, left positive, in the world of all sensors.
+
+        LookupError is raised when no part has a use for it."""
+        found = [part.headed(heading) for part in self.parts]
+        if all([part is None for part in found]):
+            raise LookupError(f"recipe {self.name} finds the first heading by itself and takes none")
+        parts = [part if new is None else new for part, new in zip(self.parts, found, strict=True)]
+        return evolve(self, parts=tuple(parts))
+
     def order(self) -> str:
         """Return the names of the parts of the body, a line for each, in the order in which they receive events."""
         place = "Particles" if self.place is None else type(self.place).__name__
@@ -107,6 +117,7 @@ RECIPES: dict[str, str] = {
     "pressure-contour-printed": "papers.pressure_contour.recipe:PRESSURE_CONTOUR_PRINTED",
     "gyroscope": "papers.pressure_contour.recipe:GYROSCOPE",
     "walking-modes": "papers.walking_modes.recipe:WALKING_MODES",
+    "walking-modes-printed": "papers.walking_modes.recipe:WALKING_MODES_PRINTED",
     "touchdown-height": "papers.walking_modes.recipe:TOUCHDOWN_HEIGHT",
     "touchdown-acceleration": "papers.walking_modes.recipe:TOUCHDOWN_ACCELERATION",
     "touchdown-pressure": "papers.walking_modes.recipe:TOUCHDOWN_PRESSURE",

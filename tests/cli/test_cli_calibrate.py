@@ -12,15 +12,17 @@ from commands import run, run_failing
 from recordings import recorded
 from walks import columns_of
 
-from solepath.calibration import Calibration, InsoleCalibration, ShoeGeometry
+from solepath.calibration import Calibration, InsoleCalibration, Limbs, ShoeGeometry
 from solepath.calibration.file import read_calibration, write_calibration
-from solepath.emulate.routes.laps import marked, marks, square, write_marks
+from solepath.emulate.routes.laps import marked, marks, square, straight, write_marks
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.suit import suit
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.recipes import NAMES, by_name
 from solepath.types import Foot, Site, WalkingMode
+from solepath.types.attrs import evolve
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
@@ -167,6 +169,19 @@ def test_the_offset_of_touchdowns_is_learnt_from_a_walk_over_marks(tmp_path):
     assert header.split() == ["foot", "mode", "forward", "cm", "left", "cm"]
     assert [line.split()[:2] for line in (left, right)] == [["left", "STRAIGHT"], ["right", "STRAIGHT"]]
     assert set(calibrated(out).modes) == set(Foot)
+
+
+def test_a_stand_with_seven_body_sensors_gives_limbs_and_a_walk_with_them_takes_a_heading(tmp_path):
+    walk = emulate(straight(5.0, 1.1), devices=suit(Limbs(), 3), seed=2)
+    stand, out = recorded(tmp_path / "stand.jsonl", walk.packets), tmp_path / "me.json"
+    result = run("calibrate", "limbs", stand, "--stature", "1.75", "--spines", "0.25", "--out", out)
+    assert result.returncode == 0 and result.stderr == ""
+    assert [line.split()[0] for line in result.stdout.splitlines()[2:4]] == ["pelvis", "left"]
+    assert calibrated(out).limbs == evolve(Limbs(), hip_width=0.18)
+    result = run("track", stand, "--recipe", "walking-modes", "--calibration", out, "--heading", "0")
+    assert result.returncode == 0 and "STRAIGHT" in result.stdout
+    failed = run_failing("track", stand, "--heading", "0")
+    assert failed == "solepath: --heading: recipe default finds the first heading by itself and takes none\n"
 
 
 def test_unusable_input_is_rejected_in_one_line_and_nothing_is_written(packets, bare, tmp_path):

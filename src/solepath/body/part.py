@@ -120,6 +120,12 @@ class Part(Protocol):
         """Return the part for a wearer with this calibration; called once, before any other method."""
         return self
 
+    def headed(self, heading: float) -> Self | None:
+        """Return the part for a wearer who starts with this heading, rad, left positive, in the world of all sensors.
+
+        None if the part has no use for it."""
+        return None
+
     def ready(self) -> None:
         """Load the files that the part needs; called for a new wearer and for a wearer restored from a saved state.
 

@@ -10,6 +10,7 @@ from typing import Any
 from ..calibration import Calibration, InsoleCalibration
 from ..show.tables.table import number, table
 from ..types import Foot
+from .calibrate_limbs import add_limbs
 from .common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
 from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
@@ -205,7 +206,8 @@ def _add_modes(kinds: Any) -> None:
         "--heading",
         metavar="DEGREES",
         type=parse_degrees,
-        help="where the wearer looks at the start, in the world that all sensors share (default: the first step says)",
+        help="where the wearer looks at the start, in the world that all sensors share; x of the marks must be that "
+        "direction (default: the first step says, and the marks may be in any frame)",
     )
 
 
@@ -284,5 +286,5 @@ def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     return rest_calibration(fits), lines
 
 
-KINDS = (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, _add_modes, _add_walk, _add_rest)
+KINDS = (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest)
 """Functions that add the kinds to the parser, in the order of the help text."""

@@ -11,18 +11,20 @@ from ..calibration import Calibration
 from ..recording import RecordingError, Source, printable, read_start_time
 from ..session import Session
 from ..types import Packet, Sample
-from .common.failure import note, recipe_named
+from .common.failure import note
 from .common.files import REPORT, OutputFile, add_force, check_outputs, check_writable, files_of_track
 from .common.inputs import (
     add_calibration,
     add_clocks,
     add_floorplan,
     add_foot,
+    add_recipe,
     assumed_foot,
     calibration_of,
     check_pressure,
     floorplan_of,
     foot_of,
+    recipe_of,
     source_of,
     undo_clocks,
 )
@@ -46,7 +48,7 @@ def add_to(commands: Any) -> None:
         description="Run a recording of packets (JSON Lines) or of samples (.npz, .csv) and print a summary.",
     )
     command.add_argument("file", metavar="FILE", type=Path, help="the recording")
-    command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+    add_recipe(command)
     add_calibration(command)
     add_floorplan(command)
     add_foot(command)
@@ -72,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
     from .common.loop import stop_signals_raise
     from .common.results import Results
 
-    recipe = recipe_named(options.recipe)
+    recipe = recipe_of(options)
     outputs = _check_outputs(options)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)

@@ -115,6 +115,8 @@ class Observer:
     """The last StrideFused: the distance walked by both feet."""
     modes: Counter[WalkingMode] = field(factory=Counter)
     """Number of touchdowns in each walking mode."""
+    touchdown: TouchedDown | None = None
+    """The last TouchedDown, final or not."""
     flights: Counter[bool] = field(factory=Counter)
     """Number of flights of stairs upwards (True) and downwards (False)."""
     elevator_rides: Counter[bool] = field(factory=Counter)
@@ -231,8 +233,10 @@ class Observer:
                 self.timeline.add(event, MAX_ACTIVITY_CHANGES)
             case StrideFused(final=True):
                 self.fused = event
-            case TouchedDown(mode=mode, final=True):
-                self.modes[mode] += 1
+            case TouchedDown(mode=mode, final=final):
+                self.touchdown = event
+                if final:
+                    self.modes[mode] += 1
             case FlightClimbed(up=up, final=True):
                 self.flights[up] += 1
             case LiftRidden(up=up, final=True):

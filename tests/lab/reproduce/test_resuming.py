@@ -6,8 +6,10 @@ import attrs
 import pytest
 from commands import run, run_failing
 
-from solepath.lab.reproduce import kupt_dfpc
-from solepath.lab.reproduce.done_jobs import DoneJobs, DoneJobsError
+from solepath.calibration import Calibration
+from solepath.lab.reproduce import kupt_dfpc, modes_walks, pressure_contour, walking_modes
+from solepath.lab.reproduce.done_jobs import DoneJobs, DoneJobsError, describe_job
+from solepath.lab.reproduce.modes_walks import ModesJob, with_compensation
 from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.seeds import reproduce_seeds
 from solepath.lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json
@@ -96,6 +98,22 @@ def test_a_result_of_other_fields_is_reported(tmp_path):
     file.write_text(file.read_text().replace('"length"', '"width"'))
     with pytest.raises(DoneJobsError, match="cannot be read"):
         run_numbers(file, [1])
+
+
+def test_jobs_that_differ_in_anything_are_different_jobs():
+    recipes = (walking_modes.METHODS["IV"], with_compensation(walking_modes.METHODS["IV"], {}))
+    jobs = [ModesJob(0, seed, {"IV": (recipe, Calibration())}) for seed in (1, 2) for recipe in recipes]
+    jobs += [attrs.evolve(jobs[0], methods={"IV": (recipes[0], Calibration(weight=700.0))})]
+    described = [describe_job(modes_walks.walk, job) for job in jobs]
+    described += [
+        describe_job(modes_walks.learn, jobs[0]),
+        describe_job(kupt_dfpc.walk, 3),
+        describe_job(kupt_dfpc.walk, 4),
+    ]
+    loops = pressure_contour.loop_jobs(6, 1) + pressure_contour.short_jobs(2, 1) + pressure_contour.setup_jobs(1)
+    described += [describe_job(pressure_contour.walk, job) for job in loops]
+    assert len(set(described)) == len(described) > 20
+    assert describe_job(modes_walks.walk, jobs[0]) == described[0]
 
 
 def of_seed(walks, seed, runner):

@@ -111,6 +111,16 @@ def test_steps_that_are_measured_too_short_have_that_error_wherever_the_marks_x_
     assert [(error.forward, error.left) for error in errors] == [pytest.approx((0.02, 0.0), abs=1e-9)] * 6
 
 
+def test_with_a_known_heading_what_turns_every_step_is_an_error_of_the_wearer() -> None:
+    marked_points, downs = straight_walk(0.0, turned=0.05)  # measured 0.05 rad to the right of the marks
+    mode = WalkingMode.STRAIGHT
+    fitted = mean_errors(step_errors(marked_points, downs))
+    known = mean_errors(step_errors(marked_points, downs, turn=0.0), known_heading=True)
+    for foot in Foot:
+        assert fitted[foot][mode] == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert 0.5 * (known[Foot.LEFT][mode][1] + known[Foot.RIGHT][mode][1]) == pytest.approx(0.6 * sin(0.05), rel=0.05)
+
+
 def test_errors_do_not_accumulate_and_are_separated_by_foot() -> None:
     marked_points, downs = straight_walk(0.0)
     moved = [touchdown(one.foot, one.t, one.position[0] + (0.03 if k >= 5 else 0.0), one.position[1])

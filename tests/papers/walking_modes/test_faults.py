@@ -200,11 +200,17 @@ def test_a_chain_that_is_known_only_after_a_bend_lies_in_the_world_as_the_tracks
     assert all(down.final for down in of(TouchedDown, events)[8:])
 
 
-def test_insoles_without_a_layout_give_no_walking_modes() -> None:
-    _, events = run_walk("walking-modes", insole_samples(), Calibration())
+def test_insoles_without_a_layout_give_no_walking_modes_by_table_2() -> None:
+    _, events = run_walk("walking-modes-printed", insole_samples(), Calibration())
     assert {change.mode for change in of(WalkingModeChanged, events)} <= {WalkingMode.STANDING}
     assert {down.mode for down in of(TouchedDown, events)} == {WalkingMode.STRAIGHT}
     assert len([what for what in sentences(events) if "no walking modes" in what]) == 2
+
+
+def test_feet_that_turn_show_walking_modes_whatever_the_layout_of_their_cells() -> None:
+    _, events = run_walk("walking-modes", insole_samples(), Calibration())
+    assert WalkingMode.STRAIGHT in {change.mode for change in of(WalkingModeChanged, events)}
+    assert not [what for what in sentences(events) if "no walking modes" in what]
 
 
 def test_one_sample_from_the_far_future_does_not_silence_its_site() -> None:

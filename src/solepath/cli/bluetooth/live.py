@@ -7,9 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.failure import recipe_named
 from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable, files_of_track
-from ..common.inputs import add_calibration, add_floorplan, calibration_of, floorplan_of
+from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
 from ..common.view import add_view, need_page, page_address_of
 from .devices import add_devices, need_bleak
 
@@ -25,7 +24,7 @@ def add_to(commands: Any) -> None:
     )
     add_devices(live)
     add_view(live, live, "show it")
-    live.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+    add_recipe(live)
     add_calibration(live)
     add_floorplan(live)
     live.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording too")
@@ -49,12 +48,14 @@ def add_to(commands: Any) -> None:
     add_devices(record)
     record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
     add_force(record)
-    record.set_defaults(run=run, recipe="default", calibration=None, out=None, floorplan=None, start=None, view=None)
+    record.set_defaults(
+        run=run, recipe="default", heading=None, calibration=None, out=None, floorplan=None, start=None, view=None
+    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Receive from the devices; return the exit status."""
-    recipe = recipe_named(options.recipe)
+    recipe = recipe_of(options)
     _check_outputs(options)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)

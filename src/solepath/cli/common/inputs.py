@@ -12,7 +12,7 @@ from ...link.decoder import Decoder
 from ...recipes import Recipe
 from ...recording import RecordingError, Source, open_source, printable
 from ...types import Foot, Sample, Site
-from .failure import Failure, note, parse_offset
+from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
 
 if TYPE_CHECKING:
     from ...floorplan.index import IndexedPlan
@@ -26,6 +26,29 @@ def add_foot(command: argparse.ArgumentParser) -> None:
         choices=["left", "right"],
         help="whose the samples of a recording of one foot are (default: right); of other recordings, the foot to use",
     )
+
+
+def add_recipe(command: argparse.ArgumentParser) -> None:
+    """Add --recipe and --heading to a command."""
+    command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+    command.add_argument(
+        "--heading",
+        metavar="DEGREES",
+        type=parse_degrees,
+        help="where the wearer looks at the start, to the left of x of the world that all sensors share (for most "
+        "suits, north); for walking-modes with body sensors (default: the first steps say)",
+    )
+
+
+def recipe_of(options: argparse.Namespace) -> Recipe:
+    """Return the recipe of --recipe and --heading; raise Failure when there is none, or when it takes no heading."""
+    recipe = recipe_named(options.recipe)
+    if options.heading is None:
+        return recipe
+    try:
+        return recipe.headed(options.heading)
+    except LookupError as error:
+        raise Failure(f"--heading: {error}") from None
 
 
 def foot_of(options: argparse.Namespace) -> Foot | None:

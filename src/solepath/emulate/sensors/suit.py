@@ -1,4 +1,6 @@
-"""Samples and devices of seven sites on the lower body: pelvis, thighs, shanks and feet."""
+"""Samples and devices of seven sites on the lower body: pelvis, thighs, shanks and feet.
+
+Samples have the motion of the skin under the sensors (soft_tissue.py). The devices of `suit` have that of the bones."""
 
 from __future__ import annotations
 
@@ -8,11 +10,12 @@ from operator import attrgetter
 import numpy as np
 
 from ...calibration import Limbs
-from ...types import Layout, Sample, Site
+from ...types import Foot, Layout, Sample, Site
 from ...types.vector import from_rotation_vector
 from ..wearers.curves import Array, Rng
-from ..wearers.limbs import body
+from ..wearers.limbs import INTERVAL, Body, body
 from ..wearers.shoe import ON_INSTEP, Mounting
+from ..wearers.turning import multiply_quaternions, quaternions
 from ..wearers.walker import Walker
 from .device import Device
 from .dot import Dot
@@ -20,6 +23,7 @@ from .insole_device import Insole
 from .insoles import LOAD_PER_COUNT
 from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudeErrors, CellErrors, Imu
 from .sensors import instants, measure_imu, read_attitudes, read_cells, samples_of, take_samples
+from .soft_tissue import gives, skinned
 
 MISALIGNMENT = 0.15
 """Standard deviation, about each axis, of the misalignment of a sensor that is strapped on by hand, rad (assumed)."""
@@ -53,6 +57,8 @@ def limb_samples(
     turned: float = MISALIGNMENT,
     layouts: Mapping[Site, Layout] | None = None,
     cell_part: CellErrors | None = None,
+    tissue: float = 1.0,
+    limb_attitudes_only: bool = False,
 ) -> list[Sample]:
     """Return samples of all seven sites on the true clock at k / rate s, in the order of time and of Site.
 
@@ -60,19 +66,27 @@ def limb_samples(
     `north` rad from the walk's. It has the errors `attitude`; specific force and angular rate have `errors`, and are
     neither saturated nor rounded. None: exact values. The default is MPU9250, because Gong et al. 2023 give only the
     attitude errors of their device. `limbs` are the wearer's own by default; `turned` is that of `limb_mounting`. With
-    `layouts`, foot samples have the loads of the cells, N, exact or read by `cell_part` at the layout's scale."""
+    `layouts`, foot samples have the loads of the cells, N, exact or read by `cell_part` at the layout's scale. `tissue`
+    is the motion of soft tissue under the sensors above the ankles, as a multiple of that of soft_tissue.py. With
+    `limb_attitudes_only` these send nothing but `quat`, which takes a fifth of the time to emulate."""
     wearer = walker.wearer
     limbs = limbs or wearer.limbs
     if limbs == wearer.limbs:
-        body_motion = walker.body
+        bones = walker.body
     else:
-        body_motion = body(walker.plan, walker.motions, walker.loads, wearer.shoe, wearer.centre_height, limbs)
+        bones = body(walker.plan, walker.motions, walker.loads, wearer.shoe, wearer.centre_height, limbs)
+    body_motion = worn_body(walker, bones, seed, tissue)
     sampling = instants(0.0, 1.0 / rate, int(walker.duration * rate) + 1)
     samples: list[Sample] = []
     for order, site in enumerate(Site):
         rng = np.random.default_rng([seed, 6, order])
         mounting = limb_mounting(site, limbs, seed, turned)
-        if errors is None:
+        acc: Array | None
+        gyro: Array | None
+        if limb_attitudes_only and site.foot is None:
+            skin = quaternions(body_motion.segment(site, sampling.times)[1])
+            acc, gyro, turn = None, None, multiply_quaternions(skin, np.array([mounting.attitude]))
+        elif errors is None:
             true = body_motion.at(site, sampling.times, mounting)
             acc, gyro, turn = true.force, true.rate, true.attitude
         else:
@@ -86,6 +100,15 @@ def limb_samples(
             cells = _cell_loads(walker, layouts[site], sampling.times, cell_part, rng)
         samples += samples_of(site, sampling.times, acc, gyro, cells, turn)
     return sorted(samples, key=attrgetter("t"))
+
+
+def worn_body(walker: Walker, bones: Body, seed: int, tissue: float = 1.0) -> Body:
+    """Return the body as sensors see it that are strapped on with this seed: the motion of the skin, not of the bones.
+
+    `tissue` is the motion of soft tissue as a multiple of that of soft_tissue.py."""
+    t = np.asarray(bones.t_start + INTERVAL * np.arange(len(bones.track)), dtype=np.float64)
+    load_shares = {foot: walker.loads.share(foot, t) for foot in Foot}
+    return skinned(bones, load_shares, gives(walker.wearer.number, seed, tissue))
 
 
 def suit(

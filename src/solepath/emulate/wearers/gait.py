@@ -8,8 +8,10 @@ in styles.py."""
 
 from __future__ import annotations
 
+from enum import Enum
+
 import numpy as np
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ...calibration import Limbs
 from ...types import Foot
@@ -20,6 +22,16 @@ from ..routes.styles import StrideKind
 from .curves import Array, Rng
 from .shoe import Rocker, Shoe
 from .zones import HeelPad
+
+
+class LoadLaw(Enum):
+    """Law by which the load under both feet moves in a bend (load.py)."""
+
+    OUTWARD = "outward"
+    """Away from the centre of the bend under the whole foot."""
+    HEEL_OUT_FOREFOOT_IN = "heel out, forefoot in"
+    """Away from the centre under the heel, towards it under forefoot and toes (Turcato et al. 2015)."""
+
 
 SETTLE_TIME = 0.45
 """Time in which the weight settles on both feet at a halt, and longest time in which it rolls along the sole, s."""
@@ -59,6 +71,8 @@ class Wearer:
     """Variation of pitch angles, relative to their mean; the variation of toe-out is half of this number in rad."""
     load_variation: float = 0.0
     """Variation of the load's lateral position under the foot, m."""
+    load_law: LoadLaw = LoadLaw.OUTWARD
+    """Law by which the load moves in a bend."""
     mark_error: float = 0.01
     """Standard deviation of the distance along the path from a mark to the foot that steps on it, m (assumed)."""
     swerve: tuple[float, float] = (1.0, 1.0)
@@ -80,6 +94,8 @@ class Wearer:
     It is 0.555 of a stature of 1.75 m (Winter, Biomechanics and Motor Control of Human Movement, 2009)."""
     limbs: Limbs = Limbs()
     """Lengths of the limbs."""
+    number: int = 0
+    """Number from which the motion of the soft tissue of this wearer is drawn (sensors/soft_tissue.py)."""
 
     def cadence(self, speed: float) -> float:
         """Return the cadence at `speed` m/s, steps per minute.
@@ -186,6 +202,16 @@ DEFAULT_FOOT_LENGTH = 0.275
 """Length of the foot that the default shoe (size 43) fits, m."""
 DEFAULT_STATURE = 1.75
 """Stature of the default wearer, m."""
+SPINE_DISTANCE_SHARE = 0.137
+"""Distance of the anterior iliac spines as a share of the stature: 0.24 m at 1.75 m (Bell et al. 1989)."""
+
+
+def hip_joint_distance(spines: float) -> float:
+    """Return the distance between the hip joints, m, of a pelvis whose anterior iliac spines are `spines` m apart.
+
+    Either joint is 0.33 of that distance and 7.3 mm from the middle (Harrington et al. 2007, J Biomech 40: images of
+    the joints themselves). The 0.191 of the stature in Drillis and Contini (1966) is the breadth of the hips."""
+    return 2.0 * (0.33 * spines + 0.0073)
 
 
 def scaled_wearer(stature: float, mass: float, foot_length: float) -> Wearer:
@@ -204,7 +230,7 @@ def scaled_wearer(stature: float, mass: float, foot_length: float) -> Wearer:
         ankle=(scale * default_shoe.ankle[0], scale * default_shoe.ankle[1], scale * default_shoe.ankle[2]),
     )
     limbs = Limbs(
-        hip_width=0.191 * stature,
+        hip_width=hip_joint_distance(SPINE_DISTANCE_SHARE * stature),
         thigh=0.245 * stature,
         shank=0.246 * stature,
         foot=shoe.length - shoe.ankle[0],
@@ -225,10 +251,10 @@ def random_wearer(rng: Rng) -> tuple[Wearer, float]:
     return scaled_wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
 
 
-SUBJECTS = (
-    scaled_wearer(1.72, 63.0, 0.245),
-    scaled_wearer(1.68, 52.5, 0.255),
-    scaled_wearer(1.60, 50.0, 0.235),
-    scaled_wearer(1.83, 81.0, 0.270),
+SUBJECTS = tuple(
+    evolve(scaled_wearer(stature, mass, foot_length), number=number)
+    for number, (stature, mass, foot_length) in enumerate(
+        ((1.72, 63.0, 0.245), (1.68, 52.5, 0.255), (1.60, 50.0, 0.235), (1.83, 81.0, 0.270)), 1
+    )
 )
 """Wearers with stature, mass and foot length of the subjects of Gong et al. 2023 (Sensors 23, 5417), table 3."""

@@ -17,8 +17,9 @@ ground h v^2 / (r g) away from the point below the centre, to the outside of the
 feet so that most of this distance is compensated. The share LOAD_SHIFT_SHARE of it moves the load under each foot:
 in a turn to the left, towards the right edge of both feet. Insoles show this under the heels (Turcato et al. 2015, J
 NeuroEng Rehabil 12:4: the lateral heel of the outer foot bears more, the lateral heel of the inner foot less). Under
-the metatarsal heads they show the opposite, which is not emulated. Numbers without a source were chosen by hand for
-plausible loads and not swept."""
+the metatarsal heads they show the opposite. So there are two laws (`LoadLaw`): by one the load moves outward under the
+whole foot, by the other outward under the heel and, assumed as far, inward under forefoot and toes. Numbers without a
+source were chosen by hand for plausible loads and not swept."""
 
 from __future__ import annotations
 
@@ -31,7 +32,7 @@ from ...types.vector import GRAVITY
 from ..routes.escalator import GroundRide
 from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
-from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer
+from .gait import SETTLE_TIME, LoadLaw, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, HeelPad, cell_shares
 
@@ -46,6 +47,8 @@ LOAD_SHIFT_SHARE = 0.3
 
 It is 18 mm at a speed of 1.1 m/s and a radius of 2 m. The ankle can move the load sideways by about 20 mm (Hof et al.
 2007, Gait & Posture 25)."""
+ZONE_SHIFTS = {LoadLaw.OUTWARD: (1.0, 1.0, 1.0, 1.0), LoadLaw.HEEL_OUT_FOREFOOT_IN: (1.0, 0.0, -1.0, -1.0)}
+"""Shift of the load in a bend under heel, midfoot, forefoot and toes, as a multiple of the outward shift, by law."""
 _FOREVER = 1e6
 """Duration of the stances before the first and after the last stride, s."""
 _BLOCK_SIZE = 4096
@@ -78,13 +81,16 @@ class Loads:
     stances: dict[Foot, Array]
     """Heel-strike, foot-flat, heel-off and toe-off of each stance, s, (n, 4)."""
     lateral_shifts: dict[Foot, Array]
-    """Shift of the load to the left in each stance, m, and time at which it starts to decay at a halt, s, (n, 2)."""
+    """Shift of the load to the left in each stance by the bend and by chance, m, and time at which it starts to decay
+    at a halt, s, (n, 3)."""
     forefoot_shares: dict[Foot, Array]
     """Share of the load that lands on the forefoot in each stance, (n)."""
     rides: tuple[GroundRide, ...] = ()
     """Rides of the wearer in elevators and on escalators."""
     pad: HeelPad | None = None
     """Pad of either heel; None: the patch under a heel has a fixed size and moves with the pitch only."""
+    law: LoadLaw = LoadLaw.OUTWARD
+    """Law by which the load moves in a bend."""
 
     def total(self, foot: Foot, t: Array) -> Array:
         """Return the load under one foot at times `t`, s, in newtons, (N)."""
@@ -138,7 +144,7 @@ class Loads:
         fore = 0.025 * np.sin(np.maximum(-pitch, 0.0)) / layout.length
         inward = -0.10 * fore / fore.max(initial=1e-9)
         total = self.total(foot, t)
-        lateral_shift = self.lateral_shift(foot, t)
+        lateral_shifts = self.zone_shifts(foot, t)
         spread = np.ones_like(t)
         if self.pad is not None:
             heel += self.pad_shift(foot, shares[0], t) / layout.length
@@ -151,7 +157,7 @@ class Loads:
             (FOREFOOT, fore, inward),
             (TOES, fore, no_shift),
         )
-        for (zone, ahead, aside), share in zip(zone_shifts, shares, strict=True):
+        for (zone, ahead, aside), share, lateral_shift in zip(zone_shifts, shares, lateral_shifts, strict=True):
             loaded = np.flatnonzero(share * total > 0.0)
             for start in range(0, len(loaded), _BLOCK_SIZE):
                 block = loaded[start : start + _BLOCK_SIZE]
@@ -169,10 +175,15 @@ class Loads:
         return self.pad.shift(self.stances[foot][rows], heel_share, self.weight, speed, t)
 
     def lateral_shift(self, foot: Foot, t: Array) -> Array:
-        """Return the shift of the load to the left under a foot at `t`, s, in m, (N); in a bend it is outwards."""
+        """Return the shift to the left of the load under a whole foot at `t`, s, in m, (N)."""
+        return np.asarray(np.sum(self.zone_shares(foot, t) * self.zone_shifts(foot, t), axis=0))
+
+    def zone_shifts(self, foot: Foot, t: Array) -> Array:
+        """Return the shift to the left of the load under heel, midfoot, forefoot and toes at `t`, s, in m, (4, N)."""
         rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
-        shift, t_decay = self.lateral_shifts[foot][rows].T
-        return np.asarray(shift * (1.0 - hand_over((t - t_decay) / SETTLE_TIME)))
+        bend, chance, t_decay = self.lateral_shifts[foot][rows].T
+        shifts = np.array(ZONE_SHIFTS[self.law])[:, None] * bend + chance
+        return np.asarray(shifts * (1.0 - hand_over((t - t_decay) / SETTLE_TIME)))
 
     def share(self, foot: Foot, t: Array) -> Array:
         """Return the share of a foot in the load under both feet together at times `t`, s, (N)."""
@@ -223,6 +234,7 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
         },
         rides=(*plan.rides, *plan.escalators),
         pad=wearer.pad,
+        law=wearer.load_law,
     )
 
 
@@ -289,10 +301,10 @@ def _stances(plan: WalkPlan, foot: Foot) -> Array:
 
 
 def _lateral_shifts(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: Rng) -> Array:
-    """Return for every stance the shift of the load to the left, m, and the last heel-strike of its bout, s."""
-    rows = [(0.0, -_FOREVER)]
+    """Return for every stance the shifts to the left, m, and the last heel-strike of its bout, s."""
+    rows = [(0.0, 0.0, -_FOREVER)]
     for stride in plan.strides[foot]:
         last_heel_strike = next(end for start, end in plan.bouts if start <= stride.heel_strike <= end) - SETTLE_TIME
         shift = -LOAD_SHIFT_SHARE * wearer.centre_height * stride.step_speed**2 * stride.curvature / GRAVITY
-        rows.append((shift + wearer.load_variation * float(rng.standard_normal()), last_heel_strike))
+        rows.append((shift, wearer.load_variation * float(rng.standard_normal()), last_heel_strike))
     return np.array(rows)

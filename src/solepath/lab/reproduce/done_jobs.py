@@ -9,13 +9,15 @@ from __future__ import annotations
 import json
 from binascii import crc32
 from collections.abc import Callable
+from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
-from attrs import define, field
+from attrs import define, field, make_class
 
 from ...saving.codec import Json, SnapshotError, load, save
+from ...saving.schema import is_record
 
 Job = TypeVar("Job")
 JobResult = TypeVar("JobResult")
@@ -35,8 +37,18 @@ def source_checksum() -> int:
 
 
 def describe_job(work: Callable[[Any], Any], job: object) -> str:
-    """Return a text that is the same for equal jobs of the same function, in every process."""
-    return f"{work.__module__}.{work.__qualname__}({job!r})"
+    """Return a text that is the same for equal jobs of the same function, in every process.
+
+    It names the function, and has a checksum of all that the job is made of, recipes included; of its `key` if it has
+    one, a string or number that is another for each other job of the experiment."""
+    key = getattr(job, "key", None)
+    content = json.dumps(key or (save(job) if is_record(type(job)) else job), sort_keys=True)
+    return f"{work.__module__}.{work.__qualname__} {sha256(content.encode()).hexdigest()}"
+
+
+def _record_class(work: Callable[[Any], Any]) -> Any:
+    """Return the class of a record with the field `result`, which has the type that the function returns."""
+    return make_class("Done", {"result": field(type=get_type_hints(work)["return"])}, frozen=True)
 
 
 @define
@@ -94,14 +106,14 @@ class DoneJobs:
         if saved is None:
             return None
         try:
-            result: JobResult = load(get_type_hints(work)["return"], saved)
+            result: JobResult = load(_record_class(work), saved).result
         except SnapshotError as error:
             raise DoneJobsError(f"has a result that cannot be read: {error}") from None
         return result
 
     def add(self, work: Callable[[Job], JobResult], job: Job, result: JobResult) -> None:
         """Append the result of a job to the file; raises OSError when that fails."""
-        saved = save(result)
+        saved = save(_record_class(work)(result))
         name = describe_job(work, job)
         with self.path.open("a", encoding="utf-8") as file:
             file.write(json.dumps({"job": name, "result": saved}) + "\n")

@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from attrs import frozen
 
+from ...papers.walking_modes import compensation
+from ...types import Foot, WalkingMode
 from .tables import Statistics, Table, statistics
 
 KUPT_DFPC_TITLE = "Chen et al. 2019, table I"
@@ -125,6 +127,20 @@ WALKING_MODES: Table = {
     for k, axis in enumerate("xy")
 }
 """Table 4 as rows, m. It has no quartiles; its variances are the squares of its deviations."""
+
+
+def table_1_row(foot: Foot, mode: WalkingMode, axis: str) -> str:
+    """Return the name of the row of a foot, a walking mode and an axis ("x" to the right or "y" ahead) of table 1."""
+    return f"table 1 {foot.value} {mode.value} {axis}"
+
+
+TABLE_1: Table = {
+    table_1_row(foot, mode, axis): Statistics(mean=value)
+    for foot, row in compensation.TABLE_1.items()
+    for mode, (forward, left) in row.items()
+    for axis, value in (("x", -left), ("y", forward))
+}
+"""Table 1 of Gong et al. 2023 as rows, m, read as cm."""
 
 
 FOOTSTEP_TRACKER_TITLE = "Liu et al. 2015, section V and fig. 13"

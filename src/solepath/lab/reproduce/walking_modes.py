@@ -6,234 +6,258 @@ each corner and foot, one stride counts: that whose foot-flat is nearest to the 
 The deviation at a corner is the session's touchdown minus the true footprint of these strides, averaged over both feet.
 
 The floor is surveyed, as in the paper: sessions know the direction of the first side relative to the sensors' common
-north. A touchdown is the moment at which a foot comes down. Methods I, II and III of papers/walking_modes detect it by
-height, net acceleration and pressure. IV also uses pressure, and compensates with the errors of the same wearer's walks
-over marks on the floor (section 3.3). These are other walks, for which the sensors were attached anew."""
+north. Methods I, II and III of papers/walking_modes detect touchdowns by height, net acceleration and pressure. IV also
+uses pressure, and compensates with the errors of the same wearer's walks over marks on the floor (section 3.3). These
+are other walks, for which the sensors were attached anew. What IV has that the paper has not is taken away piece by
+piece (`VARIANTS`). Then come recognition of the modes under two load laws, and the corners under other conditions."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import hypot
+from collections.abc import Mapping, Sequence
 
 import numpy as np
-from attrs import evolve, frozen
+from attrs import evolve
 
-from ...calibration import Calibration, InsoleCalibration, merged
-from ...emulate.routes.laps import ACROSS, ALONG, LapCorner, corners, marked, rectangle
-from ...emulate.routes.laps import marks as marks_of
-from ...emulate.sensors.insoles import layout
-from ...emulate.sensors.parts import WORN_RESISTIVE
-from ...emulate.sensors.suit import limb_samples
-from ...emulate.wearers.gait import SUBJECTS, Wearer
-from ...emulate.wearers.walker import Walker
-from ...events import TouchedDown
-from ...papers.walking_modes.calibrate import MODES, ModeMark, mean_errors, step_errors, touchdowns
+from ...calibration import Calibration
+from ...emulate.routes.laps import ACROSS, ALONG
+from ...emulate.wearers.gait import SUBJECTS, LoadLaw
+from ...papers.walking_modes.calibrate import MODES
+from ...papers.walking_modes.compensation import Compensation
 from ...papers.walking_modes.modes import Modes
-from ...papers.walking_modes.recipe import TOUCHDOWN_ACCELERATION, TOUCHDOWN_HEIGHT, TOUCHDOWN_PRESSURE, WALKING_MODES
+from ...papers.walking_modes.recipe import (
+    TOUCHDOWN_ACCELERATION,
+    TOUCHDOWN_HEIGHT,
+    TOUCHDOWN_PRESSURE,
+    WALKING_MODES,
+    WALKING_MODES_PRINTED,
+)
+from ...papers.walking_modes.settings import ModeRule
 from ...recipes import Recipe
-from ...recording.decoded import DecodedRecording
-from ...types import SITE_OF_FOOT, Foot, Sample
-from ...types.vector import GRAVITY
+from ...types import Foot
 from . import published
-from .published import corner_row
+from .modes_figures import CORNER_POSITIONS, panels
+from .modes_walks import (
+    LOAD_VARIATION,
+    RATE,
+    USUAL,
+    BendsJob,
+    Conditions,
+    Corners,
+    MarkedWalks,
+    ModesJob,
+    learn,
+    recognise,
+    walk,
+    with_compensation,
+)
+from .published import corner_row, table_1_row
 from .runner import Runner
-from .tables import DrawStyle, FloorPanel, PictureTrack, Reproduction, row_of, statistics
-from .walks import run_session
+from .tables import FigureRow, Reproduction, row_of, statistics
 
 NAME = WALKING_MODES.name
 WALKS = 40
-RATE = 50.0
-"""Sampling rate, Hz (section 3.1)."""
-CELL_COUNT = 99
 MARKED_STEPS, MARKED_REPEATS = 50, 3
 """Number of steps of a walk over marks, and number of its repetitions.
 
 Section 3.3: "50 steps at a time and repeated this three times along each path"."""
+BEND_STEPS = 20
+"""Number of steps of each walk in which modes are to be recognised, and over marks under each of `CONDITIONS`."""
+WALKS_PER_CONDITION = 8
+"""Largest number of rectangles under each of `CONDITIONS`, walked after one repetition over the marks."""
 METHODS = {"I": TOUCHDOWN_HEIGHT, "II": TOUCHDOWN_ACCELERATION, "III": TOUCHDOWN_PRESSURE, "IV": WALKING_MODES}
-CORNER_POSITIONS = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
-"""Positions (x, y) of the corners, m; x along the first side, y to the left. The walk starts and ends at A."""
-MAX_TIME_DIFFERENCE = 0.4
-"""Largest time between a reported touchdown and the true one that it matches, s."""
-
-
-@frozen
-class ModesJob:
-    """One rectangle to emulate, walked by the wearer of index `subject` in SUBJECTS, who has this calibration."""
-
-    subject: int
-    seed: int
-    calibration: Calibration
-
-
-@frozen
-class MarkedWalks:
-    """The walks of one wearer over marks on the floor to emulate: `steps` steps in each mode, `repeats` times."""
-
-    subject: int
-    seed: int
-    steps: int
-    repeats: int
-
-
-@frozen
-class ModesResults:
-    """The results of one rectangle."""
-
-    deviations: dict[str, dict[str, tuple[float, float]]]
-    """Deviation (x, y) by method and corner, m."""
+VARIANTS = {
+    "IV printed": "IV as printed: the modes of table 2, the values of table 1",
+    "IV our table 1": "IV as printed, with the values that table 1 has for these wearers: the mean of all of them",
+    "IV table 2": "IV with the wearer's own values, and the modes of table 2",
+    "IV one value": "IV with the mean of the wearer's own values in all modes, one for each foot",
+}
+"""Methods between IV as printed and ours, and what they are."""
+LAWS = {LoadLaw.OUTWARD: "outward", LoadLaw.HEEL_OUT_FOREFOOT_IN: "heel out, forefoot in"}
+RULES = {ModeRule.TURN: "by turn", ModeRule.TABLE_2: "table 2", ModeRule.TABLE_2_AT_SPEED: "table 2 at speed"}
+BENDS = {
+    f"{name}, {1000.0 * variation:g} mm": Conditions(law=law, variation=variation)
+    for law, name in LAWS.items()
+    for variation in (0.0, LOAD_VARIATION)
+}
+"""Load laws with and without variation between steps, in which modes are to be recognised."""
+CONDITIONS = {
+    "usual": USUAL,
+    "hips 2 cm too wide": evolve(USUAL, hips=0.02),
+    "no soft tissue": evolve(USUAL, tissue=0.0),
+    "twice the soft tissue": evolve(USUAL, tissue=2.0),
+    "load outward": evolve(USUAL, law=LoadLaw.OUTWARD, variation=0.0),
+}
+"""Conditions for which the mean distance over the corners is a row of its own."""
 
 
 def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     """Return the results of `walks` rectangles, walked by the four wearers in turn."""
     count = WALKS if walks is None else walks
     wearers = list(range(min(count, len(SUBJECTS))))
+    few = min(count, WALKS_PER_CONDITION)
     marked_walks = [
         MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, MARKED_STEPS, MARKED_REPEATS) for subject in wearers
     ]
     calibrations = runner.run(learn, marked_walks, lambda _: "walks over marks of one wearer")
-    jobs = [ModesJob(k % len(wearers), 1000 * seed + k, calibrations[k % len(wearers)]) for k in range(count)]
+    ours = _mean_table(calibrations)
+    jobs = [
+        ModesJob(k % len(wearers), 1000 * seed + k, _methods(calibrations[k % len(wearers)], ours))
+        for k in range(count)
+    ]
     results = runner.run(walk, jobs, _describe)
-    rows = tuple(
-        row_of(
-            published.WALKING_MODES,
-            corner_row(point, method, axis),
-            [one.deviations[method][point][k] for one in results],
-            digits=4,
+    bends = [
+        BendsJob(subject, 1000 * seed + 700 + subject, BEND_STEPS, c) for c in BENDS.values() for subject in wearers
+    ]
+    shares = runner.run(recognise, bends, lambda _: "modes in bends")
+    others = [c for c in CONDITIONS.values() if c != USUAL]
+    again = [
+        MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, BEND_STEPS, 1, c) for c in others for subject in wearers
+    ]
+    learnt = runner.run(learn, again, lambda _: "walks over marks in other conditions")
+    condition_jobs = [
+        ModesJob(
+            k % len(wearers), 1000 * seed + k, _two_methods(learnt[n * len(wearers) + k % len(wearers)]), condition
         )
-        for point in CORNER_POSITIONS
-        for method in METHODS
-        for k, axis in enumerate("xy")
-    )
+        for n, condition in enumerate(others)
+        for k in range(few)
+    ]
+    found = runner.run(walk, condition_jobs, _describe)
+    by_condition = [results[:few], *np.array(found, dtype=object).reshape(len(others), few).tolist()]
+
+    rows = [
+        *_corner_rows(results),
+        *_gain_rows(results),
+        *_table_1_rows(calibrations),
+        *_mode_rows(shares, len(wearers)),
+        *_condition_rows(by_condition),
+    ]
     return Reproduction(
         name=NAME,
         paper_title=published.WALKING_MODES_TITLE,
         emulation=f"{count} rectangles of {ALONG} m by {ACROSS} m by {len(wearers)} wearers at {RATE:g} Hz",
         unit="m",
-        rows=rows,
-        panels=_panels(results),
-        notes=_notes(results),
+        rows=tuple(rows),
+        panels=panels(results, tuple(METHODS), seed),
+        notes=_notes(results, rows),
     )
 
 
-def _describe(one: ModesResults) -> str:
-    lengths = {method: np.mean([hypot(*off) for off in by.values()]) for method, by in one.deviations.items()}
+def _describe(one: Mapping[str, Corners]) -> str:
+    lengths = {method: np.mean([np.hypot(*off) for off in by_corner.values()]) for method, by_corner in one.items()}
     return "mean deviation " + ", ".join(f"{method} {100.0 * off:.1f}" for method, off in lengths.items()) + " cm"
 
 
-def _panels(results: Sequence[ModesResults]) -> tuple[FloorPanel, FloorPanel]:
-    closed_path = tuple(CORNER_POSITIONS[point] for point in "ABCDA")
-    tracks = [PictureTrack("rectangle", closed_path, DrawStyle.TRUTH)]
-    deviation_tracks = []
-    for method in METHODS:
-        deviations = [(point, one.deviations[method][point]) for one in results for point in CORNER_POSITIONS]
-        estimated_positions = tuple(
-            (CORNER_POSITIONS[point][0] + dx, CORNER_POSITIONS[point][1] + dy) for point, (dx, dy) in deviations
+def _methods(calibration: Calibration, ours: Compensation) -> dict[str, tuple[Recipe, Calibration]]:
+    """Return the methods and the variants for a wearer with this calibration; `ours` is the mean of all wearers."""
+    own = calibration.modes or {}
+    modes = next(part for part in WALKING_MODES.parts if isinstance(part, Modes))
+    by_table_2 = evolve(modes, settings=evolve(modes.settings, rule=ModeRule.TABLE_2))
+    one: Compensation = {foot: {mode: _mean(list(row.values())) for mode in MODES} for foot, row in own.items()}
+    recipes = {
+        **METHODS,
+        "IV printed": WALKING_MODES_PRINTED,
+        "IV our table 1": with_compensation(WALKING_MODES_PRINTED, ours),
+        "IV table 2": WALKING_MODES.exchanged(Modes, by_table_2),
+        "IV one value": with_compensation(WALKING_MODES, one),
+    }
+    return {name: (recipe, calibration) for name, recipe in recipes.items()}
+
+
+def _two_methods(calibration: Calibration) -> dict[str, tuple[Recipe, Calibration]]:
+    return {name: (METHODS[name], calibration) for name in ("III", "IV")}
+
+
+def _mean(pairs: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    return float(np.mean([x for x, _ in pairs])), float(np.mean([y for _, y in pairs]))
+
+
+def _mean_table(calibrations: Sequence[Calibration]) -> Compensation:
+    """Return the mean compensation of these wearers, as table 1 is the mean of the paper's."""
+    tables = [calibration.modes or {} for calibration in calibrations]
+    return {foot: {mode: _mean([table[foot][mode] for table in tables]) for mode in MODES} for foot in Foot}
+
+
+def _corner_rows(results: Sequence[Mapping[str, Corners]]) -> list[FigureRow]:
+    return [
+        row_of(
+            published.WALKING_MODES,
+            corner_row(point, method, axis),
+            [one[method][point][k] for one in results],
+            digits=4,
         )
-        tracks.append(PictureTrack(method, estimated_positions, DrawStyle.DOTS))
-        deviation_tracks.append(PictureTrack(method, tuple(deviation for _, deviation in deviations), DrawStyle.DOTS))
-    marks = tuple((point, x, y) for point, (x, y) in CORNER_POSITIONS.items())
-    return (
-        FloorPanel("corners as estimated by the four methods (fig. 15a)", tuple(tracks), marks),
-        FloorPanel("deviations at all corners (fig. 15b)", tuple(deviation_tracks), (("", 0.0, 0.0),)),
-    )
+        for point in CORNER_POSITIONS
+        for method in METHODS
+        for k, axis in enumerate("xy")
+    ]
 
 
-def _notes(results: Sequence[ModesResults]) -> tuple[str, ...]:
+def _lengths(results: Sequence[Mapping[str, Corners]], method: str, points: Sequence[str]) -> list[float]:
+    """Return the mean length of the deviations at these corners, m, for each walk."""
+    return [float(np.mean([np.hypot(*one[method][point]) for point in points])) for one in results]
+
+
+def _gain_rows(results: Sequence[Mapping[str, Corners]]) -> list[FigureRow]:
+    """Return the mean distance over all corners by method and variant."""
+    return [
+        row_of({}, f"corners, {method}", _lengths(results, method, tuple(CORNER_POSITIONS)), digits=3)
+        for method in (*METHODS, *VARIANTS)
+    ]
+
+
+def _condition_rows(by_condition: Sequence[Sequence[Mapping[str, Corners]]]) -> list[FigureRow]:
+    return [
+        row_of({}, f"corners, {method}, {name}", _lengths(walked, method, tuple(CORNER_POSITIONS)), digits=3)
+        for name, walked in zip(CONDITIONS, by_condition, strict=True)
+        for method in ("III", "IV")
+    ]
+
+
+def _table_1_rows(calibrations: Sequence[Calibration]) -> list[FigureRow]:
+    """Return the compensation of the wearers as table 1 has it: x to the right, y ahead."""
+    tables = [calibration.modes or {} for calibration in calibrations]
+    return [
+        row_of(published.TABLE_1, table_1_row(foot, mode, axis), [sign * t[foot][mode][k] for t in tables], digits=4)
+        for foot in Foot
+        for mode in MODES
+        for axis, k, sign in (("x", 1, -1.0), ("y", 0, 1.0))
+    ]
+
+
+def _mode_rows(shares: Sequence[Mapping[ModeRule, Sequence[float]]], wearers: int) -> list[FigureRow]:
+    return [
+        row_of(
+            {},
+            f"modes {rule_name} %, {name}",
+            [share for one in shares[n * wearers : (n + 1) * wearers] for share in one[rule]],
+            digits=1,
+        )
+        for rule, rule_name in RULES.items()
+        for n, name in enumerate(BENDS)
+    ]
+
+
+def _notes(results: Sequence[Mapping[str, Corners]], rows: Sequence[FigureRow]) -> tuple[str, ...]:
     lines = []
     for point in CORNER_POSITIONS:
-        our_texts, paper_texts = [], []
-        for method in METHODS:
-            lengths = [float(np.hypot(*one.deviations[method][point])) for one in results]
-            our_texts.append(f"{method} {100.0 * (statistics(lengths).mean or 0.0):.1f}")
-            mean, _, _ = published.CORNERS[point][method]
-            paper_texts.append(f"{method} {100.0 * float(np.hypot(*mean)):.1f}")
-        lines.append(
-            f"{point}: the mean length of our deviations is {', '.join(our_texts)} cm; the length of the paper's mean "
-            f"deviation is {', '.join(paper_texts)} cm."
-        )
-    lines.append(
-        "IV compensates each wearer by the mean errors of the wearer's own walks over marks. The recipe's own "
-        "compensation, the paper's table 1, is worse for these wearers."
-    )
-    lines.append("All four methods are given the direction of the first side relative to the sensors' common north.")
+        of_mean, mean_of, paper = [], [], []
+        for method in (*METHODS, *VARIANTS):
+            deviations = np.array([one[method][point] for one in results])
+            of_mean.append(f"{method} {100.0 * float(np.hypot(*deviations.mean(axis=0))):.1f}")
+            mean_of.append(f"{method} {100.0 * float(np.hypot(*deviations.T).mean()):.1f}")
+            if method in METHODS:
+                paper.append(f"{method} {100.0 * float(np.hypot(*published.CORNERS[point][method][0])):.1f}")
+        better = sum(np.hypot(*one["IV"][point]) < np.hypot(*one["III"][point]) for one in results)
+        lines.append(f"{point}: the length of our mean deviation, the paper's statistic, is {', '.join(of_mean)} cm; "
+                     f"that of the paper is {', '.join(paper)} cm.")  # fmt: skip
+        lines.append(f"{point}: the mean length of our deviations is {', '.join(mean_of)} cm; IV is nearer than III in "
+                     f"{better} of {len(results)} walks.")  # fmt: skip
+    for row in rows:
+        if row.name.startswith(("corners, ", "modes ")):
+            scale, unit = (100.0, "cm") if row.name.startswith("corners") else (1.0, "%")
+            mean, least = statistics(row.values).mean or 0.0, min(row.values, default=0.0)
+            worst = "" if unit == "cm" else f", at worst {least:.0f} %"
+            lines.append(f"{row.name.replace(' %', '')}: {scale * mean:.1f} {unit} on average{worst}.")
+    lines += [f"{name} is {what}." for name, what in VARIANTS.items()]
+    lines.append("All methods are given the direction of the first side relative to the sensors' common north.")
     lines.append("The heading of the paper's table says mm, but its numbers are read as m. It has no quartiles.")
     return tuple(lines)
-
-
-def measured_calibration(wearer: Wearer) -> Calibration:
-    """Return the calibration that needs no walk: lengths of the limbs, weight, and layouts of the insoles."""
-    shoe = wearer.shoe
-    insoles = {foot: InsoleCalibration(layout=layout(CELL_COUNT, foot, shoe.length, shoe.width)) for foot in Foot}
-    return Calibration(insoles=insoles, limbs=wearer.limbs, weight=GRAVITY * wearer.mass)
-
-
-def sample_wearer(walker: Walker, calibration: Calibration, seed: int) -> list[Sample]:
-    """Return the samples of the seven sensors and both insoles, whose errors and mounting are drawn from `seed`."""
-    layouts = {SITE_OF_FOOT[foot]: one.layout for foot, one in calibration.insoles.items() if one.layout is not None}
-    return limb_samples(walker, RATE, seed=seed, layouts=layouts, cell_part=WORN_RESISTIVE)
-
-
-def learn(job: MarkedWalks) -> Calibration:
-    """Return a wearer's calibration from walks over marks in every mode; sensors are attached anew for each repeat."""
-    wearer = SUBJECTS[job.subject]
-    measured = measured_calibration(wearer)
-    errors = []
-    for round_seed in range(job.seed, job.seed + job.repeats):
-        for k, mode in enumerate(MODES):
-            walker = Walker(marked(mode, job.steps), wearer, 10 * round_seed + k)
-            marks = [
-                ModeMark(f"mark {n}", mark.foot, mark.x, mark.y, mark.mode, t=mark.t)
-                for n, mark in enumerate(marks_of(walker), 1)
-                if mark.mode is mode
-            ]
-            recording = DecodedRecording(tuple(sample_wearer(walker, measured, round_seed)), {})
-            touchdown_events = touchdowns(recording, measured, heading=0.0)
-            errors += step_errors(marks, touchdown_events)
-    return merged(measured, Calibration(modes=mean_errors(errors)))
-
-
-def walk(job: ModesJob) -> ModesResults:
-    """Emulate one rectangle and run all methods on it."""
-    walker = Walker(rectangle(), SUBJECTS[job.subject], job.seed)
-    samples = sample_wearer(walker, job.calibration, job.seed)
-    corner_passes = corners(walker)
-    deviations = {}
-    for method, recipe in METHODS.items():
-        touchdown_events = _touchdowns(recipe, samples, job.calibration)
-        deviations[method] = {corner.name: _deviation(walker, corner, touchdown_events) for corner in corner_passes}
-    return ModesResults(deviations)
-
-
-def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
-    """Return the final touchdowns by foot of a session that knows the direction of the rectangle's first side."""
-    modes = next(part for part in recipe.parts if isinstance(part, Modes))
-    with_heading = evolve(modes, settings=evolve(modes.settings, heading=0.0))
-    events = run_session(recipe.exchanged(Modes, with_heading), samples, calibration)
-    return {foot: [e for e in events if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
-
-
-def _deviation(
-    walker: Walker, corner: LapCorner, touchdown_events: dict[Foot, list[TouchedDown]]
-) -> tuple[float, float]:
-    """Return the deviation (x, y) at a corner, m."""
-    dx = dy = 0.0
-    for foot in Foot:
-        stride = walker.plan.strides[foot][corner.stride_numbers[foot] - 1]
-        x, y = _place(walker, foot, stride.heel_strike, touchdown_events[foot])
-        dx += 0.5 * (x - corner.footprints[foot][0])
-        dy += 0.5 * (y - corner.footprints[foot][1])
-    return dx, dy
-
-
-def _place(walker: Walker, foot: Foot, t: float, touchdown_events: Sequence[TouchedDown]) -> tuple[float, float]:
-    """Return the position (x, y), m, of the touchdown near `t` s, else of the last one before, else of the start."""
-    near = [one for one in touchdown_events if abs(one.t - t) < MAX_TIME_DIFFERENCE]
-    if near:
-        x, y, _ = min(near, key=lambda one: abs(one.t - t)).position
-        return x, y
-    before = [one for one in touchdown_events if one.t < t]
-    if before:
-        x, y, _ = before[-1].position
-        return x, y
-    start = walker.plan.starts[foot]
-    return start.x, start.y

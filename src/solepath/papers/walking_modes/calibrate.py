@@ -3,8 +3,12 @@
 After Gong et al. 2023 (Sensors 23, 5417), section 3.3: the wearer steps on marked points, straight ahead and along
 bends of 4 m and 2 m. The compensation of a foot in a mode is the mean of (marked point - measured point). Marked points
 are taken relative to the other foot's mark, and measured ones relative to its touchdown, so errors do not accumulate
-over steps. The marks may be in any frame on the floor; the angle from the session's frame to theirs is fitted to all
-steps. A mark is the point of the ground below the ankle."""
+over steps. A mark is the point of the ground below the ankle.
+
+The paper's floor is surveyed, and its sensors have a common north. So errors may also turn every step to the same side,
+as those of a wearer do whose skin rolls over the muscles. They are kept if the heading of the wearer at the start is
+given; x of the marks is then that heading. Otherwise the marks may be in any frame. The angle to it is fitted to all
+steps, and what both feet err to the same side is left out, because it belongs to the unknown heading."""
 
 from __future__ import annotations
 
@@ -103,11 +107,12 @@ def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None
     return sorted([event for event in events if isinstance(event, TouchedDown)], key=attrgetter("t"))
 
 
-def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[StepError]:
+def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown], turn: float | None = None) -> list[StepError]:
     """Return the error of every step to the last of four consecutive marked touchdowns of alternate feet.
 
-    The first two touchdowns serve to compute the direction of walking. Raises CalibrationError when a mark has no
-    touchdown, or two marks have the same one."""
+    The first two touchdowns serve to compute the direction of walking. `turn` is the angle from the session's frame to
+    that of the marks, rad; None fits it to the steps, and with it what turns every step of the wearer by the same
+    angle. Raises CalibrationError when a mark has no touchdown, or two marks have the same one."""
     mark_of: dict[int, ModeMark] = {}
     for mark in marks:
         k = _touchdown_index(mark, downs)
@@ -130,11 +135,11 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[Ste
         earlier_direction = atan2(before.y - earliest.y, before.x - earliest.x)
         direction += 0.5 * atan2(sin(direction - earlier_direction), cos(direction - earlier_direction))
         steps.append((newest, (newest.x - before.x, newest.y - before.y), (x - px, y - py), direction))
-    # angle from the session's frame to that of the marks, by least squares over all steps
-    turn = atan2(
-        fsum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
-        fsum([mx * true[0] + my * true[1] for _, true, (mx, my), _ in steps]),
-    )
+    if turn is None:  # by least squares over all steps
+        turn = atan2(
+            fsum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
+            fsum([mx * true[0] + my * true[1] for _, true, (mx, my), _ in steps]),
+        )
     c, s = cos(turn), sin(turn)
     errors = []
     for mark_reached, (tx, ty), (mx, my), direction in steps:
@@ -144,8 +149,12 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[Ste
     return errors
 
 
-def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
-    """Return the mean errors (forward, left), m, by foot and mode, without the error that a wrong heading causes."""
+def mean_errors(
+    errors: Iterable[StepError], known_heading: bool = False
+) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
+    """Return the mean errors (forward, left), m, by foot and mode.
+
+    Without `known_heading` they lack the error that a wrong heading causes."""
     errors_of: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
     for error in errors:
         errors_of.setdefault(error.foot, {}).setdefault(error.mode, []).append(error)
@@ -160,7 +169,8 @@ def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tup
         for foot in Foot
         if foot in errors_of
     }
-    remove_heading_error(means)
+    if not known_heading:
+        remove_heading_error(means)
     return means
 
 
@@ -183,16 +193,20 @@ def fit_modes(
 
     Each walk is a recording and its csv file of marks (`read_marks`). `known` has the wearer's limbs and insoles.
     `heading` is the direction, rad, that the wearer faces at the start of each walk, in the world that the sensors
-    share. None takes the direction of the first step, which must then be straight. Raises CalibrationError when a walk
-    has no four consecutive marks."""
+    share; x of the marks must be that direction. None takes the direction of the first step, which must then be
+    straight, and marks in any frame; so do feet without body sensors, whose own tracks know no north. Raises
+    CalibrationError when a walk has no four consecutive marks."""
     known = Calibration() if known is None else known
     errors: list[StepError] = []
+    known_heading = heading is not None
     for walk, path in walks:
-        walk_errors = step_errors(read_marks(path), touchdowns(walk, known, heading))
+        known_heading = known_heading and any([sample.site.foot is None for sample in walk.samples])
+        turn = 0.0 if known_heading else None
+        walk_errors = step_errors(read_marks(path), touchdowns(walk, known, heading), turn)
         if not walk_errors:
             raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
         errors += walk_errors
-    return Calibration(modes=mean_errors(errors))
+    return Calibration(modes=mean_errors(errors, known_heading))
 
 
 def _touchdown_index(mark: ModeMark, downs: list[TouchedDown]) -> int:

@@ -5,9 +5,9 @@ from it, (1)-(3). When the other foot comes down, it becomes the reference at P_
 epsilon_P the compensation. Methods I, II and III are this part with `Height`, `NetAcceleration` and `PressureTouchdown`
 without a compensation. Method IV is III with it.
 
-places.py has P_L, P_R and V_change, compensation.py has epsilon_P, recognition.py the walking mode. P_L and P_R come
-from the chain of seven attitudes (limbs.py). Without sensors above the ankles they come from the feet's own inertial
-tracks, which start at a distance of the hips' width; a Limitation reports that once.
+places.py has P_L, P_R and V_change, compensation.py epsilon_P, recognition.py the walking mode. P_L and P_R come from
+the chain of seven attitudes (limbs.py). Without sensors above the ankles they come from the feet's own inertial tracks;
+a Limitation reports that once. Numbers without a source were chosen by hand.
 
 The paper leaves these points open:
 
@@ -15,13 +15,11 @@ The paper leaves these points open:
   in a bend this is the tangent half a step before. With the feet's own tracks it is the direction from the foot's
   previous touchdown to this one.
 - The first heading is final when the wearer is 1.5 m from the start; earlier touchdowns are not final.
-- Height. The method is planar, so heights of touchdowns are those of the feet's own tracks. These drift apart. So
-  without the chain method I compares the height of each foot above its own last foot-flat.
-- Undetected touchdowns. A touchdown is also reported if a foot becomes the reference after it has moved, or if the
-  reference foot comes down at another place. If a foot's sign fails (evidence.py), its own strides replace the sign. If
-  one foot is absent, the other is the only reference and follows its own track.
-
-Numbers without a source were chosen by hand."""
+- Height. The method is planar, so heights of touchdowns are those of the feet's own tracks. These drift apart, so
+  without the chain method I compares heights above each foot's last foot-flat.
+- Undetected touchdowns. One is also reported if a foot becomes the reference after it has moved, or if the reference
+  foot comes down elsewhere. If a foot's sign fails (evidence.py), its own strides replace it. If one foot is absent,
+  the other is the only reference and follows its own track."""
 
 from __future__ import annotations
 
@@ -53,9 +51,7 @@ from .touchdown import AnyTouchdown, Height, PressureTouchdown, ReferenceFoot, d
 LEAST_MOVED_DISTANCE = 0.03
 """Least distance between two touchdowns of a foot, m. The flags of standing feet flicker, which is no touchdown."""
 LEAST_OWN_STEP_LENGTH = 0.3
-"""Least distance that the reference foot has moved when it takes a step, m.
-
-The heel of a foot that rolls over its toes moves less."""
+"""Least distance that the reference foot has moved when it takes a step, m: more than a heel that rolls over toes."""
 LONGEST_WAIT = 0.06
 """Longest wait at a touchdown for the attitudes of that instant, s: three samples at the paper's 50 Hz."""
 STEP_SIGMA = 0.02
@@ -103,10 +99,13 @@ class Modes(TrackPart):
         """Return the part with the wearer's limbs, weight and compensation; methods I to III take no compensation."""
         settings = self.settings
         compensation = settings.compensation
-        if compensation is not None and calibration.modes:
+        if compensation is not None and settings.own_compensation and calibration.modes:
             compensation = merge_own(compensation, calibration.modes)
         limbs, weight = calibration.limbs or settings.limbs, calibration.weight or settings.weight
         return evolve(self, settings=evolve(settings, limbs=limbs, weight=weight, compensation=compensation))
+
+    def headed(self, heading: float) -> Modes:
+        return evolve(self, settings=evolve(self.settings, heading=heading))
 
     def feed_limb(self, sample: Sample) -> Sequence[PartOutput]:
         """Add a sample of pelvis, thigh or shank: its attitude, or acceleration and angular velocity."""
@@ -136,6 +135,7 @@ class Modes(TrackPart):
                 heading = None if view.north is None else atan2(-view.north[1], view.north[0])
                 self.places.chain.set_own_attitude(SITE_OF_FOOT[foot], t, view.attitude, heading)
         self.signs.add_view(view, self.places.sides[foot].track[2])
+        self.recognition.add_view(view)
         events = [] if view.pressed is None else self._add_pressure(view, view.pressed)
         return events + self._update_reference(foot, t, known_at)
 

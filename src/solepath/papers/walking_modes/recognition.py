@@ -1,21 +1,26 @@
-"""Walking mode during a walk, from contacts of both feet, the body's weight, and table 2 (mode.py).
+"""Walking mode during a walk, from strides and contacts of both feet and the body's weight.
 
 After Gong et al. 2023 (Sensors 23, 5417), section 3.3. A contact is the time from a foot's touchdown until its cells
-are unloaded. The paper leaves open when the mode is known. The mode of a contact is certain only at its end, but the
-compensation is needed at a touchdown. By then the other foot has borne the whole weight. So the mode of the step that
-ends is that of the other foot's contact so far or, if this has no mode yet, the latest one of that foot. The first step
-after standing is taken for a straight one. So is every step if the cells do not show left and right. Numbers without a
-source were chosen by hand."""
+are unloaded. The paper leaves open when the mode is known; the compensation is needed at a touchdown.
+
+By `ModeRule.TURN` (turning.py) the mode of the step that ends is that of the mean curvature of the newest stride of
+either foot, and the mode of a contact that of the stride that ended in it and the other foot's newest one. By table 2
+(mode.py) the mode of a contact is certain only at its end. At a touchdown the other foot has borne the whole weight, so
+the mode of the step that ends is that of the other foot's contact so far or, if this has no mode yet, the latest one of
+that foot. The first step after standing is taken for a straight one. So is every step if neither the feet's turns nor
+the cells show a mode. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
 from math import fsum
 
+from ...foot.view import FootView
 from ...types import OTHER, Foot, Layout, WalkingMode
 from ...types.attrs import define, field
 from .mode import LEAST_STEP_LENGTH, LONGEST_CONTACT, STANDING_WEIGHT, Contact, at_reference_speed, decide
-from .settings import ModesSettings
+from .settings import ModeRule, ModesSettings
 from .touchdown import FootState, PressureTouchdown
+from .turning import StrideTurn, mode_of_curvature
 
 MEAN_SAMPLES = 2000
 """Number of samples over which the mean load of both feet is a plain mean; later samples have weight 1/2000 each."""
@@ -33,6 +38,10 @@ class SoleContacts:
     """Flag: the foot is in contact now."""
     mode: WalkingMode | None = field(default=None, init=False)
     """Latest mode of the foot's contacts; None before the first."""
+    turn: StrideTurn = field(factory=StrideTurn, init=False)
+    """Turn of the foot in its newest stride."""
+    curvature: float | None = field(default=None, init=False)
+    """Curvature of the path in the foot's newest stride, 1/m, left positive; None if unknown or in standing."""
     in_newtons: bool = field(default=True, init=False)
     """Flag: the foot's samples may be in newtons."""
 
@@ -53,6 +62,10 @@ class Recognition:
 
     def __attrs_post_init__(self) -> None:
         self.soles = {foot: SoleContacts() for foot in Foot}
+
+    def add_view(self, view: FootView) -> None:
+        """Add a sample of a foot, which may turn."""
+        self.soles[view.foot].turn.add_view(view)
 
     def add_pressure(
         self, foot: Foot, state: FootState, cells: tuple[float, ...], layout: Layout | None, t: float, both_feet: bool
@@ -93,18 +106,24 @@ class Recognition:
         """Discard the times of a foot's contacts, because its clock restarts."""
         contact = self.soles[foot].contact
         contact.t_start = contact.t_end = None
+        self.soles[foot].turn.reset()
 
     def is_blind(self, foot: Foot) -> bool:
-        """Return whether the foot's cells do not show left and right, so that they show no mode except standing."""
-        return self.soles[foot].contact.blind
+        """Return whether the mode is asked of cells that do not show left and right: they show only standing."""
+        return self.settings.rule is not ModeRule.TURN and self.soles[foot].contact.blind
 
     def add_touchdown(self, foot: Foot, step: float) -> None:
         """Add a touchdown of the foot at a distance of `step` m from its previous one."""
-        self.soles[foot].step = step
+        sole = self.soles[foot]
+        sole.step = step
+        turn = sole.turn.turn()
+        sole.curvature = None if turn is None or step < LEAST_STEP_LENGTH else turn / step
 
     def mode_at_touchdown(self, foot: Foot) -> WalkingMode:
         """Return the mode of the step that ends as `foot` comes down."""
         other = OTHER[foot]
+        if self.settings.rule is ModeRule.TURN:
+            return self._mode_by_turn(foot) or WalkingMode.STRAIGHT
         reference = self.soles[other]
         mode = self._mode_so_far(other) if reference.pressed and not reference.contact.too_long else None
         if mode is None:
@@ -121,11 +140,24 @@ class Recognition:
         """Return the mode of a contact that has ended, and keep its `forward`."""
         sole = self.soles[foot]
         contact = sole.contact
+        if contact.too_long:
+            return None
+        if sole.step < LEAST_STEP_LENGTH:
+            return self._standing(both_loads)
+        if self.settings.rule is ModeRule.TURN:
+            return self._mode_by_turn(foot)
         shares = contact.shares()
-        if shares is None or contact.too_long:
+        if shares is None:
             return None
         contact.forward = shares["F1"] - shares["F2"]
-        return self._standing(both_loads) if sole.step < LEAST_STEP_LENGTH else self._mode_so_far(foot)
+        return self._mode_so_far(foot)
+
+    def _mode_by_turn(self, foot: Foot) -> WalkingMode | None:
+        """Return the mode by the mean curvature of the newest stride of `foot` and of the other foot, if it walks."""
+        curvature, other = self.soles[foot].curvature, self.soles[OTHER[foot]].curvature
+        if curvature is None:
+            return None
+        return mode_of_curvature(curvature if other is None else 0.5 * (curvature + other))
 
     def _mode_so_far(self, foot: Foot) -> WalkingMode | None:
         """Return the mode of a foot's contact so far, by table 2."""
@@ -135,4 +167,6 @@ class Recognition:
         if shares is None:
             return None
         forward = shares["F1"] - shares["F2"] + self.soles[OTHER[foot]].contact.forward
-        return decide(foot, sole.step, at_reference_speed(shares, contact.speed(sole.step)), forward, self.settings.th)
+        if self.settings.rule is ModeRule.TABLE_2_AT_SPEED:
+            shares = at_reference_speed(shares, contact.speed(sole.step))
+        return decide(foot, sole.step, shares, forward, self.settings.th)

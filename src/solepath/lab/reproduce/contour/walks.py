@@ -52,6 +52,12 @@ class ContourJob:
     """Recipes that walk it, keys of VARIANTS."""
 
     @property
+    def key(self) -> str:
+        """Description that is another for each other job: setups and variants are known by their names."""
+        names = ", ".join((self.setup.name, *self.variants))
+        return f"{self.seed}, {self.number}, {self.duration}, {self.laps}, {names}"
+
+    @property
     def square(self) -> bool:
         """True for laps of the square, False for a random walk."""
         return published.LOOPS[self.number].distance < PACE * HALF_HOUR

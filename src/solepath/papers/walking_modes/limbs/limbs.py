@@ -56,18 +56,26 @@ class Transform(NamedTuple):
 
 
 def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limbs: Limbs) -> Vec3:
-    """Return O_3 relative to the middle of the hips, m, in the frame into which the attitudes turn the segments.
+    """Return O_3 relative to the middle of the hips, m, in the frame into which the attitudes turn the segments."""
+    return joints(pelvis, thigh, shank, foot, hip, limbs)[3]
 
-    It is the last column of
+
+def joints(
+    pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limbs: Limbs
+) -> tuple[Vec3, Vec3, Vec3, Vec3]:
+    """Return hip, knee, ankle and O_3 relative to the middle of the hips, m: the rods of fig. 8.
+
+    O_3 is the last column of
 
         0_3R = 0_1R 1_2R 2_3R                                                                                   (7)
 
     from the pelvis on. `hip` is the position of the hip joint in the pelvis, m. In the N-pose all attitudes are the
     identity: thigh and shank point down, and the foot points forward from below the ankle."""
-    chain = Transform(pelvis, ZERO).then(Transform(multiply(conjugate(pelvis), thigh), hip))
-    chain = chain.then(Transform(multiply(conjugate(thigh), shank), (0.0, 0.0, -limbs.thigh)))
-    chain = chain.then(Transform(multiply(conjugate(shank), foot), (0.0, 0.0, -limbs.shank)))
-    return chain.then(Transform(IDENTITY, (limbs.foot, 0.0, -limbs.ankle_height))).translation
+    to_hip = Transform(pelvis, ZERO).then(Transform(multiply(conjugate(pelvis), thigh), hip))
+    to_knee = to_hip.then(Transform(multiply(conjugate(thigh), shank), (0.0, 0.0, -limbs.thigh)))
+    to_ankle = to_knee.then(Transform(multiply(conjugate(shank), foot), (0.0, 0.0, -limbs.shank)))
+    to_end = to_ankle.then(Transform(IDENTITY, (limbs.foot, 0.0, -limbs.ankle_height)))
+    return to_hip.translation, to_knee.translation, to_ankle.translation, to_end.translation
 
 
 @define
@@ -206,11 +214,15 @@ class LowerLimbs:
 
     def end(self, foot: Foot, t: float) -> Vec3:
         """Return P_L or P_R at `t` s: the end of the foot relative to the middle of the hips, world frame, m."""
+        return self.rods(foot, t)[3]
+
+    def rods(self, foot: Foot, t: float) -> tuple[Vec3, Vec3, Vec3, Vec3]:
+        """Return hip, knee, ankle and end of the foot at `t` s, relative to the middle of the hips, world frame, m."""
         thigh, shank, foot_attitude = [self._attitude(site, t) for site in LEG_SITES[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
         limbs = self.settings.limbs
         hip = (0.0, side * limbs.hip_width, 0.0)
-        return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, foot_attitude, hip, limbs)
+        return joints(self._attitude(Site.PELVIS, t), thigh, shank, foot_attitude, hip, limbs)
 
     def height(self, foot: Foot, t: float) -> float:
         """Return the height of the sole below the ankle at `t` s, relative to the middle of the hips, upwards, m.

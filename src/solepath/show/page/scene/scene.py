@@ -40,7 +40,7 @@ from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
 from .bending import bend_of
 from .feet import FootScene
-from .gait import SceneGaitMeans, ScenePace, activity_frame
+from .gait import SceneGaitMeans, ScenePace, activity_frame, touchdown_frame
 from .growing import GrowingLists
 from .links import feet_silent_since, link_frame
 from .log import SceneLog
@@ -263,6 +263,7 @@ class Scene:
             "activity": activity_frame(since, activity, silent_since),
             "pace": None if silent_since is not None else self.pace.frame(now, activity, since),
             "support": self._support(),
+            "touchdown": touchdown_frame(observer.touchdown),
             "scales": self.scales.frame(),
             "gait": self.gait_means.frame(observer.recent_gait),
             "links": {site.words: link for site, link in links.items()},

@@ -1,19 +1,19 @@
 // The wearer's activity, and the figures that are looked at first.
 
-import { ACTIVITIES, SUPPORTS, describe, activityText, fixed, wordOf, span, setData, write } from "./words.js";
+import { ACTIVITIES, MODES, SUPPORTS, describe, activityText, fixed, wordOf, show, span, setData, write } from "./words.js";
 
 export class ActivityPanel {
-  uses = ["activity", "support", "pace", "feet", "scene", "second"];
+  uses = ["activity", "support", "touchdown", "pace", "feet", "scene", "second"];
 
   constructor() {
-    for (const id of ["activity", "since", "support", "cadence", "speed", "strides", "distance"])
+    for (const id of ["activity", "since", "support", "touchdown", "cadence", "speed", "strides", "distance"])
       this[id] = document.getElementById(id);
     this.icon = document.getElementById("activity-icon");
     this.supportWord = document.getElementById("support-word");
   }
 
   draw(state) {
-    const { activity, support, pace, feet } = state;
+    const { activity, support, touchdown, pace, feet } = state;
     const name = activity?.now ?? "UNKNOWN";
     const silent = activity !== null && activity.last !== null;
     write(this.activity, activity ? activityText(activity) : "Waiting");
@@ -25,6 +25,9 @@ export class ActivityPanel {
     write(this.since, silent ? `no data from any foot ${since}` : since);
     setData(this.support, { support: support ?? "" });
     write(this.supportWord, support ? wordOf(SUPPORTS, support) : "");
+    show(this.touchdown, touchdown !== null);
+    write(this.touchdown, touchdown ? touchdownText(touchdown) : "");
+    setData(this.touchdown, { mode: touchdown?.mode ?? "" });
     write(this.cadence, fixed(pace?.cadence ?? NaN));
     write(this.speed, fixed(pace?.speed ?? NaN, 2));
     const sending = Object.values(feet).filter((foot) => foot !== null);
@@ -34,4 +37,8 @@ export class ActivityPanel {
     write(this.distance, sending.length > 0 ? fixed(lengths.reduce((a, b) => a + b, 0) / lengths.length, 1) : "–");
     return "done";
   }
+}
+
+function touchdownText({ foot, mode, position: [x, y] }) {
+  return `${wordOf(MODES, mode)}; ${foot} foot came down at ${fixed(x, 2)}, ${fixed(y, 2)} m`;
 }

@@ -45,6 +45,7 @@ export class State {
     this.place = null;
     this.activity = null;
     this.support = null;
+    this.touchdown = null; // {t, foot, mode, position: world frame, m}
     this.gait = null;
     this.links = {};
     this.playback = null;
@@ -165,8 +166,13 @@ export class State {
 
 const support = (value) => text(value) || null;
 
+const touchdown = (value) => {
+  const { t, foot, mode, position } = record(value);
+  return FEET.includes(foot) && numbers(position, 3) ? { t: number(t), foot, mode: text(mode), position } : null;
+};
+
 // Members that a frame sends whole, with the function that checks each.
-const READERS = { wearer, place, activity, pace, scales, support, gait, playback };
+const READERS = { wearer, place, activity, pace, scales, support, touchdown, gait, playback };
 
 // Sorted by time: a phase may become known after one that started later.
 function insert(phases, one) {

@@ -12,6 +12,14 @@ export const ACTIVITIES = {
   UNKNOWN: "Not clear",
 };
 export const SUPPORTS = { DOUBLE: "both feet", LEFT: "left foot", RIGHT: "right foot", FLIGHT: "in the air" };
+export const MODES = {
+  STRAIGHT: "straight on",
+  LEFT_WIDE: "wide bend to the left",
+  LEFT_TIGHT: "tight bend to the left",
+  RIGHT_WIDE: "wide bend to the right",
+  RIGHT_TIGHT: "tight bend to the right",
+  STANDING: "standing",
+};
 export const LINKS = { ok: "connected", silent: "silent", lost: "lost", waiting: "waiting" };
 
 // A word of a newer version is shown as it comes.

@@ -1,0 +1,59 @@
+"""`solepath calibrate limbs`: lengths of the limbs for seven body sensors, and a check of the standing pose."""
+
+from __future__ import annotations
+
+import argparse
+from math import degrees
+from pathlib import Path
+from typing import Any
+
+from ..calibration import Calibration
+from ..show.tables.table import number, table
+from .common.failure import parse_positive
+from .common.inputs import source_of
+
+STEEPEST_TILT = 35.0
+"""Tilt from which a sensor is hardly strapped on as intended, degrees; between two axes of a box it is 45."""
+
+
+def add_limbs(kinds: Any) -> None:
+    """Add the kind to the parser."""
+    command: argparse.ArgumentParser = kinds.add_parser(
+        "limbs",
+        help="lengths of the limbs, and whether seven body sensors stood still, from a standing pose",
+        description="From some seconds of standing upright, feet level and side by side, with all seven sensors worn "
+        "(docs/body-sensors.md): whether a walk can begin so. Lengths are shares of the stature, or as measured.",
+        epilog="example: solepath calibrate limbs standing.jsonl --stature 1.72 --spines 0.235 --out me.json",
+    )
+    command.set_defaults(learn=_limbs)
+    command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
+    command.add_argument("--stature", metavar="M", type=parse_positive, required=True, help="of the wearer, m")
+    for name, what in (
+        ("spines", "distance of the bony points at the front of the hips (anterior iliac spines), m"),
+        ("thigh", "from the hip joint to the knee, m"),
+        ("shank", "from the knee to the ankle, m"),
+    ):
+        command.add_argument(f"--{name}", metavar="M", type=parse_positive, help=f"{what} (default: by the stature)")
+
+
+def _limbs(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
+    from ..papers.walking_modes.limbs.standing import check_standing, limbs_of
+    from ..recording.decoded import decode_recording
+
+    stood = check_standing(decode_recording(source_of(options.file)).samples)
+    limbs = limbs_of(options.stature, options.spines, options.thigh, options.shank)
+    rows = [
+        [
+            sensor.site.words,
+            number(degrees(sensor.tilt), 0),
+            "gyroscope" if sensor.own_world else "its own",
+            "strapped on askew?" if degrees(sensor.tilt) > STEEPEST_TILT else "",
+        ]
+        for sensor in stood
+    ]
+    return Calibration(limbs=limbs), [
+        table(["sensor", "tilt deg", "attitude", ""], rows),
+        f"hip joints {100.0 * limbs.hip_width:.1f} cm apart, thigh {100.0 * limbs.thigh:.1f} cm, shank "
+        f"{100.0 * limbs.shank:.1f} cm, foot ahead of the ankle {100.0 * limbs.foot:.1f} cm, ankle "
+        f"{100.0 * limbs.ankle_height:.1f} cm high",
+    ]
