@@ -1,0 +1,1 @@
+"""How worn soles differ from rigid ones that roll without slip."""
