@@ -11,7 +11,7 @@ Numbers without a source were chosen by hand for a shoe of this size and not swe
 
 from __future__ import annotations
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ...types import Quat, Vec3
 from ...types.vector import IDENTITY
@@ -45,14 +45,14 @@ class Shoe:
     contact: GroundContact = RIGID
     """Contact with the ground while the wearer walks; `heel` and `forefoot` are the arcs in static postures."""
 
-    def walking_forefoot(self, shift: float) -> Rocker:
-        """Return the arc of the forefoot in a stride whose arc is shifted forwards by `shift`, m."""
-        return Rocker(self.forefoot.x + shift, self.forefoot.radius * self.contact.radius_ratio)
-
-    @property
-    def walking_heel(self) -> Rocker:
-        """Arc of the heel while the wearer walks."""
-        return Rocker(self.heel.x + self.contact.heel_shift, self.heel.radius)
+    def walking(self, pivot_shift: float) -> Shoe:
+        """Return the shoe with the arcs of a stride whose forefoot arc is shifted forwards by `pivot_shift`, m."""
+        heel, forefoot, contact = self.heel, self.forefoot, self.contact
+        return evolve(
+            self,
+            heel=Rocker(heel.x + contact.heel_shift, heel.radius),
+            forefoot=Rocker(forefoot.x + pivot_shift, forefoot.radius * contact.radius_ratio),
+        )
 
 
 @frozen

@@ -60,7 +60,8 @@ class _MotionBuilder:
     """Builds the motion of one foot from pieces, with the elevator rides."""
 
     def __init__(self, wearer: Wearer, plan: WalkPlan, rng: Rng, contact_rng: Rng) -> None:
-        self.shoe, self.sway, self.rng, self.contact_rng = wearer.shoe, wearer.sway, rng, contact_rng
+        self.worn_shoe, self.sway, self.rng, self.contact_rng = wearer.shoe, wearer.sway, rng, contact_rng
+        self.shoe = wearer.shoe
         self.contact = RIGID.draw(contact_rng)
         self.rides, self.escalators, self.duration = plan.rides, plan.escalators, plan.duration
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
@@ -70,7 +71,8 @@ class _MotionBuilder:
         leave_times = [*(stride.heel_off for stride in strides), _FOREVER]
         self.stand(start, -_FOREVER, leave_times[0], 0.0)
         for stride, leave_time in zip(strides, leave_times[1:], strict=True):
-            self.contact = self.shoe.contact.draw(self.contact_rng)
+            self.contact = self.worn_shoe.contact.draw(self.contact_rng)
+            self.shoe = self.worn_shoe.walking(self.contact.pivot_shift)
             self.push_off(stride)
             self.swing(stride)
             self.land(stride)
@@ -100,11 +102,7 @@ class _MotionBuilder:
         """Add the roll over the forefoot from heel-off to toe-off; a raised heel makes the pitch negative."""
         pitch = -stride.toe_off_pitch * _from_rest(TOE_OFF_SLOPES)
         slip = [axis * TOE_SLIP for axis in self._toe_slip(stride.start)]
-        self._roll(Phase.PUSH_OFF, self._forefoot(), stride.start, stride.heel_off, stride.toe_off, pitch, slip)
-
-    def _forefoot(self) -> Rocker:
-        """Return the forefoot arc of this stride."""
-        return self.shoe.walking_forefoot(self.contact.pivot_shift)
+        self._roll(Phase.PUSH_OFF, self.shoe.forefoot, stride.start, stride.heel_off, stride.toe_off, pitch, slip)
 
     def _toe_slip(self, pose: Pose) -> Array:
         """Return the displacement of the forefoot by slip at toe-off, world frame, m."""
@@ -127,7 +125,7 @@ class _MotionBuilder:
 
     def _landing_arc(self, stride: PlannedStride) -> Rocker:
         """Return the arc that touches the ground first."""
-        return self.shoe.forefoot if stride.strike_pitch < 0.0 else self.shoe.walking_heel
+        return self.shoe.forefoot if stride.strike_pitch < 0.0 else self.shoe.heel
 
     def swing(self, stride: PlannedStride) -> None:
         """Add the swing from toe-off to heel-strike."""
@@ -135,7 +133,7 @@ class _MotionBuilder:
         push_off_pitch, landing_pitch = -stride.toe_off_pitch * _from_rest(TOE_OFF_SLOPES), _landing_pitch(stride)
         pitch_start = _end_state(push_off_pitch, 1.0, stride.toe_off - stride.heel_off)
         pitch_end = _end_state(landing_pitch, 0.0, stride.foot_flat - stride.heel_strike)
-        p0, v0, a0 = self._ankle(self._forefoot(), stride.start, pitch_start)
+        p0, v0, a0 = self._ankle(self.shoe.forefoot, stride.start, pitch_start)
         slip, slip_v, slip_a = slip_at_toe_off(self._toe_slip(stride.start), stride.toe_off - stride.heel_off)
         p0, v0, a0 = p0 + slip, v0 + slip_v, a0 + slip_a
         p1, v1, a1 = self._ankle(self._landing_arc(stride), stride.end, pitch_end)
