@@ -157,6 +157,7 @@ PARTS: dict[str, str] = {
     "Particles": _BODY + "place.particles",
     "KnownVelocity": _KUPT + "known_velocity",
     "SwingDedrift": _KUPT + "swing_dedrift",
+    "SoftSwing": _KUPT + "soft_swing",
     "CopCues": _KUPT + "cop_cues",
     "DoubleFoot": _KUPT + "fusion",
     "ContourVelocity": _CONTOUR + "contour_stance",

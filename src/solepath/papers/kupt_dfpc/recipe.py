@@ -10,7 +10,7 @@ from ...types.attrs import evolve
 from .cop_cues import CopCues
 from .fusion import DoubleFoot
 from .known_velocity import KnownVelocity
-from .swing_dedrift import SwingDedrift
+from .soft_swing import SoftSwing
 
 BOARD_SHARE = 0.44
 """Place of the circuit board between an insole's two areas, from the heel's end, as a share of its length.
@@ -20,7 +20,7 @@ The paper has 12.5 cm of 28.5 cm."""
 KUPT = Recipe(
     "kupt",
     KnownVelocity(),
-    SwingDedrift(),
+    SoftSwing(),
     CopCues(),
     InsoleLoads(InsoleSettings(heel_end=BOARD_SHARE, forefoot_start=BOARD_SHARE)),
     needs_pressure=True,
