@@ -101,6 +101,7 @@ DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual_parts(BothF
 RECIPES: dict[str, str] = {
     "default": "recipes:DEFAULT",
     "kupt-dfpc": "papers.kupt_dfpc.recipe:KUPT_DFPC",
+    "kupt-dfpc-printed": "papers.kupt_dfpc.recipe:KUPT_DFPC_PRINTED",
     "kupt": "papers.kupt_dfpc.recipe:KUPT",
     "zupt": "papers.kupt_dfpc.recipe:ZUPT",
     "pressure-contour": "papers.pressure_contour.recipe:PRESSURE_CONTOUR",

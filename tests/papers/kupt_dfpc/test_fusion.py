@@ -19,7 +19,8 @@ from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.events import Event, StrideFeatures, StrideFused, StrideTaken
 from solepath.foot.pressure.cells import centre as centre_of
-from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, own_share, resample_cop
+from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
+from solepath.papers.kupt_dfpc.similarity import POINTS, correlation, own_share, resample_cop
 from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Sample, Site
 
@@ -48,7 +49,7 @@ def stride_of(
 
 
 def walked(*steps: StrideTaken) -> tuple[DoubleFoot, list[StrideFused]]:
-    body = DoubleFoot()
+    body = DoubleFoot(FusionSettings(by_variance=False))
     return body, [body.add_stride(one, CENTRE) for one in steps]
 
 

@@ -51,7 +51,13 @@ class SwingSettings(DedriftSettings):
     largest_rolling_error: float = LARGEST_ROLLING_ERROR
     """Largest difference of rolling and raw velocity in push-off that is used, m/s; infinite in the paper."""
     vertical: bool = False
-    """Flag: the known velocity is used for heights too."""
+    """Flag: the known velocity is used for heights too; only `SwingDedrift` has it."""
+    uses_rolling: bool = True
+    """Flag: `SoftSwing` uses the velocities of the rolling shoe."""
+    learns_rolling: bool = True
+    """Flag: `SoftSwing` learns pivot and slide; if False, their starting values stay."""
+    learns_time: bool = True
+    """Flag: `SoftSwing` learns the time of the drift in swing; if False, the drift is linear."""
 
 
 PRINTED = SwingSettings(slide_time=0.0, largest_rolling_error=inf)

@@ -129,7 +129,8 @@ class SoftSwing(SwingDedrift):
         rise = self.raw_displacement[2]
         weight = vz / (first + swing + last)
         early_rise = weight * (first * ages[0] + swing * (duration - t) + last * ages[2])
-        time.add(rise - early_rise, -weight * swing * (h - t))
+        if self.settings.learns_time:
+            time.add(rise - early_rise, -weight * swing * (h - t))
         self.drift_scale.add(0.5 * (vx * vx + vy * vy), self.drift)
         x, y, _ = self.raw_displacement
         return (x - dx, y - dy, rise - 0.5 * vz * duration)
@@ -139,7 +140,7 @@ class SoftSwing(SwingDedrift):
         error, heel_error = toe_off.error, self.heel_strike_error
         x, y, _ = toe_off.known_displacement
         rolled = hypot(x, y)
-        if error is None or rolled < LEAST_ROLL:
+        if error is None or rolled < LEAST_ROLL or not self.settings.uses_rolling:
             return
         x, y = x / rolled, y / rolled
         last_error = self.raw_velocity if heel_error is None else heel_error
@@ -149,16 +150,18 @@ class SoftSwing(SwingDedrift):
         expected = slide.mean + pivot.shift * lift_rate
         noise = slide.noise + pivot.variance * lift_rate * lift_rate
         parts.measure(1, (error[0] - expected * x, error[1] - expected * y), noise)
+        heel = self.heel_slide
+        if heel_error is not None:
+            parts.measure(2, (heel_error[0] - heel.mean * x, heel_error[1] - heel.mean * y), heel.noise)
+        if not self.settings.learns_rolling:
+            return
         slide.add(error[0] * x + error[1] * y - pivot.shift * lift_rate, first + pivot.variance * lift_rate * lift_rate)
         sin_pitch = sqrt(max(0.0, 1.0 - toe_off.cos_pitch * toe_off.cos_pitch))
         if sin_pitch > LEAST_SIN_PITCH:
             pivot.add(toe_off.rise_error, sin_pitch)
-        if heel_error is None:
-            return
-        slide = self.heel_slide
-        parts.measure(2, (heel_error[0] - slide.mean * x, heel_error[1] - slide.mean * y), slide.noise)
-        vx, vy, _ = self.raw_velocity
-        slide.add((heel_error[0] - vx) * x + (heel_error[1] - vy) * y, last)
+        if heel_error is not None:
+            vx, vy, _ = self.raw_velocity
+            heel.add((heel_error[0] - vx) * x + (heel_error[1] - vy) * y, last)
 
     def anchor(self) -> tuple[float, ...]:
         stretch = SwingDedrift.anchor(self)

@@ -61,11 +61,14 @@ class GroundContact:
 
 @frozen
 class StrideContact:
-    """The contact of the sole in one stride; the fields are those of `GroundContact`."""
+    """The contact of the sole in one stride (`GroundContact`)."""
 
     pivot_shift: float
+    """Forward shift of the forefoot arc, m."""
     impact_time: float
+    """Time that the sole and the heel pad take to stop the heel, s."""
     toe_slip: float
+    """Distance by which the forefoot slides back before toe-off, m."""
 
 
 RIGID = GroundContact()
