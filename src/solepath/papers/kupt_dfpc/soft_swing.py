@@ -41,7 +41,9 @@ class SoftSwing(SwingDedrift):
 
     Latency as in `SwingDedrift`: the position is corrected in one jump at motion end. In a motion without toe-off,
     without heel-strike or with a gap one linear drift is removed. The covariance of a stretch is that of its motions,
-    and `path_error` of the path for scale errors, which no stance shows."""
+    and `path_error` of the path for scale errors, which no stance shows. While the foot moves, the live position
+    follows the velocity of the rolling shoe horizontally, and the raw velocity vertically: a pivot that is 1 cm off
+    errs by 8 cm/s there."""
 
     pivot: Pivot = field(factory=Pivot, init=False)
     """Error of L_r in (6)."""
@@ -84,7 +86,10 @@ class SoftSwing(SwingDedrift):
         self.upright = _up(self.attitude)
 
     def _use_velocity(self, v_ref: Vec3, push_off: bool) -> Vec3 | None:
+        height, climb = self.position[2], self.velocity[2]
         error = SwingDedrift._use_velocity(self, v_ref, push_off)
+        (x, y, _), (vx, vy, _) = self.position, self.velocity
+        self.position, self.velocity = (x, y, height), (vx, vy, climb)
         if push_off and error is not None:
             self.rise_error += error[2] * self.interval
         return error
