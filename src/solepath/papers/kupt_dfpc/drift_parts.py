@@ -2,30 +2,22 @@
 
 from __future__ import annotations
 
-from ...types.attrs import define, field
-
 Parts = tuple[float, float, float]
 """One number for each part: what arises until toe-off, in swing, and after heel-strike."""
 
 
-@define
 class DriftParts:
     """The parts of the horizontal velocity error of one motion, independent and isotropic at first.
 
-    Both axes have the same covariance, because they are measured together and with the same noise."""
+    Both axes have the same covariance, because they are measured together and with the same noise. A foot needs this
+    only while a motion ends, so it is in no snapshot."""
 
-    variances: Parts
-    """Variances of the parts before any measurement, m^2/s^2."""
-    x: list[float] = field(factory=lambda: [0.0, 0.0, 0.0], init=False)
-    """Parts along x, m/s."""
-    y: list[float] = field(factory=lambda: [0.0, 0.0, 0.0], init=False)
-    """Parts along y, m/s."""
-    covariance: list[list[float]] = field(init=False)
-    """Covariance of the parts along either axis, m^2/s^2."""
+    __slots__ = ("covariance", "x", "y")
 
-    def __attrs_post_init__(self) -> None:
-        a, s, b = self.variances
-        self.covariance = [[a, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, b]]
+    def __init__(self, variances: Parts) -> None:
+        first, swing, last = variances
+        self.x, self.y = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+        self.covariance = [[first, 0.0, 0.0], [0.0, swing, 0.0], [0.0, 0.0, last]]
 
     def measure(self, count: int, error: tuple[float, float], noise: float) -> None:
         """Use a measured sum of the first `count` parts, m/s along x and y, with this variance, m^2/s^2."""

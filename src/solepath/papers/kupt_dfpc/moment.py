@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import inf
-
 from ...foot.settings import DedriftSettings
 from ...types import Vec3
 from ...types.attrs import frozen
@@ -49,7 +47,7 @@ class SwingSettings(DedriftSettings):
     slide_time: float = 0.02
     """Time after heel-strike in which the heel still slides, s; 0 in the paper."""
     largest_rolling_error: float = LARGEST_ROLLING_ERROR
-    """Largest difference of rolling and raw velocity in push-off that is used, m/s; infinite in the paper."""
+    """Largest difference of rolling and raw velocity in push-off that is used, m/s; there is no limit in the paper."""
     vertical: bool = False
     """Flag: the known velocity is used for heights too; only `SwingDedrift` has it."""
     uses_rolling: bool = True
@@ -60,5 +58,8 @@ class SwingSettings(DedriftSettings):
     """Flag: `SoftSwing` learns the time of the drift in swing; if False, the drift is linear."""
 
 
-PRINTED = SwingSettings(slide_time=0.0, largest_rolling_error=inf)
+NO_LIMIT = 1e3
+"""Velocity that no foot has, m/s."""
+
+PRINTED = SwingSettings(slide_time=0.0, largest_rolling_error=NO_LIMIT)
 """Settings with which equation (8) is applied as printed."""

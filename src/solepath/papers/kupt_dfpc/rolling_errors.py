@@ -1,12 +1,12 @@
-"""What a foot learns from its own strides about the errors of (5), (7) and (8), with the uncertainty of each.
+"""Errors of (5), (7) and (8) that a foot learns from its own strides, with the uncertainty of each.
 
 Chen et al. 2019 (IEEE Internet of Things Journal 6, section III.C.3) measure the shoe once, in static postures. They
 take the velocities of (5) and (7) for exact and the drift of (8) for linear. A shoe that bends elsewhere under the
 weight of a walking body, or slides, makes them wrong, and fig. 14 shows that the drift is not linear. So are learnt:
 
-- The pivot of the forefoot (`Pivot`): how much longer L_r of (6) is in walking. It shows in the height of the heel at
-  toe-off, which grows by sin(pitch) times that length, and which the raw velocity gives to a few millimetres, because
-  it started from rest 0.3 s ago.
+- The pivot of the forefoot (`PivotShift`): how much longer L_r of (6) is in walking. It shows in the height of the
+  heel at toe-off, which grows by sin(pitch) times that length, and which the raw velocity gives to a few millimetres,
+  because it started from rest 0.3 s ago.
 - The slide at toe-off and after heel-strike (`RollingError`): the mean and the spread of the velocity of the rolling
   shoe minus that of the sensor. A velocity that is known badly then weighs little.
 - The time of the drift (`DriftTime`): where between toe-off and heel-strike the velocity drifts. Of a stride of level
@@ -27,19 +27,24 @@ SLIDE_SPREAD = 0.1
 """Standard deviation of a sliding velocity before the first stride, m/s: a quarter of the speed of a landing heel."""
 FIRST_STRIDES, MOST_STRIDES = 4.0, 30.0
 """Weight of a starting value, and the largest weight of the past, in strides."""
-TIME_SPREAD = 0.3
-"""Standard deviation of the time of the drift before the first stride, as a share of the swing: that of an even
-distribution over it."""
+TIME_SPREAD, TIME_MISMATCH = 0.3, 0.2
+"""Standard deviation of the mean time of the drift before the first stride, and of its difference between the vertical
+and the horizontal axes, as shares of the swing.
+
+The first is that of an even distribution over the swing. The second was chosen by hand; emulated walks of 20 m at 30 Hz
+differ by 0.01 m from 0.1 to 0.3."""
 RISE_SPREAD, RISE_NOISE = 0.04, 0.01
 """Standard deviation of the mean rise of level strides by the raw velocity, and of one stride about it, m.
 
 A bias of 0.1 m/s^2 raises a stride of 0.9 s by 0.04 m. The floor is level within a centimetre."""
+TIME_WEIGHT = TIME_SPREAD**2 / (TIME_SPREAD**2 + TIME_MISMATCH**2)
+"""Share of a deviation of the vertical time of the drift from one half that the horizontal time has on average."""
 STEPPED_RISE = 0.1
 """Difference of a stride's rise from the expected one above which it went up or down a step, m."""
 
 
 @define
-class Pivot:
+class PivotShift:
     """Excess of the length L_r in walking over the measured one, m, with its variance."""
 
     shift: float = field(default=0.0, init=False)
@@ -85,27 +90,42 @@ class RollingError:
 class DriftTime:
     """Mean time at which the velocity drifts in swing, as a share of the swing from toe-off to heel-strike.
 
-    The rise that all strides have in common comes from a bias; it is learnt beside the time and tells nothing of it."""
+    The rises of strides show that of the vertical velocity, `vertical`. The horizontal velocity need not drift at the
+    same time, so its share is in between that and one half. The rise that all strides have in common comes from a bias.
+    It is learnt beside the time and tells nothing of it."""
 
-    share: float = field(default=0.5, init=False)
+    vertical: float = field(default=0.5, init=False)
+    """Share for the vertical velocity."""
     rise: float = field(default=0.0, init=False)
     """Rise that all strides have in common, m."""
-    share_variance: float = field(default=TIME_SPREAD * TIME_SPREAD, init=False)
+    vertical_variance: float = field(default=TIME_SPREAD**2 + TIME_MISMATCH**2, init=False)
+    """Variance of `vertical`."""
     covariance: float = field(default=0.0, init=False)
-    """Covariance of share and rise, m."""
+    """Covariance of `vertical` and `rise`, m."""
     rise_variance: float = field(default=RISE_SPREAD * RISE_SPREAD, init=False)
+    """Variance of `rise`, m^2."""
+
+    @property
+    def share(self) -> float:
+        """Share for the horizontal velocity."""
+        return 0.5 + TIME_WEIGHT * (self.vertical - 0.5)
+
+    @property
+    def share_variance(self) -> float:
+        """Variance of `share`."""
+        return (1.0 - TIME_WEIGHT) * TIME_SPREAD**2 + TIME_WEIGHT * TIME_WEIGHT * self.vertical_variance
 
     def add(self, rise: float, slope: float) -> None:
         """Add a stride with this rise, m, if all of the drift came at toe-off; `slope` is its change per share, m."""
-        error = rise - self.rise - slope * self.share
+        error = rise - self.rise - slope * self.vertical
         if abs(error) > STEPPED_RISE:
             return
-        cross = self.covariance + slope * self.share_variance
+        cross = self.covariance + slope * self.vertical_variance
         whole = self.rise_variance + slope * self.covariance
         variance = whole + slope * cross + RISE_NOISE * RISE_NOISE
-        self.share = min(max(self.share + cross / variance * error, 0.0), 1.0)
+        self.vertical = min(max(self.vertical + cross / variance * error, 0.0), 1.0)
         self.rise += whole / variance * error
-        self.share_variance -= cross * cross / variance
+        self.vertical_variance -= cross * cross / variance
         self.covariance -= cross * whole / variance
         self.rise_variance -= whole * whole / variance
 

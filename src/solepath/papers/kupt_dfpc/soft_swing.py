@@ -16,9 +16,9 @@ from math import hypot, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
-from .drift_parts import DriftParts
+from .drift_parts import DriftParts, Parts
 from .moment import MotionMoment
-from .rolling_errors import DriftScale, DriftTime, Pivot, RollingError
+from .rolling_errors import DriftScale, DriftTime, PivotShift, RollingError
 from .swing_dedrift import SwingDedrift
 
 ZERO_VELOCITY_NOISE = 1e-4
@@ -45,7 +45,7 @@ class SoftSwing(SwingDedrift):
     follows the velocity of the rolling shoe horizontally, and the raw velocity vertically: a pivot that is 1 cm off
     errs by 8 cm/s there."""
 
-    pivot: Pivot = field(factory=Pivot, init=False)
+    pivot: PivotShift = field(factory=PivotShift, init=False)
     """Error of L_r in (6)."""
     toe_slide: RollingError = field(factory=RollingError, init=False)
     """Error of (7) in the last interval before toe-off, without that of the pivot."""
@@ -123,7 +123,7 @@ class SoftSwing(SwingDedrift):
             duration - _mean_time(late, late_moment, h, duration),
         )
         parts = DriftParts(variances)
-        self._use_rolling(parts, toe_off)
+        self._use_rolling(parts, variances, toe_off)
         parts.measure(3, (vx, vy), ZERO_VELOCITY_NOISE)
         (dx, dy), variance = parts.displacement(ages)
         swing_drift = 0.5 * (parts.x[1] * parts.x[1] + parts.y[1] * parts.y[1])
@@ -140,7 +140,7 @@ class SoftSwing(SwingDedrift):
         x, y, _ = self.raw_displacement
         return (x - dx, y - dy, rise - 0.5 * vz * duration)
 
-    def _use_rolling(self, parts: DriftParts, toe_off: MotionMoment) -> None:
+    def _use_rolling(self, parts: DriftParts, variances: Parts, toe_off: MotionMoment) -> None:
         """Use the velocities of the rolling shoe, set the error index (10), and learn from both."""
         error, heel_error = toe_off.error, self.heel_strike_error
         x, y, _ = toe_off.known_displacement
@@ -150,7 +150,7 @@ class SoftSwing(SwingDedrift):
         x, y = x / rolled, y / rolled
         last_error = self.raw_velocity if heel_error is None else heel_error
         self.last_error_index = hypot(error[0] + last_error[0], error[1] + last_error[1])
-        first, _, last = parts.variances
+        first, _, last = variances
         pivot, slide, lift_rate = self.pivot, self.toe_slide, toe_off.lift_rate
         expected = slide.mean + pivot.shift * lift_rate
         noise = slide.noise + pivot.variance * lift_rate * lift_rate

@@ -1,1 +1,1 @@
-"""How worn soles differ from rigid ones that roll without slip."""
+"""Soles as they are worn: where they differ from rigid ones that roll without slip."""
