@@ -50,6 +50,12 @@ class SwingSettings(DedriftSettings):
     """Largest difference of rolling and raw velocity in push-off that is used, m/s; there is no limit in the paper."""
     vertical: bool = False
     """Flag: the known velocity is used for heights too; only `SwingDedrift` has it."""
+    bias_share: float = 0.8
+    """Share of the difference from 1 g at rest that `SoftSwing` takes for an upward bias of the accelerometer, not for
+    an error of its scale.
+
+    Typical zero-g offsets in data sheets (LSM6DSOX, MPU-9250, MPU-6050) are twice as large as 1 g times the tolerance
+    of the scale; so four fifths of the variance of that difference are offset."""
     uses_rolling: bool = True
     """Flag: `SoftSwing` uses the velocities of the rolling shoe."""
     learns_rolling: bool = True

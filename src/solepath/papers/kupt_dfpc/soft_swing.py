@@ -16,6 +16,7 @@ from math import hypot, sqrt
 
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
+from ...types.vector import GRAVITY
 from .drift_parts import DriftParts, Parts
 from .moment import MotionMoment
 from .rolling_errors import DriftScale, DriftTime, PivotShift, RollingError
@@ -63,15 +64,25 @@ class SoftSwing(SwingDedrift):
     """Error of the rise in this push-off so far (`MotionMoment.rise_error`)."""
     upright: Vec3 = field(default=(0.0, 0.0, 1.0), init=False)
     """Upward direction in the sensor frame at motion start."""
+    scale_excess: float = field(default=0.0, init=False)
+    """Difference from 1 g at rest that is taken for a bias, as a share of 1 g."""
     motion_variance: float = field(default=0.0, init=False)
     """Variance of the displacement of the motions since the last anchor, along each horizontal axis, m^2."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         SwingDedrift.start(self, attitude, tilt_sigma)
         self.motion_variance = 0.0
+        self.upright = _up(attitude)
+
+    def scaled(self, scale: float) -> None:
+        self.scale_excess = self.settings.bias_share * (1.0 / scale - 1.0)
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        last = self.force
+        last, excess = self.force, self.scale_excess
+        if excess != 0.0:
+            # undo the scale, and subtract a bias along the direction that is upwards in a standing foot
+            (x, y, z), (u, v, w), k, bias = acc, self.upright, 1.0 + excess, excess * GRAVITY
+            acc = (k * x - bias * u, k * y - bias * v, k * z - bias * w)
         SwingDedrift.predict(self, dt, acc, gyro, saturated)
         force = self.force
         if last is not None and force is not None:
