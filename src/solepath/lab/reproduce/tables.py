@@ -48,7 +48,17 @@ class BoxPlots:
     target: float | None = None
 
 
-Panel = FloorPanel | BoxPlots
+@frozen
+class CurvesPanel:
+    """A panel with curves or dots over an axis that is no place, such as time; both axes have their labels."""
+
+    title: str
+    tracks: tuple[PictureTrack, ...]
+    across: str
+    up: str
+
+
+Panel = FloorPanel | BoxPlots | CurvesPanel
 
 
 @frozen

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -9,7 +10,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.tables import BoxPlots, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
+from ..reproduce.tables import BoxPlots, CurvesPanel, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Colours that colour-blind people can distinguish (Okabe and Ito 2008)."""
@@ -35,6 +36,11 @@ def draw(reproduction: Reproduction, path: Path, extension: str) -> None:
     for ax, panel in zip(axes, reproduction.panels, strict=False):
         if isinstance(panel, BoxPlots):
             _draw_boxes(ax, panel, reproduction)
+        elif isinstance(panel, CurvesPanel):
+            _draw_tracks(ax, panel.tracks)
+            ax.set_xlabel(panel.across)
+            ax.set_ylabel(panel.up)
+            ax.legend(fontsize=8)
         else:
             _draw_floor(ax, panel)
         ax.set_title(panel.title, fontsize=10)
@@ -80,8 +86,21 @@ def _draw_paper_box(ax: Axes, left: float, paper: Statistics) -> None:
 
 
 def _draw_floor(ax: Axes, panel: FloorPanel) -> None:
+    _draw_tracks(ax, panel.tracks)
+    for name, x, y in panel.marks:
+        ax.plot([x], [y], marker="*", color="black", markersize=9, linestyle="none", zorder=5)
+        ax.annotate(name, (x, y), textcoords="offset points", xytext=(6, 6), fontsize=9)
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_xlabel("x, m")
+    ax.set_ylabel("y, m")
+    ax.grid(color="0.92")
+    ax.set_axisbelow(True)
+    ax.legend(fontsize=8, loc="center" if len(panel.marks) > 1 else "best")
+
+
+def _draw_tracks(ax: Axes, tracks: Iterable[PictureTrack]) -> None:
     n_drawn = 0
-    for track in panel.tracks:
+    for track in tracks:
         if track.style is DrawStyle.TRUTH:
             ax.plot(*_columns(track), color="0.3", linestyle="--", linewidth=1.0, label=track.name, zorder=3)
             continue
@@ -93,15 +112,6 @@ def _draw_floor(ax: Axes, panel: FloorPanel) -> None:
             ax.plot(*_columns(track), color=colour, linewidth=0.9, label=track.name, zorder=2)
             x, y = track.points[-1] if track.points else (0.0, 0.0)
             ax.plot([x], [y], marker="x", color=colour, markersize=7, zorder=4)
-    for name, x, y in panel.marks:
-        ax.plot([x], [y], marker="*", color="black", markersize=9, linestyle="none", zorder=5)
-        ax.annotate(name, (x, y), textcoords="offset points", xytext=(6, 6), fontsize=9)
-    ax.set_aspect("equal", adjustable="datalim")
-    ax.set_xlabel("x, m")
-    ax.set_ylabel("y, m")
-    ax.grid(color="0.92")
-    ax.set_axisbelow(True)
-    ax.legend(fontsize=8, loc="center" if len(panel.marks) > 1 else "best")
 
 
 def _columns(track: PictureTrack) -> tuple[list[float], list[float]]:
