@@ -29,7 +29,7 @@ class KnownSample:
     """The velocities of one sample, along the direction of the walk, which is x."""
 
     t: float
-    """Time, s."""
+    """Time of the sample, s."""
     raw: float
     """Raw velocity, m/s; 0 in stance."""
     reference: float | None
@@ -43,7 +43,7 @@ class WatchedSwing(SwingDedrift):
     """Corrector as printed that keeps the velocities of all samples; it is for figures only."""
 
     seen: list[KnownSample] = field(factory=list, init=False)
-    """All samples."""
+    """Samples of the session so far."""
 
     def correct(self, t: float, stance: Stance) -> bool:
         raw = self.raw_velocity[0]
