@@ -172,7 +172,7 @@ def walk(job: KuptJob) -> KuptResults:
     prepared = prepare(job.seed, job.setting, job.corridor)
     zupt, known = _run(ZUPT, prepared), _run(KUPT_DFPC, prepared)
     true = {foot: prepared.true_distance(foot) for foot in Foot}
-    distances = {
+    distances: dict[str, tuple[float, ...]] = {
         f"{name}-{letter}": (_distance(events, foot),)
         for name, events in (("ZUPT", zupt), ("KUPT", known))
         for foot, letter in FOOT_LETTERS.items()
