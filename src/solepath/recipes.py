@@ -111,6 +111,7 @@ DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual_parts(BothF
 RECIPES: dict[str, str] = {
     "default": "recipes:DEFAULT",
     "kupt-dfpc": "papers.kupt_dfpc.recipe:KUPT_DFPC",
+    "kupt-dfpc-printed": "papers.kupt_dfpc.recipe:KUPT_DFPC_PRINTED",
     "kupt": "papers.kupt_dfpc.recipe:KUPT",
     "zupt": "papers.kupt_dfpc.recipe:ZUPT",
     "pressure-contour": "papers.pressure_contour.recipe:PRESSURE_CONTOUR",
@@ -169,6 +170,7 @@ PARTS: dict[str, str] = {
     "Particles": _BODY + "place.particles",
     "KnownVelocity": _KUPT + "known_velocity",
     "SwingDedrift": _KUPT + "swing_dedrift",
+    "SoftSwing": _KUPT + "soft_swing",
     "CopCues": _KUPT + "cop_cues",
     "DoubleFoot": _KUPT + "fusion",
     "ContourVelocity": _CONTOUR + "contour_stance",

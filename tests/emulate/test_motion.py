@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.curves import BUMP, DEGREE, LEVELLING, constant, evaluate, join, subcurve
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
-from solepath.emulate.wearers.strides import IMPACT_TIME
+from solepath.emulate.wearers.soles.contact import RIGID
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot, Phase
 from solepath.types.vector import GRAVITY, from_rotation_vector, multiply, normalise, rotate
@@ -117,7 +117,7 @@ def test_the_shoe_rolls_without_slip_over_heel_and_forefoot(straight: Walker) ->
     """The velocity of the sensor is omega x (sensor - contact), the contact being below the arc's centre."""
     motion = straight.motions[Foot.LEFT]
     for stride in straight.plan.strides[Foot.LEFT]:
-        spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + IMPACT_TIME, stride.foot_flat))
+        spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + RIGID.impact_time, stride.foot_flat))
         for start, end in spans:
             t = np.linspace(start + 1e-6, end - 1e-6, 25)
             sensor = motion.at(t, IN_SOLE)
@@ -177,7 +177,7 @@ def test_the_rates_and_forces_of_a_foot_are_those_of_walking(straight: Walker) -
 
 def test_heel_strike_brings_a_short_impact(straight: Walker) -> None:
     stride = straight.plan.strides[Foot.RIGHT][4]
-    t = np.linspace(stride.heel_strike, stride.heel_strike + IMPACT_TIME, 200)
+    t = np.linspace(stride.heel_strike, stride.heel_strike + RIGID.impact_time, 200)
     found = straight.kinematics(Foot.RIGHT, t)
     assert -found.acceleration[:, 0].min() > 2.0 * GRAVITY
     before = straight.kinematics(Foot.RIGHT, t[:1] - 1e-6).velocity[0]

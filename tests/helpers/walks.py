@@ -216,6 +216,7 @@ def machine_events(name: str) -> tuple[tuple[Any, ...], ...]:
 
 RECIPES = (
     "kupt-dfpc",
+    "kupt-dfpc-printed",
     "zupt",
     "pressure-contour",
     "pressure-contour-printed",

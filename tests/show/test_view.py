@@ -28,7 +28,7 @@ from solepath.events import (
 from solepath.session import Session
 from solepath.show.observer import Observer
 from solepath.show.tables.plot import plot
-from solepath.show.tables.summary import link_health, status, summary, wear_lines
+from solepath.show.tables.summary import fused_stride, link_health, status, summary, wear_lines
 from solepath.show.tables.table import milliseconds, number, percent, table
 from solepath.types import Foot, Packet, Sample, Site, WalkingMode
 
@@ -173,3 +173,13 @@ def test_control_codes_of_devices_do_not_reach_the_terminal():
     observer.take(packet, Session().feed(packet))
     for text in (*status(observer), *link_health(observer)):
         assert text.isprintable() and "A" in text
+
+
+def test_the_last_fused_stride_shows_what_it_was_fused_by():
+    observer = Observer()
+    assert fused_stride(observer) == []
+    observer.add(evolve(FUSED, error_index=0.12))
+    assert fused_stride(observer) == [
+        "both feet: 5.25 m by the right foot; last stride 1.38 m",
+        "  similarity -, error index 0.12 m/s, own share 1.00",
+    ]

@@ -247,13 +247,12 @@ class FootTracker:
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
             self.detector.scaled(rest.scale)
+            corrector.scaled(rest.scale)
         if not rest.count:
             self.walk_scale.add_sample(t, acc, gyro)
         k, (bx, by, bz) = rest.scale, rest.bias
-        x, y, z = acc
-        acc = (x * k, y * k, z * k)
-        x, y, z = gyro
-        gyro = (x - bx, y - by, z - bz)
+        (x, y, z), (u, v, w) = acc, gyro
+        acc, gyro = (x * k, y * k, z * k), (u - bx, v - by, w - bz)
         if self.levelled or self.levelling.started_at is not None:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)

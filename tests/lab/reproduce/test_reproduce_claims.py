@@ -39,6 +39,16 @@ def test_known_velocity_scatters_and_errs_less_than_zero_velocity_and_the_fusion
     (corridor,) = (note for note in found.notes if note.startswith("91 m") and "KUPT+DFPC" in note)
     (share,) = re.findall(r"([\d.]+) % of it on average", corridor)
     assert float(share) <= 1.0
+    for setting in ("pivot -1 cm", "pivot +1 cm", "impact 50 ms", "no low pass"):
+        zero, known = (
+            np.concatenate([values(found, f"{setting}: {method}-{foot}") for foot in "LR"])
+            for method in ("ZUPT", "KUPT")
+        )
+        assert rms(known - 20.0) < rms(zero - 20.0)
+        assert rms(values(found, f"{setting}: KUPT+DFPC") - 20.0) < rms(known - 20.0)
+    for foot in "LR":
+        zero, known = (values(found, f"pivot +2 cm: {method}-{foot}") for method in ("ZUPT", "KUPT"))
+        assert rms(known - 20.0) <= 1.05 * rms(zero - 20.0)
 
 
 @pytest.mark.parametrize("seed", [1, 2])

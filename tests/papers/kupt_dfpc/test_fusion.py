@@ -19,12 +19,14 @@ from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.events import Event, StrideFeatures, StrideFused, StrideTaken
 from solepath.foot.pressure.cells import centre as centre_of
-from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, own_share, resample_cop
+from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
+from solepath.papers.kupt_dfpc.similarity import POINTS, correlation, own_share, resample_cop
 from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Sample, Site
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 CENTRE = 0.14
+BY_ERROR_INDEX = FusionSettings(by_variance=False)
 COP_PATH = tuple((0.09 + 0.13 * k / 15, 0.0) for k in range(16))
 """A centre of pressure that rolls evenly from the arch to the toes."""
 
@@ -48,7 +50,7 @@ def stride_of(
 
 
 def walked(*steps: StrideTaken) -> tuple[DoubleFoot, list[StrideFused]]:
-    body = DoubleFoot()
+    body = DoubleFoot(BY_ERROR_INDEX)
     return body, [body.add_stride(one, CENTRE) for one in steps]
 
 
@@ -148,7 +150,7 @@ def test_an_abnormal_step_neither_is_calibrated_nor_calibrates() -> None:
 
 def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> None:
     pairs = [(0.3, 0.1, 1.1, 1.4), (0.1, 0.2, 1.2, 1.2), (0.1, 0.5, 1.2, 1.2)]
-    body, expected, chosen = DoubleFoot(), 0.0, set[Foot]()
+    body, expected, chosen = DoubleFoot(BY_ERROR_INDEX), 0.0, set[Foot]()
     for k, (left, right, d_left, d_right) in enumerate(pairs):
         t = 2.0 + 1.1 * k
         a = body.add_stride(stride_of(LEFT, t, d_left, index=left, number=k + 1), CENTRE)
@@ -182,7 +184,7 @@ def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell(
     session = Session(recipes.by_name("kupt-dfpc"), calibration=Calibration(insoles={LEFT: InsoleCalibration(insole)}))
     flat = Sample(0.0, Site.LEFT_FOOT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0), pressure=(1.0, 2.0, 3.0))
     session.feed(flat)
-    body = DoubleFoot()
+    body = DoubleFoot(BY_ERROR_INDEX)
     fed(body, session.feet[LEFT], flat, [stride_of(LEFT, 2.0)])
     assert body.paths[Foot.LEFT].strides[-1].cop_path[-1] == pytest.approx(0.1)
     assert centre_of(insole) == pytest.approx(0.1)
@@ -266,7 +268,7 @@ def numbers_in(value: Any) -> list[float]:
 def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
     steps: list[tuple[StrideTaken, float | None]],
 ) -> None:
-    body = DoubleFoot()
+    body = DoubleFoot(BY_ERROR_INDEX)
     size = 0
     for one, centre in steps:
         fused = body.add_stride(one, centre)

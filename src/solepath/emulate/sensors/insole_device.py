@@ -126,6 +126,9 @@ class Insole:
     """Yaw of the device's world frame in the walk's world frame, rad; it is used only with `attitude`."""
     mounting: Mounting = IN_SOLE
     """Position and attitude of the IMU on the foot."""
+    bandwidth: float | None = None
+    """Bandwidth of the low pass before the IMU is sampled, Hz; None: half of the rate. With `inf` the signal passes the
+    chip's own low pass only, so what is faster than half of the rate aliases."""
     chip: Imu = LSM6DSOX
     """Chip of the IMU, with its errors."""
     mag: TriadErrors | None = None
@@ -170,7 +173,8 @@ class Insole:
         cell_layout = self._layout(foot, walker.wearer.shoe)
 
         kinematics = walker.kinematics(foot, sampling.fine_times, self.mounting)
-        measured, gyro_measured = measure_imu(kinematics, sampling, self.chip, rng, 0.5 * self.rate)
+        bandwidth = 0.5 * self.rate if self.bandwidth is None else self.bandwidth
+        measured, gyro_measured = measure_imu(kinematics, sampling, self.chip, rng, bandwidth)
         acc, gyro = to_counts(measured, self.chip.acc, ACC_COUNT), to_counts(gyro_measured, self.chip.gyro, GYRO_COUNT)
         upward_force = take_samples(kinematics.force, sampling) @ np.array(
             rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0))

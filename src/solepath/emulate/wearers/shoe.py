@@ -6,14 +6,16 @@ tangent to it. The foot rolls over the heel arc from heel-strike to foot-flat, a
 to toe-off. When a circle rolls without slip over level ground by the pitch angle, its centre moves by radius times
 angle, so the foot's position follows from its pitch alone. KUPT uses the velocity of that motion (Chen et al. 2019,
 IEEE Internet of Things Journal, figs. 5 to 7). The rockers here are round; the paper has a pivot and fitted curves.
+`Shoe.contact` has what a worn shoe does otherwise: it bends elsewhere under the weight, and it slides.
 Numbers without a source were chosen by hand for a shoe of this size and not swept."""
 
 from __future__ import annotations
 
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ...types import Quat, Vec3
 from ...types.vector import IDENTITY
+from .soles.contact import RIGID, GroundContact
 
 
 @frozen
@@ -40,6 +42,17 @@ class Shoe:
     """Arc of the forefoot."""
     ankle: Vec3 = (0.085, 0.0, 0.080)
     """Ankle point in the foot frame, m; in swing this point follows the planned curve."""
+    contact: GroundContact = RIGID
+    """Contact with the ground while the wearer walks; `heel` and `forefoot` are the arcs in static postures."""
+
+    def walking(self, pivot_shift: float) -> Shoe:
+        """Return the shoe with the arcs of a stride whose forefoot arc is shifted forwards by `pivot_shift`, m."""
+        heel, forefoot, contact = self.heel, self.forefoot, self.contact
+        return evolve(
+            self,
+            heel=Rocker(heel.x + contact.heel_shift, heel.radius),
+            forefoot=Rocker(forefoot.x + pivot_shift, forefoot.radius * contact.radius_ratio),
+        )
 
 
 @frozen

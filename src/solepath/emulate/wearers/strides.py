@@ -5,8 +5,9 @@ start it has position, velocity and acceleration of the roll over the forefoot a
 the roll over the heel at heel-strike. A bump is added that keeps the sole just above the ground.
 
 At heel-strike the heel still moves by some decimetres per second relative to the ground, as in reality. Sole and heel
-pad deform and stop the heel within IMPACT_TIME s; from then on the heel rolls without slip. Numbers without a source
-were chosen by hand for plausible rates and forces of a foot and not swept."""
+pad deform and stop the heel within the impact time; from then on the heel rolls without slip. Impact, slip at toe-off
+and the place where the sole bends may vary between strides (soles/contact.py). Numbers without a source were chosen by
+hand for plausible rates and forces of a foot and not swept."""
 
 from __future__ import annotations
 
@@ -23,11 +24,10 @@ from .gait import PlannedStride, WalkPlan, Wearer
 from .motion import PHASES, FootMotion
 from .ramps import axes, leaning, ramp_height, steeper
 from .shoe import Rocker
+from .soles.contact import MAX_IMPACT_SHARE, RIGID, TOE_SLIP, impact_displacement, slip_at_toe_off
 from .sway import SHORTEST_STANDING, sway_pieces
 from .swing import pitch_at, reversal_share, running_swing_pitch, walking_swing_pitch
 
-IMPACT_TIME = 0.014
-"""Time that the sole and the heel pad take to stop the heel, s."""
 SLIDE_SPEED_RATIO = 0.30
 """Forward speed of the heel over the ground just before contact, as a ratio to the walking speed."""
 SINK_SPEED_RATIO = 0.13
@@ -46,16 +46,23 @@ _PointMotion = tuple[Array, Array, Array]
 """Position, m, velocity, m/s, and acceleration, m/s^2, of the ankle point in the world frame, (3,) each."""
 
 
-def foot_motions(plan: WalkPlan, wearer: Wearer, rng: Rng) -> dict[Foot, FootMotion]:
-    """Return the motion of both feet of a plan; `rng` draws the sway of a wearer who sways."""
-    return {foot: _MotionBuilder(wearer, plan, rng).build(plan.starts[foot], plan.strides[foot]) for foot in Foot}
+def foot_motions(plan: WalkPlan, wearer: Wearer, rng: Rng, contact_rng: Rng) -> dict[Foot, FootMotion]:
+    """Return the motion of both feet of a plan.
+
+    `rng` draws the sway of a wearer who sways, `contact_rng` the contact of the sole in each stride."""
+    return {
+        foot: _MotionBuilder(wearer, plan, rng, contact_rng).build(plan.starts[foot], plan.strides[foot])
+        for foot in Foot
+    }
 
 
 class _MotionBuilder:
     """Builds the motion of one foot from pieces, with the elevator rides."""
 
-    def __init__(self, wearer: Wearer, plan: WalkPlan, rng: Rng) -> None:
-        self.shoe, self.sway, self.rng = wearer.shoe, wearer.sway, rng
+    def __init__(self, wearer: Wearer, plan: WalkPlan, rng: Rng, contact_rng: Rng) -> None:
+        self.worn_shoe, self.sway, self.rng, self.contact_rng = wearer.shoe, wearer.sway, rng, contact_rng
+        self.shoe = wearer.shoe
+        self.contact = RIGID.draw(contact_rng)
         self.rides, self.escalators, self.duration = plan.rides, plan.escalators, plan.duration
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
@@ -64,6 +71,8 @@ class _MotionBuilder:
         leave_times = [*(stride.heel_off for stride in strides), _FOREVER]
         self.stand(start, -_FOREVER, leave_times[0], 0.0)
         for stride, leave_time in zip(strides, leave_times[1:], strict=True):
+            self.contact = self.worn_shoe.contact.draw(self.contact_rng)
+            self.shoe = self.worn_shoe.walking(self.contact.pivot_shift)
             self.push_off(stride)
             self.swing(stride)
             self.land(stride)
@@ -92,17 +101,27 @@ class _MotionBuilder:
     def push_off(self, stride: PlannedStride) -> None:
         """Add the roll over the forefoot from heel-off to toe-off; a raised heel makes the pitch negative."""
         pitch = -stride.toe_off_pitch * _from_rest(TOE_OFF_SLOPES)
-        self._roll(Phase.PUSH_OFF, self.shoe.forefoot, stride.start, stride.heel_off, stride.toe_off, pitch)
+        slip = [axis * TOE_SLIP for axis in self._toe_slip(stride.start)]
+        self._roll(Phase.PUSH_OFF, self.shoe.forefoot, stride.start, stride.heel_off, stride.toe_off, pitch, slip)
+
+    def _toe_slip(self, pose: Pose) -> Array:
+        """Return the displacement of the forefoot by slip at toe-off, world frame, m."""
+        return np.asarray(-self.contact.toe_slip * axes(pose)[0])
+
+    def _impact_time(self, stride: PlannedStride) -> float:
+        """Return the time from heel-strike until the heel rolls without slip, s."""
+        return min(self.contact.impact_time, MAX_IMPACT_SHARE * (stride.foot_flat - stride.heel_strike))
 
     def land(self, stride: PlannedStride) -> None:
         """Add the motion from heel-strike to foot-flat: first the impact, then the roll without slip."""
         t_start, end = stride.heel_strike, stride.foot_flat
         pitch = _landing_pitch(stride)
-        cut = IMPACT_TIME / (end - t_start)
-        impact = [_impact_displacement(speed) for speed in _excess(stride)]
+        impact_time = self._impact_time(stride)
+        cut = impact_time / (end - t_start)
+        impact = [impact_displacement(speed, impact_time) for speed in _excess(stride)]
         arc = self._landing_arc(stride)
-        self._roll(Phase.LOADING, arc, stride.end, t_start, t_start + IMPACT_TIME, subcurve(pitch, 0.0, cut), impact)
-        self._roll(Phase.LOADING, arc, stride.end, t_start + IMPACT_TIME, end, subcurve(pitch, cut, 1.0))
+        self._roll(Phase.LOADING, arc, stride.end, t_start, t_start + impact_time, subcurve(pitch, 0.0, cut), impact)
+        self._roll(Phase.LOADING, arc, stride.end, t_start + impact_time, end, subcurve(pitch, cut, 1.0))
 
     def _landing_arc(self, stride: PlannedStride) -> Rocker:
         """Return the arc that touches the ground first."""
@@ -114,12 +133,14 @@ class _MotionBuilder:
         push_off_pitch, landing_pitch = -stride.toe_off_pitch * _from_rest(TOE_OFF_SLOPES), _landing_pitch(stride)
         pitch_start = _end_state(push_off_pitch, 1.0, stride.toe_off - stride.heel_off)
         pitch_end = _end_state(landing_pitch, 0.0, stride.foot_flat - stride.heel_strike)
-        p0, v0, a0 = self._ankle(shoe.forefoot, stride.start, pitch_start)
+        p0, v0, a0 = self._ankle(self.shoe.forefoot, stride.start, pitch_start)
+        slip, slip_v, slip_a = slip_at_toe_off(self._toe_slip(stride.start), stride.toe_off - stride.heel_off)
+        p0, v0, a0 = p0 + slip, v0 + slip_v, a0 + slip_a
         p1, v1, a1 = self._ankle(self._landing_arc(stride), stride.end, pitch_end)
         pitch_start, pitch_end = steeper(pitch_start, stride.start), steeper(pitch_end, stride.end)
         # The impact moves the heel by half of what its speed at contact would in the same time.
         excess = np.array(_excess(stride))
-        p1, v1 = p1 - 0.5 * IMPACT_TIME * excess, v1 + excess
+        p1, v1 = p1 - 0.5 * self._impact_time(stride) * excess, v1 + excess
         x, y, z = (join((p0[i], v0[i], a0[i]), (p1[i], v1[i], a1[i]), duration) for i in range(3))
         yaw = (
             join((stride.start.heading, 0.0, 0.0), (stride.end.heading, 0.0, 0.0), duration)
@@ -225,11 +246,12 @@ class _MotionBuilder:
         t_start: float,
         end: float,
         pitch: Array,
-        impact: list[Array] | None = None,
+        slide: list[Array] | None = None,
     ) -> None:
+        """Add a roll on `arc`; `slide` is the displacement from a roll without slip, world frame, m."""
         centre = [constant(float(value)) for value in self._centre(arc, pose)]
-        if impact is not None:
-            centre = [a + b for a, b in zip(centre, impact, strict=True)]
+        if slide is not None:
+            centre = [a + b for a, b in zip(centre, slide, strict=True)]
         curves = leaning([*centre, pitch, constant(pose.heading), constant(0.0)], pose, arc.radius)
         self._add(t_start, end, curves, (arc.x, arc.radius), arc.radius, phase)
 
@@ -268,11 +290,3 @@ def _excess(stride: PlannedStride) -> tuple[float, float, float]:
         style = style_of(stride.kind, stride.speed)
         slide, sink = style.forward_speed, style.sink_speed
     return (slide * cos(stride.end.heading), slide * sin(stride.end.heading), -sink)
-
-
-def _impact_displacement(speed: float) -> Array:
-    """Return the displacement of the heel, m, from where it would be if it rolled without slip, during the impact.
-
-    It is the integral of v (1 - (10 s^3 - 15 s^4 + 6 s^5)) that ends at 0, with the speed v at contact and the share s
-    of IMPACT_TIME; the deceleration is a pulse, proportional to 30 s^2 (1 - s)^2."""
-    return -speed * IMPACT_TIME * np.array([0.5, -1.0, 0.0, 0.0, 2.5, -3.0, 1.0, 0.0])

@@ -42,7 +42,8 @@ class Walker:
         self.wearer = wearer or Wearer()
         self.seed = seed
         self.plan = plan(route, self.wearer, np.random.default_rng([seed, 0]))
-        self.motions = foot_motions(self.plan, self.wearer, np.random.default_rng([seed, 6]))
+        sway_rng, contact_rng = np.random.default_rng([seed, 6]), np.random.default_rng([seed, 10])
+        self.motions = foot_motions(self.plan, self.wearer, sway_rng, contact_rng)
         self.loads = loads(self.plan, self.wearer, np.random.default_rng([seed, 4]))
 
     @cached_property

@@ -16,7 +16,7 @@ The numbers were chosen by hand and not swept."""
 from __future__ import annotations
 
 from ...types import Layout
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIE
 from ..pressure.cells import centre
 from ..pressure.insole import Extremes
@@ -24,10 +24,6 @@ from ..stance.stance import Load
 
 MOST_SINGLE_CELLS = 16
 """Largest number of cells of an insole whose cells are judged one by one."""
-GROUND_LOAD, AIR_LOAD = 0.07, 0.05
-"""Loads of an insole of many cells at which the foot lands and leaves the ground, as shares of the full load.
-
-A recorded insole of 35 cells shows up to 5 % of the load throughout the swing."""
 CELL_LOADED = 0.20
 """Load above which one of few cells is loaded, as a share of its own range in the last 8 to 10 s."""
 CELLS_UNLOADED = 0.10
@@ -48,10 +44,23 @@ TRUST_TIME = 0.1
 They are right if the foot moves during this time, and wrong if it stands still."""
 
 
+@frozen
+class TouchSettings:
+    """The settings of `Touch`, for insoles of many cells.
+
+    A recorded insole of 35 cells shows up to 5 % of the load throughout the swing."""
+
+    ground_load: float = 0.07
+    """Load at which the foot lands, as a share of the full load."""
+    air_load: float = 0.05
+    """Load below which the foot leaves the ground, as a share of the full load."""
+
+
 @define
 class Touch:
     """Detects ground contact from the load. Latency: none. At first the foot is on the ground."""
 
+    settings: TouchSettings = TouchSettings()
     trusted: bool = field(default=False, init=False)
     """The cells were right in the last swing, and nothing has contradicted them since."""
     moving_since: float | None = field(default=None, init=False)
@@ -110,7 +119,7 @@ class Touch:
         if 0 < len(load.cells) <= MOST_SINGLE_CELLS:
             self.airborne = self._is_airborne_by_cell(t, load.cells)
         else:
-            self.airborne = load.total < (GROUND_LOAD if self.airborne else AIR_LOAD)
+            self.airborne = load.total < (self.settings.ground_load if self.airborne else self.settings.air_load)
         return self.airborne
 
     def _is_airborne_by_cell(self, t: float, values: tuple[float, ...]) -> bool:

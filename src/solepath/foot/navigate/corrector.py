@@ -82,6 +82,12 @@ class Corrector(Protocol):
         It is in the navigation frame, and 0 for a corrector that does not measure it."""
         return ZERO
 
+    def scaled(self, scale: float) -> None:
+        """Receive the factor by which the specific force is multiplied from now on, so that a foot at rest shows 1 g.
+
+        A corrector may take the difference from 1 g for a bias instead."""
+        return
+
     def use_attitude(self, attitude: Quat) -> None:
         """Use the device's own attitude at the next sample: sensor to a world frame of the device, z up."""
         return

@@ -1,5 +1,9 @@
 """Chen et al. 2019: 20 walks of 20 m, and 91 m through a building, with two smart insoles at 30 Hz.
 
+The shoes are worn ones: they bend elsewhere than in the postures, land softly and slide (emulate/wearers/soles/). Our
+additions to the printed method are rows of the table, one after the other, for both feet together. A block of rows
+changes one thing at a time about shoe and sensors (`SETTINGS`).
+
 Each walk has another pair of insoles, for which the shoe is measured in five postures, three times each (section
 III-C). A recording has 20 s of walking to measure the pressure noise (section III-B), a halt, and then the 20 m. The
 sessions receive only the samples after the halt. Distances are the sums of stride lengths, as in section IV-B. In the
@@ -8,45 +12,40 @@ goes once around the inner block of a floor (emulate/routes/laps.py)."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from tempfile import TemporaryDirectory
-
 import numpy as np
 from attrs import field, frozen
 
-from ...calibration import Calibration, merged
-from ...emulate.routes.laps import corridor, straight
-from ...emulate.routes.postures import postures, write_postures
-from ...emulate.sensors.insole_device import Insole
-from ...emulate.sensors.parts import WORN_RESISTIVE
-from ...emulate.walk import emulate
 from ...emulate.wearers.truth import Truth
 from ...events import Event, StrideFused, StrideTaken
-from ...papers.kupt_dfpc.noise import pressure_noise
-from ...papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC, ZUPT
-from ...papers.kupt_dfpc.shoe import fit_shoe
-from ...types import SITE_OF_FOOT, Foot
+from ...papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
+from ...recipes import Recipe
+from ...types import Foot
 from ..measures.alignment import Floats
 from . import published
+from .kupt.figures import coverage, panels, watch
+from .kupt.walks import (
+    ABLATIONS,
+    BY_ERROR_INDEX,
+    CORRIDOR_LENGTH,
+    RATE,
+    SETTINGS,
+    STANDARD,
+    WALK_LENGTH,
+    PreparedWalk,
+    Setting,
+    prepare,
+)  # fmt: skip
 from .runner import Runner
-from .tables import BoxPlots, DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of, statistics
-from .walks import align_track, cut_walk, find_halt, join_routes, run_session, thin_out
+from .tables import BoxPlots, Curves, DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of, statistics
+from .walks import align_track, run_session, thin_out
 
 NAME = KUPT_DFPC.name
 WALKS = 20
-RATE = 30.0
-"""Sampling rate, Hz (section III-A)."""
-SPEED = 1.3
-"""Comfortable walking speed, m/s."""
-WALK_LENGTH = 20.0
-"""Length of a walk, m."""
-CORRIDOR_LENGTH = 91.0
-"""Length of the corridor walk, m (section IV-C)."""
 WALKS_PER_CORRIDOR = 4
 """Number of walks of 20 m for each corridor walk. The paper has a single corridor walk, too few for a mean."""
-NOISE_WALK = straight(20.0 * SPEED, SPEED).stand(4.0)
-"""Route of 20 s of walking to measure the pressure noise, and a halt."""
 FOOT_LETTERS = {Foot.LEFT: "L", Foot.RIGHT: "R"}
+PRINTED_ROWS = ("KUPT-L, printed", "KUPT-R, printed", "KUPT+DFPC, printed")
+COVERAGE_ROWS = ("known by ZUPT %", "known by KUPT %")
 
 
 @frozen
@@ -56,20 +55,31 @@ class KuptJob:
     seed: int
     corridor: bool = False
     """True for a walk of CORRIDOR_LENGTH, False for one of WALK_LENGTH."""
+    setting: Setting = STANDARD
+    """Shoe and sensors."""
+    drawn: bool = False
+    """True for the walk of figs. 11 and 14."""
+
+    @property
+    def key(self) -> str:
+        """Description that is another for each other job; settings are known by their names."""
+        return f"{self.seed}, {self.corridor}, {self.setting.name}, {self.drawn}"
 
 
 @frozen
 class KuptResults:
     """The results of one walk."""
 
-    distances: dict[str, float]
-    """Measured distance by row of the table, m."""
+    distances: dict[str, tuple[float, ...]]
+    """Measured distance by row of the table, m; two for a row of both feet."""
     true: dict[Foot, float]
     """True distance of each foot, m."""
     tracks: tuple[PictureTrack, ...] = ()
     """True path and then the stride ends by each method; only of a corridor walk."""
     end_distances: dict[str, float] = field(factory=dict)
     """Distance from the start to the end of each track, m; only of a corridor walk, which is a closed loop."""
+    panels: tuple[Curves, ...] = ()
+    """Panels of figs. 11 and 14; only of the walk that is drawn."""
 
 
 def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
@@ -77,47 +87,69 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     count = WALKS if walks is None else walks
     corridors = max(1, count // WALKS_PER_CORRIDOR)
     jobs = [KuptJob(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
-    jobs += [KuptJob(1000 * seed + k) for k in range(1, count + 1)]
+    jobs += [KuptJob(1000 * seed + k, drawn=k == 1) for k in range(1, count + 1)]
+    jobs += [KuptJob(1000 * seed + k, setting=setting) for setting in SETTINGS for k in range(1, count + 1)]
     results = runner.run(walk, jobs, _describe)
-    corridor_walks, short_walks = results[:corridors], results[corridors:]
+    corridor_walks, short_walks, others = results[:corridors], results[corridors:][:count], results[corridors + count :]
     paper = published.KUPT_DFPC
-    rows = tuple([row_of(paper, name, [one.distances[name] for one in short_walks]) for name in paper])
+    rows = [_row(name, short_walks) for name in short_walks[0].distances]
+    for number, setting in enumerate(SETTINGS):
+        walks_of_setting = others[number * count :][:count]
+        rows += [_row(name, walks_of_setting, f"{setting.name}: {name}") for name in paper]
     return Reproduction(
         name=NAME,
         paper_title=published.KUPT_DFPC_TITLE,
         emulation=f"{count} walks of {WALK_LENGTH:g} m at {RATE:g} Hz, another pair of insoles each time",
         unit="m",
-        rows=rows,
+        rows=tuple(rows),
         panels=(
             BoxPlots(f"distance of {count} walks of {WALK_LENGTH:g} m (fig. 12)", tuple(paper), "m", WALK_LENGTH),
             FloorPanel(
                 f"{CORRIDOR_LENGTH:g} m of corridors (fig. 13)", corridor_walks[0].tracks, (("start", 0.0, 0.0),)
             ),
+            *short_walks[0].panels,
         ),
         notes=_notes(rows, short_walks, corridor_walks),
     )
 
 
 def _describe(one: KuptResults) -> str:
-    return ", ".join(f"{name} {distance:.2f}" for name, distance in one.distances.items()) + " m"
+    return ", ".join(f"{name} {one.distances[name][0]:.2f}" for name in published.KUPT_DFPC) + " m"
 
 
-def _notes(
-    rows: tuple[FigureRow, ...], short_walks: list[KuptResults], corridor_walks: list[KuptResults]
-) -> tuple[str, ...]:
-    squares = {row.name: np.mean([(value - WALK_LENGTH) ** 2 for value in row.values]) for row in rows}
-    off = ", ".join(f"{name} {float(np.sqrt(square)):.2f}" for name, square in squares.items())
+def _row(name: str, walks: list[KuptResults], shown: str | None = None) -> FigureRow:
+    values = [value for one in walks for value in one.distances[name]]
+    digits = 1 if name in COVERAGE_ROWS else 2
+    return row_of(published.KUPT_DFPC_ROWS, name if shown is None else shown, values, digits)
+
+
+def _notes(rows: list[FigureRow], short_walks: list[KuptResults], corridor_walks: list[KuptResults]) -> tuple[str, ...]:
+    squares = {
+        row.name: float(np.sqrt(np.mean([(value - WALK_LENGTH) ** 2 for value in row.values])))
+        for row in rows
+        if row.name not in COVERAGE_ROWS
+    }
+    own = [f"{name} {off:.2f}" for name, off in squares.items() if ": " not in name]
     paths = statistics([one.true[foot] for one in short_walks for foot in Foot])
-    lines = [f"Root mean square of the error of {len(short_walks)} walks, m: {off}."]
+    lines = [f"Root mean square of the error of {len(short_walks)} walks, m: {', '.join(own)}."]
+    for setting in SETTINGS:
+        off = [f"{name} {squares[f'{setting.name}: {name}']:.2f}" for name in published.KUPT_DFPC]
+        zero, known = (
+            sum(squares[f"{setting.name}: {method}-{letter}"] ** 2 for letter in "LR") ** 0.5
+            for method in ("ZUPT", "KUPT")
+        )
+        lines.append(f"With {setting.name}: {', '.join(off)}; KUPT over ZUPT, both feet: {known / zero:.2f}.")
     lines.append(f"The feet really went {paths.mean:.2f} m on average.")
     for name, drift in published.CORRIDOR_DRIFT.items():
-        off_by = [one.distances[name] - _true_distance(one, name) for one in corridor_walks]
+        off_by = [one.distances[name][0] - _true_distance(one, name) for one in corridor_walks]
         share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR_LENGTH
+        worst = 100.0 * float(np.max(np.abs(off_by))) / CORRIDOR_LENGTH
         ends = float(np.mean([one.end_distances[name] for one in corridor_walks]))
         lines.append(
             f"{CORRIDOR_LENGTH:g} m of corridors, {name}: distance off by "
-            f"{', '.join(f'{off:+.2f}' for off in off_by)} m, {share:.2f} % of it on average, end {ends:.2f} m from "
-            f"the start of this closed way; paper {drift:.2f} m, {100.0 * drift / CORRIDOR_LENGTH:.2f} %."
+            f"{', '.join(f'{off:+.2f}' for off in off_by)} m, {share:.2f} % of it on average, {worst:.2f} % at worst, "
+            f"end {ends:.2f} m from the start of this closed way; paper {drift:.2f} m, "
+            f"{100.0 * drift / CORRIDOR_LENGTH:.2f} %."
         )
     lines.append(
         f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I and "
@@ -134,36 +166,45 @@ def _true_distance(one: KuptResults, name: str) -> float:
 
 def walk(job: KuptJob) -> KuptResults:
     """Emulate one walk, calibrate on its first part and run each recipe on the second."""
-    route = corridor(CORRIDOR_LENGTH, SPEED) if job.corridor else straight(WALK_LENGTH, SPEED)
-    walked = emulate(
-        join_routes(NOISE_WALK, route),
-        devices={SITE_OF_FOOT[foot]: Insole(rate=RATE, cell_part=WORN_RESISTIVE) for foot in Foot},
-        seed=job.seed,
-    )
-    t_halt = find_halt(walked.walker, NOISE_WALK)
-    parts = cut_walk(walked, t_halt)
-    calibration = merged(merged(parts.layouts, measured_shoe(job.seed)), pressure_noise(parts.before))
-    events_of = {recipe.name: run_session(recipe, parts.after, calibration) for recipe in (ZUPT, KUPT, KUPT_DFPC)}
-    distances = {
-        f"{recipe.upper()}-{letter}": sum(s.length for s in _final_strides(events_of[recipe], foot))
-        for recipe in ("zupt", "kupt")
+    prepared = prepare(job.seed, job.setting, job.corridor)
+    zupt, known = _run(ZUPT, prepared), _run(KUPT_DFPC, prepared)
+    true = {foot: prepared.true_distance(foot) for foot in Foot}
+    distances: dict[str, tuple[float, ...]] = {
+        f"{name}-{letter}": (_distance(events, foot),)
+        for name, events in (("ZUPT", zupt), ("KUPT", known))
         for foot, letter in FOOT_LETTERS.items()
     }
-    fused = [event for event in events_of[NAME] if isinstance(event, StrideFused)]
-    distances["KUPT+DFPC"] = fused[-1].distance if fused else 0.0
-    true = {foot: sum(one.length for one in walked.truth.strides(foot) if one.t_heel_off > t_halt) for foot in Foot}
-    if not job.corridor:
+    fused = [event for event in known if isinstance(event, StrideFused)]
+    distances["KUPT+DFPC"] = (fused[-1].distance if fused else 0.0,)
+    if job.corridor:
+        tracks, end_distances = _tracks(prepared.walk.truth, prepared.t_halt, zupt, fused)
+        return KuptResults(distances, true, tracks, end_distances)
+    if job.setting is not STANDARD and job.setting != STANDARD:
         return KuptResults(distances, true)
-    tracks, end_distances = _tracks(walked.truth, t_halt, events_of["zupt"], fused)
-    return KuptResults(distances, true, tracks, end_distances)
+    printed = _run(KUPT_DFPC_PRINTED, prepared)
+    values = (*(_distance(printed, foot) for foot in Foot), _fused_distance(printed))
+    distances.update({name: (value,) for name, value in zip(PRINTED_ROWS, values, strict=True)})
+    for name, recipe in ABLATIONS.items():
+        events = known if recipe is KUPT else _run(recipe, prepared)
+        distances[name] = tuple([_distance(events, foot) for foot in Foot])
+    distances[BY_ERROR_INDEX.name] = (_fused_distance(_run(BY_ERROR_INDEX, prepared)),)
+    seen = watch(prepared.parts.after, prepared.calibration)
+    shares = [coverage(seen[foot]) for foot in Foot]
+    distances.update({name: tuple([share[k] for share in shares]) for k, name in enumerate(COVERAGE_ROWS)})
+    drawn = panels(seen, {"ZUPT": zupt, "KUPT+DFPC": known}) if job.drawn else ()
+    return KuptResults(distances, true, panels=drawn)
 
 
-def measured_shoe(seed: int) -> Calibration:
-    """Return the calibration that rulers and static postures give for the shoe."""
-    with TemporaryDirectory() as folder:
-        file = Path(folder) / "postures.csv"
-        write_postures(file, postures(seed=seed))
-        return fit_shoe(file).calibration
+def _run(recipe: Recipe, prepared: PreparedWalk) -> list[Event]:
+    return run_session(recipe, prepared.parts.after, prepared.calibration)
+
+
+def _distance(events: list[Event], foot: Foot) -> float:
+    return sum(stride.length for stride in _final_strides(events, foot))
+
+
+def _fused_distance(events: list[Event]) -> float:
+    return next((event.distance for event in reversed(events) if isinstance(event, StrideFused)), 0.0)
 
 
 def _final_strides(events: list[Event], foot: Foot) -> list[StrideTaken]:

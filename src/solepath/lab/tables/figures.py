@@ -108,8 +108,12 @@ def _draw_floor(ax: Axes, panel: FloorPanel) -> None:
 
 def _draw_curves(ax: Axes, panel: Curves) -> None:
     for k, curve in enumerate(panel.curves):
-        line = "--" if curve.style is DrawStyle.TRUTH else "-"
-        ax.plot(*_columns(curve), color=COLOURS[k % len(COLOURS)], linestyle=line, linewidth=1.2, label=curve.name)
+        colour, line = COLOURS[k % len(COLOURS)], "--" if curve.style is DrawStyle.TRUTH else "-"
+        if curve.style is DrawStyle.DOTS:
+            marker = MARKERS[k % len(MARKERS)]
+            ax.scatter(*_columns(curve), s=14, color=colour, marker=marker, alpha=0.7, label=curve.name)
+        else:
+            ax.plot(*_columns(curve), color=colour, linestyle=line, linewidth=1.2, label=curve.name)
     if panel.limits is not None:
         ax.set_ylim(*panel.limits)
     ax.set_xlabel(panel.x_label)

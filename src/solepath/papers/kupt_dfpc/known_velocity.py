@@ -64,12 +64,12 @@ class KnownVelocity(Detector):
     settings: KnownVelocitySettings = KnownVelocitySettings()
     sagittal: Sagittal = field(factory=Sagittal)
     """Learnt mounting of the sensor, with pitch and direction of the foot."""
+    touch: Touch = field(factory=Touch)
+    """Detector of a foot in the air, from the load."""
     default_shoe: ShoeGeometry = field(factory=ShoeGeometry, init=False)
     """Geometry of the default shoe in the insole's size."""
     moving_time: float = field(default=0.0, init=False)
     """Time since the foot was last certainly stationary, s."""
-    touch: Touch = field(factory=Touch, init=False)
-    """Detector of a foot in the air, from the load."""
     inertial: ShoeDetector = field(factory=ShoeDetector, init=False)
     """Detector for the time in which the cells are not reliable (touch.py), such as standing before the first step."""
     phase: Phase | None = field(default=None, init=False)

@@ -10,48 +10,16 @@ from math import hypot
 
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.phase import Cue
-from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
-from ...types.attrs import define, field, frozen
+from ...types.attrs import define, field
 from ...types.vector import TIE, ZERO
+from .moment import MotionMoment, SwingSettings
 
 SHORT_GAP = 0.08
 """Longest gap in a normal motion, s: one lost sample at the paper's 30 Hz leaves 0.067 s."""
 LARGEST_ROLLING_SIGMA = 0.2
 """Sigma above which evidence of a rolling shoe is not used, m/s."""
-LARGEST_ROLLING_ERROR = 0.6
-"""Horizontal difference of rolling and raw velocity in push-off above which the rolling velocity is not used, m/s.
-
-In 0.3 s a tilt error of 2 degrees and an accelerometer error of 20 mg cause an error of 0.16 m/s. A rolling velocity
-has an error of 0.1 m/s. Three times their combination is 0.57. The difference is up to 0.05 for emulated feet, up to
-0.5 for recorded feet that roll, and 0.7 to 1.3 for recorded insoles whose cells release the load late."""
-
-
-@frozen
-class MotionMoment:
-    """The state of the integration at one sample of a motion, navigation frame."""
-
-    elapsed: float
-    """Time since motion start, s."""
-    velocity: Vec3
-    """Raw velocity, m/s."""
-    raw_displacement: Vec3
-    """Integral of the raw velocity, m."""
-    known_displacement: Vec3
-    """Integral of the known velocities, m."""
-    error: Vec3 | None
-    """Mean raw velocity minus known velocity over the interval that ended here, m/s; None when unknown."""
-
-
-@frozen
-class SwingSettings(DedriftSettings):
-    """Settings of `SwingDedrift`."""
-
-    slide_time: float = 0.02
-    """Time after heel-strike in which the heel still slides, s."""
-    vertical: bool = False
-    """Flag: the known velocity is used for heights too."""
 
 
 @define
@@ -71,7 +39,7 @@ class SwingDedrift(LinearDedrift):
     `vertical` is set.
 
     The raw velocity is zero at motion start. Some tenths of a second later, when the foot leaves the ground, its error
-    cannot reach `LARGEST_ROLLING_ERROR`; in fig. 14, too, it drifts in swing and landing. On recorded insoles whose
+    cannot reach `largest_rolling_error`; in fig. 14, too, it drifts in swing and landing. On recorded insoles whose
     cells release the load late the foot then moves already and does not roll. So a rolling velocity in push-off that
     differs so much from the raw one is not used. If the heel never rolled, swing lasts until motion end, and the error
     is that at motion end.
@@ -154,16 +122,17 @@ class SwingDedrift(LinearDedrift):
             self._add_known((vx - ex, vy - ey, vz - ez))
             if hint is not Phase.SWING:
                 error = self.previous.error
-        self.current = MotionMoment(
-            self.swing, self.raw_velocity, self.raw_displacement, self.known_displacement, error
-        )
+        self.current = self._moment(error)
         return False
+
+    def _moment(self, error: Vec3 | None) -> MotionMoment:
+        return MotionMoment(self.swing, self.raw_velocity, self.raw_displacement, self.known_displacement, error)
 
     def _use_velocity(self, v_ref: Vec3, push_off: bool) -> Vec3 | None:
         """Use the known velocity over the last interval; return the raw velocity's error, None if it is too large."""
         (vx, vy, vz), (rx, ry, rz) = self.interval_velocity, v_ref
         error = (vx - rx, vy - ry, vz - rz)
-        if push_off and hypot(error[0], error[1]) > LARGEST_ROLLING_ERROR:
+        if push_off and hypot(error[0], error[1]) > self.settings.largest_rolling_error:
             self._add_known(self.interval_velocity)
             return None
         self._add_known(v_ref)
@@ -233,9 +202,7 @@ class SwingDedrift(LinearDedrift):
         error, error_time = self.heel_strike_error, self.heel_strike_error_time
         if error is None:  # the heel never rolled: the velocity is zero where the foot stands
             error, error_time = self.raw_velocity, duration
-            heel_strike = MotionMoment(
-                duration, self.raw_velocity, self.raw_displacement, self.known_displacement, error
-            )
+            heel_strike = self._moment(error)
         else:
             # in the last interval, before the foot rests, the error is taken to be unchanged
             vx, vy, vz = self.interval_velocity

@@ -54,6 +54,21 @@ def _foot_table(observer: Observer) -> list[str]:
     return ["", table(header, rows), "", *missing]
 
 
+def fused_stride(observer: Observer) -> list[str]:
+    """Return lines about the last fused stride: distance (12), similarity (9), error index (10), coefficient (11).
+
+    The numbers are those of Chen et al. 2019. The list is empty if the recipe does not fuse strides."""
+    fused = observer.fused
+    if fused is None:
+        return []
+    return [
+        f"both feet: {number(fused.distance)} m by the {fused.chosen} foot; "
+        f"last stride {number(fused.stride_length)} m",
+        f"  similarity {number(fused.similarity)}, error index {number(fused.error_index)} m/s, "
+        f"own share {number(fused.coefficient)}",
+    ]
+
+
 def _fused_feet(observer: Observer) -> list[str]:
     """Return the lines about the fused track and the walking modes; none if the recipe treats each foot by itself."""
     lines = []

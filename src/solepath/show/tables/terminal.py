@@ -15,7 +15,7 @@ from rich.text import Text
 from ...types import Foot, Phase
 from ..observer import FootCounts, Observer
 from .plot import plot
-from .summary import link_health, status, wear_lines
+from .summary import fused_stride, link_health, status, wear_lines
 from .table import number
 
 FRAME_RATE = 12.0
@@ -56,7 +56,7 @@ def picture(observer: Observer, title: str) -> Group:
     for foot in Foot:
         feet.add_row(*_foot(observer, foot))
     lines = plot(observer.track.points, *PLOT_SIZE)
-    health = status(observer) + wear_lines(observer) + link_health(observer)
+    health = fused_stride(observer) + status(observer) + wear_lines(observer) + link_health(observer)
     return Group(
         Panel(feet, title=title, width=PLOT_SIZE[0] + 4),
         Panel(Text("\n".join(lines)), title="track", width=PLOT_SIZE[0] + 4),

@@ -1,0 +1,1 @@
+"""Soles as they are worn: where they differ from rigid ones that roll without slip."""

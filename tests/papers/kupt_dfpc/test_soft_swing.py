@@ -1,0 +1,138 @@
+"""Soft evidence of a rolling shoe: what a foot learns from walking, and strides weighted by their variance."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from attrs import evolve
+from strides import stride
+from walks import run_session
+
+from solepath import Session, recipes
+from solepath.calibration import Calibration, InsoleCalibration
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insoles import layout
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.shoe import Shoe
+from solepath.emulate.wearers.soles.contact import RIGID, WORN, GroundContact
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import StrideFeatures, StrideTaken
+from solepath.papers.kupt_dfpc.drift_parts import DriftParts
+from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
+from solepath.papers.kupt_dfpc.rolling_errors import DriftTime, RollingError
+from solepath.papers.kupt_dfpc.soft_swing import SoftSwing
+from solepath.types import Foot, Sample
+
+ROUTE = Route().stand(2.0).walk(20.0, 1.3).stop(1.5)
+LAYOUTS = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
+SEEDS = (321, 322, 323, 324)
+
+
+@cache
+def walker_of(contact: GroundContact, seed: int) -> Walker:
+    return Walker(ROUTE, Wearer(shoe=Shoe(contact=contact)), seed=seed)
+
+
+@cache
+def samples(contact: GroundContact, seed: int, foot: Foot) -> tuple[Sample, ...]:
+    return tuple(walker_of(contact, seed).samples(foot, 30.0, LSM6DSOX, layout=layout(96, foot)))
+
+
+def learnt(contact: GroundContact, seed: int) -> SoftSwing:
+    """Return the corrector of a left foot that has walked 20 m in a shoe with this contact."""
+    session = Session(recipes.by_name("kupt"), calibration=LAYOUTS)
+    session.feed(samples(contact, seed, Foot.LEFT))
+    corrector = session.feet[Foot.LEFT].corrector
+    assert isinstance(corrector, SoftSwing)
+    return corrector
+
+
+@pytest.mark.parametrize("shift", [-0.01, 0.01, 0.02])
+def test_a_pivot_that_is_not_where_the_postures_put_it_is_learnt_from_walking(shift: float) -> None:
+    for seed in SEEDS[:2]:
+        there, here = learnt(evolve(RIGID, pivot_shift=shift), seed).pivot, learnt(RIGID, seed).pivot
+        assert there.shift - here.shift == pytest.approx(shift, abs=0.002)
+        assert abs(here.shift) < 0.004
+        assert there.variance < 0.003**2
+
+
+def test_the_drift_comes_late_in_the_swing_of_a_foot_that_lands_hard() -> None:
+    times = [learnt(RIGID, seed).drift_time for seed in SEEDS]
+    assert all(time.share > 0.55 for time in times)
+    assert all(time.share_variance < DriftTime().share_variance for time in times)
+
+
+@pytest.mark.parametrize("contact", [RIGID, WORN, evolve(WORN, pivot_shift=0.01), evolve(WORN, pivot_shift=0.02)])
+def test_strides_are_nearer_to_the_truth_than_with_zero_velocity_wherever_the_pivot_is(contact: GroundContact) -> None:
+    errors: dict[str, list[float]] = {"kupt": [], "zupt": []}
+    for seed in SEEDS:
+        true = walker_of(contact, seed).truth().strides(Foot.RIGHT)
+        for name, of in errors.items():
+            events = run_session(samples(contact, seed, Foot.RIGHT), recipes.by_name(name), calibration=LAYOUTS)
+            found = [event for event in events if isinstance(event, StrideTaken)]
+            of += [a.length - b.length for a, b in zip(found, true, strict=True)]
+    known, zero = (np.sqrt(np.mean(np.square(of))) for of in errors.values())
+    assert known < 0.85 * zero
+
+
+def test_parts_that_are_measured_exactly_are_those_of_equation_8() -> None:
+    """Velocity errors of 0.1 m/s at toe-off, 0.3 at heel-strike and 0.35 at motion end, in a motion of 1 s."""
+    parts = DriftParts((0.01, 0.04, 0.001))
+    for count, error in ((1, 0.1), (2, 0.3), (3, 0.35)):
+        parts.measure(count, (error, -error), 1e-12)
+    assert parts.x == pytest.approx([0.1, 0.2, 0.05], abs=1e-6)
+    assert parts.y == pytest.approx([-0.1, -0.2, -0.05], abs=1e-6)
+    (x, _), variance = parts.displacement((0.8, 0.5, 0.1))
+    assert x == pytest.approx(0.08 + 0.1 + 0.005, abs=1e-6)
+    assert variance == pytest.approx(0.0, abs=1e-9)
+
+
+def test_rolling_velocities_that_nobody_can_trust_leave_the_zero_velocity_alone() -> None:
+    trusting, alone = DriftParts((0.01, 0.04, 0.01)), DriftParts((0.01, 0.04, 0.01))
+    trusting.measure(1, (3.0, 0.0), 1e9)
+    for parts in (trusting, alone):
+        parts.measure(3, (0.6, 0.0), 1e-9)
+    assert trusting.x == pytest.approx(alone.x, abs=1e-6)
+    assert alone.x == pytest.approx([0.1, 0.4, 0.1], abs=1e-6)
+
+
+def test_a_slide_that_is_the_same_in_every_stride_is_learnt_and_one_that_varies_stays_uncertain() -> None:
+    steady, unsteady = RollingError(), RollingError()
+    for k in range(40):
+        steady.add(0.08, 1e-4)
+        unsteady.add(0.08 + (0.3 if k % 2 else -0.3), 1e-4)
+    assert steady.mean == pytest.approx(0.08, abs=0.005)
+    assert steady.noise < 0.05**2
+    assert unsteady.noise > 0.2**2
+
+
+def test_a_flight_of_stairs_teaches_nothing_of_the_drift() -> None:
+    time = DriftTime()
+    for _ in range(20):
+        time.add(0.32, -0.05)
+    assert time == DriftTime()
+
+
+def stride_of(foot: Foot, end: float, length: float, sigma: float, index: float) -> StrideTaken:
+    cop = tuple((0.09 + 0.13 * k / 15, 0.0) for k in range(16))
+    made = stride(foot, end, (length, 0.0, 0.0), t_start=end - 1.1, t_toe_off=end - 0.55, t_heel_strike=end - 0.11)
+    covariance = (sigma**2, 0.0, 0.0, 1.0, 0.0, 1.0)
+    return evolve(made, covariance=covariance, features=StrideFeatures(0.1, 4.0, 1.0, 400.0, cop, index))
+
+
+def test_the_foot_whose_strides_are_more_accurate_weighs_more_whatever_this_one_drifted() -> None:
+    body = DoubleFoot()
+    body.add_stride(stride_of(Foot.LEFT, 2.0, 1.2, sigma=0.01, index=0.5), 0.14)
+    fused = body.add_stride(stride_of(Foot.RIGHT, 2.55, 1.4, sigma=0.03, index=0.1), 0.14)
+    # (11) with variances: 0.0001 / (0.0001 + 0.0009)
+    assert fused.coefficient == pytest.approx(0.1)
+    assert fused.stride_length == pytest.approx(0.1 * 1.4 + 0.9 * 1.2)
+    assert fused.chosen is Foot.LEFT
+    printed = DoubleFoot(FusionSettings(by_variance=False, compares_lengths=False))
+    printed.add_stride(stride_of(Foot.LEFT, 2.0, 1.2, sigma=0.01, index=0.5), 0.14)
+    by_index = printed.add_stride(stride_of(Foot.RIGHT, 2.55, 1.4, sigma=0.03, index=0.1), 0.14)
+    assert by_index.coefficient == pytest.approx(0.5 / 0.6)
+    assert by_index.chosen is Foot.RIGHT
