@@ -195,4 +195,4 @@ def test_a_session_loads_little_and_amid_a_walk_nothing_is_imported_and_no_file_
         modules, lines, amid = json.loads(done.stdout)
         assert amid == []
         if name == "default" and number == 0:
-            assert modules <= 150 and lines <= 19_100, "`python tests/bench/way.py` says what importing takes"
+            assert modules <= 150 and lines <= 19_200, "`python tests/bench/way.py` says what importing takes"

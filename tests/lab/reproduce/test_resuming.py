@@ -7,9 +7,9 @@ import pytest
 from commands import run, run_failing
 
 from solepath.calibration import Calibration
-from solepath.lab.reproduce import kupt_dfpc, modes_walks, pressure_contour, walking_modes
+from solepath.lab.reproduce import kupt_dfpc, pressure_contour, shoe_walks, walking_modes
 from solepath.lab.reproduce.done_jobs import DoneJobs, DoneJobsError, describe_job
-from solepath.lab.reproduce.modes_walks import ModesJob, with_compensation
+from solepath.lab.reproduce.modes.walks import ModesJob, learn, walk, with_compensation
 from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.seeds import reproduce_seeds
 from solepath.lab.reproduce.tables import FigureRow, Reproduction, Statistics, as_json
@@ -104,16 +104,16 @@ def test_jobs_that_differ_in_anything_are_different_jobs():
     recipes = (walking_modes.METHODS["IV"], with_compensation(walking_modes.METHODS["IV"], {}))
     jobs = [ModesJob(0, seed, {"IV": (recipe, Calibration())}) for seed in (1, 2) for recipe in recipes]
     jobs += [attrs.evolve(jobs[0], methods={"IV": (recipes[0], Calibration(weight=700.0))})]
-    described = [describe_job(modes_walks.walk, job) for job in jobs]
-    described += [
-        describe_job(modes_walks.learn, jobs[0]),
-        describe_job(kupt_dfpc.walk, 3),
-        describe_job(kupt_dfpc.walk, 4),
-    ]
+    described = [describe_job(walk, job) for job in jobs]
+    described += [describe_job(learn, jobs[0])]
+    described += [describe_job(shoe_walks.score_wearer, seed) for seed in (3, 4)]
+    settings = (kupt_dfpc.STANDARD, *kupt_dfpc.SETTINGS)
+    kupt_jobs = [kupt_dfpc.KuptJob(seed, setting=setting) for seed in (1, 2) for setting in settings]
+    described += [describe_job(kupt_dfpc.walk, job) for job in (*kupt_jobs, kupt_dfpc.KuptJob(1, corridor=True))]
     loops = pressure_contour.loop_jobs(6, 1) + pressure_contour.short_jobs(2, 1) + pressure_contour.setup_jobs(1)
     described += [describe_job(pressure_contour.walk, job) for job in loops]
     assert len(set(described)) == len(described) > 20
-    assert describe_job(modes_walks.walk, jobs[0]) == described[0]
+    assert describe_job(walk, jobs[0]) == described[0]
 
 
 def of_seed(walks, seed, runner):
@@ -140,11 +140,12 @@ def test_a_single_seed_is_the_experiment_itself():
 
 def test_walks_taken_from_the_file_give_the_same_table(tmp_path, monkeypatch):
     monkeypatch.setattr(kupt_dfpc, "CORRIDOR_LENGTH", 20.0)
+    monkeypatch.setattr(kupt_dfpc, "SETTINGS", kupt_dfpc.SETTINGS[:1])
     options = ("reproduce", "kupt-dfpc", "--walks", 1, "--seed", 5, "--seeds", 2, "--processes", 1)
     file, table = tmp_path / "walks.jsonl", tmp_path / "table.json"
     fresh = run(*options, "--json", table)
     first, second = [run(*options, "--resume", file) for _ in range(2)]
     assert fresh.returncode == first.returncode == second.returncode == 0
     assert fresh.stdout.startswith(first.stdout) and first.stdout == second.stdout
-    assert second.stderr.splitlines() == [f"seed {seed}, 2 of 2 were already done" for seed in (5, 6)]
+    assert second.stderr.splitlines() == [f"seed {seed}, 3 of 3 were already done" for seed in (5, 6)]
     assert list(json.loads(table.read_text())["seeds"]) == ["5", "6"]

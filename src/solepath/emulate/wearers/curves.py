@@ -71,3 +71,9 @@ def evaluate(curve: Array, s: Array | float, order: int = 0) -> Array:
 
 _EXPONENTS = np.arange(DEGREE + 1) - np.arange(DEGREE + 1)[:, None]
 _BINOMIALS: Array = np.array([[comb(k, j) for k in range(DEGREE + 1)] for j in range(DEGREE + 1)], dtype=np.float64)
+
+
+def hand_over(s: Array) -> Array:
+    """Return a curve from 0 at s = 0 to 1 at s = 1 with a slope at both ends, as force plates show it."""
+    s = np.clip(s, 0.0, 1.0)
+    return np.asarray(0.5 * s + s * s * (1.5 - s))

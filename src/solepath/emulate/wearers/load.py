@@ -31,7 +31,7 @@ from ...types import Foot, Layout
 from ...types.vector import GRAVITY
 from ..routes.escalator import GroundRide
 from ..routes.styles import StrideKind, style_of
-from .curves import Array, Rng
+from .curves import Array, Rng, hand_over
 from .gait import SETTLE_TIME, LoadLaw, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, HeelPad, cell_shares
@@ -150,14 +150,9 @@ class Loads:
             heel += self.pad_shift(foot, shares[0], t) / layout.length
             spread = self.pad.spread(shares[0] * total / self.weight)
         cell_loads = np.zeros((len(t), len(layout.cells)))
-        no_shift = np.zeros_like(t)
-        zone_shifts = (
-            (HEEL, heel, no_shift),
-            (MIDFOOT, no_shift, no_shift),
-            (FOREFOOT, fore, inward),
-            (TOES, fore, no_shift),
-        )
-        for (zone, ahead, aside), share, lateral_shift in zip(zone_shifts, shares, lateral_shifts, strict=True):
+        zero = np.zeros_like(t)
+        moves = ((HEEL, heel, zero), (MIDFOOT, zero, zero), (FOREFOOT, fore, inward), (TOES, fore, zero))
+        for (zone, ahead, aside), share, lateral_shift in zip(moves, shares, lateral_shifts, strict=True):
             loaded = np.flatnonzero(share * total > 0.0)
             for start in range(0, len(loaded), _BLOCK_SIZE):
                 block = loaded[start : start + _BLOCK_SIZE]
@@ -248,12 +243,6 @@ def _equivalent_speed(stride: PlannedStride) -> float:
     if stride.kind is StrideKind.WALK or stride.kind is StrideKind.RUN:
         return stride.speed
     return 1.3 * float(np.sqrt(style_of(stride.kind, stride.speed).load_amplitude / BOUNCE_AMPLITUDE))
-
-
-def hand_over(s: Array) -> Array:
-    """Return a curve from 0 at s = 0 to 1 at s = 1 with a slope at both ends, as force plates show it."""
-    s = np.clip(s, 0.0, 1.0)
-    return np.asarray(0.5 * s + s * s * (1.5 - s))
 
 
 def _hand_overs(plan: WalkPlan) -> tuple[list[tuple[float, ...]], list[tuple[float, ...]]]:

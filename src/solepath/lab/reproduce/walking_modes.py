@@ -35,8 +35,8 @@ from ...papers.walking_modes.settings import ModeRule
 from ...recipes import Recipe
 from ...types import Foot
 from . import published
-from .modes_figures import CORNER_POSITIONS, panels
-from .modes_walks import (
+from .modes.figures import CORNER_POSITIONS, panels
+from .modes.walks import (
     LOAD_VARIATION,
     RATE,
     USUAL,

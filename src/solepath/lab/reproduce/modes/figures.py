@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ...emulate.routes.laps import ACROSS, ALONG, straight
-from ...emulate.wearers.walker import Walker
-from ...papers.walking_modes.limbs.limbs import LowerLimbs
-from ...papers.walking_modes.settings import ModesSettings
-from ...types import Foot
-from .modes_walks import USUAL, Corners
-from .published import corner_row
-from .tables import BoxPlots, DrawStyle, FloorPanel, Panel, PictureTrack
+from ....emulate.routes.laps import ACROSS, ALONG, straight
+from ....emulate.wearers.walker import Walker
+from ....papers.walking_modes.limbs.limbs import LowerLimbs
+from ....papers.walking_modes.settings import ModesSettings
+from ....types import Foot
+from ..published import corner_row
+from ..tables import BoxPlots, DrawStyle, FloorPanel, Panel, PictureTrack
+from .walks import USUAL, Corners
 
 CORNER_POSITIONS = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
 """Positions (x, y) of the corners, m; x along the first side, y to the left. The walk starts and ends at A."""

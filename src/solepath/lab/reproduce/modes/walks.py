@@ -11,25 +11,25 @@ from collections.abc import Sequence
 import numpy as np
 from attrs import evolve, frozen
 
-from ...calibration import Calibration, InsoleCalibration, Limbs, merged
-from ...emulate.routes.laps import LapCorner, corners, marked, rectangle
-from ...emulate.routes.laps import marks as marks_of
-from ...emulate.sensors.insoles import layout
-from ...emulate.sensors.parts import WORN_RESISTIVE
-from ...emulate.sensors.suit import limb_samples
-from ...emulate.wearers.gait import SUBJECTS, LoadLaw, Wearer
-from ...emulate.wearers.walker import Walker
-from ...events import TouchedDown
-from ...papers.walking_modes.calibrate import MODES, ModeMark, StepError, mean_errors, step_errors, touchdowns
-from ...papers.walking_modes.compensation import Compensation
-from ...papers.walking_modes.modes import Modes
-from ...papers.walking_modes.recipe import WALKING_MODES
-from ...papers.walking_modes.settings import ModeRule, ModesSettings
-from ...recipes import Recipe
-from ...recording.decoded import DecodedRecording
-from ...types import SITE_OF_FOOT, Foot, Sample
-from ...types.vector import GRAVITY
-from .walks import run_session
+from ....calibration import Calibration, InsoleCalibration, Limbs, merged
+from ....emulate.routes.laps import LapCorner, corners, marked, rectangle
+from ....emulate.routes.laps import marks as marks_of
+from ....emulate.sensors.insoles import layout
+from ....emulate.sensors.parts import WORN_RESISTIVE
+from ....emulate.sensors.suit import limb_samples
+from ....emulate.wearers.gait import SUBJECTS, LoadLaw, Wearer
+from ....emulate.wearers.walker import Walker
+from ....events import TouchedDown
+from ....papers.walking_modes.calibrate import MODES, ModeMark, StepError, mean_errors, step_errors, touchdowns
+from ....papers.walking_modes.compensation import Compensation
+from ....papers.walking_modes.modes import Modes
+from ....papers.walking_modes.recipe import WALKING_MODES
+from ....papers.walking_modes.settings import ModeRule, ModesSettings
+from ....recipes import Recipe
+from ....recording.decoded import DecodedRecording
+from ....types import SITE_OF_FOOT, Foot, Sample
+from ....types.vector import GRAVITY
+from ..walks import run_session
 
 RATE = 50.0
 """Sampling rate, Hz (section 3.1)."""
