@@ -10,14 +10,15 @@ from __future__ import annotations
 from ...types.attrs import define, evolve
 from .connectors.level_changes import LevelReached
 
-STRIDES = (6, 12, 18)
-"""Numbers of strides of both feet after the arrival at which rows start again: about 4, 8 and 12 m of walking.
+STRIDES = (8, 16)
+"""Numbers of strides of both feet after the arrival at which rows start again: about 5 and 10 m of walking.
 
 The positions of the track that are kept reach back to the arrival until then (`MAX_TRACK_POSITIONS`)."""
-MOST_ROWS = 1500
-"""Number of rows that start again, over all exits: at most some 6 degrees apart in a building of two stairs and lifts.
+MOST_ROWS = 600
+"""Number of rows that start again, over all exits.
 
-With 260, the number that is kept, one of 25 emulated walks loses its place at the first turn."""
+Without it one of 25 emulated walks loses its place at the first turn. It keeps its place with 300, 600 and 1500, and with
+three times instead of two; 600 rows take some 50 and 100 ms of a processor, once (`STRIDES`)."""
 
 
 @define
