@@ -11,6 +11,7 @@ from __future__ import annotations
 from copy import deepcopy
 from functools import cached_property
 from importlib import import_module
+from math import pi
 from typing import Any
 
 from .body.activity.activities import Activities
@@ -88,7 +89,10 @@ class Recipe:
     def headed(self, heading: float) -> Recipe:
         """Return the recipe for a wearer who starts with this heading, rad, left positive, in the world of all sensors.
 
-        LookupError is raised when no part has a use for it."""
+        LookupError is raised when no part has a use for it, TypeError or ValueError for a heading that is no angle."""
+        heading = float(heading)
+        if not abs(heading) <= 2.0 * pi:
+            raise ValueError(f"a heading is an angle from -2 pi to 2 pi, not {heading:g} rad")
         found = [part.headed(heading) for part in self.parts]
         if all([part is None for part in found]):
             raise LookupError(f"recipe {self.name} finds the first heading by itself and takes none")

@@ -85,12 +85,16 @@ IN_THE_LIFT = (9.0, 11.7, 15.0, 16.5)
 """Times after the lift of `LIFT` has started, and one just after it has stopped, s."""
 
 
-def ride_with_new_clock(t: float, *resets: Site, read: Container[Site] = FEET) -> tuple[float, LiftRidden]:
+def ride_with_new_clock(
+    t: float, *resets: Site, read: Container[Site] = FEET, off: float = 0.0
+) -> tuple[float, LiftRidden]:
     """Return the height at the end, m, and the ride, when the clocks of some feet restart at `t`, s.
 
-    Only the feet in `read` have a barometer."""
+    Only the feet in `read` have a barometer; `off`: error of those of the feet that restart, from then on, m."""
     session, rides, waiting = Session(), list[LiftRidden](), list(resets)
     for sample in breathing(lift()):
+        if sample.t >= t and sample.site in resets and sample.air_pressure is not None:
+            sample = evolve(sample, air_pressure=sample.air_pressure * exp(-off / SCALE_HEIGHT))
         while waiting and sample.t >= t:
             site = waiting.pop(0)
             session._state.wearer.receive(site, ClockReset(t=sample.t, known_at=sample.t, site=site, restarted=True))
@@ -106,6 +110,12 @@ def ride_with_new_clock(t: float, *resets: Site, read: Container[Site] = FEET) -
 def test_a_clock_of_one_foot_that_restarts_in_a_lift_leaves_the_height_of_the_ride(t: float, site: Site) -> None:
     above, ride = ride_with_new_clock(t, site)
     assert ride.height == pytest.approx(RIDE, abs=0.15) and above == pytest.approx(RIDE, abs=0.15)
+
+
+@pytest.mark.parametrize("t", [4.0, 17.0])
+def test_another_barometer_that_reads_eight_metres_more_leaves_the_height(t: float) -> None:
+    above, _ = ride_with_new_clock(t, Site.LEFT_FOOT, off=8.0)
+    assert above == pytest.approx(RIDE, abs=0.4)
 
 
 @pytest.mark.parametrize("t", IN_THE_LIFT)

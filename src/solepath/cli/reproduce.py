@@ -72,6 +72,9 @@ def run(options: argparse.Namespace) -> int:
     for output in outputs:
         check_writable(output.path)
 
+    if options.resume is not None and options.resume.resolve() in [output.path.resolve() for output in outputs]:
+        raise Failure(f"{printable(str(options.resume))}: --resume needs a file of its own")
+
     from ..lab.reproduce.done_jobs import DoneJobs, DoneJobsError
     from ..lab.reproduce.runner import Runner
     from ..lab.reproduce.seeds import reproduce_seeds

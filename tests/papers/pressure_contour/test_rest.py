@@ -64,6 +64,40 @@ def test_white_noise_averages_down_with_the_time_and_has_no_walk() -> None:
     assert walk < 2e-4
 
 
+def moved(one: Sample, acc: tuple[float, float, float], gyro: tuple[float, float, float]) -> Sample:
+    assert one.acc is not None and one.gyro is not None
+    (x, y, z), (p, q, r) = one.acc, one.gyro
+    return Sample(one.t, one.site, (x + acc[0], y + acc[1], z + acc[2]), (p + gyro[0], q + gyro[1], r + gyro[2]))
+
+
+@pytest.mark.parametrize(
+    ("acc", "gyro", "during", "reason"),
+    [
+        ((0.0, 0.0, 0.0), (0.0, 0.0, 0.2), (90.0, 93.0), "moved 90 s after the start"),
+        ((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), (0.0, 150.0), "turns by up to 2 rad/s on average"),
+        ((0.0, 0.0, -9.0), (0.0, 0.0, 0.0), (0.0, 150.0), "reads 0.9 m/s"),
+    ],
+)
+def test_a_sensor_that_turns_or_falls_is_not_at_rest(
+    acc: tuple[float, float, float], gyro: tuple[float, float, float], during: tuple[float, float], reason: str
+) -> None:
+    start, end = during
+    samples = [moved(one, acc, gyro) if start <= one.t < end else one for one in at_rest(150.0)]
+    with pytest.raises(CalibrationError, match=reason):
+        rest_noise(samples)
+
+
+def test_noise_below_the_resolution_is_no_calibration() -> None:
+    coarse = [Sample(0.05 * k, Site.LEFT_FOOT, (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0)) for k in range(3000)]
+    with pytest.raises(CalibrationError, match="reads the same all the time"):
+        rest_noise(coarse)
+
+
+def test_a_gap_of_four_intervals_ends_a_rest() -> None:
+    with pytest.raises(CalibrationError, match="75 s without a gap"):
+        rest_noise([one for one in at_rest(150.0) if not 75.0 < one.t < 75.07])
+
+
 @pytest.mark.parametrize(
     ("samples", "reason"),
     [

@@ -172,6 +172,9 @@ def test_a_first_heading_is_taken_by_the_recipes_with_body_sensors_and_by_no_oth
     assert modes.settings.heading == 1.5
     with pytest.raises(LookupError, match="recipe default finds the first heading by itself"):
         DEFAULT.headed(1.5)
+    for wrong in (float("nan"), float("inf"), 7.0):
+        with pytest.raises(ValueError, match="a heading is an angle"):
+            WALKING_MODES.headed(wrong)
 
 
 def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:

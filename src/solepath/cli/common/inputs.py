@@ -47,7 +47,7 @@ def recipe_of(options: argparse.Namespace) -> Recipe:
         return recipe
     try:
         return recipe.headed(options.heading)
-    except LookupError as error:
+    except (LookupError, ValueError) as error:
         raise Failure(f"--heading: {error}") from None
 
 

@@ -46,6 +46,11 @@ def describe_job(work: Callable[[Any], Any], job: object) -> str:
     return f"{work.__module__}.{work.__qualname__} {sha256(content.encode()).hexdigest()}"
 
 
+def _reject_constant(name: str) -> float:
+    """Raise ValueError for NaN and infinity, which no result has."""
+    raise ValueError(f"{name} is no result")
+
+
 def _record_class(work: Callable[[Any], Any]) -> Any:
     """Return the class of a record with the field `result`, which has the type that the function returns."""
     return make_class("Done", {"result": field(type=get_type_hints(work)["return"])}, frozen=True)
@@ -82,9 +87,9 @@ class DoneJobs:
             self._reject(first)
         try:
             for line in lines:
-                entry = json.loads(line)
-                self._results[entry["job"]] = entry["result"]
-        except (ValueError, TypeError, KeyError):
+                entry = json.loads(line, parse_constant=_reject_constant)
+                self._results[entry["job"]] = {"result": entry["result"]["result"]}
+        except (ValueError, TypeError, KeyError, RecursionError):
             raise DoneJobsError(f"line {len(self._results) + 2} is no result of a walk") from None
         if whole != text:
             self.path.write_text(whole, encoding="utf-8")
@@ -94,7 +99,7 @@ class DoneJobs:
         try:
             found = json.loads(header)
             experiment = found["experiment"]
-        except (ValueError, TypeError, KeyError):
+        except (ValueError, TypeError, KeyError, RecursionError):
             raise DoneJobsError("has no results of walks") from None
         if experiment != self.experiment:
             raise DoneJobsError(f"has walks of {experiment!r}, not of {self.experiment!r}")

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ...calibration import Calibration, CalibrationError, RestNoise
 from ...types import Foot, Packet, Sample
 from ...types.attrs import frozen
+from ...types.vector import GRAVITY
 
 Values = NDArray[np.float64]
 
@@ -31,6 +32,13 @@ MEANS_AT_LONGEST = 9
 LARGEST_ACC_MOVE, LARGEST_RATE = 0.2, 0.1
 """Largest change of the specific force over the means of single seconds, m/s^2, and largest mean angular rate apart
 from the bias, rad/s, of a sensor that lies still (assumed: a tilt of one degree, and a turn by hand)."""
+LARGEST_GRAVITY_ERROR, LARGEST_RATE_BIAS = 1.0, 0.5
+"""Largest error of gravity, m/s^2, and largest bias of a gyroscope, rad/s, of a sensor that lies still.
+
+Recorded sensors at rest read 9.5 to 10.5 m/s^2. The gyroscope of the SensorTag CC2541 may have 20 degrees/s by its data
+sheet."""
+LEAST_TIMES = 3
+"""Least number of averaging times at which a variance is known: there are three terms to fit."""
 LONGEST_GAP = 3.0
 """Longest time between two samples that is no gap, in usual intervals."""
 
@@ -86,7 +94,7 @@ def _fit_foot(foot: Foot, samples: list[Sample]) -> RestFit:
             f"the {foot.value} foot has {duration:.0f} s without a gap; {SHORTEST_REST:.0f} s of rest are the least, "
             "an hour is better"
         )
-    _check_rest(foot, t, acc, gyro, round(1.0 / interval))
+    _check_rest(foot, t, acc, gyro, max(1, round(1.0 / interval)))
     tau, acc_variance = allan_variance(acc, interval)
     _, gyro_variance = allan_variance(gyro, interval)
     (acc_density, acc_wander), (gyro_density, gyro_wander) = (
@@ -105,10 +113,15 @@ def _longest_piece(t: Values, longest: float) -> slice:
 def _check_rest(foot: Foot, t: Values, acc: Values, gyro: Values, count: int) -> None:
     """Raise CalibrationError if a mean over `count` samples, one second, shows a motion."""
     seconds = len(t) // count
-    moved, turned = (
-        np.abs(means - np.median(means, axis=0)).max(axis=1)
-        for means in (values[: seconds * count].reshape(seconds, count, 3).mean(axis=1) for values in (acc, gyro))
-    )
+    means, rates = (values[: seconds * count].reshape(seconds, count, 3).mean(axis=1) for values in (acc, gyro))
+    moved = np.abs(means - np.median(means, axis=0)).max(axis=1)
+    turned = np.abs(rates - np.median(rates, axis=0)).max(axis=1)
+    gravity = float(np.linalg.norm(means.mean(axis=0)))
+    if abs(gravity - GRAVITY) > LARGEST_GRAVITY_ERROR or np.abs(rates.mean(axis=0)).max() > LARGEST_RATE_BIAS:
+        raise CalibrationError(
+            f"the sensor of the {foot.value} foot reads {gravity:.1f} m/s^2 and turns by up to "
+            f"{np.abs(rates.mean(axis=0)).max():.2g} rad/s on average: it must lie still, off the foot"
+        )
     motion = np.flatnonzero((moved > LARGEST_ACC_MOVE) | (turned > LARGEST_RATE))
     if len(motion):
         at = float(t[motion[0] * count] - t[0])
@@ -135,7 +148,13 @@ def allan_variance(values: Values, interval: float) -> tuple[Values, Values]:
 def fit_noise(tau: Values, variance: Values, duration: float) -> tuple[float, float]:
     """Return the density, u/sqrt(Hz), and the walk, u/sqrt(s), that fit an Allan variance, u^2, best.
 
-    The terms 1/tau, 1 and tau have no negative factor. Each variance has a relative error of sqrt(tau / duration)."""
+    The terms 1/tau, 1 and tau have no negative factor. Each variance has a relative error of sqrt(tau / duration). A
+    variance of 0 says only that the noise is below the sensor's resolution, and is left out; CalibrationError is raised
+    when fewer than `LEAST_TIMES` are left."""
+    seen = variance > 0.0
+    tau, variance = tau[seen], variance[seen]
+    if len(tau) < LEAST_TIMES:
+        raise CalibrationError("a sensor at rest reads the same all the time: its noise is below its resolution")
     terms = np.stack((1.0 / tau, np.ones_like(tau), tau), axis=1)
     weight = 1.0 / (variance * np.sqrt(tau / duration))
     best, best_cost = np.zeros(3), np.inf
