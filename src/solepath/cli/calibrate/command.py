@@ -11,7 +11,6 @@ from ...recording import printable
 from ...saving.files import identity
 from ..common.failure import Failure
 from ..common.files import CALIBRATION, OutputFile, check_outputs, check_writable
-from ..common.loop import STOPPED_STATUS, StoppedEarly
 from .kinds import KINDS
 
 MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
@@ -40,10 +39,7 @@ def run(options: argparse.Namespace) -> int:
     inputs = [*getattr(options, "files", []), getattr(options, "file", None), getattr(options, "marks", None)]
     check_outputs([OutputFile(options.out, CALIBRATION)], inputs, force=False)
     check_writable(options.out)
-    try:
-        learnt, lines = options.learn(options, _read(options.out))
-    except StoppedEarly:
-        return STOPPED_STATUS
+    learnt, lines = options.learn(options, _read(options.out))
     while not _try_to_complete(options.out, learnt):
         pass
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))

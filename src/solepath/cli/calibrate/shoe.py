@@ -13,7 +13,6 @@ from ...calibration import Calibration
 from ..bluetooth.devices import add_feet, need_bleak
 from ..common.failure import Failure, parse_count, parse_positive
 from ..common.files import Kind, OutputFile, add_force, check_outputs, check_writable
-from ..common.loop import StoppedEarly
 
 TIMES = 3
 """Number of measurements of each posture, as in the paper."""
@@ -69,7 +68,7 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> tuple[Calibration,
 
 
 def _measure(options: argparse.Namespace) -> None:
-    """Write the file of postures, measured with a person at the terminal; raise StoppedEarly when that was stopped."""
+    """Write the file of postures, measured with a person at the terminal; raise SystemExit when that was stopped."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise Failure("calibrate shoe --live asks a person for what the rulers show: it needs a terminal")
     check_outputs([OutputFile(options.file, MEASUREMENTS)], [options.out], force=options.force)
@@ -78,5 +77,6 @@ def _measure(options: argparse.Namespace) -> None:
     from ..bluetooth.backend import listen_to_end
     from .shoe_live import measure
 
-    if listen_to_end(partial(measure, options)) != 0:
-        raise StoppedEarly
+    status = listen_to_end(partial(measure, options))
+    if status != 0:
+        raise SystemExit(status)
