@@ -10,7 +10,7 @@ from solepath.emulate.routes.postures import PITCHES, REPETITIONS, posture, post
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
 from solepath.emulate.wearers.walker import Walker
-from solepath.papers.kupt_dfpc.shoe import fit_shoe
+from solepath.papers.kupt_dfpc.shoe.fit import fit_shoe
 from solepath.types import Foot
 
 

@@ -35,13 +35,11 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.events import TouchedDown
 from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
 from solepath.show.page.messages import encode
 from solepath.show.page.player.playback import Playback
 from solepath.show.page.scene.scene import Scene
 from solepath.show.tables.gait import gait_lines, gait_rows
-from solepath.types import WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 
@@ -89,23 +87,6 @@ def test_the_gait_is_the_table_of_the_terminal() -> None:
         for one in ("left", "right"):
             assert row[one] is not None and f"{row[one]:.{row['digits']}f}" in line
         assert f"{row['both']:.{row['digits']}f}" in line
-
-
-def test_a_touchdown_is_shown_with_its_walking_mode() -> None:
-    assert frame(shown([foot_moved(1.0)]))["touchdown"] is None
-    down = TouchedDown(
-        t=1.2,
-        known_at=1.2,
-        final=False,
-        foot=RIGHT,
-        position=(0.61, -0.0704, 0.0),
-        mode=WalkingMode.LEFT_WIDE,
-        compensation=(0.0, 0.0, 0.0),
-    )
-    scene = shown([foot_moved(1.0), down])
-    expected = {"t": 1.2, "foot": "right", "mode": "LEFT_WIDE", "position": [0.61, -0.07, 0.0]}
-    assert frame(scene)["touchdown"] == expected
-    assert not scene.observer.modes  # a touchdown that is not final may still be elsewhere
 
 
 def test_support_is_known_only_while_both_feet_send() -> None:

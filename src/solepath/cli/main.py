@@ -14,8 +14,9 @@ from typing import Any
 
 from ..calibration import CalibrationError
 from ..recording import RecordingError
-from . import calibrate, check, convert, demo, evaluate, fleet_demo, reproduce, track, web
+from . import check, convert, demo, evaluate, fleet_demo, reproduce, track, web
 from .bluetooth import emulate, live, scan
+from .calibrate import command as calibrate
 from .common.failure import Failure, note
 
 COMMANDS = (

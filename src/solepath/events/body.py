@@ -93,6 +93,10 @@ class TouchedDown(Happening):
     """Walking mode for which the compensation holds."""
     compensation: Vec3
     """Vector added to the measured position, world frame, m."""
+    legs: tuple[tuple[Vec3, ...], tuple[Vec3, ...]] | None = None
+    """Hip, knee, ankle and end of the foot at `t`, left and right, relative to the middle of the hips, world frame, m.
+
+    None without the sensors of pelvis, thighs and shanks. The end of the foot is the tip of the rods of figure 8."""
 
 
 @frozen(kw_only=True)

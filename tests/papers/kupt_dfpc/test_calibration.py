@@ -16,7 +16,7 @@ from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.settings import InsoleSettings
 from solepath.papers.kupt_dfpc.kinematics import forefoot_position
 from solepath.papers.kupt_dfpc.noise import pressure_noise
-from solepath.papers.kupt_dfpc.shoe import fit_shoe
+from solepath.papers.kupt_dfpc.shoe.fit import fit_shoe
 from solepath.types import Foot, Sample, Site
 
 

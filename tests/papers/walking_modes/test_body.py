@@ -30,6 +30,7 @@ from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
 from solepath.recipes import DEFAULT
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from solepath.types.vector import sub
 
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})
@@ -75,6 +76,20 @@ def test_every_step_is_a_touchdown_where_the_foot_came_down() -> None:
             assert down.t == pytest.approx(stride.heel_strike, abs=0.06)
             x, y, _ = down.position
             assert hypot(x - stride.end.x, y - stride.end.y) < 0.15
+
+
+def test_the_legs_at_a_touchdown_reach_down_and_as_far_apart_as_the_feet() -> None:
+    before = None
+    for down in of(TouchedDown, run_walk(0.0)):
+        assert down.legs is not None
+        left, right = down.legs
+        for hip, knee, ankle, _ in down.legs:
+            assert hip[2] > knee[2] > ankle[2]
+        apart = hypot(left[3][0] - right[3][0], left[3][1] - right[3][1])
+        if before is not None:
+            x, y, _ = sub(down.position, before.position)
+            assert apart == pytest.approx(hypot(x, y), abs=0.1)
+        before = down
 
 
 def test_a_touchdown_is_known_within_three_samples() -> None:

@@ -30,18 +30,24 @@ def add_via(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_devices(command: argparse.ArgumentParser) -> None:
-    """Add the options of the devices and of the time to a command."""
+def add_feet(command: argparse.ArgumentParser) -> None:
+    """Add the options of the devices on the feet to a command."""
     add_via(command)
     command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
     command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
-    command.add_argument(
-        "--at", metavar="SITE=DEVICE", action="append", default=[], help="a device elsewhere, for instance pelvis=NAME"
-    )
+    command.set_defaults(at=[])
     command.add_argument(
         "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
     )
     command.add_argument("--pair", action="store_true", help="pair with the devices")
+
+
+def add_devices(command: argparse.ArgumentParser) -> None:
+    """Add the options of the devices and of the time to a command."""
+    add_feet(command)
+    command.add_argument(
+        "--at", metavar="SITE=DEVICE", action="append", default=[], help="a device elsewhere, for instance pelvis=NAME"
+    )
     add_duration(command, LISTEN_TIME)
 
 

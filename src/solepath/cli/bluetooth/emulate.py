@@ -40,6 +40,12 @@ def add_to(commands: Any) -> None:
         "--distance", metavar="M", type=parse_positive, default=DEFAULT_DISTANCE, help="how far (default: 300)"
     )
     command.add_argument(
+        "--postures",
+        metavar="S",
+        type=parse_positive,
+        help="instead of walking, hold the shoes flat and in the postures of `calibrate shoe`, S seconds each",
+    )
+    command.add_argument(
         "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
     )
     command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")

@@ -12,12 +12,14 @@ from ...emulate.demo import straight
 from ...emulate.devices.bench import Bench
 from ...emulate.devices.faults import parse_faults
 from ...emulate.devices.peripheral import Peripheral
+from ...emulate.routes.postures import PITCHES, held_shoe, held_time
+from ...emulate.routes.route import Route
 from ...emulate.sensors import insole_device, sensortags
 from ...emulate.sensors.device import Device
 from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...saving.files import read_bounded
-from ...types import Site
+from ...types import Foot, Site
 from ..common.failure import Failure, address_error_text, has_terminal, host_and_port
 from .devices import SERVE_TIME
 
@@ -25,6 +27,8 @@ MAX_FAULTS = 1_000_000
 """Largest size of a script of faults, bytes: some 30,000 lines."""
 MAX_DISTANCE = 5000.0
 """Longest walk, m; a longer one would take minutes and gigabytes to compute."""
+MAX_HOLD = 600.0
+"""Longest time for which emulated shoes are held in one posture, s."""
 RESTART_DELAY = 10.0
 """Time without a connection after which the next connection starts the walk again, s."""
 REPORT_INTERVAL, REDRAW_INTERVAL = 10.0, 1.0
@@ -41,6 +45,8 @@ def prepare_bench(options: argparse.Namespace) -> Bench:
     """Return the devices on a wearer whose walk is computed; raise Failure for options that cannot be emulated."""
     if options.distance > MAX_DISTANCE:
         raise Failure(f"--distance {options.distance:g}: {MAX_DISTANCE:g} m is as far as emulated wearers walk")
+    if options.postures is not None and options.postures > MAX_HOLD:
+        raise Failure(f"--postures {options.postures:g}: each of them is held for {MAX_HOLD:g} s at the most")
     if not 23 <= options.mtu <= 517:
         raise Failure(f"--mtu {options.mtu}: an MTU is from 23 to 517")
     host_and_port("--listen", options.listen)
@@ -53,7 +59,7 @@ def prepare_bench(options: argparse.Namespace) -> Bench:
     feet = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
     try:
         bench = Bench(
-            straight(options.distance),
+            straight(options.distance) if options.postures is None else Route().stand(held_time(options.postures)),
             devices=dict.fromkeys(feet, kinds[options.device]),
             seed=options.seed,
             mtu=options.mtu,
@@ -63,8 +69,10 @@ def prepare_bench(options: argparse.Namespace) -> Bench:
         if options.faults is None:
             raise
         raise Failure(f"{options.faults}: {error}") from None
-    if options.distance > SLOW_DISTANCE:
+    if options.postures is None and options.distance > SLOW_DISTANCE:
         print(f"working out a walk of {options.distance:g} m ...", flush=True)
+    if options.postures is not None:
+        bench.walker.motions = dict.fromkeys(Foot, held_shoe(PITCHES, options.postures))
     bench.prepare()
     return bench
 

@@ -11,18 +11,21 @@ The distance on the ground from there to where the tip of the shoe (length l) st
     L_p2t = l - x_f - R (p - tan(p / 2)).
 
 With these two distances, equations (6) of Chen et al. 2019 give the exact path of the sensor over the rocker. The round
-sole touches the ground further ahead than the ruler; that point is not used (papers/kupt_dfpc/shoe.py)."""
+sole touches the ground further ahead than the ruler; that point is not used (papers/kupt_dfpc/shoe/fit.py)."""
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import degrees, radians, tan
 from pathlib import Path
 
 import numpy as np
 from attrs import frozen
 
+from ...types import Phase
+from ..wearers.curves import constant, join
+from ..wearers.motion import PHASES, FootMotion
 from ..wearers.shoe import IN_SOLE, Mounting, Shoe
 
 PITCHES = tuple(radians(value) for value in (10.0, 22.0, 34.0, 46.0, 58.0))
@@ -35,6 +38,9 @@ POSTURE_ERROR = radians(1.5)
 """Standard deviation between the pitch of a shoe held by hand and the intended one, rad (assumed)."""
 PITCH_ERROR = radians(0.5)
 """Standard deviation of the pitch that a sensor measures at rest, rad: an accelerometer bias of about 0.01 g."""
+
+MOVING_TIME = 1.0
+"""Time in which a held shoe goes from one posture to the next, s (assumed)."""
 
 
 @frozen
@@ -94,3 +100,34 @@ def write_postures(path: Path | str, measurements: Iterable[Posture], mounting: 
 
 def _read(length: float) -> float:
     return RULER_RESOLUTION * round(length / RULER_RESOLUTION)
+
+
+def held_shoe(pitches: Sequence[float], hold: float, shoe: Shoe | None = None) -> FootMotion:
+    """Return the motion of a shoe that is held in static postures, from 0 s on: `hold` s each, after MOVING_TIME.
+
+    It stands flat for `hold` s at first. The `pitches`, rad, are positive when the heel is up."""
+    arc = (shoe or Shoe()).forefoot
+    flat, centre = constant(0.0), [constant(value) for value in (arc.x, 0.0, arc.radius)]
+    starts, durations, curves = [0.0], [hold], [[*centre, flat, flat, flat]]
+    before = 0.0
+    for pitch in (-pitch for pitch in pitches):
+        way = join((before, 0.0, 0.0), (pitch, 0.0, 0.0), MOVING_TIME)
+        for duration, curve in ((MOVING_TIME, way), (hold, constant(pitch))):
+            starts.append(starts[-1] + durations[-1])
+            durations.append(duration)
+            curves.append([*centre, curve, flat, flat])
+        before = pitch
+    count = len(starts)
+    return FootMotion(
+        start=np.array(starts),
+        duration=np.array(durations),
+        curves=np.array(curves),
+        reference=np.tile([arc.x, arc.radius], (count, 1)),
+        radius=np.full(count, arc.radius),
+        phase=np.full(count, PHASES.index(Phase.PUSH_OFF), dtype=np.intp),
+    )
+
+
+def held_time(hold: float, pitches: Sequence[float] = PITCHES) -> float:
+    """Return how long the motion of `held_shoe` takes, s."""
+    return hold + len(pitches) * (MOVING_TIME + hold)

@@ -260,14 +260,9 @@ class Modes(TrackPart):
             events.append(Limitation(t=t, known_at=known_at, site=None, what=what))
         final = places.heading_settled or not (chained or chain.may_recover())
         touchdown = TouchedDown(
-            t=t,
-            known_at=max(t, known_at),
-            final=final,
-            foot=foot,
-            position=side.place,
-            mode=mode,
-            compensation=compensation,
-        )
+            t=t, known_at=max(t, known_at), final=final, foot=foot, position=side.place, mode=mode,
+            compensation=compensation, legs=chain.legs(t),
+        )  # fmt: skip
         return [*events, touchdown]
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:

@@ -21,7 +21,7 @@ from ....papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
 from ....papers.kupt_dfpc.moment import PRINTED, SwingSettings
 from ....papers.kupt_dfpc.noise import pressure_noise
 from ....papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC
-from ....papers.kupt_dfpc.shoe import fit_shoe
+from ....papers.kupt_dfpc.shoe.fit import fit_shoe
 from ....papers.kupt_dfpc.soft_swing import SoftSwing
 from ....papers.kupt_dfpc.swing_dedrift import SwingDedrift
 from ....types import SITE_OF_FOOT, Foot

@@ -224,6 +224,10 @@ class LowerLimbs:
         hip = (0.0, side * limbs.hip_width, 0.0)
         return joints(self._attitude(Site.PELVIS, t), thigh, shank, foot_attitude, hip, limbs)
 
+    def legs(self, t: float) -> tuple[tuple[Vec3, ...], tuple[Vec3, ...]] | None:
+        """Return the rods of both legs, left and right, at `t` s; None if an attitude is not known then."""
+        return (self.rods(Foot.LEFT, t), self.rods(Foot.RIGHT, t)) if self.is_current(t) else None
+
     def height(self, foot: Foot, t: float) -> float:
         """Return the height of the sole below the ankle at `t` s, relative to the middle of the hips, upwards, m.
 

@@ -9,11 +9,11 @@ from typing import Any
 from attrs import asdict, define, field
 
 from ....body.gait.means import GaitMeans, GaitParameters
-from ....events import GaitCycleMeasured, TouchedDown
+from ....events import GaitCycleMeasured
 from ....types import Activity, Foot
 from ....types.attrs import NOT_SAVED
 from ...tables.gait import MIN_STRIDES, GaitRow, gait_rows, strides_of
-from ..messages import rounded, rounded_all
+from ..messages import rounded
 
 PACE_STRIDES = 2
 """Number of consecutive strides of a foot over which the pace is averaged: a single stride errs by some per cent."""
@@ -72,18 +72,6 @@ def activity_frame(since: float, activity: Activity, silent_since: float | None)
         return {"now": activity.value, "since": rounded(since), "last": None}
     last = None if activity is Activity.UNKNOWN else activity.value
     return {"now": Activity.UNKNOWN.value, "since": rounded(silent_since), "last": last}
-
-
-def touchdown_frame(touchdown: TouchedDown | None) -> dict[str, Any] | None:
-    """Return the member "touchdown" of a frame: the last one of a recipe that has touchdowns, with its walking mode."""
-    if touchdown is None:
-        return None
-    return {
-        "t": rounded(touchdown.t),
-        "foot": touchdown.foot.value,
-        "mode": touchdown.mode.value,
-        "position": rounded_all(touchdown.position),
-    }
 
 
 @define

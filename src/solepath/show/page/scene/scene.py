@@ -30,7 +30,7 @@ from ....events import (
     WearerMoved,
 )
 from ....floorplan.plan import FloorPlan
-from ....foot.phase import EVENT_OF_PHASE, SUPPORT
+from ....foot.phase import EVENT_OF_PHASE
 from ....recording import printable
 from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
 from ....types.attrs import NOT_SAVED
@@ -39,8 +39,9 @@ from ...valid import has_valid_numbers
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
 from .bending import bend_of
+from .both_feet import both_feet_frame
 from .feet import FootScene
-from .gait import SceneGaitMeans, ScenePace, activity_frame, touchdown_frame
+from .gait import SceneGaitMeans, ScenePace, activity_frame
 from .growing import GrowingLists
 from .links import feet_silent_since, link_frame
 from .log import SceneLog
@@ -262,17 +263,12 @@ class Scene:
             "place": self.wearer.place_frame(observer.places.last),
             "activity": activity_frame(since, activity, silent_since),
             "pace": None if silent_since is not None else self.pace.frame(now, activity, since),
-            "support": self._support(),
-            "touchdown": touchdown_frame(observer.touchdown),
+            **both_feet_frame(self.feet, observer),
             "scales": self.scales.frame(),
             "gait": self.gait_means.frame(observer.recent_gait),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
         }
-
-    def _support(self) -> str | None:
-        left, right = self.feet[Foot.LEFT].phase, self.feet[Foot.RIGHT].phase
-        return None if left is None or right is None else SUPPORT[left][right].value
 
 
 NO_COUNTS = FootCounts()

@@ -5,6 +5,7 @@
 
 import { ActivityPanel } from "./activity.js";
 import { Announcer } from "./announce.js";
+import { BodyFigure } from "./body.js";
 import { keepClear } from "./clearance.js";
 import { Connection, WORDS } from "./connection.js";
 import { Gait } from "./gait.js";
@@ -52,6 +53,7 @@ const panels = [
   track,
   new Height(redraw),
   new ActivityPanel(),
+  new BodyFigure(),
   new Gait(),
   new Links(),
   new Log(),

@@ -46,6 +46,8 @@ export class State {
     this.activity = null;
     this.support = null;
     this.touchdown = null; // {t, foot, mode, position: world frame, m}
+    this.body = null; // {left, right: hip, knee, ankle, end of the foot as [ahead, up], m}
+    this.fused = null; // {foot, length, similarity, errorIndex, share, chosen, distance}: the last fused stride
     this.gait = null;
     this.links = {};
     this.playback = null;
@@ -171,8 +173,20 @@ const touchdown = (value) => {
   return FEET.includes(foot) && numbers(position, 3) ? { t: number(t), foot, mode: text(mode), position } : null;
 };
 
+const body = (value) => {
+  const { left, right } = record(value);
+  const legs = [left, right].map((leg) => list(leg).filter((point) => numbers(point, 2)).slice(0, 4));
+  return legs.every((leg) => leg.length === 4) ? { left: legs[0], right: legs[1] } : null;
+};
+
+const fused = (value) => {
+  const { foot, chosen, length, distance, similarity, error_index: errorIndex, share } = record(value);
+  if (!FEET.includes(foot) || !FEET.includes(chosen) || !numbers([length, distance], 2)) return null;
+  return { foot, chosen, length, distance, similarity: number(similarity), errorIndex: number(errorIndex), share: number(share) };
+};
+
 // Members that a frame sends whole, with the function that checks each.
-const READERS = { wearer, place, activity, pace, scales, support, touchdown, gait, playback };
+const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, playback };
 
 // Sorted by time: a phase may become known after one that started later.
 function insert(phases, one) {

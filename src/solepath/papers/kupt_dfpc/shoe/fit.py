@@ -16,15 +16,17 @@ to the point below the sensor. They have the same value in every line. Numbers w
 
 from __future__ import annotations
 
-from math import radians
+from collections.abc import Iterable, Mapping
+from math import degrees, radians
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...calibration import Calibration, CalibrationError, ShoeGeometry
-from ...calibration.csv_table import read_rows
-from ...types.attrs import frozen
+from ....calibration import Calibration, CalibrationError, ShoeGeometry
+from ....calibration.csv_table import read_rows
+from ....saving.files import write_whole
+from ....types.attrs import frozen
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
 """Names of the columns that a file must have."""
@@ -92,6 +94,32 @@ def fit_shoe(path: Path | str) -> ShoeFit:
         residual_to_toe=float(np.sqrt(np.mean(residual_t**2))),
         worst=float(max(np.abs(residual_r).max(), np.abs(residual_t).max())),
     )
+
+
+@frozen
+class MeasuredPosture:
+    """One measurement of a static posture."""
+
+    pitch: float
+    """Heel-up pitch by the sensor, rad."""
+    to_ruler: float
+    """Length L_r, m."""
+    ruler_to_toe: float
+    """Length L_p2t, m."""
+
+
+def write_measurements(
+    path: Path | str, measurements: Iterable[MeasuredPosture], constants: Mapping[str, float]
+) -> None:
+    """Write the file that `fit_shoe` reads; `constants` has those of CONSTANT_COLUMNS that are known, m.
+
+    Raises OSError when it cannot be written; the file has its earlier content then."""
+    ends = [f"{value:.4f}" for value in constants.values()]
+    rows = [
+        [f"{degrees(one.pitch):.2f}", f"{one.to_ruler:.4f}", f"{one.ruler_to_toe:.4f}", *ends] for one in measurements
+    ]
+    lines = [[*COLUMNS, *constants], *rows]
+    write_whole(path, "".join([",".join(line) + "\n" for line in lines]))
 
 
 def _fit(pitch: Column, length: Column, degree: int) -> tuple[tuple[float, ...], Column]:

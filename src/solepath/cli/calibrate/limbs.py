@@ -7,10 +7,10 @@ from math import degrees
 from pathlib import Path
 from typing import Any
 
-from ..calibration import Calibration
-from ..show.tables.table import number, table
-from .common.failure import parse_positive
-from .common.inputs import source_of
+from ...calibration import Calibration
+from ...show.tables.table import number, table
+from ..common.failure import parse_positive
+from ..common.inputs import source_of
 
 STEEPEST_TILT = 35.0
 """Tilt from which a sensor is hardly strapped on as intended, degrees; between two axes of a box it is 45."""
@@ -37,8 +37,8 @@ def add_limbs(kinds: Any) -> None:
 
 
 def _limbs(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
-    from ..papers.walking_modes.limbs.standing import check_standing, limbs_of
-    from ..recording.decoded import decode_recording
+    from ...papers.walking_modes.limbs.standing import check_standing, limbs_of
+    from ...recording.decoded import decode_recording
 
     stood = check_standing(decode_recording(source_of(options.file)).samples)
     limbs = limbs_of(options.stature, options.spines, options.thigh, options.shank)

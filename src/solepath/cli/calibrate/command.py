@@ -6,12 +6,12 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ..calibration import Calibration, merged
-from ..recording import printable
-from ..saving.files import identity
-from .calibrate_kinds import KINDS
-from .common.failure import Failure
-from .common.files import CALIBRATION, OutputFile, check_outputs, check_writable
+from ...calibration import Calibration, merged
+from ...recording import printable
+from ...saving.files import identity
+from ..common.failure import Failure
+from ..common.files import CALIBRATION, OutputFile, check_outputs, check_writable
+from .kinds import KINDS
 
 MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
 """Sentence of the help text."""
@@ -48,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _read(path: Path) -> Calibration:
     """Return the calibration in a file, which may be empty or missing."""
-    from ..calibration.file import read_calibration
+    from ...calibration.file import read_calibration
 
     return read_calibration(path) if path.exists() and path.stat().st_size else Calibration()
 
@@ -59,8 +59,8 @@ class _FileChanged(Exception):
 
 def _try_to_complete(path: Path, learnt: Calibration) -> bool:
     """Add what was learnt to what the file holds; return False when another `calibrate` wrote it just now."""
-    from ..calibration.file import write_calibration
-    from ..calibration.limits import find_fault
+    from ...calibration.file import write_calibration
+    from ...calibration.limits import find_fault
 
     found = identity(path)
     whole = merged(_read(path), learnt)

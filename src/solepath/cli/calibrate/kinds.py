@@ -7,12 +7,13 @@ from math import degrees
 from pathlib import Path
 from typing import Any
 
-from ..calibration import Calibration, InsoleCalibration
-from ..show.tables.table import number, table
-from ..types import Foot
-from .calibrate_limbs import add_limbs
-from .common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
-from .common.inputs import add_foot, check_pressure, foot_of, source_of
+from ...calibration import Calibration, InsoleCalibration
+from ...show.tables.table import number, table
+from ...types import Foot
+from ..common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
+from ..common.inputs import add_foot, check_pressure, foot_of, source_of
+from .limbs import add_limbs
+from .shoe import add_shoe
 
 LearntCalibration = tuple[Calibration, list[str]]
 """A calibration that was learnt, and the lines that report it."""
@@ -42,8 +43,8 @@ def _add_noise(kinds: Any) -> None:
 
 
 def _noise(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.kupt_dfpc.noise import pressure_noise
-    from ..recording.decoded import decode_recording
+    from ...papers.kupt_dfpc.noise import pressure_noise
+    from ...recording.decoded import decode_recording
 
     if options.share == 0.0:
         raise Failure("--share 0: of no samples at all nothing is learnt")
@@ -53,31 +54,6 @@ def _noise(options: argparse.Namespace, known: Calibration) -> LearntCalibration
         for foot, insole in learnt.insoles.items()
     ]
     return learnt, [table(["foot", "cells", "mean noise", "largest"], rows)]
-
-
-def _add_shoe(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
-        "shoe",
-        help="how a shoe rolls over its forefoot, from postures measured with rulers",
-        description="From static postures between flat and toe-off: a csv file with the columns pitch_deg, L_r_m, "
-        "L_p2t_m, and H_imu_m and heel_L_r_m where they are known.",
-        epilog="example: solepath calibrate shoe postures.csv --out me.json",
-    )
-    command.set_defaults(learn=_shoe)
-    command.add_argument("file", metavar="POSTURES", type=Path, help="the csv file")
-
-
-def _shoe(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.kupt_dfpc.shoe import fit_shoe
-
-    fit = fit_shoe(options.file)
-    shoe = fit.calibration.shoe
-    steepest = "" if shoe is None else f", flat to {degrees(shoe.steepest):.0f} degrees"
-    return fit.calibration, [
-        f"{fit.measurements} measurements of {fit.postures} postures{steepest}: rms error of L_r "
-        f"{1000.0 * fit.residual_radius:.1f} mm, of L_p2t {1000.0 * fit.residual_to_toe:.1f} mm, largest "
-        f"{1000.0 * fit.worst:.1f} mm"
-    ]
 
 
 def _add_square(kinds: Any) -> None:
@@ -111,7 +87,7 @@ def _add_square(kinds: Any) -> None:
 
 
 def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.pressure_contour.square import read_marks, square_drift
+    from ...papers.pressure_contour.square import read_marks, square_drift
 
     recipe = recipe_named(options.recipe)
     foot = foot_of(options)
@@ -146,7 +122,7 @@ def _add_toe_out(kinds: Any) -> None:
 
 
 def _toe_out(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
+    from ...papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
 
     feet = toe_out(source_of(options.file, foot_of(options)), options.distance)
     angles = ["none" if foot.angle is None else number(degrees(foot.angle)) for foot in feet]
@@ -178,7 +154,7 @@ def _add_newton(kinds: Any) -> None:
 
 
 def _newton(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.walking_modes.newton import fit_gauge
+    from ...papers.walking_modes.newton import fit_gauge
 
     foot = foot_of(options)
     feet = list(Foot) if foot is None else [foot]
@@ -212,8 +188,8 @@ def _add_modes(kinds: Any) -> None:
 
 
 def _modes(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.walking_modes.calibrate import fit_modes
-    from ..recording.decoded import decode_recording
+    from ...papers.walking_modes.calibrate import fit_modes
+    from ...recording.decoded import decode_recording
 
     if len(options.files) % 2:
         raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")
@@ -244,7 +220,7 @@ def _add_walk(kinds: Any) -> None:
 
 
 def _walk(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..session.heading_walk import heading_calibration, heading_walk
+    from ...session.heading_walk import heading_calibration, heading_walk
 
     fits = heading_walk(source_of(options.file, foot_of(options)), known)
     rows = [
@@ -274,7 +250,7 @@ def _add_rest(kinds: Any) -> None:
 
 
 def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ..papers.pressure_contour.rest import rest_calibration, rest_noise
+    from ...papers.pressure_contour.rest import rest_calibration, rest_noise
 
     fits = rest_noise(source_of(options.file, foot_of(options)), foot_of(options))
     lines = [
@@ -286,5 +262,5 @@ def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     return rest_calibration(fits), lines
 
 
-KINDS = (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest)
+KINDS = (_add_noise, add_shoe, _add_square, _add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest)
 """Functions that add the kinds to the parser, in the order of the help text."""

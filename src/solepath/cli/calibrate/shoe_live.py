@@ -1,0 +1,206 @@
+"""Does the work of `solepath calibrate shoe --live`: a person at the terminal measures postures, a sensor the pitch.
+
+Numbers were chosen by hand."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+from collections.abc import AsyncIterable
+from contextlib import AsyncExitStack
+from math import degrees
+from pathlib import Path
+
+from attrs import define, field
+
+from ...ble import DeviceConfig, Devices, scan
+from ...events import LinkTrouble
+from ...link.decoder import Decoder
+from ...papers.kupt_dfpc.shoe.fit import CONSTANT_COLUMNS, LONGEST_SHOE, MeasuredPosture, write_measurements
+from ...papers.kupt_dfpc.shoe.gauge import STILL_TIME, PitchGauge
+from ...recording import printable
+from ...types import Packet, Sample, Site
+from ..bluetooth.backend import backend_of
+from ..bluetooth.devices import SCAN_TIME, named_devices
+from ..common.failure import Failure
+from ..common.loop import unless_stopped
+from .terminal import Dialogue
+
+PITCHES = (10, 22, 34, 46, 58)
+"""Pitches to which the heel is raised, degrees: five postures between flat and toe-off; near them is as good."""
+REDRAW_INTERVAL = 0.1
+"""Time between two pictures of the pitch, s."""
+SILENCE = 1.0
+"""Time without a sample after which no pitch is shown, s."""
+SEEN_LEAN = 5.0
+"""Lean sideways from which it is shown, degrees: a pitch of 58 degrees is off by some tenths then."""
+HELP = (
+    "The pitch of the shoe is on the line that changes. Enter takes it as soon as the shoe was still for a second;\n"
+    "u and Enter take the last measurement back; q and Enter end."
+)
+
+
+class _Ended(Exception):
+    """The person wants to measure no more."""
+
+
+async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
+    """Measure until all postures are in the file or the person ends; return 0. Raise StoppedEarly at a signal."""
+    constants = dict(zip(CONSTANT_COLUMNS, (options.height, options.heel), strict=True))
+    devices = named_devices(options)
+    if len(devices) > 1:
+        raise Failure("one shoe at a time: --left or --right, not both")
+    async with AsyncExitStack() as stack:
+        await stack.enter_async_context(unless_stopped(stop))
+        backend = await stack.enter_async_context(backend_of(options.via))
+        if not devices:
+            print(f"looking for sensors for {SCAN_TIME:g} s ...", flush=True)
+            found = [device for device in await scan(SCAN_TIME, backend=backend) if device.profile is not None]
+            if len(found) != 1:
+                names = ", ".join([f"{device.address} ({printable(device.name)})" for device in found])
+                raise Failure(f"{names or 'no device that is known here'} in range: say which with --left or --right")
+            devices = [DeviceConfig(Site.RIGHT_FOOT, found[0].address, found[0].profile)]
+        packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
+        shoe = LiveShoe(devices[0].site or Site.RIGHT_FOOT)
+        receiving = asyncio.create_task(shoe.receive(packets))
+        try:
+            known = {name: value for name, value in constants.items() if value is not None}
+            await Measuring(shoe, Dialogue(), options.file, known, receiving).run(options.times)
+        finally:
+            receiving.cancel()
+            await asyncio.gather(receiving, return_exceptions=True)
+    return 0
+
+
+@define
+class LiveShoe:
+    """The pitch of a shoe whose sensor sends packets."""
+
+    site: Site
+    gauge: PitchGauge = field(factory=PitchGauge, init=False)
+    now: float = field(default=0.0, init=False)
+    """Time of the newest packet, s."""
+    sample_at: float | None = field(default=None, init=False)
+    """Arrival of the newest sample, s; None before the first."""
+    trouble: str | None = field(default=None, init=False)
+    """Trouble of the link, in words; None while samples come."""
+
+    async def receive(self, packets: AsyncIterable[Packet]) -> None:
+        """Take packets until cancelled."""
+        decoder = Decoder(self.site)
+        async for packet in packets:
+            self.now = packet.t
+            for output in decoder.feed(packet):
+                if isinstance(output, Sample) and output.acc is not None:
+                    self.gauge.add_sample(output.t, output.acc)
+                    self.sample_at, self.trouble = packet.t, None
+                elif isinstance(output, LinkTrouble):
+                    self.trouble = output.what
+            if self.is_silent:
+                self.gauge.restart()
+
+    @property
+    def is_silent(self) -> bool:
+        """True while no sample comes."""
+        return self.sample_at is None or self.now - self.sample_at > SILENCE
+
+    def line(self) -> str:
+        """Return the present pitch in words."""
+        reading = None if self.is_silent else self.gauge.read()
+        if reading is None:
+            return f"{self.site.words}: {printable(self.trouble or 'waiting for the sensor', 60)}"
+        steady = "steady" if reading.is_still else "unsteady"
+        if self.gauge.flat is None:
+            return f"{self.site.words}: {steady}"
+        lean = degrees(abs(reading.sideways))
+        return f"{self.site.words}: pitch {degrees(reading.pitch):5.1f} degrees, {steady}" + (
+            f", leans {lean:.0f} degrees sideways" if lean > SEEN_LEAN else ""
+        )
+
+
+@define
+class Measuring:
+    """A person's way through all postures; what was measured is in the file after every answer."""
+
+    shoe: LiveShoe
+    talk: Dialogue
+    file: Path
+    constants: dict[str, float]
+    receiving: asyncio.Task[None]
+    done: list[MeasuredPosture] = field(factory=list, init=False)
+
+    async def run(self, times: int) -> None:
+        """Go through all postures, `times` times each."""
+        self.talk.print_line(HELP)
+        try:
+            while len(self.done) < times * len(PITCHES):
+                if self.shoe.gauge.flat is None:
+                    self.talk.print_line("Stand with the shoe flat on level ground: from there the pitch is counted.")
+                    await self._take()
+                else:
+                    await self._measure(times)
+        except (_Ended, EOFError):
+            self.talk.print_line()
+        if not self.done:
+            raise Failure("no posture was measured, so that nothing is learnt")
+
+    async def _measure(self, times: int) -> None:
+        """Measure the next posture, or take the last one back."""
+        k, time = divmod(len(self.done), times)
+        self.talk.print_line(
+            f"Posture {k + 1} of {len(PITCHES)}, time {time + 1} of {times}: forefoot on the ground, heel up by about "
+            f"{PITCHES[k]} degrees"
+        )
+        pitch = await self._take()
+        if pitch is None:
+            if self.done:
+                self.done.pop()
+                self._write()
+                self.talk.print_line("taken back")
+            else:
+                self.shoe.gauge = PitchGauge()
+            return
+        self.talk.print_line(f"pitch {degrees(pitch):.1f} degrees, the mean of {STILL_TIME:g} s")
+        to_ruler = await self._length("L_r in mm, along the sole from below the sensor to the ground:")
+        to_toe = await self._length("L_p2t in mm, on the ground from there to where the toe stood:")
+        self.done.append(MeasuredPosture(pitch, to_ruler, to_toe))
+        self._write()
+
+    async def _take(self) -> float | None:
+        """Return the pitch, rad, of a still second after Enter; None for u. Raise _Ended for q."""
+        self.talk.forget_typed()
+        is_due = False
+        while True:
+            if self.receiving.done():
+                self.receiving.result()
+            if not is_due and (typed := self.talk.typed()) is not None:
+                self.talk.restart_line()
+                if typed in ("q", "u"):
+                    if typed == "q":
+                        raise _Ended
+                    return None
+                is_due = True
+            if is_due and not self.shoe.is_silent and (pitch := self.shoe.gauge.take()) is not None:
+                return pitch
+            self.talk.show(self.shoe.line() + (": hold it still" if is_due else ""))
+            await asyncio.sleep(REDRAW_INTERVAL)
+
+    async def _length(self, question: str) -> float:
+        """Return a length that is typed in mm, m. Raise _Ended for q."""
+        while True:
+            typed = await self.talk.prompt(question)
+            if typed == "q":
+                raise _Ended
+            try:
+                length = 0.001 * float(typed.replace(",", "."))
+            except ValueError:
+                length = -1.0
+            if 0.0 <= length <= LONGEST_SHOE:
+                return length
+            self.talk.print_line(f"that is no length from 0 to {1000.0 * LONGEST_SHOE:g} mm")
+
+    def _write(self) -> None:
+        try:
+            write_measurements(self.file, self.done, self.constants)
+        except OSError as error:
+            raise Failure(f"{printable(str(self.file))}: {error.strerror}") from None
