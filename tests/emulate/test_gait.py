@@ -138,7 +138,7 @@ def test_invalid_values_in_a_route_are_rejected(bad: float) -> None:
 
 
 def test_the_four_subjects_are_those_of_table_3() -> None:
-    """Gong et al. 2023: height in cm, weight in kg, shoe size in mm. A thigh is 0.245 of the height, a shoe 285/275 of its size."""
+    """Height, weight and shoe size in Gong et al. 2023. A thigh is 0.245 of the height, a shoe 285/275 of its size."""
     found = [(one.limbs.thigh / 0.245, one.mass, one.shoe.length * 275.0 / 285.0) for one in SUBJECTS]
     table_3 = [(1.72, 63.0, 0.245), (1.68, 52.5, 0.255), (1.60, 50.0, 0.235), (1.83, 81.0, 0.270)]
     assert [pytest.approx(one) for one in table_3] == found
