@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import radians, sqrt, tan
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from solepath.papers.kupt_dfpc.shoe import fit_shoe
 from solepath.types import Cell, Foot, Layout, Sample, Site
 
 
-def samples_of(rows: list[tuple[float, ...]], site: Site = Site.LEFT_FOOT) -> list[Sample]:
+def samples_of(rows: Sequence[tuple[float, ...]], site: Site = Site.LEFT_FOOT) -> list[Sample]:
     return [Sample(t=0.05 * k, site=site, pressure=row) for k, row in enumerate(rows)]
 
 
