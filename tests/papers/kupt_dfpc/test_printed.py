@@ -18,7 +18,9 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import StrideTaken
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
+from solepath.papers.kupt_dfpc.cop_cues import CopCues
 from solepath.papers.kupt_dfpc.moment import PRINTED
+from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
 from solepath.papers.kupt_dfpc.swing_dedrift import SwingDedrift
 from solepath.types import Foot, Phase
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
@@ -58,6 +60,11 @@ def test_as_printed_equation_8_holds_for_heights_too_and_ours_takes_one_line_out
         if cue is not None:
             corrector.mark(0.1 * k, cue)
     assert corrector.position[2] == pytest.approx(rise, abs=1e-9)
+
+
+def test_only_as_printed_do_jumps_of_the_centre_of_pressure_have_a_sign() -> None:
+    for recipe, signed in ((KUPT_DFPC_PRINTED, True), (KUPT_DFPC, False), (ZUPT, False)):
+        assert isinstance(recipe.cues, CopCues) and recipe.cues.settings.signed is signed
 
 
 @pytest.mark.parametrize("seed", [331, 332])
