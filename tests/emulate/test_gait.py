@@ -11,7 +11,7 @@ from strides import in_order
 from solepath.emulate.routes.actions import TurnAction, stages
 from solepath.emulate.routes.path import Pivot
 from solepath.emulate.routes.route import Route
-from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.gait import SUBJECTS, Wearer
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 
@@ -135,3 +135,10 @@ def test_invalid_values_in_a_route_are_rejected(bad: float) -> None:
         Route().walk(1.0, bad)
     with pytest.raises(ValueError):
         Route().turn(1.0, bad if bad != 0.0 else -0.5)
+
+
+def test_the_four_subjects_are_those_of_table_3() -> None:
+    """Height, weight and shoe size in Gong et al. 2023. A thigh is 0.245 of the height, a shoe 285/275 of its size."""
+    found = [(one.limbs.thigh / 0.245, one.mass, one.shoe.length * 275.0 / 285.0) for one in SUBJECTS]
+    table_3 = [(1.72, 63.0, 0.245), (1.68, 52.5, 0.255), (1.60, 50.0, 0.235), (1.83, 81.0, 0.270)]
+    assert [pytest.approx(one) for one in table_3] == found

@@ -150,7 +150,7 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     json_path, figure = Path("table.json"), Path(f"{name}.png")
     options = ("--walks", 1, "--seed", 3, "--processes", 1, "--json", json_path)
     done = run("reproduce", name, *options, "--figure")  # named after the experiment when nothing is said
-    assert done.returncode == 0 and re.fullmatch(r"(\d) of \1: .+", done.stderr.splitlines()[-1])
+    assert done.returncode == 0 and re.fullmatch(r"(\d+) of \1: .+", done.stderr.splitlines()[-1])
     assert f"{name}: ours is emulated" in done.stdout
     assert done.stdout.endswith(f"figure drawn in {figure}\n") and figure.read_bytes().startswith(b"\x89PNG")
     table = json.loads(json_path.read_text(), parse_constant=pytest.fail)

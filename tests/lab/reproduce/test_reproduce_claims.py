@@ -1,6 +1,6 @@
 """The claims of the papers as docs/papers.md reports them, with the full number of walks.
 
-    python -m pytest -m soak tests/lab/test_reproduce_claims.py
+    python -m pytest -m soak tests/lab/reproduce/test_reproduce_claims.py
 
 Takes some minutes. A claim that is not reproduced is not asserted here; docs/papers.md reports it.
 """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import radians, sqrt, tan
 from pathlib import Path
 
@@ -16,11 +17,12 @@ from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.settings import InsoleSettings
 from solepath.papers.kupt_dfpc.kinematics import forefoot_position
 from solepath.papers.kupt_dfpc.noise import pressure_noise
+from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
 from solepath.papers.kupt_dfpc.shoe.fit import fit_shoe
-from solepath.types import Foot, Sample, Site
+from solepath.types import Cell, Foot, Layout, Sample, Site
 
 
-def samples_of(rows: list[tuple[float, ...]], site: Site = Site.LEFT_FOOT) -> list[Sample]:
+def samples_of(rows: Sequence[tuple[float, ...]], site: Site = Site.LEFT_FOOT) -> list[Sample]:
     return [Sample(t=0.05 * k, site=site, pressure=row) for k, row in enumerate(rows)]
 
 
@@ -38,6 +40,22 @@ def test_only_the_requested_share_counts() -> None:
     deviation = sqrt((10 * (1 - mean) ** 2 + 10 * (3 - mean) ** 2 + 10 * (10 - mean) ** 2) / 30)
     noise = pressure_noise(samples_of(rows), share=0.30).insoles[Foot.LEFT].noise
     assert noise == pytest.approx((mean + 3.0 * deviation, 4.0))
+
+
+def test_without_a_share_the_least_loaded_15_of_100_samples_count_as_in_the_paper() -> None:
+    # 30 of 200: 29 with 1 on the first cell and one with 3; the 31st has 5
+    rows = [(1.0, 4.0)] * 29 + [(3.0, 4.0)] + [(5.0, 4.0)] * 170
+    noise = pressure_noise(samples_of(rows)).insoles[Foot.LEFT].noise
+    assert noise == pytest.approx((32.0 / 30.0 + 3.0 * 2.0 * sqrt(29.0) / 30.0, 4.0))
+
+
+def test_the_insoles_two_areas_meet_at_the_board_12_5_of_28_5_cm_from_the_heel() -> None:
+    """Fig. 3: the circuit board, where the sensor is, divides the cells."""
+    cells = tuple(Cell(0.01 * k, 0.0) for k in (2, 12, 13, 25))
+    for recipe in (KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT):
+        insole = recipe.insole
+        insole.set_layout(Layout(4, Foot.LEFT, cells, 0.285))
+        assert (insole.heel_cells, insole.forefoot_cells) == ((0, 1), (2, 3))
 
 
 def test_noise_is_in_newtons_where_the_calibration_makes_newtons() -> None:

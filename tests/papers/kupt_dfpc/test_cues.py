@@ -15,7 +15,7 @@ from solepath.foot.cues.touch import Touch
 from solepath.foot.phase import PHASES, Cue
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.stance.stance import Load, Stance
-from solepath.papers.kupt_dfpc.cop_cues import CopCues
+from solepath.papers.kupt_dfpc.cop_cues import CopCues, CopCuesSettings
 from solepath.papers.kupt_dfpc.stages import STAGES, CellCue, StrideStage, describe
 from solepath.types import Cell, Foot, Layout, Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
@@ -34,9 +34,9 @@ FLIGHT: list[Row] = [(None, False)] * 12
 LANDING: list[Row] = [(0.05, False), (0.06, False), (0.08, False)]
 
 
-def cues_with_load() -> CopCues:
+def cues_with_load(signed: bool = False) -> CopCues:
     """Return the cues of a standing foot whose cells are reliable."""
-    cues = CopCues(touch=Touch())
+    cues = CopCues(CopCuesSettings(signed=signed), touch=Touch())
     cues.set_layout(FOUR_CELLS)
     cues.touch.trusted, cues.touch.load_unknown = True, False
     cues.stage = StrideStage.STANDING
@@ -62,13 +62,14 @@ def watch(
     return seen, marks
 
 
-def cues_of(rows: list[Row]) -> list[tuple[Cue, int, int]]:
+def cues_of(rows: list[Row], signed: bool = False) -> list[tuple[Cue, int, int]]:
     """Return (cue, number of the sample that it names, number of the sample at which it was reported)."""
-    return [(one.cue, round(one.t / 0.01), k) for one, k in watch(rows)[0]]
+    return [(one.cue, round(one.t / 0.01), k) for one, k in watch(rows, cues_with_load(signed))[0]]
 
 
 def test_the_centre_of_pressure_is_the_mean_of_places_weighted_by_pressure() -> None:
-    # (2): (0.05 x 10 + 0.05 x 30 + 0.20 x 40) / 80 = 10 / 80; (3): (0.01 x 10 - 0.01 x 30 + 0.02 x 40) / 80 = 0.6 / 80
+    # our x, along the foot, is copY (3): (0.05 x 10 + 0.05 x 30 + 0.20 x 40) / 80 = 10 / 80
+    # our y, across it, is copX (2): (0.01 x 10 - 0.01 x 30 + 0.02 x 40) / 80 = 0.6 / 80
     cells = (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.20, 0.02))
     insole = InsoleLoads()
     insole.set_layout(Layout(3, Foot.LEFT, cells, 0.26))
@@ -93,6 +94,28 @@ def test_a_larger_jump_later_in_landing_is_the_heel_strike() -> None:
     # the first contact is at 0.09, hardly off the centre; then the heel: from 0.09 to 0.04
     landing: list[Row] = [(0.09, False), (0.04, False), (0.06, False)]
     assert cues_of(STANCE + PUSH + FLIGHT + landing + STANCE)[2] == (Cue.CONTACT, 18, 20)
+
+
+def test_as_printed_a_heel_strike_is_the_largest_jump_towards_the_heel() -> None:
+    # from the centre 0.10 to the heel 0.07 at sample 17, then a larger jump back towards the toes, 0.125
+    landing: list[Row] = [(0.07, False), (0.125, False), (0.12, False)]
+    rows = STANCE + PUSH + FLIGHT + landing + STANCE
+    assert cues_of(rows, signed=True)[2] == (Cue.CONTACT, 17, 20)
+    assert cues_of(rows)[2] == (Cue.CONTACT, 18, 20)
+
+
+def test_as_printed_a_toe_off_is_not_where_the_load_moves_quickly_to_the_toes() -> None:
+    # from heel to toe in one sample, 0.06 to 0.14, a jump of 0.08; from 0.15 to the centre a jump of 0.05 only
+    rows = [(0.06, True), (0.06, True), (0.14, False), (0.15, False), (0.15, False), *FLIGHT]
+    assert cues_of(rows, signed=True) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 4, 5)]
+    assert cues_of(rows) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 1, 5)]
+
+
+def test_ours_takes_a_landing_on_the_forefoot_for_a_heel_strike_at_the_first_contact() -> None:
+    landing: list[Row] = [(0.16, False), (0.13, False), (0.11, False)]
+    rows = STANCE + PUSH + FLIGHT + landing + STANCE
+    assert cues_of(rows)[2] == (Cue.CONTACT, 17, 20)
+    assert cues_of(rows, signed=True)[2] == (Cue.CONTACT, 18, 20)
 
 
 def test_marks_are_set_at_the_best_candidates_so_far() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from math import inf
 
 import numpy as np
 import pytest
@@ -20,14 +21,19 @@ from solepath.emulate.wearers.shoe import Shoe
 from solepath.emulate.wearers.soles.contact import RIGID, WORN, GroundContact
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import StrideFeatures, StrideTaken
+from solepath.foot.phase import Cue
+from solepath.foot.stance.stance import Stance
 from solepath.papers.kupt_dfpc.drift_parts import DriftParts
 from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
+from solepath.papers.kupt_dfpc.moment import SwingSettings
 from solepath.papers.kupt_dfpc.rolling_errors import DriftTime, RollingError
 from solepath.papers.kupt_dfpc.soft_swing import SoftSwing
-from solepath.types import Foot, Sample
+from solepath.types import Foot, Phase, Sample
+from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
 ROUTE = Route().stand(2.0).walk(20.0, 1.3).stop(1.5)
 LAYOUTS = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
+PUSH_OFF, LOADING = Phase.PUSH_OFF, Phase.LOADING
 SEEDS = (321, 322, 323, 324)
 
 
@@ -88,6 +94,23 @@ def test_parts_that_are_measured_exactly_are_those_of_equation_8() -> None:
     (x, _), variance = parts.displacement((0.8, 0.5, 0.1))
     assert x == pytest.approx(0.08 + 0.1 + 0.005, abs=1e-6)
     assert variance == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_error_index_of_ours_is_the_sum_of_the_errors_at_toe_off_and_heel_strike() -> None:
+    """Raw velocities of 0.15 and 0.55 m/s in the middle of the last interval of push-off and the first of landing."""
+    stands, flies = Stance(ZERO, 0.01, 0.5, Phase.STATIONARY), Stance(ZERO, inf, 0.0, Phase.SWING)
+    leaves, lands = (Stance((v, 0.0, 0.0), 0.1, 0.0, phase) for v, phase in ((0.11, PUSH_OFF), (0.40, LOADING)))
+    touches = Stance(ZERO, inf, 0.0, LOADING)
+    corrector = SoftSwing(SwingSettings(slide_time=0.0, tilt_rate=0.0))
+    corrector.start(IDENTITY, 0.02)
+    marks = {3: Cue.CLEAR, 5: Cue.CONTACT}
+    for k, stance in enumerate((stands, leaves, leaves, flies, flies, touches, lands, stands)):
+        corrector.predict(0.1, (1.0, 0.0, GRAVITY), ZERO)
+        corrector.correct(0.1 * k, stance)
+        if k in marks:
+            corrector.mark(0.1 * k, marks[k])
+    # (10): |(0.15 - 0.11) + (0.55 - 0.40)|
+    assert corrector.error_index == pytest.approx(0.04 + 0.15)
 
 
 def test_rolling_velocities_that_nobody_can_trust_leave_the_zero_velocity_alone() -> None:

@@ -16,6 +16,7 @@ from solepath.emulate.routes.laps import square
 from solepath.emulate.sensors.insoles import heel_array, layout
 from solepath.emulate.walk import SampledWalk, sampled
 from solepath.foot.stance.stance import Load
+from solepath.lab.reproduce.contour.figures import stance_curves
 from solepath.lab.reproduce.contour.runs import ContourRun, run_foot, sign_test, stance_velocities
 from solepath.lab.reproduce.contour.variants import SETUPS, TABLE, VARIANTS
 from solepath.papers.pressure_contour.contour_stance import ContourVelocity
@@ -92,6 +93,13 @@ def test_the_heel_is_slower_at_the_zero_velocities_of_pressure_than_at_those_of_
     assert ours.mean < 0.5e-3 < 1.0e-3 < gyroscope.mean
     assert sign_test(ours.bias, gyroscope.bias).probability < 1e-6
     assert np.nanmedian(printed.bias) < 0.004
+
+
+def test_figure_7_has_the_contours_of_20_to_70_kilopascal_beside_ours_and_both_rest_in_the_stance() -> None:
+    curves = stance_curves(lap(), heel_array(RIGHT), RIGHT, 0.0)
+    speeds = {curve.name: np.array(curve.points)[:, 1] for curve in curves if curve.name.startswith("speed")}
+    assert list(speeds) == ["speed of the contours, ours, mm/s", "speed of the contours, 20 to 70 kPa, mm/s"]
+    assert all(speed.min() < 4.0 < speed.max() for speed in speeds.values())
 
 
 def test_as_printed_the_drift_of_a_swing_stays_in_the_position_and_every_slope_is_used() -> None:

@@ -111,6 +111,15 @@ def test_steps_that_are_measured_too_short_have_that_error_wherever_the_marks_x_
     assert [(error.forward, error.left) for error in errors] == [pytest.approx((0.02, 0.0), abs=1e-9)] * 6
 
 
+def test_a_foot_that_is_measured_too_far_to_the_left_errs_to_the_right() -> None:
+    marked_points, downs = straight_walk(0.0)
+    moved = [touchdown(one.foot, one.t, one.position[0], 0.1 if one.foot is Foot.LEFT else -0.09) for one in downs]
+    means = mean_errors(step_errors(marked_points, moved, turn=0.0), known_heading=True)
+    # marked steps go 0.2 m to the side, measured ones 0.19 m
+    assert means[Foot.RIGHT][WalkingMode.STRAIGHT] == pytest.approx((0.0, -0.01), abs=1e-3)
+    assert means[Foot.LEFT][WalkingMode.STRAIGHT] == pytest.approx((0.0, 0.01), abs=1e-3)
+
+
 def test_with_a_known_heading_what_turns_every_step_is_an_error_of_the_wearer() -> None:
     marked_points, downs = straight_walk(0.0, turned=0.05)  # measured 0.05 rad to the right of the marks
     mode = WalkingMode.STRAIGHT

@@ -19,6 +19,9 @@ from solepath.papers.walking_modes.mode import (
     decide,
     regions,
 )
+from solepath.papers.walking_modes.recognition import Recognition
+from solepath.papers.walking_modes.settings import ModesSettings
+from solepath.papers.walking_modes.touchdown import FootState
 from solepath.types import Cell, Foot, Layout, WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -90,11 +93,35 @@ def pressed_mode(foot: Foot, region: str) -> WalkingMode | None:
 
 
 def test_table_1_is_taken_in_centimetres_with_x_to_the_right_and_y_ahead() -> None:
-    assert TABLE_1[LEFT][WalkingMode.STRAIGHT] == pytest.approx((0.0055, -0.0034))
-    assert TABLE_1[RIGHT][WalkingMode.STRAIGHT] == pytest.approx((0.0062, 0.0023))
-    assert TABLE_1[LEFT][WalkingMode.RIGHT_WIDE] == pytest.approx((-0.0052, 0.0094))  # the example of the text
-    assert TABLE_1[RIGHT][WalkingMode.LEFT_TIGHT] == pytest.approx((-0.018, -0.0125))
-    assert all(len(TABLE_1[foot]) == 5 for foot in Foot)
+    # (forward, left) in mm is 10 (y, -x) in cm; the right wide turn of the left foot is the example of the text
+    in_millimetres = {
+        (LEFT, WalkingMode.LEFT_WIDE): (2.7, -1.9),
+        (LEFT, WalkingMode.LEFT_TIGHT): (9.7, -3.5),
+        (LEFT, WalkingMode.STRAIGHT): (5.5, -3.4),
+        (LEFT, WalkingMode.RIGHT_WIDE): (-5.2, 9.4),
+        (LEFT, WalkingMode.RIGHT_TIGHT): (-17.3, 12.8),
+        (RIGHT, WalkingMode.LEFT_WIDE): (-4.8, -9.7),
+        (RIGHT, WalkingMode.LEFT_TIGHT): (-18.0, -12.5),
+        (RIGHT, WalkingMode.STRAIGHT): (6.2, 2.3),
+        (RIGHT, WalkingMode.RIGHT_WIDE): (2.4, 1.6),
+        (RIGHT, WalkingMode.RIGHT_TIGHT): (10.2, 3.4),
+    }
+    found = {(foot, mode): pair for foot, modes in TABLE_1.items() for mode, pair in modes.items()}
+    assert set(found) == set(in_millimetres)
+    for key, (forward, left) in in_millimetres.items():
+        assert found[key] == pytest.approx((0.001 * forward, 0.001 * left))
+
+
+@pytest.mark.parametrize(("newtons", "stands"), [(489.0, False), (491.0, True)])
+def test_standing_is_more_than_seven_tenths_of_the_bodys_weight_on_both_feet(newtons: float, stands: bool) -> None:
+    """The wearer weighs 700 N, the feet bear a half of `newtons` each, and neither takes a step for two seconds."""
+    recognition = Recognition(ModesSettings(weight=700.0))
+    cells = (newtons / 198.0,) * 99
+    seen = set()
+    for k in range(100):
+        for foot in Foot:
+            seen.add(recognition.add_pressure(foot, FootState(pressure=9.0), cells, layout(99, foot), 0.02 * k, True))
+    assert seen == ({None, WalkingMode.STANDING} if stands else {None})
 
 
 @pytest.mark.parametrize("cells", [96, 99])

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from walks import of, samples
 
 from solepath import Session, TouchedDown, recipes
+from solepath.papers.walking_modes.compensation import epsilon_p
 from solepath.papers.walking_modes.touchdown import (
     AnyTouchdown,
     FootState,
@@ -21,7 +22,7 @@ from solepath.papers.walking_modes.touchdown import (
     v_change,
 )
 from solepath.saving import codec as machine
-from solepath.types import Foot
+from solepath.types import Foot, WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 
@@ -34,6 +35,17 @@ def test_while_one_foot_is_down_the_other_is_seen_from_it() -> None:
 def test_the_foot_in_the_air_is_the_change_and_the_compensation_away_from_the_one_that_is_down() -> None:
     assert displace((1.0, 2.0, 0.0), (0.4, 0.2, 0.2)) == pytest.approx((1.4, 2.2, 0.2))  # (3)
     assert displace((1.0, 2.0, 0.0), (0.4, 0.2, 0.2), (0.0055, -0.0034, 0.0)) == pytest.approx((1.4055, 2.1966, 0.2))
+
+
+@pytest.mark.parametrize(
+    ("direction", "expected"),
+    [((1.0, 0.0), (0.03, 0.02, 0.0)), ((0.0, 1.0), (-0.02, 0.03, 0.0)), ((-1.0, 0.0), (-0.03, -0.02, 0.0))],
+)
+def test_the_compensation_is_ahead_and_to_the_left_wherever_the_wearer_walks(
+    direction: tuple[float, float], expected: tuple[float, float, float]
+) -> None:
+    table = {RIGHT: {WalkingMode.STRAIGHT: (0.03, 0.02)}}  # (forward, left), m; walking along y, left is -x
+    assert epsilon_p(table, RIGHT, WalkingMode.STRAIGHT, direction) == pytest.approx(expected)  # epsilon_P of (8)
 
 
 def test_the_lower_foot_is_down() -> None:

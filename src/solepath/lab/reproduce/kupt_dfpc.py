@@ -187,11 +187,12 @@ def walk(job: KuptJob) -> KuptResults:
     for name, recipe in ABLATIONS.items():
         events = known if recipe is KUPT else _run(recipe, prepared)
         distances[name] = tuple([_distance(events, foot) for foot in Foot])
-    distances[BY_ERROR_INDEX.name] = (_fused_distance(_run(BY_ERROR_INDEX, prepared)),)
+    by_index = _run(BY_ERROR_INDEX, prepared)
+    distances[BY_ERROR_INDEX.name] = (_fused_distance(by_index),)
     seen = watch(prepared.parts.after, prepared.calibration)
     shares = [coverage(seen[foot]) for foot in Foot]
     distances.update({name: tuple([share[k] for share in shares]) for k, name in enumerate(COVERAGE_ROWS)})
-    drawn = panels(seen, {"ZUPT": zupt, "KUPT+DFPC": known}) if job.drawn else ()
+    drawn = panels(seen, {"ZUPT": zupt, "KUPT+DFPC": known}, by_index) if job.drawn else ()
     return KuptResults(distances, true, panels=drawn)
 
 

@@ -7,9 +7,11 @@ and B of the figure), stays there in the air, and jumps to the heel when the foo
 - A motion starts after the last stationary sample, and ends with the next stationary sample.
 - Toe-off (A) is the sample before the largest jump between motion start and the first sample of swing.
 - Heel-strike (D) is the sample after the largest jump between swing and motion end.
+- A jump is the "maximum of COP differential signal" of the paper's copY, which grows from toe to heel; `x` here grows
+  from heel to toe. As printed only jumps towards the heel count (`CopCuesSettings.signed`).
 - A swing is normal if the CoP stayed at the foot's centre for `REST_TIME` s. A stride without a normal swing is
-  abnormal (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases follow one another
-  without a heel-strike. It has no mark of one, so it does not calibrate anything.
+  abnormal (section IV.A, the first left step of fig. 10): "toe-off and heel-strike were not extracted for that step".
+  Its phases follow one another without a heel-strike. It has no mark of one, so it does not calibrate anything.
 
 The inertial cues are used while the load is unknown, that is until it has fallen and risen once. A foot that slides
 away without leaving the ground has its toe-off where it became fast, if it stays fast for `SHUFFLE_TIME`. The table of
@@ -26,7 +28,7 @@ from ...foot.phase import Cue
 from ...foot.pressure.cells import centre
 from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import TIE
 from .stages import STAGES, CellCue, StrideStage
 
@@ -46,6 +48,15 @@ LOAD_VALID_TIME = 0.05
 """Longest time, s, for which samples without a load are skipped, because cells are read less often than the IMU."""
 
 
+@frozen
+class CopCuesSettings:
+    """Settings of `CopCues`."""
+
+    signed: bool = False
+    """Flag: only a jump of the CoP towards the heel counts, as printed. Ours takes a jump either way, because a foot
+    that lands on its forefoot moves the CoP from the centre to the toes."""
+
+
 @define
 class CopCues(Cues):
     """Reports toe-off and heel-strike from the centre of pressure.
@@ -53,6 +64,7 @@ class CopCues(Cues):
     Latency: toe-off and heel-off are known one sample later, heel-strike and foot-flat at the first stationary sample,
     as in the paper."""
 
+    settings: CopCuesSettings = CopCuesSettings()
     inertial: InertialCues = field(factory=InertialCues)
     touch: Touch = field(factory=Touch)
     sagittal: float = field(default=0.0, init=False)
@@ -69,7 +81,7 @@ class CopCues(Cues):
     load_t: float | None = field(default=None, init=False)
     """Time of the last sample with a load, s."""
     largest_jump: float = field(default=-1.0, init=False)
-    """Largest jump of the CoP so far in this stage, m."""
+    """Largest jump of the CoP so far in this stage, m; before the first a jump that no CoP can make."""
     candidate_t: float | None = field(default=None, init=False)
     """Time of the best candidate for toe-off or heel-strike, s."""
     ground_t: float | None = field(default=None, init=False)
@@ -147,7 +159,9 @@ class CopCues(Cues):
         ground_cop = last_cop if load.centre is None else load.centre[0]
         new_cop = self.foot_centre if airborne else ground_cop
         self.cop = new_cop
-        jump = 0.0 if last_cop is None or new_cop is None else abs(new_cop - last_cop)
+        jump = 0.0 if last_cop is None or new_cop is None else last_cop - new_cop  # x falls towards the heel
+        if not self.settings.signed:
+            jump = abs(jump)
         cues: list[TimedCue] = []
         for cue in self._cell_cues(t, stationary, airborne):
             stage, reported = STAGES[self.stage][cue]

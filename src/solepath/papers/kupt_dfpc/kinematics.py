@@ -1,7 +1,7 @@
 """Position and velocity of the sensor in a shoe that rolls over its heel or its forefoot.
 
 Equations (4) to (7) of Chen et al., "Smart insole-based indoor localization system for Internet of Things applications"
-(IEEE Internet of Things Journal 6, 2019), figs. 5 to 7. Seen from the side, the pivot is the point of the shoe's bottom
+(IEEE Internet of Things Journal 6, 2019), figs. 5, 6, 7. From the side, the pivot is the point of the shoe's bottom
 that stays on the ground. L_r is the length from it along the bottom to the point below the sensor, and the sensor lies
 H_imu above that point. With the pitch of the sole the sensor's position is
 

@@ -1,4 +1,4 @@
-"""KUPT detector: the velocity is known from heel-strike to toe-off, not only while the foot stands still.
+"""KUPT detector (fig. 3, two areas): the velocity is known from heel-strike to toe-off, not only in a standing foot.
 
 Chen et al., "Smart insole-based indoor localization system for Internet of Things applications" (IEEE Internet of
 Things Journal 6, 2019), section III.C. While the shoe rolls over its forefoot or its heel, the sensor's velocity
@@ -21,7 +21,7 @@ from .kinematics import Sagittal, mean_velocity, shoe_for
 HIGHEST_FLAT_RATE = 0.5
 """Angular rate above which a foot does not lie flat, even if its cells show a load, rad/s."""
 LARGEST_TOE_DOWN = 0.1
-"""Toe-down pitch above which a landing foot does not roll over its heel, rad."""
+"""Toe-down pitch above which a landing foot does not roll over its heel, rad; ours, the paper has no such limit."""
 LOAD_VALID_TIME = 0.05
 """Time for which a load is used for later samples, s, because cells are read less often than the IMU."""
 LONGEST_STRIDE, UNCERTAIN_SIGMA = 3.0, 0.05

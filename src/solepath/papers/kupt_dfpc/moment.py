@@ -49,7 +49,8 @@ class SwingSettings(DedriftSettings):
     largest_rolling_error: float = LARGEST_ROLLING_ERROR
     """Largest difference of rolling and raw velocity in push-off that is used, m/s; there is no limit in the paper."""
     vertical: bool = False
-    """Flag: the known velocity is used for heights too; only `SwingDedrift` has it."""
+    """Flag: the known velocity is used for heights too, because (5) and (7) have V^z and (8) has no axis of its own;
+    only `SwingDedrift` has it."""
     bias_share: float = 0.8
     """Share of the difference from 1 g at rest that `SoftSwing` takes for an upward bias of the accelerometer, not for
     an error of its scale.
@@ -67,5 +68,5 @@ class SwingSettings(DedriftSettings):
 NO_LIMIT = 1e3
 """Velocity that no foot has, m/s."""
 
-PRINTED = SwingSettings(slide_time=0.0, largest_rolling_error=NO_LIMIT)
+PRINTED = SwingSettings(slide_time=0.0, largest_rolling_error=NO_LIMIT, vertical=True)
 """Settings with which equation (8) is applied as printed."""

@@ -8,7 +8,7 @@ from ...foot.pressure.insole import InsoleLoads
 from ...foot.settings import InsoleSettings
 from ...recipes import Recipe, usual_parts
 from ...types.attrs import evolve
-from .cop_cues import CopCues
+from .cop_cues import CopCues, CopCuesSettings
 from .fusion import DoubleFoot, FusionSettings
 from .known_velocity import KnownVelocity, KnownVelocitySettings
 from .moment import PRINTED
@@ -49,7 +49,7 @@ KUPT_DFPC_PRINTED = evolve(
     name="kupt-dfpc-printed",
     detector=KnownVelocity(KnownVelocitySettings(area_on=SOME_LOAD, area_off=SOME_LOAD), touch=Touch(_AIR)),
     corrector=SwingDedrift(PRINTED),
-    cues=CopCues(touch=Touch(_AIR)),
+    cues=CopCues(CopCuesSettings(signed=True), touch=Touch(_AIR)),
     parts=usual_parts(DoubleFoot(FusionSettings(by_variance=False, compares_lengths=False))),
 )
 """Chen et al. 2019 as printed: (1) to (13), with exact rolling velocities, linear drift and weights by error index."""

@@ -32,7 +32,8 @@ class SwingDedrift(LinearDedrift):
     after heel-strike. A heel does not roll at once: for `slide_time` it slides and the sole gives way, which (4) does
     not model. So k_h of (8) is the first sample at least that long after heel-strike; in the paper it is heel-strike
     itself. While the foot moves, the live position follows the known velocities. In swing it is integrated from the
-    last of them. At motion end it is corrected in one jump.
+    last of them. At motion end it is corrected in one jump. That V_errt belongs to the interval before toe-off is our
+    reading: (7) has P(k + 1) - P(k), which at k_t is the interval after it, in which the shoe no longer rolls.
 
     The vertical rolling velocity is about L_r times the pitch rate, so a pivot that is 1 cm off at toe-off causes an
     error of 8 cm/s. In level walking a linear drift over the whole motion suffices for the height, and is used unless
@@ -195,7 +196,9 @@ class SwingDedrift(LinearDedrift):
         self.standing = True
 
     def _calibrated_displacement(self, duration: float) -> Vec3 | None:
-        """Return the displacement of a normal motion that ends here, m, and set the error index; None if abnormal."""
+        """Return the displacement of a normal motion that ends here, m: (8) integrated; set the error index (10).
+
+        It is None if the motion is abnormal."""
         toe_off, heel_strike = self.toe_off, self.heel_strike
         if self.has_gap or toe_off is None or toe_off.error is None or heel_strike is None:
             return None

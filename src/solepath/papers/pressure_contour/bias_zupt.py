@@ -35,8 +35,8 @@ class BiasZuptSettings(DedriftSettings):
     position. The paper only sets the velocity to zero. Then a tilt error of a quarter of a degree, the accuracy of its
     sensor, costs a centimetre per stride."""
     estimate_bias: bool = True
-    """Flag: the bias of the accelerometer is estimated (7) to (10); without it the paper's "position", with it its
-    "calibrated position"."""
+    """Flag: the bias of the accelerometer is estimated (7) to (10); the paper's "calibrated position" (figs. 14
+    and 15) has both this bias and the laps' slope (`drift`), its "position" has neither."""
     gate_drift: bool = True
     """Flag: the slope of calibration laps is used only if it is larger than chance explains (square.py). The paper uses
     every slope."""

@@ -40,7 +40,9 @@ from ...types.vector import TIE
 HEEL_SHARE = 0.33
 """End of the heel's cells, measured from the heel's end, as a share of the insole's length."""
 CONTOUR_SHARE = 0.50
-"""End of the cells that contours use, from the heel's end, as a share of the length: the paper uses 54 of 99 cells."""
+"""End of the cells that contours use, from the heel's end, as a share of the length: 43 cells of our layout of 99.
+
+The paper uses the 54 of 99 "in the heel portion"; on our layout that would be a share of 0.56."""
 FEWEST_CELLS = 4
 """Least number of heel cells for contours."""
 PAPER_LEVELS = (20e3, 30e3, 40e3, 50e3, 60e3, 70e3)

@@ -4,7 +4,8 @@
 2010). The wearer walks four to six laps of a square on whose edges every stride of one foot is marked (40 marks on 4
 times 11.7 m in the paper) and steps on the same marks in every lap. On every visit of a mark the true position is the
 same. So the slope of a line through the computed positions over time (least squares) is the drift. The mean slope of
-all marks is subtracted from later positions as a velocity.
+all marks is subtracted from later positions as a velocity. That the lines are over time is our reading: fig. 12 plots
+Northing against Easting, where a line has a direction and no velocity.
 
 The paper's drift has a fixed direction. The correction of a drift that changes direction would do more harm than good,
 if it were extrapolated from five minutes to half an hour. A fixed drift moves all marks from each lap to the next at

@@ -2,7 +2,7 @@
 
 After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. The paper leaves two points open:
 
-- The unit of table 1. Its header says mm. But values of 0.34 to 1.8 mm would move the end of a side of 4 m, which takes
+- The unit of table 1. Its header says mm. But values of 0.16 to 1.8 mm would move the end of a side of 4 m, which takes
   six or seven steps, by less than 5 mm, whereas by table 4 method IV is better than III by up to 15 cm there.
   Centimetres have the right order of magnitude. Table 4, too, is headed mm, but has metres (0.17 at corner C, 4.0 m).
 - The axes of table 1. y points in the direction of walking, and x to the right, so that x, y and up are right

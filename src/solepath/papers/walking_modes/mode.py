@@ -17,6 +17,8 @@ points open:
   but the paper has one speed. Here `th` holds for `REFERENCE_SPEED`. The logarithm of a region's load relative to that
   of straight walking (`STRAIGHT_SHARES`) is proportional to v^2, and is converted to that speed
   (`at_reference_speed`).
+- Step. Table 2 compares `Step` with L_w in standing and straight walking only. Here a bend needs a step longer than L_w
+  too, because by the text L_w is there to "filter out the situation of walk dragging along the ground".
 - Standing. "Total pressure at the relevant positions" of 0.7 body weights is impossible on eight cells of two feet. The
   total over both insoles is used.
 

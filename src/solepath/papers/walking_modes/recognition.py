@@ -8,7 +8,10 @@ either foot, and the mode of a contact that of the stride that ended in it and t
 (mode.py) the mode of a contact is certain only at its end. At a touchdown the other foot has borne the whole weight, so
 the mode of the step that ends is that of the other foot's contact so far or, if this has no mode yet, the latest one of
 that foot. The first step after standing is taken for a straight one. So is every step if neither the feet's turns nor
-the cells show a mode. Numbers without a source were chosen by hand."""
+the cells show a mode.
+
+Two readings of table 2: a foot in contact for more than 1.5 s takes no step, so its `Step` counts as less than L_w; and
+"no others trigger" is asked of the foot in contact only. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 

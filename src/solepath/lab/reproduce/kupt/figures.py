@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
+import numpy as np
 from attrs import frozen
 
 from ....calibration import Calibration
@@ -81,14 +82,19 @@ def coverage(seen: Sequence[KnownSample]) -> tuple[float, float]:
     return 100.0 * stands / len(samples), 100.0 * known / len(samples)
 
 
-def panels(seen: dict[Foot, tuple[KnownSample, ...]], events: dict[str, list[Event]]) -> tuple[Curves, ...]:
-    """Return the panels of fig. 11, for the left foot, and fig. 14."""
+def panels(
+    seen: dict[Foot, tuple[KnownSample, ...]], events: dict[str, list[Event]], by_index: list[Event]
+) -> tuple[Curves, ...]:
+    """Return the panels of fig. 11, for the left foot, and fig. 14.
+
+    `events` are those of ZUPT and KUPT+DFPC; `by_index` are those of the recipe whose coefficients are (11)."""
     left = seen[Foot.LEFT]
     fused = [event for event in events["KUPT+DFPC"] if isinstance(event, StrideFused) and event.foot is Foot.LEFT]
+    weighed = [event for event in by_index if isinstance(event, StrideFused) and event.foot is Foot.LEFT]
     indices = [
-        PictureTrack("similarity (9)", tuple([(e.t, e.similarity) for e in fused if e.similarity is not None])),
-        PictureTrack("EI (10), m/s", tuple([(e.t, e.error_index) for e in fused if e.error_index is not None])),
-        PictureTrack("coefficient (11)", tuple([(e.t, e.coefficient) for e in fused])),
+        PictureTrack("similarity (9)", tuple([(e.t, e.similarity) for e in weighed if e.similarity is not None])),
+        PictureTrack("EI (10), m/s", tuple([(e.t, e.error_index) for e in weighed if e.error_index is not None])),
+        PictureTrack("coefficient (11)", tuple([(e.t, e.coefficient) for e in weighed])),
     ]
     walked = [
         PictureTrack(name, _sums(events[key], Foot.LEFT), DrawStyle.DOTS)
@@ -114,24 +120,30 @@ def panels(seen: dict[Foot, tuple[KnownSample, ...]], events: dict[str, list[Eve
 def _velocities(seen: Sequence[KnownSample]) -> tuple[PictureTrack, ...]:
     raw = PictureTrack("V-raw", tuple([(one.t, one.raw) for one in seen]))
     reference = [(one.t, one.reference) for one in seen if one.reference is not None]
-    return raw, PictureTrack("V-ref", tuple(reference), DrawStyle.DOTS), PictureTrack("ZUPT", _without_drift(seen))
+    zupt, kupt = without_drift(seen, knows_rolling=False), without_drift(seen, knows_rolling=True)
+    dots = PictureTrack("V-ref", tuple(reference), DrawStyle.DOTS)
+    return raw, dots, PictureTrack("ZUPT", zupt), PictureTrack("KUPT", kupt)
 
 
-def _without_drift(seen: Sequence[KnownSample]) -> tuple[tuple[float, float], ...]:
-    """Return the raw velocity without the linear drift of each motion, as ZUPT has it."""
-    points: list[tuple[float, float]] = []
-    motion: list[KnownSample] = []
+def without_drift(seen: Sequence[KnownSample], knows_rolling: bool) -> tuple[tuple[float, float], ...]:
+    """Return the velocity at each sample but those of an unfinished motion: times, s, and velocities, m/s.
+
+    Between samples whose velocity is known the error of the raw one is taken for linear, as in (8). Known are zero
+    velocities and, with `knows_rolling`, those of the rolling shoe; so the curve is that of ZUPT or of KUPT."""
+    knots = []
     for one, following in pairwise(seen):
         if one.stands:
-            points.append((one.t, 0.0))
-            continue
-        motion.append(one)
-        if following.stands:
-            start = points[-1][0] if points else motion[0].t
-            rate = motion[-1].raw / max(motion[-1].t - start, 1e-6)
-            points += [(of.t, of.raw - rate * (of.t - start)) for of in motion]
-            motion = []
-    return tuple(points)
+            knots.append((one.t, 0.0))
+        elif knows_rolling and one.reference is not None:
+            knots.append((one.t, one.raw - one.reference))
+        elif following.stands:
+            knots.append((one.t, one.raw))
+    if not knots:
+        return ()
+    samples = [one for one in seen if one.t <= knots[-1][0]]
+    times, known_errors = [t for t, _ in knots], [error for _, error in knots]
+    errors = np.interp([one.t for one in samples], times, known_errors).tolist()
+    return tuple([(one.t, one.raw - error) for one, error in zip(samples, errors, strict=True)])
 
 
 def _sums(events: Sequence[Event], foot: Foot) -> tuple[tuple[float, float], ...]:

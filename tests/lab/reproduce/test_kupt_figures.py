@@ -1,0 +1,51 @@
+"""The velocities of figs. 11 and 14 of Chen et al. 2019, and the share of a gait cycle in which a velocity is known."""
+
+from __future__ import annotations
+
+import pytest
+
+from solepath.lab.reproduce.kupt.figures import KnownSample, coverage, without_drift
+
+CYCLE = ("stands", "stands", "rolls", "air", "air", "air", "air", "air", "rolls", "air")
+"""Samples of one stride from the start of the stance; 0.1 s each."""
+
+
+def series(cycles: int) -> list[KnownSample]:
+    """Return the samples of strides: the raw velocity grows by 1 m/s in each, the shoe rolls with 0.5 m/s."""
+    samples = []
+    for k in range(cycles * len(CYCLE)):
+        kind = CYCLE[k % len(CYCLE)]
+        stands = kind == "stands"
+        reference = 0.0 if stands else 0.5 if kind == "rolls" else None
+        samples.append(KnownSample(0.1 * k, 0.0 if stands else 0.1 * (k % len(CYCLE)), reference, stands))
+    return samples
+
+
+def test_zero_velocity_is_known_in_stance_and_the_rolling_shoe_adds_its_samples() -> None:
+    # of ten samples of a stride two stand and two roll
+    assert coverage(series(5)) == pytest.approx((20.0, 40.0))
+
+
+def test_the_first_and_the_last_stride_do_not_count() -> None:
+    samples = series(5)
+    lost = [KnownSample(one.t, one.raw, None, False) if one.t < 0.5 or one.t > 4.2 else one for one in samples]
+    assert coverage(lost) == pytest.approx((20.0, 40.0))
+
+
+def test_a_series_without_whole_strides_knows_nothing() -> None:
+    assert coverage(series(1)) == (0.0, 0.0)
+
+
+def test_zupt_takes_one_line_out_of_each_motion() -> None:
+    # from 0 at the last sample of stance, 0.1 s, to 0.9 m/s at the last of the motion, 0.9 s
+    velocity = without_drift(series(2), knows_rolling=False)
+    assert [v for _, v in velocity[:2]] == [0.0, 0.0]
+    assert velocity[5] == pytest.approx((0.5, 0.5 - 0.9 * 0.5))
+    assert velocity[9] == pytest.approx((0.9, 0.0))
+
+
+def test_kupt_takes_the_line_of_equation_8_out_of_the_swing_alone() -> None:
+    # errors 0.2 - 0.5 = -0.3 at toe-off, 0.2 s, and 0.8 - 0.5 = 0.3 at heel-strike, 0.8 s: at 0.4 s -0.3 + 0.6 / 3
+    velocity = without_drift(series(2), knows_rolling=True)
+    assert [v for _, v in velocity[2:5]] == pytest.approx([0.5, 0.3 + 0.2, 0.4 + 0.1])
+    assert [v for _, v in velocity[8:10]] == pytest.approx([0.5, 0.0])
