@@ -21,6 +21,10 @@ def printed_contours() -> Contours:
     return Contours(ContourSettings(pascals=PAPER_LEVELS))
 
 
+NO_CONTOUR = 100.0
+"""Statistic without a contour, m/s: faster than any foot."""
+
+
 @frozen
 class PrintedContourSettings:
     """Settings of `PrintedContour`."""
@@ -35,11 +39,11 @@ class PrintedContourSettings:
 class PrintedContour(Detector):
     """Detector: the shoe stands while the contours of 20 to 70 kPa are slower than 4 mm/s (3).
 
-    The statistic is the speed of the contours, m/s; infinite without a contour. Latency: 50 ms, that of `Contours`.
+    The statistic is the speed of the contours, m/s; `NO_CONTOUR` without a contour. Latency: 50 ms, that of `Contours`.
 
     Levels in kPa need cells of known places and a known scale. Without them nothing of (3) can be computed, a
-    Limitation says so, and the gyroscope decides. It also decides before the first step, because cells are reported
-    from then on (pressure/insole.py)."""
+    Limitation says so, and the gyroscope decides. It also decides for samples with fewer cells than the layout, and
+    before the first step, because cells are reported from then on (pressure/insole.py)."""
 
     settings: PrintedContourSettings = PrintedContourSettings()
     contours: Contours = field(factory=printed_contours)
@@ -63,9 +67,9 @@ class PrintedContour(Detector):
         if not self.usable or load is None:
             return gyroscope_stance
         if not load.cells or max(self.contours.cells) >= len(load.cells):
-            return Stance(ZERO, inf, inf, None)
+            return gyroscope_stance
         velocity = self.contours.velocity(t, [load.cells[i] for i in self.contours.cells])
-        speed = inf if velocity is None else hypot(*velocity)
+        speed = NO_CONTOUR if velocity is None else min(hypot(*velocity), NO_CONTOUR)
         if speed <= self.settings.threshold:
             return Stance(ZERO, self.settings.sigma, speed, Phase.STATIONARY)
         return Stance(ZERO, inf, speed, None)

@@ -99,8 +99,9 @@ class Passage:
         self._count()
 
     def _count(self) -> None:
-        self.net_up = sum([span.net_up for span in self.spans])
-        self.left, self.right = sum([span.left for span in self.spans]), sum([span.right for span in self.spans])
+        self.net_up = sum([span.net_up for span in self.spans])  # whole numbers
+        self.left = sum([span.left for span in self.spans])  # whole numbers
+        self.right = sum([span.right for span in self.spans])  # whole numbers
 
     def height(self, here: Vec3) -> float | None:
         """Return the height, m, not negative, by the track or else by flights or counted risers; None when unknown."""
