@@ -1,8 +1,7 @@
 """A floor plan, indexed for thousands of queries during each stride.
 
 `crosses` takes 1.5 us for a move of the length of a step (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py),
-`room` 1 us (room_names.py),
-and `door` 1 us where no named door is near (door_names.py).
+`room` 1 us (room_names.py), and `door` 1 us where no named door is near (door_names.py).
 Construction takes about 0.1 ms for each wall, some seconds for the largest usable plans. The index is not saved: the
 same plan gives the same index again."""
 

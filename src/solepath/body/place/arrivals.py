@@ -144,6 +144,12 @@ def _weigh_exits(
     return expected + [(exit_landing, share * opposite) for exit_landing, share in other]
 
 
+def has_exit(plan: FloorPlan, changing: list[Row], up: bool) -> bool:
+    """Return whether a landing at which a row of `changing` started has an exit in this direction."""
+    landings: list[Landing] = list_landings(plan)
+    return any([find_exits(plan, landings, landings[index - 1], up, None) for index in {row[7] for row in changing}])
+
+
 @frozen
 class Arrival:
     """The levels to which the newest stairs may have led."""
@@ -187,9 +193,3 @@ def start_error(plan: IndexedPlan, start: Start) -> str | None:
         x, y = start.place
         return f"start: ({x:g}, {y:g}) is nowhere on level {start.level}: no room or corridor of the plan is there"
     return None
-
-
-def has_exit(plan: FloorPlan, changing: list[Row], up: bool) -> bool:
-    """Return whether a landing at which a row of `changing` started has an exit in this direction."""
-    landings: list[Landing] = list_landings(plan)
-    return any([find_exits(plan, landings, landings[index - 1], up, None) for index in {row[7] for row in changing}])

@@ -17,8 +17,9 @@ The positions of the track that are kept reach back to the arrival until then (`
 MOST_ROWS = 600
 """Number of rows that start again, over all exits.
 
-Without it one of 25 emulated walks loses its place at the first turn. It keeps its place with 300, 600 and 1500, and
-with three times instead of two; 600 rows take some 40 and 80 ms of a processor, once each of `STRIDES`."""
+When no rows start again, one of 25 emulated walks loses its place at the first turn. That walk keeps it with 300, 600
+and 1500 rows, and with three times instead of two. 600 rows take some 40 ms of a processor at the first of `STRIDES`,
+80 ms at the second."""
 
 
 @define

@@ -16,24 +16,20 @@ MIN_TRACK_SHARE = 0.5
 """Least height by the track that is used on stairs, as a share of the height by counted risers."""
 MIN_TRACK_HEIGHT, MIN_RIDE_HEIGHT = 0.3, 1.0
 """Least heights by the track that are used on stairs and after a ride, m."""
-
-
 MAX_REST, MAX_LANDING_WIDTH = 120.0, 6.0
 """Longest rest on a half-way landing, s, and largest distance between the flights that meet there, m (assumed)."""
-
-
 MAX_SPANS = 6
 """Largest number of spans that are kept; the oldest two become one, which later reports revise together."""
 
 
 @define
 class StairSpan:
-    """The strides of stairs that were reported in one direction."""
+    """The strides of stairs that were reported in one direction, or reports without strides."""
 
     t: float
     """Time from which the activity was reported, s."""
     net_up: int = 0
-    """Number of strides upwards minus the number downwards."""
+    """Number of strides, or of reports without strides, upwards minus the number downwards."""
     left: int = 0
     """Number of strides of the left foot."""
     right: int = 0
@@ -49,14 +45,8 @@ class Passage:
     """Start of the passage, s."""
     start: Vec3
     """Position of the track at the start, m."""
-    net_up: int = 0
-    """Number of strides (stairs) or activity reports (elevator) upwards minus the number downwards."""
-    left: int = 0
-    """Number of strides of the left foot."""
-    right: int = 0
-    """Number of strides of the right foot."""
     spans: list[StairSpan] = field(factory=list)
-    """These strides by the reported activities, the oldest first."""
+    """What was reported of it, the oldest first."""
     flight_height: float = 0.0
     """Sum of the heights of the flights, m, positive upwards."""
     t_left: float | None = None
@@ -87,21 +77,30 @@ class Passage:
             old, one = self.spans[:2]
             merged = StairSpan(old.t, old.net_up + one.net_up, old.left + one.left, old.right + one.right)
             self.spans[:2] = [merged]
-        self._count()
 
-    def add_stride(self, foot: Foot, up: bool) -> None:
-        """Add a stride of the newest report."""
+    def add_direction(self, up: bool, foot: Foot | None = None) -> None:
+        """Add a stride of a foot to the newest report, or a report of the direction alone if there is no foot."""
         if not self.spans:
             self.spans.append(StairSpan(self.t))
         span = self.spans[-1]
         span.net_up += 1 if up else -1
         span.left, span.right = span.left + (foot is Foot.LEFT), span.right + (foot is Foot.RIGHT)
-        self._count()
 
-    def _count(self) -> None:
-        self.net_up = sum([span.net_up for span in self.spans])  # whole numbers
-        self.left = sum([span.left for span in self.spans])  # whole numbers
-        self.right = sum([span.right for span in self.spans])  # whole numbers
+    @property
+    def net_up(self) -> int:
+        """Number of strides (stairs) or reports (elevator, lone flight) upwards minus the number downwards."""
+        return sum([span.net_up for span in self.spans])  # whole numbers
+
+    @property
+    def strides(self) -> int:
+        """Number of strides of both feet on the stairs."""
+        return sum([span.left + span.right for span in self.spans])  # whole numbers
+
+    @property
+    def _risers_per_stride(self) -> float:
+        # a stride of one foot climbs two risers; with both feet there is a stride for each riser
+        left, right = any([span.left for span in self.spans]), any([span.right for span in self.spans])
+        return 1.0 if left and right else 2.0
 
     def height(self, here: Vec3) -> float | None:
         """Return the height, m, not negative, by the track or else by flights or counted risers; None when unknown."""
@@ -136,27 +135,19 @@ class Passage:
 
     @property
     def _counted_height(self) -> float:
-        # a stride of one foot climbs two risers; with both feet there is a stride for each riser
         # only strides in the direction of the majority count: the others may be wrong or not on stairs
-        strides = 0.5 * (self.left + self.right + abs(self.net_up))
-        return self.riser * strides * (1.0 if self.left and self.right else 2.0)
+        return self.riser * 0.5 * (self.strides + abs(self.net_up)) * self._risers_per_stride
 
     @property
     def height_one_way(self) -> float:
         """Height, m, if all strides had the same direction, whatever direction was reported."""
-        return abs(self.height_before) + self.riser * (self.left + self.right) * (
-            1.0 if self.left and self.right else 2.0
-        )
+        return abs(self.height_before) + self.riser * self.strides * self._risers_per_stride
 
     @property
     def opposite_share(self) -> float:
         """Share of the strides whose reported direction differs from that of the majority."""
-        strides = self.left + self.right
-        return (
-            0.5 * (1.0 - abs(self.net_up) / strides)
-            if self.kind is ConnectorKind.STAIRS and strides > abs(self.net_up)
-            else 0.0
-        )
+        strides, net_up = self.strides, abs(self.net_up)
+        return 0.5 * (1.0 - net_up / strides) if self.kind is ConnectorKind.STAIRS and strides > net_up else 0.0
 
     def leads_away(self, here: Vec3) -> bool:
         """Return whether the passage is horizontally longer than stairs of its height can be."""

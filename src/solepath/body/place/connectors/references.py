@@ -158,7 +158,7 @@ class References:
         if passage.t_left is not None or connector is None:
             passage.strides_since += 1
         elif passage.kind is ConnectorKind.STAIRS:
-            passage.add_stride(foot, connector[1])
+            passage.add_direction(connector[1], foot)
 
     def _change_activity(self, plan: FloorPlan, event: ActivityChanged, references: list[Reference]) -> None:
         self.activity = event.activity
@@ -184,7 +184,7 @@ class References:
             passage = self.passage = self._enter(plan, kind, event.t)
             references.append(LevelChangePossible(kind, event.t))
         if kind is ConnectorKind.LIFT:
-            passage.net_up += 1 if up else -1
+            passage.add_direction(up)
         else:
             passage.report(event.t, up, event.revises)
 
@@ -212,7 +212,7 @@ class References:
             self.passage = passage = self._enter(plan, ConnectorKind.STAIRS, t)
             passage.t_left, passage.end = event.t, self.position_at(event.t)
             references.append(LevelChangePossible(ConnectorKind.STAIRS, t))
-            passage.net_up = 1 if event.up else -1
+            passage.add_direction(event.up)
         passage.flight_height += event.height if abs(event.height) < 100.0 else 0.0
         passage.flights += 1 if event.up else -1
         if passage.t_left is not None and event.t > passage.t_left:
