@@ -9,7 +9,7 @@ bone's own motion, is smallest about the flexion axis, and differs between perso
 degrees and 17 mm (PMC8631460, 2021); reviews have 5 to 30 mm. Wobbling after impacts is not emulated.
 
 The constants belong to the wearer, and a part of them is new each time the sensors are strapped on (assumed, see
-NEW_SHARE). Those of a foot are none: its sensor sits on the shoe, in which the foot slips (wearers/limbs.py)."""
+NEW_SHARE). A foot has none: its sensor sits on the shoe, in which the foot slips (wearers/limbs.py)."""
 
 from __future__ import annotations
 
