@@ -12,8 +12,8 @@ from solepath.emulate.sensors.insoles import LOAD_PER_COUNT, heel_array, layout
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import Wearer
+from solepath.emulate.wearers.soles.heel_pad import HeelPad
 from solepath.emulate.wearers.walker import Walker
-from solepath.emulate.wearers.zones import HeelPad
 from solepath.types import Cell, Foot, Layout, Site
 from solepath.types.vector import GRAVITY
 from solepath.wire.insole_info import parse_info

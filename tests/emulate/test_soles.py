@@ -43,12 +43,12 @@ def test_the_strides_of_a_worn_sole_are_those_of_a_rigid_one() -> None:
 def test_the_toe_slides_back_by_the_slip_before_toe_off() -> None:
     slip = 0.02
     walker = walker_of(evolve(RIGID, toe_slip=slip))
-    motion = walker.motions[Foot.LEFT]
+    motion, rigid_motion = walker.motions[Foot.LEFT], walker_of(RIGID).motions[Foot.LEFT]
+    arc = walker.wearer.shoe.forefoot
+    at_centre = Mounting((arc.x, 0.0, arc.radius))
     for stride in walker.plan.strides[Foot.LEFT]:
         t = np.array([stride.toe_off - 1e-6])
-        arc = walker.wearer.shoe.forefoot
-        centre = motion.at(t, Mounting((arc.x, 0.0, arc.radius))).position[0]
-        rigid = walker_of(RIGID).motions[Foot.LEFT].at(t, Mounting((arc.x, 0.0, arc.radius))).position[0]
+        centre, rigid = motion.at(t, at_centre).position[0], rigid_motion.at(t, at_centre).position[0]
         assert np.linalg.norm(centre - rigid) == pytest.approx(slip, rel=1e-3)
         assert centre[0] < rigid[0]
 

@@ -40,6 +40,11 @@ def sub(a: Vec3, b: Vec3) -> Vec3:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
+def cross(a: Vec3, b: Vec3) -> Vec3:
+    """Return the vector product a x b."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
 def multiply(p: Quat, q: Quat) -> Quat:
     """Return the Hamilton product p q: a rotation by q, then by p."""
     pw, px, py, pz = p

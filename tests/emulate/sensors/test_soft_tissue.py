@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from solepath.emulate.routes.laps import straight
-from solepath.emulate.sensors.soft_tissue import gives
+from solepath.emulate.sensors.soft_tissue import tissue_constants
 from solepath.emulate.sensors.suit import limb_samples, worn_body
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import SUBJECTS, Wearer
@@ -47,7 +47,11 @@ def test_in_walking_the_thigh_moves_most_and_all_of_it_as_much_as_fluoroscopy_ha
 def test_a_wearer_keeps_most_of_it_when_the_sensors_are_strapped_on_again() -> None:
     again, others = [], []
     for number in range(40):
-        first, second, other = gives(number, 1), gives(number, 2), gives(number + 100, 1)
+        first, second, other = (
+            tissue_constants(number, 1),
+            tissue_constants(number, 2),
+            tissue_constants(number + 100, 1),
+        )
         for site in THIGHS:
             again.append((first[site].load_turn[1], second[site].load_turn[1]))
             others.append((first[site].load_turn[1], other[site].load_turn[1]))
@@ -57,10 +61,10 @@ def test_a_wearer_keeps_most_of_it_when_the_sensors_are_strapped_on_again() -> N
 
 @pytest.mark.parametrize("scale", [0.0, 2.0])
 def test_a_study_may_take_it_away_or_double_it(scale: float) -> None:
-    usual, scaled = gives(3, 4), gives(3, 4, scale)
+    usual, scaled = tissue_constants(3, 4), tissue_constants(3, 4, scale)
     assert set(scaled) == (set(usual) if scale else set())
-    for site, give in scaled.items():
-        assert give.knee_turn == pytest.approx([scale * value for value in usual[site].knee_turn])
+    for site, constants in scaled.items():
+        assert constants.knee_turn == pytest.approx([scale * value for value in usual[site].knee_turn])
 
 
 def test_attitudes_alone_are_those_of_whole_samples() -> None:

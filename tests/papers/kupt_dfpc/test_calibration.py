@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 from solepath.calibration import Calibration, CalibrationError, InsoleCalibration, Newtons, ShoeGeometry
 from solepath.emulate.routes.route import Route
@@ -53,7 +54,7 @@ def test_the_insoles_two_areas_meet_at_the_board_12_5_of_28_5_cm_from_the_heel()
     """Fig. 3: the circuit board, where the sensor is, divides the cells."""
     cells = tuple(Cell(0.01 * k, 0.0) for k in (2, 12, 13, 25))
     for recipe in (KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT):
-        insole = recipe.insole
+        insole = evolve(recipe.insole)
         insole.set_layout(Layout(4, Foot.LEFT, cells, 0.285))
         assert (insole.heel_cells, insole.forefoot_cells) == ((0, 1), (2, 3))
 

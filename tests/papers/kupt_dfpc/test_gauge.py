@@ -5,7 +5,7 @@ from math import cos, degrees, radians, sin
 import numpy as np
 import pytest
 
-from solepath.emulate.routes.postures import MOVING_TIME, PITCHES, held_shoe
+from solepath.emulate.routes.postures import MOVING_TIME, PITCHES, held_shoe, held_time
 from solepath.emulate.wearers.shoe import IN_SOLE, Mounting
 from solepath.papers.kupt_dfpc.shoe.gauge import PitchGauge
 from solepath.types.vector import GRAVITY, from_rotation_vector
@@ -16,7 +16,7 @@ TURNED = Mounting((0.10, 0.0, 0.04), from_rotation_vector((0.4, -1.1, 2.0)))
 
 def forces(mounting: Mounting) -> list[tuple[float, tuple[float, float, float]]]:
     """Return times, s, and specific forces, m/s^2, of a shoe that is held flat and in all postures."""
-    t = np.arange(0.0, HOLD + len(PITCHES) * (MOVING_TIME + HOLD), 0.02)
+    t = np.arange(0.0, held_time(HOLD), 0.02)
     force = held_shoe(PITCHES, HOLD).at(t, mounting).force
     return [(a, (x, y, z)) for a, (x, y, z) in zip(t.tolist(), force.tolist(), strict=True)]
 

@@ -25,9 +25,9 @@ from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
 from solepath.papers.kupt_dfpc.drift_parts import DriftParts
 from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
-from solepath.papers.kupt_dfpc.moment import SwingSettings
 from solepath.papers.kupt_dfpc.rolling_errors import DriftTime, RollingError
 from solepath.papers.kupt_dfpc.soft_swing import SoftSwing
+from solepath.papers.kupt_dfpc.swing_settings import SoftSwingSettings
 from solepath.types import Foot, Phase, Sample
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
@@ -101,7 +101,7 @@ def test_the_error_index_of_ours_is_the_sum_of_the_errors_at_toe_off_and_heel_st
     stands, flies = Stance(ZERO, 0.01, 0.5, Phase.STATIONARY), Stance(ZERO, inf, 0.0, Phase.SWING)
     leaves, lands = (Stance((v, 0.0, 0.0), 0.1, 0.0, phase) for v, phase in ((0.11, PUSH_OFF), (0.40, LOADING)))
     touches = Stance(ZERO, inf, 0.0, LOADING)
-    corrector = SoftSwing(SwingSettings(slide_time=0.0, tilt_rate=0.0))
+    corrector = SoftSwing(SoftSwingSettings(slide_time=0.0, tilt_rate=0.0))
     corrector.start(IDENTITY, 0.02)
     marks = {3: Cue.CLEAR, 5: Cue.CONTACT}
     for k, stance in enumerate((stands, leaves, leaves, flies, flies, touches, lands, stands)):

@@ -90,6 +90,7 @@ def test_the_legs_at_a_touchdown_reach_down_and_as_far_apart_as_the_feet() -> No
             x, y, _ = sub(down.position, before.position)
             assert apart == pytest.approx(hypot(x, y), abs=0.1)
         before = down
+    assert before is not None
 
 
 def test_a_touchdown_is_known_within_three_samples() -> None:

@@ -18,7 +18,7 @@ from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.turning import matrices
 from solepath.emulate.wearers.walker import Walker
 from solepath.papers.walking_modes.limbs.inclination import Inclination
-from solepath.papers.walking_modes.limbs.limbs import LIMB_SITES, SEGMENTS, LowerLimbs, foot_end
+from solepath.papers.walking_modes.limbs.limbs import LIMB_SITES, SEGMENTS, LowerLimbs, joints
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.saving import codec as machine
 from solepath.types import Foot, Quat, Site, Vec3
@@ -35,23 +35,23 @@ def pitch(degrees: float) -> Quat:
 
 
 def test_who_stands_straight_has_the_ends_of_the_feet_below_and_before_the_hips() -> None:
-    assert foot_end(IDENTITY, IDENTITY, IDENTITY, IDENTITY, HIP, LIMBS) == pytest.approx((0.2, 0.1, -0.95))
+    assert joints(IDENTITY, IDENTITY, IDENTITY, IDENTITY, HIP, LIMBS)[3] == pytest.approx((0.2, 0.1, -0.95))
 
 
 def test_a_thigh_lifted_to_the_front_moves_the_shank_and_the_foot_along() -> None:
     # thigh horizontal, pointing ahead; shank down, foot level
-    end = foot_end(IDENTITY, pitch(-90), IDENTITY, IDENTITY, HIP, LIMBS)
+    end = joints(IDENTITY, pitch(-90), IDENTITY, IDENTITY, HIP, LIMBS)[3]
     assert end == pytest.approx((0.4 + 0.2, 0.1, -0.55))
 
 
 def test_a_leg_swung_back_by_30_degrees_with_the_foot_on_it() -> None:
-    end = foot_end(IDENTITY, pitch(30), pitch(30), pitch(30), HIP, LIMBS)
+    end = joints(IDENTITY, pitch(30), pitch(30), pitch(30), HIP, LIMBS)[3]
     c, s = cos(pi / 6), sin(pi / 6)
     assert end == pytest.approx((-0.95 * s + 0.2 * c, 0.1, -0.95 * c - 0.2 * s))
 
 
 def test_a_pelvis_turned_left_moves_its_left_hip_back() -> None:
-    end = foot_end(from_yaw(pi / 2), IDENTITY, IDENTITY, IDENTITY, HIP, LIMBS)
+    end = joints(from_yaw(pi / 2), IDENTITY, IDENTITY, IDENTITY, HIP, LIMBS)[3]
     assert end == pytest.approx((0.2 - 0.1, 0.0, -0.95))
 
 
@@ -76,7 +76,7 @@ def test_the_end_is_the_last_column_of_the_product_of_homogeneous_matrices(
         @ as_matrix(multiply(conjugate(shank), foot), (0.0, 0.0, -LIMBS.shank))
         @ as_matrix(IDENTITY, (LIMBS.foot, 0.0, -LIMBS.ankle_height))
     )
-    assert foot_end(pelvis, thigh, shank, foot, HIP, LIMBS) == pytest.approx(tuple(product[:3, 3]), abs=1e-9)
+    assert joints(pelvis, thigh, shank, foot, HIP, LIMBS)[3] == pytest.approx(tuple(product[:3, 3]), abs=1e-9)
 
 
 def stood(chain: LowerLimbs, mounted: dict[Site, Quat], segments: dict[Site, Quat] | None = None) -> None:
@@ -95,7 +95,7 @@ def swing_left_leg(chain: LowerLimbs, t: float, world: Quat = IDENTITY) -> None:
     for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
         attitude = multiply(pitch(30), MOUNTINGS[site])
         chain.set_attitude(site, t, multiply(world, attitude) if site is Site.LEFT_THIGH else attitude)
-    end = foot_end(IDENTITY, pitch(30), pitch(30), pitch(30), HIP, LIMBS)
+    end = joints(IDENTITY, pitch(30), pitch(30), pitch(30), HIP, LIMBS)[3]
     assert chain.end(Foot.LEFT, t) == pytest.approx(end)
 
 

@@ -251,8 +251,10 @@ def _add_rest(kinds: Any) -> None:
 
 def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ...papers.pressure_contour.rest import rest_calibration, rest_noise
+    from ...recording.decoded import decode_recording
 
-    fits = rest_noise(source_of(options.file, foot_of(options)), foot_of(options))
+    foot = foot_of(options)
+    fits = rest_noise(decode_recording(source_of(options.file, foot)).samples, foot)
     lines = [
         f"{fit.foot} foot, {fit.duration:.0f} s: accelerometer {1e3 * fit.noise.acc_density:.3g} mm/s^2/sqrt(Hz), bias "
         f"steady within {1e3 * fit.acc_instability:.3g} mm/s^2; gyroscope {degrees(fit.noise.gyro_density):.2g} "

@@ -17,7 +17,7 @@ from ...types import Sample, Site
 from ...types.vector import GRAVITY
 from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
-from ..wearers.turning import multiply_quaternions
+from ..wearers.turning import from_rotation_vectors, multiply_quaternions
 from .air import STILL_AIR, Air
 from .insoles import FULL_COUNT
 from .parts import AttitudeErrors, BarometerErrors, CellErrors, Imu, TriadErrors
@@ -210,11 +210,9 @@ def read_attitudes(true: Array, t: Array, chip: AttitudeErrors, north: float, rn
     turned = (initial + random_drift(t, chip.correlation_time, 3, rng)) * (chip.tilt, chip.tilt, chip.heading)
     if chip.steady_tilt:
         turned += chip.steady_tilt * np.append(rng.standard_normal(2), 0.0)
-    angle = np.linalg.norm(turned, axis=1, keepdims=True)
-    axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
     # Coordinates turn by -north when the frame turns by north.
     about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
-    return multiply_quaternions(multiply_quaternions(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)
+    return multiply_quaternions(multiply_quaternions(about, from_rotation_vectors(turned)), true)
 
 
 def samples_of(

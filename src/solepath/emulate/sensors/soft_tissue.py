@@ -9,7 +9,7 @@ bone's own motion, is smallest about the flexion axis, and differs between perso
 degrees and 17 mm (PMC8631460, 2021); reviews have 5 to 30 mm. Wobbling after impacts is not emulated.
 
 The constants belong to the wearer, and a part of them is new each time the sensors are strapped on (assumed, see
-NEW_SHARE). Those of a foot are none: its sensor sits on the shoe, in which the foot slips (wearers/limbs.py)."""
+NEW_SHARE). A foot has none: its sensor sits on the shoe, in which the foot slips (wearers/limbs.py)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from attrs import fields, frozen
 from ...types import Foot, Site, Vec3
 from ..wearers.curves import Array
 from ..wearers.limbs import FOOT_OF_SITE, Body
-from ..wearers.turning import matrices
+from ..wearers.turning import from_rotation_vectors, matrices
 
 NEW_SHARE = 0.45
 """Standard deviation of the part of a constant that is new at each strapping, as a share of that of the wearer's part
@@ -40,7 +40,7 @@ per rad of the knee and from half to the whole load on the leg, and displacement
 
 
 @frozen
-class Give:
+class TissueConstants:
     """The constants of one sensor's soft tissue, in the frame of the segment."""
 
     knee_turn: Vec3
@@ -53,11 +53,11 @@ class Give:
     """Displacement when the leg takes the whole load instead of half of it, m."""
 
 
-def gives(number: int, seed: int, scale: float = 1.0) -> dict[Site, Give]:
+def tissue_constants(number: int, seed: int, scale: float = 1.0) -> dict[Site, TissueConstants]:
     """Return the constants of the wearer of this number for sensors strapped on with this seed; `scale` times SPREADS.
 
     They are empty when `scale` is 0."""
-    found: dict[Site, Give] = {}
+    found: dict[Site, TissueConstants] = {}
     if not scale:
         return found
     for site, spreads in SPREADS.items():
@@ -68,31 +68,31 @@ def gives(number: int, seed: int, scale: float = 1.0) -> dict[Site, Give]:
         knee_turn, load_turn, knee_shift, load_shift = (
             (float(x), float(y), float(z)) for x, y, z in scale * units * np.array(spreads) * (own + NEW_SHARE * new)
         )
-        found[site] = Give(knee_turn, load_turn, knee_shift, load_shift)
+        found[site] = TissueConstants(knee_turn, load_turn, knee_shift, load_shift)
     return found
 
 
 @frozen(eq=False)
-class SkinnedBody(Body):
+class SkinBody(Body):
     """A body whose segments above the ankles are those of the skin, not of the bones."""
 
     load_shares: dict[Foot, Array]
     """Share of each foot in the body's load less that of standing, times 2, in the rows of `track`, (n, 1)."""
-    give: dict[Site, Give]
+    constants: dict[Site, TissueConstants]
     """Constants by site."""
 
     def segment(self, site: Site, t: Array) -> tuple[Array, Array]:
         """Return origin (N, 3), world, m, and attitude (N, 3, 3), skin to world, of the skin of a site at `t`, s."""
         origin, turn = super().segment(site, t)
-        give = self.give.get(site)
-        if give is None:
+        constants = self.constants.get(site)
+        if constants is None:
             return origin, turn
         foot = FOOT_OF_SITE.get(site, Foot.LEFT)
         load = self._interpolate(self.load_shares[foot], t)
         knee = self._knee(foot, t) if site in FOOT_OF_SITE else np.zeros((len(t), 1))
-        angles = knee * give.knee_turn + load * give.load_turn
-        shift = knee * give.knee_shift + load * give.load_shift
-        return origin + np.einsum("nij,nj->ni", turn, shift), turn @ matrices(_from_rotation_vectors(angles))
+        angles = knee * constants.knee_turn + load * constants.load_turn
+        shift = knee * constants.knee_shift + load * constants.load_shift
+        return origin + np.einsum("nij,nj->ni", turn, shift), turn @ matrices(from_rotation_vectors(angles))
 
     def _knee(self, foot: Foot, t: Array) -> Array:
         """Return by how much more than at time 0 the knee is bent at `t`, s, rad, (N, 1)."""
@@ -101,16 +101,10 @@ class SkinnedBody(Body):
         return np.asarray(angle[1:, None] - angle[0])
 
 
-def skinned(body: Body, load_shares: dict[Foot, Array], give: dict[Site, Give]) -> Body:
+def with_soft_tissue(body: Body, load_shares: dict[Foot, Array], constants: dict[Site, TissueConstants]) -> Body:
     """Return the body with soft tissue of these constants; `load_shares` of each foot in the rows of `body.track`."""
-    if not give:
+    if not constants:
         return body
     relative = {foot: 2.0 * share[:, None] - 1.0 for foot, share in load_shares.items()}
     bare = {field.name: getattr(body, field.name) for field in fields(Body)}
-    return SkinnedBody(**bare, load_shares=relative, give=give)
-
-
-def _from_rotation_vectors(vectors: Array) -> Array:
-    """Return the unit quaternions (N, 4) of rotation vectors (N, 3), rad."""
-    angle = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.concatenate((np.cos(0.5 * angle), 0.5 * np.sinc(angle / (2.0 * np.pi)) * vectors), axis=1)
+    return SkinBody(**bare, load_shares=relative, constants=constants)

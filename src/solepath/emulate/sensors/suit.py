@@ -23,7 +23,7 @@ from .insole_device import Insole
 from .insoles import LOAD_PER_COUNT
 from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudeErrors, CellErrors, Imu
 from .sensors import instants, measure_imu, read_attitudes, read_cells, samples_of, take_samples
-from .soft_tissue import gives, skinned
+from .soft_tissue import tissue_constants, with_soft_tissue
 
 MISALIGNMENT = 0.15
 """Standard deviation, about each axis, of the misalignment of a sensor that is strapped on by hand, rad (assumed)."""
@@ -108,7 +108,7 @@ def worn_body(walker: Walker, bones: Body, seed: int, tissue: float = 1.0) -> Bo
     `tissue` is the motion of soft tissue as a multiple of that of soft_tissue.py."""
     t = np.asarray(bones.t_start + INTERVAL * np.arange(len(bones.track)), dtype=np.float64)
     load_shares = {foot: walker.loads.share(foot, t) for foot in Foot}
-    return skinned(bones, load_shares, gives(walker.wearer.number, seed, tissue))
+    return with_soft_tissue(bones, load_shares, tissue_constants(walker.wearer.number, seed, tissue))
 
 
 def suit(

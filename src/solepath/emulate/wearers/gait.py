@@ -21,7 +21,7 @@ from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind
 from .curves import Array, Rng
 from .shoe import Rocker, Shoe
-from .zones import HeelPad
+from .soles.heel_pad import HeelPad
 
 
 class LoadLaw(Enum):

@@ -34,7 +34,8 @@ from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng, hand_over
 from .gait import SETTLE_TIME, LoadLaw, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
-from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, HeelPad, cell_shares
+from .soles.heel_pad import HeelPad
+from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, cell_shares
 
 BOUNCE_AMPLITUDE = 0.17
 """Amplitude A of the load in walking at 1.3 m/s, as a share of the weight; A grows with the square of the speed."""

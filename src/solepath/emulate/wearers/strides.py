@@ -133,7 +133,7 @@ class _MotionBuilder:
         push_off_pitch, landing_pitch = -stride.toe_off_pitch * _from_rest(TOE_OFF_SLOPES), _landing_pitch(stride)
         pitch_start = _end_state(push_off_pitch, 1.0, stride.toe_off - stride.heel_off)
         pitch_end = _end_state(landing_pitch, 0.0, stride.foot_flat - stride.heel_strike)
-        p0, v0, a0 = self._ankle(self.shoe.forefoot, stride.start, pitch_start)
+        p0, v0, a0 = self._ankle(shoe.forefoot, stride.start, pitch_start)
         slip, slip_v, slip_a = slip_at_toe_off(self._toe_slip(stride.start), stride.toe_off - stride.heel_off)
         p0, v0, a0 = p0 + slip, v0 + slip_v, a0 + slip_a
         p1, v1, a1 = self._ankle(self._landing_arc(stride), stride.end, pitch_end)

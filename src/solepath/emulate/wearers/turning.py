@@ -20,6 +20,13 @@ def multiply_quaternions(p: Array, q: Array) -> Array:
     return np.concatenate((scalar, a * v + b * u + np.cross(u, v)), axis=1)
 
 
+def from_rotation_vectors(vectors: Array) -> Array:
+    """Return the unit quaternions (N, 4) of rotation vectors (N, 3), rad."""
+    angle = np.linalg.norm(vectors, axis=1, keepdims=True)
+    # sin(angle / 2) / angle by the normalised sinc, which is 1 at 0
+    return np.concatenate((np.cos(0.5 * angle), 0.5 * np.sinc(angle / (2.0 * np.pi)) * vectors), axis=1)
+
+
 def matrices(q: Array) -> Array:
     """Return the rotation matrices (N, 3, 3) of unit quaternions (N, 4)."""
     w, x, y, z = q.T

@@ -2,8 +2,8 @@
 
 The navigation frame is z up, with the heading that the sensor had when its first attitude was found. The tracker turns
 it into the world frame. A corrector (`ErrorStateFilter`, `LinearDedrift`) extends this class with the use of stance
-evidence, which keeps the integration from drifting.
-Equation (5) of Bebek et al. (2010) is `integrate`."""
+evidence, which keeps the integration from drifting. `integrate` is equation (5) of Bebek et
+al. 2010 (IEEE Trans. Instrum. Meas. 59)."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from math import sqrt
 
 from ...types import Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, ZERO
+from ...types.vector import GRAVITY, ZERO, cross
 from .critical_times import CriticalTimes, Row
 
 MOST_MISFITS = 3
@@ -72,7 +72,7 @@ class FootAxes:
         if self.right is None:
             return None
         right = _unit(_horizontal(self.right, up))
-        return None if right is None else (right, _cross(up, right))
+        return None if right is None else (right, cross(up, right))
 
 
 def to_foot_axes(rows: Sequence[Row], right: Vec3, forward: Vec3, up: Vec3) -> tuple[Row, ...]:
@@ -118,10 +118,6 @@ def _horizontal(v: Vec3, up: Vec3) -> Vec3:
     """Return the part of `v` at right angles to the unit vector `up`."""
     k = v[0] * up[0] + v[1] * up[1] + v[2] * up[2]
     return (v[0] - k * up[0], v[1] - k * up[1], v[2] - k * up[2])
-
-
-def _cross(a: Vec3, b: Vec3) -> Vec3:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def _unit(v: Vec3) -> Vec3 | None:

@@ -69,7 +69,9 @@ class FusionSettings:
     by_variance: bool = True
     """Flag: strides are weighted by the variance of their lengths; if False, by their error indices (10)."""
     compares_lengths: bool = True
-    """Flag: strides of unequal lengths are not similar (`LENGTH_RATIO`), and abnormal strides count in (13)."""
+    """Flag: strides of unequal lengths are not similar (`LENGTH_RATIO`).
+
+    Without `by_variance` it also makes abnormal strides count in (13) (`ABNORMAL_EXCESS`)."""
 
 
 @define
@@ -128,7 +130,7 @@ class DoubleFoot(TrackPart):
     settings: FusionSettings = FusionSettings()
     paths: dict[Foot, CalibratedPath] = field(init=False)
     error_balance: float = field(default=0.0, init=False)
-    """Sum of (13), m^2/s: positive when the left foot errs more."""
+    """Sum of (13), m^2/s, or m^2 with `FusionSettings.by_variance`: positive when the left foot errs more."""
     chosen: Foot | None = field(default=None, init=False)
     """Chosen foot by (13); None before the first stride."""
 

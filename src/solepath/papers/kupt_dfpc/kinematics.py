@@ -106,7 +106,7 @@ class Sagittal:
 
     def add_flat_sample(self, dt: float, attitude: Quat) -> None:
         """Add a sample of `dt` s in which the foot is flat."""
-        x, y, z = _up(attitude)
+        x, y, z = up_direction(attitude)
         if self.up is None:
             self.up = (x, y, z)
             return
@@ -140,7 +140,7 @@ class Sagittal:
         """Add one sample of a push-off, in which the heel lifts; see `SWING_BACK_SHARE`."""
         if self.up is None:
             return
-        x, y, z = _up(attitude)
+        x, y, z = up_direction(attitude)
         u, v, w = self.up
         along = x * u + y * v + z * w
         x, y, z = x - along * u, y - along * v, z - along * w
@@ -200,7 +200,7 @@ def mean_velocity(last_position: Vec3, position: Vec3, dt: float) -> Vec3:
     )
 
 
-def _up(attitude: Quat) -> Vec3:
+def up_direction(attitude: Quat) -> Vec3:
     """Return the direction up in the sensor frame: the last row of the rotation from sensor to navigation frame."""
     w, x, y, z = attitude
     return (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y))

@@ -2,7 +2,7 @@
 
 Chen et al. 2019 (IEEE Internet of Things Journal 6, section III.C.3) measure the shoe once, in static postures. They
 take the velocities of (5) and (7) for exact and the drift of (8) for linear. A shoe that bends elsewhere under the
-weight of a walking body, or slides, makes them wrong, and fig. 14 shows that the drift is not linear. So are learnt:
+weight of a walking body, or slides, makes them wrong, and fig. 14 shows that the drift is not linear. So a foot learns:
 
 - The pivot of the forefoot (`PivotShift`): how much longer L_r of (6) is in walking. It shows in the height of the
   heel at toe-off, which grows by sin(pitch) times that length, and which the raw velocity gives to a few millimetres,
@@ -12,6 +12,7 @@ weight of a walking body, or slides, makes them wrong, and fig. 14 shows that th
 - The time of the drift (`DriftTime`): where between toe-off and heel-strike the velocity drifts. Of a stride of level
   walking the rise is known, it is zero. The rise by the raw velocity is the velocity error at the end, times the time
   since it arose. So the rises of the strides of one foot show that time. Half of the swing is the linear drift of (8).
+- The scale of the drift (`DriftScale`): how large the velocity error is for the motion between samples.
 
 Nothing here knows a shoe or a sensor. Starting values are wide; their origin is at each."""
 
@@ -139,6 +140,7 @@ class DriftScale:
     ratio: float = field(default=0.01, init=False)
     """Ratio of the squared velocity error to the drift: a tenth of each difference before the first stride."""
     strides: float = field(default=FIRST_STRIDES, init=False)
+    """Weight of `ratio`, in strides."""
 
     def add(self, squared_error: float, drift: float) -> None:
         """Add a stride with this squared velocity error per axis at its end, m^2/s^2."""

@@ -76,5 +76,5 @@ def length_sigma(taken: StrideTaken) -> float:
 
 
 def valid_index(index: float | None) -> float | None:
-    """Return an error index, m/s; None for one that is not finite or negative."""
+    """Return an error index, m/s; None if it is negative or not finite."""
     return None if index is None or not isfinite(index) or index < 0.0 else index

@@ -18,9 +18,11 @@ from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY
 from .drift_parts import DriftParts, Parts
-from .moment import MotionMoment
+from .kinematics import up_direction
+from .motion_moment import MotionMoment
 from .rolling_errors import DriftScale, DriftTime, PivotShift, RollingError
 from .swing_dedrift import SwingDedrift
+from .swing_settings import SoftSwingSettings
 
 ZERO_VELOCITY_NOISE = 1e-4
 """Variance of the zero velocity of a standing foot, m^2/s^2: that of `KnownVelocitySettings.sigma`."""
@@ -46,6 +48,7 @@ class SoftSwing(SwingDedrift):
     follows the velocity of the rolling shoe horizontally, and the raw velocity vertically: a pivot that is 1 cm off
     errs by 8 cm/s there."""
 
+    settings: SoftSwingSettings = SoftSwingSettings()
     pivot: PivotShift = field(factory=PivotShift, init=False)
     """Error of L_r in (6)."""
     toe_slide: RollingError = field(factory=RollingError, init=False)
@@ -72,7 +75,7 @@ class SoftSwing(SwingDedrift):
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         SwingDedrift.start(self, attitude, tilt_sigma)
         self.motion_variance = 0.0
-        self.upright = _up(attitude)
+        self.upright = up_direction(attitude)
 
     def scaled(self, scale: float) -> None:
         self.scale_excess = self.settings.bias_share * (1.0 / scale - 1.0)
@@ -94,7 +97,7 @@ class SoftSwing(SwingDedrift):
     def _start_motion(self) -> None:
         SwingDedrift._start_motion(self)
         self.drift = self.drift_moment = self.rise_error = 0.0
-        self.upright = _up(self.attitude)
+        self.upright = up_direction(self.attitude)
 
     def _use_velocity(self, v_ref: Vec3, push_off: bool) -> Vec3 | None:
         height, climb = self.position[2], self.velocity[2]
@@ -106,10 +109,10 @@ class SoftSwing(SwingDedrift):
         return error
 
     def _moment(self, error: Vec3 | None) -> MotionMoment:
-        (x, y, z), (u, v, w), previous, dt = _up(self.attitude), self.upright, self.previous, self.interval
+        (x, y, z), (u, v, w), previous, dt = up_direction(self.attitude), self.upright, self.previous, self.interval
         cos_pitch = x * u + y * v + z * w
         return MotionMoment(
-            self.swing, self.raw_velocity, self.raw_displacement, self.known_displacement, error,
+            self.swing, self.raw_displacement, self.known_displacement, error,
             drift=self.drift, drift_moment=self.drift_moment, cos_pitch=cos_pitch,
             lift_rate=0.0 if previous is None or dt <= 0.0 else (previous.cos_pitch - cos_pitch) / dt,
             rise_error=self.rise_error,
@@ -192,9 +195,3 @@ class SoftSwing(SwingDedrift):
 def _mean_time(drift: float, moment: float, start: float, end: float) -> float:
     """Return the mean time of a drift with this moment between `start` and `end`, s; its middle without a drift."""
     return 0.5 * (start + end) if drift <= 0.0 else min(max(moment / drift, start), end)
-
-
-def _up(attitude: Quat) -> Vec3:
-    """Return the direction up in the sensor frame."""
-    w, x, y, z = attitude
-    return (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y))

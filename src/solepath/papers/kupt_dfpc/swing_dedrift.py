@@ -14,7 +14,8 @@ from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import TIE, ZERO
-from .moment import MotionMoment, SwingSettings
+from .motion_moment import MotionMoment
+from .swing_settings import SwingSettings
 
 SHORT_GAP = 0.08
 """Longest gap in a normal motion, s: one lost sample at the paper's 30 Hz leaves 0.067 s."""
@@ -52,8 +53,11 @@ class SwingDedrift(LinearDedrift):
     motion_start: Vec3 = field(default=ZERO, init=False)
     """Position where the motion started, m."""
     raw_velocity: Vec3 = field(default=ZERO, init=False)
+    """Velocity by integration from motion start without correction, m/s."""
     raw_displacement: Vec3 = field(default=ZERO, init=False)
+    """Integral of the raw velocity since motion start, m."""
     known_displacement: Vec3 = field(default=ZERO, init=False)
+    """Integral of the known velocities since motion start, m."""
     interval_velocity: Vec3 = field(default=ZERO, init=False)
     """Mean raw velocity over the last interval, m/s."""
     interval: float = field(default=0.0, init=False)
@@ -127,7 +131,7 @@ class SwingDedrift(LinearDedrift):
         return False
 
     def _moment(self, error: Vec3 | None) -> MotionMoment:
-        return MotionMoment(self.swing, self.raw_velocity, self.raw_displacement, self.known_displacement, error)
+        return MotionMoment(self.swing, self.raw_displacement, self.known_displacement, error)
 
     def _use_velocity(self, v_ref: Vec3, push_off: bool) -> Vec3 | None:
         """Use the known velocity over the last interval; return the raw velocity's error, None if it is too large."""

@@ -50,21 +50,18 @@ class PrintedContour(Detector):
     baseline: GyroscopeMagnitude = field(factory=GyroscopeMagnitude)
     lacking: str | None = field(default=None, init=False)
     """Sentence about missing data; None if nothing is missing."""
-    usable: bool = field(default=False, init=False)
-    """Flag: the cells have contours of known pressure."""
 
     def set_layout(self, layout: Layout) -> None:
         reason = self.contours.set_layout(layout)
         if reason is None and not self.contours.levels_in_pascals:
             reason = "pressure cells of unknown scale have no contours of 20 to 70 kPa"
         self.lacking = None if reason is None else f"{reason}; the gyroscope says when the foot stands"
-        self.usable = reason is None
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
         gyroscope_stance = self.baseline.update(t, dt, acc, gyro, load, attitude)
-        if not self.usable or load is None:
+        if self.lacking is not None or not self.contours.points or load is None:
             return gyroscope_stance
         if not load.cells or max(self.contours.cells) >= len(load.cells):
             return gyroscope_stance

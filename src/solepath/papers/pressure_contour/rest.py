@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...calibration import Calibration, CalibrationError, RestNoise
-from ...types import Foot, Packet, Sample
+from ...types import Foot, Sample
 from ...types.attrs import frozen
 from ...types.vector import GRAVITY
 
@@ -57,15 +57,13 @@ class RestFit:
     """Least Allan deviation of the gyroscope, rad/s."""
 
 
-def rest_noise(items: Iterable[Packet | Sample], foot: Foot | None = None) -> tuple[RestFit, ...]:
-    """Return the noise of every foot's sensor, or of that of `foot`, from a recording at rest.
+def rest_noise(recorded: Iterable[Sample], foot: Foot | None = None) -> tuple[RestFit, ...]:
+    """Return the noise of every foot's sensor, or of that of `foot`, from samples recorded at rest.
 
     Raises CalibrationError when there are no inertial samples, when they last less than `SHORTEST_REST`, or when the
     sensor moved."""
-    from ...recording.decoded import decode_recording
-
     samples: dict[Foot, list[Sample]] = {one: [] for one in Foot}
-    for sample in decode_recording(items).samples:
+    for sample in recorded:
         if sample.site.foot is not None and sample.acc is not None and sample.gyro is not None:
             samples[sample.site.foot].append(sample)
     feet = [one for one in Foot if samples[one] and foot in (None, one)]

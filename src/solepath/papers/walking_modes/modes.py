@@ -225,7 +225,9 @@ class Modes(TrackPart):
         return events
 
     def _add_touchdown(self, foot: Foot, t: float, known_at: float, by_own_track: bool = False) -> list[Event]:
-        """Add a touchdown, the flow of fig. 12; `by_own_track` if the foot is the reference: only its track has it."""
+        """Add a touchdown, as in the flow of fig. 12.
+
+        `by_own_track` is True if the foot itself is the reference, so that only its own track has its place."""
         places = self.places
         side, chain = places.sides[foot], places.chain
         if chain.is_current(t):

@@ -8,9 +8,10 @@ In a bend of radius r every foot turns from one stance to its next by the angle 
 over the length of the stride is the curvature 1 / r. The angle comes from the foot's own gyroscope, over a second or
 less. The limits are halfway between the paper's modes: r = 2 m, 4 m, and straight on.
 
-Two further signs of a bend would add next to nothing. The outer foot's strides are longer than the inner foot's by the
-share w / r, with w = 0.14 m between the feet: 3 % at 4 m, where strides vary by as much by themselves, whereas a turn
-of 0.3 rad a stride is ten times what feet turn by chance. And the load, for the reason above."""
+Two further signs of a bend would add next to nothing, and are not used. The outer foot's strides are longer than the
+inner foot's by the share w / r, with w = 0.14 m between the feet: 3 % at 4 m, where strides vary by as much by
+themselves. A turn of 0.3 rad a stride, in contrast, is ten times what feet turn by chance. The load is no sign for the
+reason above."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Soles as they are worn: where they differ from rigid ones that roll without slip."""
+"""Soles and heels as they are worn: where they differ from rigid ones that roll without slip."""

@@ -12,7 +12,7 @@ from attrs import evolve, frozen
 from ....emulate.sensors.insole_device import Insole, boot
 from ....emulate.sensors.parts import INERTIACUBE3, TILTED_INERTIACUBE3, WORN_CAPACITIVE
 from ....emulate.wearers.gait import Wearer
-from ....emulate.wearers.zones import HeelPad
+from ....emulate.wearers.soles.heel_pad import HeelPad
 from ....papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from ....papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
 from ....papers.pressure_contour.contour_stance import (

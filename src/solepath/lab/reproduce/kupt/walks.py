@@ -18,12 +18,12 @@ from ....emulate.wearers.gait import Wearer
 from ....emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
 from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
 from ....papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
-from ....papers.kupt_dfpc.moment import PRINTED, SwingSettings
 from ....papers.kupt_dfpc.noise import pressure_noise
 from ....papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC
 from ....papers.kupt_dfpc.shoe.fit import fit_shoe
 from ....papers.kupt_dfpc.soft_swing import SoftSwing
 from ....papers.kupt_dfpc.swing_dedrift import SwingDedrift
+from ....papers.kupt_dfpc.swing_settings import PRINTED, SoftSwingSettings
 from ....types import SITE_OF_FOOT, Foot
 from ....types.vector import from_rotation_vector
 from ..walks import WalkParts, cut_walk, find_halt, join_routes
@@ -78,12 +78,12 @@ ABLATIONS = {
     "KUPT as printed, our load": evolve(KUPT, corrector=SwingDedrift(PRINTED)),
     "KUPT + slide": evolve(KUPT, corrector=SwingDedrift()),
     "KUPT + soft": evolve(
-        KUPT, corrector=SoftSwing(SwingSettings(bias_share=0.0, learns_rolling=False, learns_time=False))
+        KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, learns_rolling=False, learns_time=False))
     ),
-    "KUPT + pivot, slide": evolve(KUPT, corrector=SoftSwing(SwingSettings(bias_share=0.0, learns_time=False))),
-    "KUPT + time": evolve(KUPT, corrector=SoftSwing(SwingSettings(bias_share=0.0))),
+    "KUPT + pivot, slide": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, learns_time=False))),
+    "KUPT + time": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0))),
     "KUPT (+ bias)": KUPT,
-    "KUPT, no rolling": evolve(KUPT, corrector=SoftSwing(SwingSettings(uses_rolling=False))),
+    "KUPT, no rolling": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(uses_rolling=False))),
 }
 """Our additions to KUPT, one after the other, and ours without the velocities of the rolling shoe."""
 BY_ERROR_INDEX = KUPT_DFPC.exchanged(

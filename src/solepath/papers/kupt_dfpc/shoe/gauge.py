@@ -12,7 +12,7 @@ from math import atan2, fsum, hypot, sqrt
 
 from ....types import Vec3
 from ....types.attrs import define, field, frozen
-from ....types.vector import GRAVITY
+from ....types.vector import GRAVITY, cross
 
 STILL_TIME = 1.0
 """Time for which a shoe must be still before its pitch is taken, s; the pitch is the mean over this time."""
@@ -91,7 +91,7 @@ class PitchGauge:
             return PitchReading(atan2(_length(_across(up, self.flat)), upright), 0.0, still)
         raised = _dot(up, self.heel_way)
         return PitchReading(
-            atan2(raised, upright), atan2(_dot(up, _cross(self.flat, self.heel_way)), hypot(raised, upright)), still
+            atan2(raised, upright), atan2(_dot(up, cross(self.flat, self.heel_way)), hypot(raised, upright)), still
         )
 
     def take(self) -> float | None:
@@ -129,10 +129,6 @@ def _mean(values: list[Vec3]) -> Vec3:
 
 def _dot(a: Vec3, b: Vec3) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _cross(a: Vec3, b: Vec3) -> Vec3:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def _length(a: Vec3) -> float:

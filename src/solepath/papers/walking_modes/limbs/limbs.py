@@ -55,17 +55,12 @@ class Transform(NamedTuple):
         return Transform(multiply(self.rotation, other.rotation), (x + dx, y + dy, z + dz))
 
 
-def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limbs: Limbs) -> Vec3:
-    """Return O_3 relative to the middle of the hips, m, in the frame into which the attitudes turn the segments."""
-    return joints(pelvis, thigh, shank, foot, hip, limbs)[3]
-
-
 def joints(
     pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limbs: Limbs
 ) -> tuple[Vec3, Vec3, Vec3, Vec3]:
     """Return hip, knee, ankle and O_3 relative to the middle of the hips, m: the rods of fig. 8.
 
-    O_3 is the last column of
+    They are in the frame into which the attitudes turn the segments. O_3 is the last column of
 
         0_3R = 0_1R 1_2R 2_3R                                                                                   (7)
 

@@ -2,7 +2,7 @@
 
 The lengths are shares of the stature (calibration.Limbs), replaced by those that were measured. A standing pose shows
 no lengths, but it shows whether a walk can begin with it: the chain (limbs.py) takes how each sensor sits on its
-segment from the first half second in which all seven are still. That is done anew in every session, because a strap
+segment from the first half second in which all seven are still. That is done again in every session, because a strap
 never sits twice as before, so these rotations are not part of a calibration."""
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ JOINT_DISTANCE_SHARE = 0.72
 """Distance of the hip joints as a share of that of the anterior iliac spines: each joint lies inward by 14 % of it.
 
 Bell, Brand and Pedersen 1989, Human Movement Science 8."""
+_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @frozen
@@ -57,7 +58,7 @@ def limbs_of(
 def check_standing(samples: Iterable[Sample]) -> list[StoodSensor]:
     """Return how the seven sensors sat while the wearer stood.
 
-    Raises CalibrationError, which names the sites, when one was not heard or when they were never still at once."""
+    Raises CalibrationError, which names the sites, when one sent no attitude or when they were never still at once."""
     chain, sensors = LowerLimbs(), LimbSensors()
     feet = {site: Inclination() for site in SEGMENTS if site.foot is not None}
     for sample in samples:
@@ -82,6 +83,3 @@ def check_standing(samples: Iterable[Sample]) -> list[StoodSensor]:
         axes = [abs(rotate(segment.standing, axis)[2]) for axis in _AXES] if segment.standing is not None else [1.0]
         found.append(StoodSensor(site, acos(min(1.0, max(axes))), segment.own_world))
     return found
-
-
-_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
