@@ -63,8 +63,8 @@ def watch(samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, tup
     seen = {}
     for foot in Foot:
         corrector = session.feet[foot].corrector
-        if isinstance(corrector, WatchedSwing):
-            seen[foot] = tuple(corrector.seen)
+        assert isinstance(corrector, WatchedSwing)
+        seen[foot] = tuple(corrector.seen)
     return seen
 
 
