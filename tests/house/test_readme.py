@@ -89,6 +89,11 @@ def test_its_table_of_speed_is_the_long_one_in_short():
     assert below("quick") == figures.lines("what", figures.measured("\n".join(below("speed"))))
 
 
+@pytest.mark.parametrize("name", figures.EXPERIMENTS)
+def test_the_output_of_an_experiment_has_its_place_in_the_docs(name):
+    assert below(name)[0].startswith(f"{name}: ours is emulated (")
+
+
 @pytest.mark.parametrize(
     ("mark", "ends"),
     [("try", ["'.[demo]'", "solepath demo"]), ("test", ["pytest -n auto --dist loadfile --no-loadscope-reorder"])],

@@ -4,6 +4,9 @@ import csv
 import os
 import re
 import signal
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
 from math import degrees, radians
 from pathlib import Path
 
@@ -15,6 +18,25 @@ from solepath.emulate.routes.postures import PITCHES, posture
 
 HOLD = 2.5
 """Time for which the emulated shoes are held in each posture, s."""
+
+
+@contextmanager
+def measuring(folder: Path, hold: float, *options: object) -> Iterator[tuple[int, subprocess.Popen[str]]]:
+    """Yield a terminal and the program in it, which shows the pitch of a left shoe and makes two files in a folder.
+
+    The files are postures.csv and me.json. The emulated shoe is held for `hold` s in each posture."""
+    pty = pytest.importorskip("pty")
+    ours, theirs = pty.openpty()
+    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
+    files = ("calibrate", "shoe", folder / "postures.csv", "--live", "--out", folder / "me.json")
+    with (
+        emulator("--postures", hold) as (_, where),
+        started(*files, "--via", where, "--left", "solepath L", *options, **terminal) as process,
+    ):
+        os.close(theirs)
+        drawn(ours, "left foot: steady")
+        yield ours, process
+    os.close(ours)
 
 
 def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:
@@ -31,31 +53,23 @@ def test_options_of_the_sensor_without_live_are_rejected(tmp_path: Path) -> None
 
 
 def test_a_person_measures_five_postures_while_the_shoe_s_sensor_gives_the_pitch(tmp_path: Path) -> None:
-    pty = pytest.importorskip("pty")
-    ours, theirs = pty.openpty()
     table, out = tmp_path / "postures.csv", tmp_path / "me.json"
-    options = ["--times", 1, "--height", 0.029, "--left", "solepath L", "--out", out]
-    with emulator("--postures", HOLD) as (_, where):
-        terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
-        with started("calibrate", "shoe", table, "--live", "--via", where, *options, **terminal) as process:
-            os.close(theirs)
-            drawn(ours, "left foot: steady")
-            os.write(ours, b"\n")
-            for number, pitch in enumerate(PITCHES, 1):
-                drawn(ours, f"Posture {number} of 5, time 1 of 1")
-                shown_until(ours, degrees(pitch))
-                os.write(ours, b"\n")
-                true = posture(pitch)
-                drawn(ours, "L_r in mm")
-                if number == 1:  # a slip of the hand is asked for again
-                    os.write(ours, b"x77\n")
-                    drawn(ours, "no length from 0 to 500 mm")
-                os.write(ours, f"{1000.0 * true.sensor_to_ground:.1f}\n".encode())
-                drawn(ours, "L_p2t in mm")
-                os.write(ours, f"{1000.0 * true.ground_to_tip:.1f}\n".encode())
-            assert "5 measurements of 5 postures, flat to 5" in drawn(ours)
-            assert process.wait(TAKES) == 0
-    os.close(ours)
+    with measuring(tmp_path, HOLD, "--times", 1, "--height", 0.029) as (terminal, process):
+        os.write(terminal, b"\n")
+        for number, pitch in enumerate(PITCHES, 1):
+            drawn(terminal, f"Posture {number} of 5, time 1 of 1")
+            shown_until(terminal, degrees(pitch))
+            os.write(terminal, b"\n")
+            true = posture(pitch)
+            drawn(terminal, "L_r in mm")
+            if number == 1:  # a slip of the hand is asked for again
+                os.write(terminal, b"x77\n")
+                drawn(terminal, "no length from 0 to 500 mm")
+            os.write(terminal, f"{1000.0 * true.sensor_to_ground:.1f}\n".encode())
+            drawn(terminal, "L_p2t in mm")
+            os.write(terminal, f"{1000.0 * true.ground_to_tip:.1f}\n".encode())
+        assert "5 measurements of 5 postures, flat to 5" in drawn(terminal)
+        assert process.wait(TAKES) == 0
     with table.open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert [row["H_imu_m"] for row in rows] == ["0.0290"] * 5
@@ -81,49 +95,27 @@ def shown_until(terminal: int, pitch: float) -> None:
 )
 def test_who_ends_before_any_measurement_changes_nothing(tmp_path: Path, end: bytes, status: int, words: str) -> None:
     """Ends are the letter q, the end of the input (Ctrl-D) and Ctrl-C."""
-    pty = pytest.importorskip("pty")
-    ours, theirs = pty.openpty()
-    table, out = tmp_path / "postures.csv", tmp_path / "me.json"
-    with emulator("--postures", HOLD) as (_, where):
-        terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
-        options = ["--left", "solepath L", "--out", out]
-        with started("calibrate", "shoe", table, "--live", "--via", where, *options, **terminal) as process:
-            os.close(theirs)
-            drawn(ours, "left foot: steady")
-            if end == b"\x03":
-                process.send_signal(signal.SIGINT)  # this terminal controls no process
-            else:
-                os.write(ours, end)
-            text = drawn(ours)
-            assert words in text and "Traceback" not in text
-            assert process.wait(TAKES) == status
-    os.close(ours)
-    assert not table.exists() and not out.exists()
+    with measuring(tmp_path, HOLD) as (terminal, process):
+        if end == b"\x03":
+            process.send_signal(signal.SIGINT)  # this terminal controls no process
+        else:
+            os.write(terminal, end)
+        text = drawn(terminal)
+        assert words in text and "Traceback" not in text
+        assert process.wait(TAKES) == status
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_measurement_is_taken_back(tmp_path: Path) -> None:
-    pty = pytest.importorskip("pty")
-    ours, theirs = pty.openpty()
-    table, out = tmp_path / "postures.csv", tmp_path / "me.json"
-    with emulator("--postures", 60) as (_, where):
-        terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
-        options = ["--times", 1, "--left", "solepath L", "--out", out]
-        with started("calibrate", "shoe", table, "--live", "--via", where, *options, **terminal) as process:
-            os.close(theirs)
-            drawn(ours, "left foot: steady")
-            for answer, reply in (
-                (b"\n", "Posture 1"),
-                (b"\n", "L_r in mm"),
-                (b"80\n", "L_p2t"),
-                (b"70\n", "Posture 2"),
-            ):
-                os.write(ours, answer)
-                drawn(ours, reply)
-            assert table.read_text().splitlines()[1].endswith(",0.0800,0.0700")
-            for answer, reply in ((b"u\n", "Posture 1"), (b"u\n", "Stand with the shoe flat"), (b"q\n", "no posture")):
-                os.write(ours, answer)
-                drawn(ours, reply)
-            assert process.wait(TAKES) == 2
-    os.close(ours)
+    table = tmp_path / "postures.csv"
+    with measuring(tmp_path, 60, "--times", 1) as (terminal, process):
+        for answer, reply in ((b"\n", "Posture 1"), (b"\n", "L_r in mm"), (b"80\n", "L_p2t"), (b"70\n", "Posture 2")):
+            os.write(terminal, answer)
+            drawn(terminal, reply)
+        assert table.read_text().splitlines()[1].endswith(",0.0800,0.0700")
+        for answer, reply in ((b"u\n", "Posture 1"), (b"u\n", "Stand with the shoe flat"), (b"q\n", "no posture")):
+            os.write(terminal, answer)
+            drawn(terminal, reply)
+        assert process.wait(TAKES) == 2
     assert table.read_text() == "pitch_deg,L_r_m,L_p2t_m\n"
-    assert not out.exists()
+    assert list(tmp_path.iterdir()) == [table]

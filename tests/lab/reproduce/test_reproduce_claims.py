@@ -2,7 +2,7 @@
 
     python -m pytest -m soak tests/lab/reproduce/test_reproduce_claims.py
 
-Takes some minutes. A claim that is not reproduced is not asserted here; docs/papers.md reports it.
+Takes half an hour or more on two cores. A claim that is not reproduced is not asserted here; docs/papers.md reports it.
 """
 
 from __future__ import annotations

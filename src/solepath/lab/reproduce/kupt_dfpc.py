@@ -174,12 +174,11 @@ def walk(job: KuptJob) -> KuptResults:
         for name, events in (("ZUPT", zupt), ("KUPT", known))
         for foot, letter in FOOT_LETTERS.items()
     }
-    fused = [event for event in known if isinstance(event, StrideFused)]
-    distances["KUPT+DFPC"] = (fused[-1].distance if fused else 0.0,)
+    distances["KUPT+DFPC"] = (_fused_distance(known),)
     if job.corridor:
-        tracks, end_distances = _tracks(prepared.walk.truth, prepared.t_halt, zupt, fused)
+        tracks, end_distances = _tracks(prepared.walk.truth, prepared.t_halt, zupt, known)
         return KuptResults(distances, true, tracks, end_distances)
-    if job.setting is not STANDARD and job.setting != STANDARD:
+    if job.setting != STANDARD:
         return KuptResults(distances, true)
     printed = _run(KUPT_DFPC_PRINTED, prepared)
     values = (*(_distance(printed, foot) for foot in Foot), _fused_distance(printed))
@@ -213,7 +212,7 @@ def _final_strides(events: list[Event], foot: Foot) -> list[StrideTaken]:
 
 
 def _tracks(
-    truth: Truth, t_halt: float, zupt: list[Event], fused: list[StrideFused]
+    truth: Truth, t_halt: float, zupt: list[Event], known: list[Event]
 ) -> tuple[tuple[PictureTrack, ...], dict[str, float]]:
     """Return tracks of stride ends, aligned with the truth over two metres, and distances from start to end, m."""
     ends = {
@@ -221,7 +220,9 @@ def _tracks(
         for foot, letter in FOOT_LETTERS.items()
     }
     # after each stride the position is the end of the chosen foot's path, which changes only at that foot's strides
-    ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
+    ends["KUPT+DFPC"] = [
+        (one.t, one.foot, one.position) for one in known if isinstance(one, StrideFused) and one.foot is one.chosen
+    ]
     path = _true_path(truth, t_halt)
     start = path[0].copy()
     tracks, end_distances = [PictureTrack("true path", thin_out(path - start), DrawStyle.TRUTH)], {}

@@ -28,22 +28,12 @@ def reproduce_seeds(experiment: Experiment, walks: int | None, seeds: Sequence[i
         evolve(row, values=tuple([value for one in by_seed.values() for value in one.rows[k].values]))
         for k, row in enumerate(first.rows)
     )
-    notes = [
-        f"Seed {seed}: {note}"
-        for seed, one in by_seed.items()
-        for note in one.notes
-        if note not in common_notes(by_seed)
-    ]
+    common = [note for note in first.notes if all(note in one.notes for one in others)]
+    notes = [f"Seed {seed}: {note}" for seed, one in by_seed.items() for note in one.notes if note not in common]
     return evolve(
         first,
         emulation=f"{first.emulation}; seeds {', '.join(str(seed) for seed in seeds)}",
         rows=rows,
-        notes=(*notes, *common_notes(by_seed)),
+        notes=(*notes, *common),
         by_seed=tuple((seed, one.table) for seed, one in by_seed.items()),
     )
-
-
-def common_notes(by_seed: dict[int, Reproduction]) -> list[str]:
-    """Return the notes that are the same for every seed."""
-    first, *others = by_seed.values()
-    return [note for note in first.notes if all(note in one.notes for one in others)]

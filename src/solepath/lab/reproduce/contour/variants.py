@@ -29,6 +29,8 @@ RATE = 50.0
 """Sampling rate, Hz (assumed)."""
 FOOT = Foot.RIGHT
 """Foot that wears the boot (assumed)."""
+PACE = 0.8
+"""Walking speed, m/s: that of the calibration walks, 235 m in 5 min (section V-D)."""
 
 PUBLISHED_RATE = 0.5
 """Threshold of |w|, rad/s, of the gyroscope as printed: the paper has none; this one is after Tunca et al. 2017."""
@@ -85,8 +87,8 @@ class Setup:
     """Name, which completes the sentence "with ...", or of a change: "with ... instead"."""
     wearer: Wearer
     device: Insole
-    speed: float = 0.8
-    """Walking speed of the laps, m/s: 235 m in 5 min (section V-D). If it is another one, the whole walk has it."""
+    speed: float = PACE
+    """Walking speed of the laps, m/s. If it is another one than PACE, the whole walk has it."""
 
 
 def _attitude_source(tilt_degrees: float, memory: float) -> Insole:

@@ -27,7 +27,7 @@ from ..tables import DrawStyle, PictureTrack
 from ..walks import align_track, find_halt, join_routes, thin_out
 from .figures import bias_curves, stance_curves
 from .runs import ContourRun, run_foot, stance_velocities
-from .variants import FOOT, MAIN, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, WITHOUT_GATE_ROW, Setup
+from .variants import FOOT, MAIN, PACE, PRESSURE_ROW, VARIANTS, WITHOUT_BIAS_ROW, WITHOUT_GATE_ROW, Setup
 
 HALF_HOUR = 1800.0
 """Duration of the paper's walks, s."""
@@ -35,8 +35,6 @@ XY = tuple[float, float]
 
 NOT_FOUND = -1.0
 """Value in place of the velocity of the heel, m/s, for a stance in which it was never taken to be at rest."""
-PACE = 0.8
-"""Walking speed, m/s: that of the calibration walks, 235 m in 5 min (section V-D)."""
 
 
 @frozen
@@ -48,7 +46,7 @@ class ContourJob:
     duration: float
     laps: int
     setup: Setup
-    variants: tuple[str, ...] = tuple(VARIANTS)
+    variants: tuple[str, ...]
     """Recipes that walk it, keys of VARIANTS."""
 
     @property

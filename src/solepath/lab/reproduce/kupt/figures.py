@@ -63,8 +63,8 @@ def watch(samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, tup
     seen = {}
     for foot in Foot:
         corrector = session.feet[foot].corrector
-        if isinstance(corrector, WatchedSwing):
-            seen[foot] = tuple(corrector.seen)
+        assert isinstance(corrector, WatchedSwing)
+        seen[foot] = tuple(corrector.seen)
     return seen
 
 
@@ -72,7 +72,7 @@ def coverage(seen: Sequence[KnownSample]) -> tuple[float, float]:
     """Return the shares of whole gait cycles, %, in which ZUPT and KUPT know the velocity.
 
     A cycle lasts from the end of one stance to the end of the next; the first and the last are left out."""
-    ends = [k for k, (one, following) in enumerate(pairwise(seen)) if one.stands and not following.stands]
+    ends = _stance_ends(seen)
     strides = [(a, b) for a, b in pairwise(ends) if seen[b].t - seen[a].t > LEAST_MOTION_TIME][1:-1]
     samples = [one for a, b in strides for one in seen[a + 1 : b + 1]]
     if not samples:
@@ -80,6 +80,11 @@ def coverage(seen: Sequence[KnownSample]) -> tuple[float, float]:
     stands = sum(one.stands for one in samples)
     known = sum(one.reference is not None for one in samples)
     return 100.0 * stands / len(samples), 100.0 * known / len(samples)
+
+
+def _stance_ends(seen: Sequence[KnownSample]) -> list[int]:
+    """Return the indices of the last samples of the stances that a motion follows."""
+    return [k for k, (one, following) in enumerate(pairwise(seen)) if one.stands and not following.stands]
 
 
 def panels(
@@ -106,7 +111,7 @@ def panels(
         calibrated.append((event.t, total))
     walked.append(PictureTrack("KUPT + 1st stage DFPC", tuple(calibrated), DrawStyle.DOTS))
     walked.append(PictureTrack("KUPT+DFPC", tuple([(e.t, e.distance) for e in fused]), DrawStyle.DOTS))
-    ends = [k for k, (one, following) in enumerate(pairwise(left)) if one.stands and not following.stands]
+    ends = _stance_ends(left)
     middle = len(ends) // 2
     shown = left[ends[middle] : ends[min(middle + SHOWN_STRIDES, len(ends) - 1)] + 1] if ends else left
     return (
