@@ -46,7 +46,7 @@ class Passage:
     start: Vec3
     """Position of the track at the start, m."""
     spans: list[StairSpan] = field(factory=list)
-    """What was reported of it, the oldest first."""
+    """The stairs and flights that were reported of it, the oldest first."""
     flight_height: float = 0.0
     """Sum of the heights of the flights, m, positive upwards."""
     t_left: float | None = None
