@@ -7,7 +7,7 @@ frame causes no event; frames of the other kind end a stride. Numbers are median
 
 Then come the modules of solepath that `import solepath; Session(...)` loads: their number, their lines, and the
 processor time beside that of `import attrs, construct`, of `import solepath` alone, whose names are imported when they
-are first used, and of `solepath --help`. They are medians over new processes. `--calls` lists the functions of one frame
+are first used, and of `solepath --help`. They are medians over new processes. `--calls` lists the functions of a frame
 of each kind.
 """
 
