@@ -74,6 +74,16 @@ def chromium(browser: Browsing) -> Browser:
     return browser.browser
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Begin each worker of xdist with other folders, so that it finds compiled what another one has collected."""
+    number = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    here = Path(__file__).resolve().parent
+    if number and [Path(given).resolve() for given in config.args] == [here]:
+        folders = sorted(str(path) for path in here.iterdir() if path.is_dir())
+        first = len(folders) * number // int(os.environ["PYTEST_XDIST_WORKER_COUNT"])
+        config.args[:] = folders[first:] + folders[:first]
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Spread the files of each folder over the run: while some tests wait for a radio or a browser, others compute."""
     folders: dict[Path, list[Path]] = {}
