@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from solepath.lab.evaluate.report import Result
 
 
+# Each worker has a processor at most: threads that share the small products of the emulator would wait for each other.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when numpy is imported; programs that tests start inherit it
+
 settings.register_profile("unhurried", deadline=None)  # the time of a case depends on the machine
 settings.load_profile("unhurried")
 
