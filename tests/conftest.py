@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import signal
 from collections.abc import Callable, Iterator
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
     from solepath.lab.evaluate.report import Result
 
+
+# Each worker has a processor at most: threads that share the small products of the emulator would wait for each other.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when numpy is imported; programs that tests start inherit it
 
 settings.register_profile("unhurried", deadline=None)  # the time of a case depends on the machine
 settings.load_profile("unhurried")
@@ -73,6 +77,16 @@ def chromium(browser: Browsing) -> Browser:
     return browser.browser
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Begin each worker of xdist with other folders, so that it finds compiled what another one has collected."""
+    number = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+    here = Path(__file__).resolve().parent
+    if number and [Path(given).resolve() for given in config.args] == [here]:
+        folders = sorted(str(path) for path in here.iterdir() if path.is_dir())
+        first = len(folders) * number // int(os.environ["PYTEST_XDIST_WORKER_COUNT"])
+        config.args[:] = folders[first:] + folders[:first]
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Spread the files of each folder over the run: while some tests wait for a radio or a browser, others compute."""
     folders: dict[Path, list[Path]] = {}
@@ -80,6 +94,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         folders.setdefault(path.parent, []).append(path)
     place = {path: (k / len(files), path) for files in folders.values() for k, path in enumerate(files)}
     items.sort(key=lambda item: place[item.path])
+
+
+def pytest_collection_finish() -> None:
+    """Leave modules and tests out of garbage collection, and collect less often: walks that tests share are kept."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 20, 20)
 
 
 @pytest.hookimpl(tryfirst=True)

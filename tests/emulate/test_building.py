@@ -1,5 +1,6 @@
 """The emulated buildings are valid plans, and no walk in them crosses a wall."""
 
+from functools import cache
 from itertools import pairwise
 from math import hypot
 
@@ -64,7 +65,8 @@ def test_rooms_are_closed_but_for_their_doors(plan: IndexedPlan) -> None:
         assert plan.crosses(number, 9.0, 13.5, 12.0, 13.5) and plan.crosses(number, 5.0, 28.5, 5.0, 29.5)
 
 
-def walked(way: BuildingWalk, seed: int) -> tuple[Walker, np.ndarray, list[tuple[str, float, float]]]:
+@cache
+def walked(way: BuildingWalk, seed: int = 7) -> tuple[Walker, np.ndarray, list[tuple[str, float, float]]]:
     walker = Walker(way.route, seed=seed)
     t = np.arange(0.0, walker.duration, 0.2)
     return walker, t, way.places(walker, t)
@@ -75,7 +77,7 @@ WAYS = {"case": case_study(), "corridor": corridor(), **{str(seed): wandering(se
 
 @pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
 def test_no_walk_crosses_a_wall(plans: dict[str, IndexedPlan], way: BuildingWalk) -> None:
-    _, _, places = walked(way, 7)
+    _, _, places = walked(way)
     plan = plans[way.building.name]
     for (level, x0, y0), (_, x1, y1) in pairwise(places):
         assert not plan.crosses(LEVEL[level], x0, y0, x1, y1)
@@ -145,8 +147,8 @@ def test_a_walk_through_another_building_uses_its_lifts_and_stairs(way: Building
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_wanderer_comes_by_one_connector_and_leaves_by_another(seed: int) -> None:
-    way = wandering(seed)
-    truth = Walker(way.route, seed=seed).truth()
+    way = WAYS[str(seed)]
+    truth = walked(way)[0].truth()
     assert way.entry != way.exit and {way.entry, way.exit} <= {one.name for one in BUILDING.connectors}
     cabins = {cabin.name for cabin in CABINS}
     assert len(truth.rides) == (way.entry in cabins) + (way.exit in cabins)

@@ -9,7 +9,9 @@ from numpy.testing import assert_allclose
 
 from solepath import recipes
 from solepath.emulate.routes.actions import Stairs, TurnAction
+from solepath.emulate.routes.planner import plan
 from solepath.emulate.routes.route import Route
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.walker import Walker
 from solepath.lab.emulated.heading import EQUIPMENT, HeadingTrack, heading_figures, is_half_hour, score_heading
 from solepath.lab.emulated.heading_walks import KINDS, heading_route
@@ -65,7 +67,8 @@ def test_the_truth_is_the_mean_of_both_feet():
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "circle"])
 def test_a_walk_of_half_an_hour_lasts_half_an_hour(kind):
-    assert 1750.0 < Walker(heading_route(kind, 101, is_half_hour), seed=101).duration < 2150.0
+    route, rng = heading_route(kind, 101, is_half_hour), np.random.default_rng([101, 0])
+    assert 1750.0 < plan(route, Wearer(), rng).duration < 2150.0
 
 
 def turned_track(walker, angle, start=(0.0, 0.0), covariance=(1.0, 0.0, 1.0)):

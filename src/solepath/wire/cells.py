@@ -52,12 +52,14 @@ def unpack12(data: bytes, count: int) -> tuple[int, ...]:
 
 def pack12(values: Sequence[int]) -> bytes:
     """Return the `packed_size(len(values))` bytes of `values`; ValueError unless each value is 0 to 4095."""
-    bits = 0
-    for value in reversed(values):
+    for value in values:
         if not 0 <= value <= MAX_VALUE:
             raise ValueError(f"{value} does not fit in 12 bits")
-        bits = bits << 12 | value
-    return bits.to_bytes(packed_size(len(values)), "little")
+    low, high = values[0::2], (*values[1::2], 0) if len(values) & 1 else values[1::2]
+    pairs = [first | second << 12 for first, second in zip(low, high, strict=True)]
+    words = bytearray(struct.pack(f"<{len(pairs)}I", *pairs))
+    del words[3::4]
+    return bytes(words[: packed_size(len(values))])
 
 
 class Packed12(Definition):

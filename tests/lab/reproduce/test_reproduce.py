@@ -141,6 +141,7 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     monkeypatch.setattr(footstep_walks, "TURN_ANGLES", footstep_walks.TURN_ANGLES[:2])
     monkeypatch.setattr(kupt_walks, "CORRIDOR_LENGTH", 30.0)
     monkeypatch.setattr(kupt_dfpc, "CORRIDOR_LENGTH", 30.0)
+    monkeypatch.setattr(kupt_dfpc, "SETTINGS", kupt_dfpc.SETTINGS[:1])
     monkeypatch.setattr(shoe_walks, "STRIDES", 30)
     monkeypatch.setattr(shoe_walks, "LAPS", 1)
     monkeypatch.setattr(emulated, "REPEATS", 1)

@@ -7,8 +7,10 @@ import pytest
 from commands import run, run_failing
 
 from solepath.calibration import Calibration
+from solepath.emulate.routes.laps import straight
 from solepath.lab.reproduce import kupt_dfpc, pressure_contour, shoe_walks, walking_modes
 from solepath.lab.reproduce.done_jobs import DoneJobs, DoneJobsError, describe_job
+from solepath.lab.reproduce.kupt import walks as kupt_walks
 from solepath.lab.reproduce.modes.walks import ModesJob, learn, walk, with_compensation
 from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.seeds import reproduce_seeds
@@ -139,8 +141,10 @@ def test_a_single_seed_is_the_experiment_itself():
 
 
 def test_walks_taken_from_the_file_give_the_same_table(tmp_path, monkeypatch):
-    monkeypatch.setattr(kupt_dfpc, "CORRIDOR_LENGTH", 20.0)
+    monkeypatch.setattr(kupt_walks, "CORRIDOR_LENGTH", 20.0)
+    monkeypatch.setattr(kupt_walks, "NOISE_WALK", straight(6.0, kupt_walks.SPEED).stand(4.0))
     monkeypatch.setattr(kupt_dfpc, "SETTINGS", kupt_dfpc.SETTINGS[:1])
+    monkeypatch.setattr(kupt_dfpc, "ABLATIONS", {})
     options = ("reproduce", "kupt-dfpc", "--walks", 1, "--seed", 5, "--seeds", 2, "--processes", 1)
     file, table = tmp_path / "walks.jsonl", tmp_path / "table.json"
     fresh = run(*options, "--json", table)

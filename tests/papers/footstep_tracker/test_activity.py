@@ -1,6 +1,7 @@
 """Two-second windows: features, decision tree, pulses of an elevator, hidden Markov model; expected values by hand."""
 
 import json
+from functools import cache
 from math import log, pi, sin
 
 import attrs
@@ -284,9 +285,14 @@ def test_the_activities_of_an_emulated_wearer_are_found():
     assert scores.time.rides_found == scores.time.rides_true == 4
 
 
+@cache
+def first_packets():
+    return emulated.walk(12).packets[:4000]
+
+
 @pytest.mark.parametrize("name", ["footstep-tracker-printed", "shoe-sensing-printed"])
 def test_activities_as_printed_report_once_that_they_do_not_know_running(name: str) -> None:
     session = Session(recipes.by_name(name))
-    events = session.feed(emulated.walk(12).packets[:4000])
+    events = session.feed(first_packets())
     limits = [event.what for event in events if isinstance(event, Limitation) and event.site is None]
     assert len(limits) == 1 and "running counts as walking" in limits[0]

@@ -64,8 +64,8 @@ class InsoleSignal:
 
     def frame(self, number: int, batch: int = 1) -> InsoleFrame:
         """Return the frame of this number when each has `batch` samples."""
-        start = number * batch
-        rows = np.clip(np.arange(start, start + batch), 0, len(self.cells) - 1).tolist()
+        start, last = number * batch, len(self.cells) - 1
+        rows = [min(max(row, 0), last) for row in range(start, start + batch)]
         return InsoleFrame(
             foot=self.layout.foot,
             layout=self.layout.id,

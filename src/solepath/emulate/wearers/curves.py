@@ -54,8 +54,8 @@ def subcurve(curve: Array, start: float, end: float) -> Array:
     """Return the curve that runs over the unit interval as `curve` runs from s = start to s = end.
 
     The powers (start + (end - start) s)^k are expanded by the binomial theorem."""
-    moved = _BINOMIALS * np.where(_EXPONENTS >= 0, float(start) ** np.maximum(_EXPONENTS, 0), 0.0)
-    return np.asarray((moved @ curve) * (end - start) ** np.arange(DEGREE + 1))
+    moved = _BINOMIALS * (float(start) ** _POWERS)[_EXPONENTS]
+    return np.asarray((moved @ curve) * (end - start) ** _POWERS)
 
 
 def evaluate(curve: Array, s: Array | float, order: int = 0) -> Array:
@@ -65,11 +65,13 @@ def evaluate(curve: Array, s: Array | float, order: int = 0) -> Array:
         factors = factors[1:] * np.arange(1, len(factors))
     total = np.full(np.shape(s), factors[-1])
     for factor in factors[-2::-1]:
-        total = total * s + factor
-    return np.asarray(total)
+        total *= s
+        total += factor
+    return total
 
 
-_EXPONENTS = np.arange(DEGREE + 1) - np.arange(DEGREE + 1)[:, None]
+_POWERS = np.arange(DEGREE + 1)
+_EXPONENTS = np.maximum(_POWERS - _POWERS[:, None], 0)
 _BINOMIALS: Array = np.array([[comb(k, j) for k in range(DEGREE + 1)] for j in range(DEGREE + 1)], dtype=np.float64)
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from binascii import crc32
 from collections.abc import Callable
+from functools import cache
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
@@ -27,8 +28,9 @@ class DoneJobsError(ValueError):
     """Error for a file that is not of this experiment and this code, in one sentence without the file's name."""
 
 
+@cache
 def source_checksum() -> int:
-    """Return the CRC-32 of all Python modules of solepath, in the order of their paths."""
+    """Return the CRC-32 of all Python modules of solepath in the order of their paths; a process takes it once."""
     root = Path(str(files("solepath")))
     checksum = 0
     for path in sorted(root.rglob("*.py")):
@@ -51,6 +53,7 @@ def _reject_constant(name: str) -> float:
     raise ValueError(f"{name} is no result")
 
 
+@cache
 def _record_class(work: Callable[[Any], Any]) -> Any:
     """Return the class of a record with the field `result`, which has the type that the function returns."""
     return make_class("Done", {"result": field(type=get_type_hints(work)["return"])}, frozen=True)
