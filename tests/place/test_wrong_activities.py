@@ -91,8 +91,8 @@ def test_a_wearer_whose_flights_are_reported_up_and_down_may_be_on_either_level(
     assert {candidate.level for candidate in part.place.candidates} == {"0", "1"}
 
 
-@pytest.mark.parametrize("wrong", [-110.0, 100.0])
-def test_an_about_turn_that_the_track_has_wrong_by_a_hundred_degrees_is_put_right_by_the_walls(
+@pytest.mark.parametrize("wrong", [-110.0, -75.0, 75.0, 100.0])
+def test_an_about_turn_that_the_track_has_wrong_by_any_angle_is_put_right_by_the_walls(
     part: Method, wrong: float
 ) -> None:
     pedestrian = Pedestrian(204, "0", (12.0, LOW)).known_to(part)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import acos, cos, degrees, hypot, radians, sin
+from math import acos, cos, degrees, hypot, pi, radians, sin
 from pathlib import Path
 
 import pytest
@@ -83,6 +83,27 @@ def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
     for k in range(5, 15):
         body.add_stride(stride_of(Foot.LEFT, k + 0.5))
     assert mean_position(body) == pytest.approx((15.0, 0.0))
+
+
+def turned_about(right_starts: float) -> Footsteps:
+    """Return the track of a wearer who turns about in three strides of the left foot and one of the right."""
+    body = walked(3, 1.0, 1.0)
+    for k in range(3):
+        body.add_stride(stride_of(Foot.LEFT, 4.0 + k, turn=-pi / 3.0, way=(0.1, 0.0)))
+    body.add_stride(stride(Foot.RIGHT, 6.5, (0.1, 0.0, 0.0), heading_change=-pi, t_start=right_starts))
+    return body
+
+
+def test_a_pivot_foot_that_takes_one_stride_for_three_turns_the_wearer_once() -> None:
+    body = turned_about(right_starts=3.0)
+    assert [path.heading for path in body.paths.values()] == pytest.approx([-pi, -pi])
+    lengths = [path.displacement[0] for path in body.paths.values()]
+    assert lengths[1] == pytest.approx(3.0, abs=0.2), "what was assumed of the right foot counts no more"
+
+
+def test_a_stride_after_a_gap_is_added_to_what_was_assumed() -> None:
+    body = turned_about(right_starts=5.9)
+    assert body.paths[Foot.RIGHT].heading == pytest.approx(-2.0 * pi)
 
 
 def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:

@@ -122,8 +122,10 @@ def rows_after_wrong_turn(plan: IndexedPlan, rows: list[Row], displacement: Poin
         return added
     share = WRONG_TURN_SHARE * total / drawn / (HEADING_COUNT - 1)
     for k in range(1, HEADING_COUNT):
-        c, s = cos(2.0 * pi * k / HEADING_COUNT), sin(2.0 * pi * k / HEADING_COUNT)
-        for x, y, a, b, w, level, origin, landing in drawn_rows:
+        for j, (x, y, a, b, w, level, origin, landing) in enumerate(drawn_rows):
+            # evenly spaced over the sector of each heading
+            turn = 2.0 * pi * (k + (j + 0.5) / len(drawn_rows) - 0.5) / HEADING_COUNT
+            c, s = cos(turn), sin(turn)
             px, py = x - (a * dx - b * dy), y - (b * dx + a * dy)
             a1, b1 = a * c - b * s, b * c + a * s
             nx, ny = px + a1 * dx - b1 * dy, py + b1 * dx + a1 * dy

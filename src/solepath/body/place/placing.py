@@ -25,6 +25,7 @@ from .levels import DEGRADED_FACTOR, KNOWN_ROWS, MAX_JUMP, LevelChanges
 from .north import HeadingSource
 from .place_hypotheses import ABOUT_TURN_ANGLE, penalise_outside, rows_after_wrong_turn
 from .reported import use_report
+from .rows.alike_levels import hold_alike_levels
 from .rows.rows import ONE_CANDIDATE_SPREAD, candidates_of, effective_count, have_not_moved, round_rows
 
 ROWS_PER_CANDIDATE = 30
@@ -203,20 +204,20 @@ class Placing(LevelChanges):
             self._lose_place()
             return
         self.last_place = here.position
-        rows = self.rows
+        previous, rows = self.newest_placed, self.rows
         if not rows:
             return
         move = (move[0] * self.stride_scale.factor, move[1] * self.stride_scale.factor)
-        previous = self.newest_placed
-        previous_rows = rows
         # both feet make a turn of the wearer: half of each stride's turn counts
         turned = min(0.5 * fsum([abs(stride.heading_change) for stride in strides]), pi)
         error_factor = DEGRADED_FACTOR if any([stride.degraded for stride in strides]) else 1.0
         rows = self.move_rows(plan, rows, move, error_factor, turned)
+        if previous is not None:
+            rows = hold_alike_levels(plan, self.rows, rows, move, previous)
         self.stride_count = (self.stride_count + 1) % OUTSIDE_INTERVAL
         if self.stride_count == 0:
             rows = penalise_outside(plan, rows)
-        not_moved = have_not_moved(rows, previous_rows)
+        not_moved = have_not_moved(rows, self.rows)
         self.stuck_distance = self.stuck_distance + hypot(*move) if not_moved else 0.0
         self.rows = round_rows(rows) if self.stuck_distance <= MAX_STUCK_DISTANCE else []
         if not self.rows:

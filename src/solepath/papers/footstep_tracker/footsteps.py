@@ -10,7 +10,8 @@ strides since the last such restart. Strides are turned into the common heading,
 - After a stride the foot is half a stride ahead of the other, so the difference of the paths alternates. Therefore the
   mean of the difference after the newest left stride and that after the newest right stride is compared with 1 m.
 - A foot that took no stride while the other took `ABSENT_STRIDES` is absent: it counts as if it had moved with the
-  other.
+  other. If a later stride of it covers that time after all, as a slow turn on the spot may look like one stride of the
+  pivot foot, the stride replaces what was assumed; else the wearer would turn by half of it once more.
 
 Numbers without a source were chosen by hand."""
 
@@ -56,8 +57,30 @@ class FootPath:
     """Number of strides since the other foot's last stride."""
     difference: Horizontal = (0.0, 0.0)
     """Left foot's displacement minus the right foot's after the newest stride of this foot, m."""
+    assumed_displacement: Horizontal = (0.0, 0.0)
+    """Part of `displacement` that was assumed since the newest stride of this foot, m."""
+    assumed_turn: float = 0.0
+    """Part of `heading` that was assumed since then, rad."""
+    t: float | None = None
+    """End of the newest stride of this foot, s; None before any."""
     track_position: Vec3 = ZERO
     """Position of this foot by its own track after its newest stride, world frame, m."""
+
+    def assume(self, displacement: Horizontal, turn: float) -> None:
+        """Move and turn an absent foot as the other did."""
+        dx, dy = displacement
+        self.displacement = (self.displacement[0] + dx, self.displacement[1] + dy)
+        self.assumed_displacement = (self.assumed_displacement[0] + dx, self.assumed_displacement[1] + dy)
+        self.heading += turn
+        self.assumed_turn += turn
+
+    def replace_assumed(self, taken: StrideTaken) -> None:
+        """Take back what was assumed since the newest stride, if the stride that was `taken` starts with its end."""
+        if self.t is not None and taken.t_start <= self.t:
+            dx, dy = self.assumed_displacement
+            self.displacement = (self.displacement[0] - dx, self.displacement[1] - dy)
+            self.heading -= self.assumed_turn
+        self.assumed_displacement, self.assumed_turn, self.t = (0.0, 0.0), 0.0, taken.t
 
 
 @define
@@ -96,6 +119,7 @@ class Footsteps(TrackPart):
         """Add one stride of either foot."""
         this, other = self.paths[taken.foot], self.paths[OTHER[taken.foot]]
         this.has_samples = True
+        this.replace_assumed(taken)
         turn = taken.heading_change
         heading = 0.5 * (this.heading + other.heading)
         # the chord lies halfway through the turn: half of `turn` by the own heading, a quarter by the mean of both feet
@@ -111,11 +135,7 @@ class Footsteps(TrackPart):
         this.track_position = taken.position
         other.lead_displacement, other.lead_turn, other.lead_strides = (0.0, 0.0), 0.0, 0
         if not other.has_samples or this.lead_strides >= ABSENT_STRIDES:
-            other.displacement = (
-                other.displacement[0] + this.lead_displacement[0],
-                other.displacement[1] + this.lead_displacement[1],
-            )
-            other.heading += this.lead_turn
+            other.assume(this.lead_displacement, this.lead_turn)
             this.lead_displacement, this.lead_turn = (0.0, 0.0), 0.0
         (lx, ly), (rx, ry) = (path.displacement for path in self.paths.values())
         this.difference = (lx - rx, ly - ry)

@@ -1,0 +1,87 @@
+"""Levels whose walls are alike where the wearer is: walls cannot decide between them.
+
+Each level has few rows, and which of them bend at a wall or end there is chance. Without a remedy the weights of two
+equal floors walk at random in the course of a walk, until the true one is gone. Therefore the rows of alike levels at
+one place keep the ratio of their weights; only stairs, lifts and walls that differ change it."""
+
+from __future__ import annotations
+
+from math import fsum, hypot
+
+from ....events import Placed
+from ....floorplan.index import IndexedPlan
+from ....floorplan.plan import Point
+from .rows import MIN_CANDIDATE_WEIGHT, Row
+
+PLACE_RADIUS = 6.0
+"""Largest distance of rows that are at one place, m: twice that of the rows of a candidate, as they move apart."""
+EVERY = 3
+"""One row of this number is moved on both levels to see whether their walls are alike (saves time)."""
+
+
+def hold_alike_levels(plan: IndexedPlan, before: list[Row], after: list[Row], move: Point, placed: Placed) -> list[Row]:
+    """Return the rows `after` a move of the track, m, with the ratios that alike levels at one place had `before`.
+
+    The place is that which was reported before the move, and its level the one to which others are compared. If an
+    alike level has no row left there, it gets those of this level."""
+    x, y, level = (
+        placed.position[0] - plan.plan.origin[0],
+        placed.position[1] - plan.plan.origin[1],
+        plan.number(placed.level),
+    )
+    old = _near(before, x, y)
+    if len(old) < 2 or level not in old:
+        return after
+    new = _near(after, x, y)
+    if level not in new:
+        return after
+    factors: dict[int, float] = {}
+    twins: list[Row] = []
+    old_weight, new_weight = _weight(old[level]), _weight(new[level])
+    for other, rows in old.items():
+        share = _weight(rows) / old_weight
+        if (
+            other == level
+            or share < MIN_CANDIDATE_WEIGHT
+            or not _are_alike(plan, old[level] + rows, move, level, other)
+        ):
+            continue
+        left = new.get(other)
+        if left:
+            factors[other] = share * new_weight / _weight(left)
+        else:
+            twins += [(*row[:4], share * row[4], other, *row[6:]) for row in new[level]]
+    if factors:
+        after = [
+            (*row[:4], factors[row[5]] * row[4], *row[5:]) if row[5] in factors and _is_near(row, x, y) else row
+            for row in after
+        ]
+    return after + twins
+
+
+def _near(rows: list[Row], x: float, y: float) -> dict[int, list[Row]]:
+    """Return the rows near (x, y) that do not change level, by level."""
+    near: dict[int, list[Row]] = {}
+    for row in rows:
+        if _is_near(row, x, y):
+            near.setdefault(row[5], []).append(row)
+    return near
+
+
+def _is_near(row: Row, x: float, y: float) -> bool:
+    return not row[7] and hypot(row[0] - x, row[1] - y) < PLACE_RADIUS
+
+
+def _weight(rows: list[Row]) -> float:
+    return fsum([row[4] for row in rows])
+
+
+def _are_alike(plan: IndexedPlan, rows: list[Row], move: Point, level: int, other: int) -> bool:
+    """Return whether the walls of two levels allow and stop the same moves of these rows."""
+    (dx, dy), (x0, y0) = move, plan.plan.origin
+    for x, y, a, b, _, _, _, _ in rows[::EVERY]:
+        x, y = x0 + x, y0 + y
+        end = (x + a * dx - b * dy, y + b * dx + a * dy)
+        if plan.crosses(level, x, y, *end) is not plan.crosses(other, x, y, *end):
+            return False
+    return True
