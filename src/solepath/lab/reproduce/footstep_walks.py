@@ -103,7 +103,7 @@ def _calibrate(wearer_data: WearerData, seed: int) -> Calibration:
     The calibration is empty when the walk gives no toe-out."""
     walk = _emulate_walk(wearer_data, Route().stand(3.0).walk(CALIBRATION_LENGTH, 1.2).stop(2.0), seed + 500)
     try:
-        return toe_out_calibration(toe_out(walk.packets, CALIBRATION_LENGTH))
+        return toe_out_calibration(toe_out(walk.packets))
     except CalibrationError:
         return Calibration()
 

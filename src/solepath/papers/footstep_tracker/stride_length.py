@@ -29,6 +29,8 @@ and signs are those of critical_times.py. The paper leaves these points open:
 - When the wearer turns back, a foot swings round at up to 570 degrees/s. The paper's gyroscope measures 105 degrees of
   such a turn of 160. Nothing at rest shows the clipped angle. It is estimated as the area between the range's end and a
   cubic that leaves and reenters the range with the slopes of g_z. The estimate is 40 to 100 % of the clipped angle.
+- A foot that moves along the way with its long axis turned by phi has a_f = a_m cos(phi) and a_x = a_m sin(phi). Only
+  then is (1) true. So the double integral of a_f is S cos(phi), and that of a_x is S sin(phi) (toe_out.py).
 - The integrals use the trapezoidal rule. Between two samples, where the critical times lie, signals are straight lines.
 
 Numbers without a source were chosen by hand."""
@@ -64,6 +66,16 @@ def closed_stride_length(rows: Sequence[Row], times: CriticalTimes, toe_out: flo
     (x, y, z), (vx, vy, vz) = _lengths(rows_closed_at_rest(rows, times, end), 0.0, toe_out)
     half = 0.5 * duration
     return (x - half * vx, y - half * vy, z - half * vz)
+
+
+def closed_stride_across(rows: Sequence[Row], times: CriticalTimes) -> float:
+    """Return the double integral of a_x, m, right positive, closed at rest like that of a_f."""
+    duration = times.rest - times.uplift
+    if not duration > 0.0:
+        return 0.0
+    stride = span(rows, times.uplift, times.rest)
+    across, velocity = _integrals(stride, [row[1] for row in stride])
+    return across - 0.5 * duration * velocity
 
 
 def closed_stride_rise(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> float:
