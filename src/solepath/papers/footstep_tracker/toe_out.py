@@ -31,7 +31,7 @@ LARGEST_ANGLE = 1.0
 """Largest toe-out angle, rad (protocol/calibration.md); a length off by more than its cosine is of another walk."""
 LARGEST_TURN = 0.5
 """Largest sum of a foot's turns in a straight walk, rad (chosen by hand)."""
-LENGTH_ERROR = 0.027
+LENGTH_ERROR = 0.024
 """Error of s_f as a share of it: the rms error of emulated walks of 20 m with a CC2541 (seeds 7001 to 7008).
 
 The data sheet of its accelerometer alone has 1.5 % for the scale."""
