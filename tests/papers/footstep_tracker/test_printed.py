@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from math import atan, hypot, pi, tan
+from math import atan, hypot, pi, radians, tan
 
 import pytest
 from floors import OFFICE
 from strides import stride
+from walks import of, run_session
 
 from solepath.body.place.rows.rows import Row as PlaceRow
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import Imu, TriadErrors
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import StrideTaken
 from solepath.foot.stance.stance import Stance
 from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row
 from solepath.papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
@@ -18,7 +23,7 @@ from solepath.papers.footstep_tracker.segment import FootAxes, StrideSegment
 from solepath.papers.footstep_tracker.snake import SnakeGame, SnakeSettings, moved_rows
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from solepath.papers.footstep_tracker.stride_length import closed_stride_across, closed_stride_length
-from solepath.types import Foot, Phase, Vec3
+from solepath.types import Foot, Phase, Sample, Vec3
 from solepath.types.attrs import evolve
 from solepath.types.vector import GRAVITY, ZERO
 
@@ -137,3 +142,23 @@ def test_the_recipes_stand_side_by_side() -> None:
     assert isinstance(ours.corrector, Projection) and ours.corrector.settings == ProjectionSettings()
     assert isinstance(printed.detector, StaticZones) and not printed.detector.settings.has_loose_rule
     assert isinstance(printed.place, SnakeGame) and printed.place.settings.drops_at_walls
+
+
+LOW_PASSED = TriadErrors(density=1e-6, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=10.0)
+"""Errors of a sensor that has none, but a low pass at half of 20 Hz."""
+
+
+def clipped(sample: Sample) -> Sample:
+    end = radians(250.0)
+    assert sample.gyro is not None
+    x, y, z = (min(max(rate, -end), end) for rate in sample.gyro)
+    return evolve(sample, gyro=(x, y, z), saturated=(x, y, z) != sample.gyro)
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_a_gyroscope_that_clips_and_has_no_other_error_leaves_lengths_right(foot: Foot) -> None:
+    walker = Walker(Route().stand(3.0).walk(30.0, 1.3).stop(2.0), seed=7201)
+    samples = [clipped(one) for one in walker.samples(foot, 20.0, Imu("exact", LOW_PASSED, LOW_PASSED))]
+    assert sum(one.saturated for one in samples) > 50
+    strides = of(StrideTaken, run_session(samples, FOOTSTEP_TRACKER))
+    assert sum(one.length for one in strides) == pytest.approx(30.0, rel=0.015)
