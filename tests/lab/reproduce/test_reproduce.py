@@ -12,7 +12,8 @@ from commands import run, run_failing
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
 from solepath.lab.processes import run_jobs
-from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
+from solepath.lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
+from solepath.lab.reproduce.footstep import turning
 from solepath.lab.reproduce.kupt import walks as kupt_walks
 from solepath.lab.reproduce.published import CORNERS, KUPT_DFPC, LOOPS, PRESSURE_CONTOUR, WALKING_MODES, corner_row
 from solepath.lab.reproduce.tables import (
@@ -137,8 +138,9 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     monkeypatch.setattr(pressure_contour, "CALIBRATION_LAPS", 3)
     monkeypatch.setattr(walking_modes, "MARKED_STEPS", 10)
     monkeypatch.setattr(walking_modes, "MARKED_REPEATS", 1)
-    monkeypatch.setattr(footstep_walks, "TURNS_PER_CLASS", 1)
-    monkeypatch.setattr(footstep_walks, "TURN_ANGLES", footstep_walks.TURN_ANGLES[:2])
+    monkeypatch.setattr(turning, "TURNS_PER_CLASS", 1)
+    monkeypatch.setattr(turning, "TURN_ANGLES", turning.TURN_ANGLES[:2])
+    monkeypatch.setattr(footstep_tracker, "SETTINGS", footstep_tracker.SETTINGS[-1:])
     monkeypatch.setattr(kupt_walks, "CORRIDOR_LENGTH", 30.0)
     monkeypatch.setattr(kupt_dfpc, "CORRIDOR_LENGTH", 30.0)
     monkeypatch.setattr(kupt_dfpc, "SETTINGS", kupt_dfpc.SETTINGS[:1])

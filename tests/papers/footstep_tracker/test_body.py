@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import acos, cos, degrees, hypot, pi, radians, sin
+from math import cos, degrees, hypot, pi, radians, sin
 from pathlib import Path
 
 import pytest
@@ -21,13 +21,14 @@ from solepath.calibration.file import read_calibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.events import StrideTaken, TurnMade
 from solepath.lab.train.turns import ANGLES, read, train_weights, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
-from solepath.papers.footstep_tracker.projection import Projection, ProjectionSettings
+from solepath.papers.footstep_tracker.projection import PRINTED, Projection
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
-from solepath.papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
+from solepath.papers.footstep_tracker.toe_out import ToeOut, printed_angle, toe_out, toe_out_calibration
 from solepath.recipes import DEFAULT, Recipe
 from solepath.types import Foot, Turn
 
@@ -217,7 +218,7 @@ def test_without_the_conditions_at_rest_a_clipping_gyroscope_makes_steps_too_sho
         lengths: list[float] = [one.length for p in walked.packets for one in of(StrideTaken, session.feed(p))]
         return sum(lengths)
 
-    as_printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(as_printed=True))))
+    as_printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(PRINTED)))
     assert as_printed < 0.7 * length(FOOTSTEP_TRACKER)
 
 
@@ -234,18 +235,26 @@ def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_groun
     assert abs(degrees(made.angle) - degrees_) < 30.0
 
 
-def test_the_toe_out_angle_is_the_arc_cosine_of_the_walk_over_the_steps() -> None:
-    packets = corridor_walk(15.0).packets
-    found = toe_out(packets, 12.0)
-    for one in found:
-        assert one.angle == pytest.approx(acos(12.0 / one.along))
-    assert set(toe_out_calibration(found).toe_out) == set(Foot)
+def test_the_toe_out_angle_of_a_walk_is_the_wearers_within_twice_its_error() -> None:
+    true = Wearer().toe_out
+    for foot, packets in ((foot, corridor_walk(15.0).packets) for foot in Foot):
+        (one,) = (one for one in toe_out(packets) if one.foot is foot)
+        assert one.is_known and abs(one.angle - true) < 2.0 * one.sigma < radians(3.5)
+        assert toe_out_calibration([one]).toe_out == {foot: one.angle}
 
 
-def test_steps_that_come_to_less_than_the_walk_have_no_angle() -> None:
-    found = toe_out(corridor_walk(15.0).packets, 20.0)
-    assert [one.angle for one in found] == [None, None]
-    assert toe_out_calibration(found) == Calibration()
+def test_an_angle_that_is_less_than_two_of_its_errors_is_not_learnt() -> None:
+    one = ToeOut(Foot.LEFT, 12, 15.0, radians(2.0), radians(1.1))
+    assert not one.is_known and toe_out_calibration([one]) == Calibration()
+    assert evolve(one, angle=radians(-2.3)).is_known
+
+
+def test_the_printed_angle_is_the_arc_cosine_and_mostly_the_error_of_the_length() -> None:
+    angle, sigma = printed_angle(20.2, 20.0) or (0.0, 0.0)
+    assert degrees(angle) == pytest.approx(8.07, abs=0.01)  # arccos(20 / 20.2)
+    assert sigma == pytest.approx(0.024 / 0.14178, rel=1e-3)  # tan(8.07 degrees) = 0.14178
+    assert 2.0 * sigma > angle
+    assert printed_angle(19.9, 20.0) is None
 
 
 def test_a_walk_of_another_length_or_of_no_steps_is_rejected() -> None:
@@ -265,18 +274,24 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
     assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
 
 
-def test_calibrate_toe_out_writes_the_angles_of_a_walk_and_nothing_where_it_has_none(tmp_path: Path) -> None:
-    file, out, other = (
-        recorded(tmp_path / "walk.jsonl", corridor_walk(15.0).packets),
-        tmp_path / "me.json",
-        tmp_path / "no",
-    )
-    done = run("calibrate", "toe-out", file, "--distance", "12", "--out", out)
-    assert done.returncode == 0 and "toe-out degrees" in done.stdout
+def test_calibrate_toe_out_writes_the_angles_of_a_walk_with_their_errors(tmp_path: Path) -> None:
+    file, out = recorded(tmp_path / "walk.jsonl", corridor_walk(15.0).packets), tmp_path / "me.json"
+    done = run("calibrate", "toe-out", file, "--out", out)
+    assert done.returncode == 0 and "toe-out degrees" in done.stdout and "+-" in done.stdout
     assert set(read_calibration(out).toe_out) == set(Foot)
-    for distance in ("20", "80", "1e308"):
-        failure = run_failing("calibrate", "toe-out", file, "--distance", distance, "--out", other)
-        assert "nothing is learnt: the strides come to " in failure and "m of the left foot and " in failure
-    for distance in ("3", "-3"):
-        assert run("calibrate", "toe-out", file, "--distance", distance, "--out", other).returncode == 2
-    assert not other.exists()
+    done = run("calibrate", "toe-out", file, "--distance", "20", "--out", tmp_path / "too.json")
+    assert "by the length" in done.stdout and "none" in done.stdout
+    for distance in ("3", "80", "1e308"):
+        failure = run_failing("calibrate", "toe-out", file, "--distance", distance, "--out", tmp_path / "no")
+        assert "is that the length of the walk?" in failure
+    assert not (tmp_path / "no").exists()
+
+
+def test_calibrate_toe_out_learns_nothing_of_feet_that_point_ahead(tmp_path: Path) -> None:
+    device = CC2541(rate=20.0, mounting=IN_SOLE)
+    route = Route().stand(2.5).walk(15.0, 1.2).stop(2.0)
+    walked = emulate(route, wearer=Wearer(toe_out=0.0), devices={LEFT: device, RIGHT: evolve(device)}, seed=111)
+    file = recorded(tmp_path / "walk.jsonl", walked.packets)
+    failure = run_failing("calibrate", "toe-out", file, "--out", tmp_path / "no")
+    assert "less than 2 of its errors" in failure and "nothing is learnt" in failure
+    assert not (tmp_path / "no").exists()

@@ -111,32 +111,39 @@ def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibratio
 def _add_toe_out(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "toe-out",
-        help="how far feet point beside their way, from a straight walk of known length",
-        description="From a straight walk whose length is known: how far each foot points outwards of its way, which "
-        "the recipe footstep-tracker takes into account.",
+        help="how far feet point beside their way, from a straight walk",
+        description="From a straight walk: how far each foot points outwards of its way, which the recipe "
+        "footstep-tracker takes into account. With the length of the walk, the paper's angle is shown too.",
         epilog="example: solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
     )
     command.set_defaults(learn=_toe_out)
     _add_recording(command)
-    command.add_argument("--distance", metavar="M", type=parse_positive, required=True, help="length of the walk, m")
+    command.add_argument("--distance", metavar="M", type=parse_positive, help="length of the walk, m")
 
 
 def _toe_out(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ...papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
+    from ...papers.footstep_tracker.toe_out import ERRORS, ToeOut, printed_angle, toe_out, toe_out_calibration
 
-    feet = toe_out(source_of(options.file, foot_of(options)), options.distance)
-    angles = ["none" if foot.angle is None else number(degrees(foot.angle)) for foot in feet]
-    rows = [
-        [one.foot.value, str(one.strides), number(one.along, 2), angle] for one, angle in zip(feet, angles, strict=True)
-    ]
-    lines = [table(["foot", "strides", "along the foot m", "toe-out degrees"], rows)]
-    if all([foot.angle is None for foot in feet]):
-        lengths = " and ".join([f"{foot.along:.1f} m of the {foot.foot} foot" for foot in feet])
-        raise Failure(
-            f"nothing is learnt: the strides come to {lengths}, less than the {options.distance:g} m of the walk"
+    feet, distance = toe_out(source_of(options.file, foot_of(options)), options.distance), options.distance
+
+    def by_length(one: ToeOut) -> str:
+        printed = printed_angle(one.along, distance)
+        return "none" if printed is None else " +- ".join([number(degrees(angle)) for angle in printed])
+
+    header = ["foot", "strides", "along the foot m", "toe-out degrees"] + ["by the length"] * (distance is not None)
+    rows = []
+    for one in feet:
+        angle = f"{number(degrees(one.angle))} +- {number(degrees(one.sigma))}"
+        row = [one.foot.value, str(one.strides), number(one.along, 2), angle]
+        rows.append(row if distance is None else [*row, by_length(one)])
+    lines = [table(header, rows)]
+    unknown = [one.foot.value for one in feet if not one.is_known]
+    if unknown:
+        lines.append(
+            f"{' and '.join(unknown)}: the angle is less than {ERRORS:g} of its errors: nothing is learnt of it"
         )
-    if "none" in angles:
-        lines.append("none: these strides come to less than the walk, which no angle explains: nothing is learnt of it")
+    if len(unknown) == len(feet):
+        raise Failure("\n".join([*lines, "nothing is learnt"]))
     return toe_out_calibration(feet), lines
 
 

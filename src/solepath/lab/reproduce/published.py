@@ -160,9 +160,13 @@ FOOTSTEP_TRACKER: Table = {
     "corridor, by height %": Statistics(mean=14.60),
     "corridor, two feet %": Statistics(mean=4.19),
     "activities %": Statistics(mean=96.2),
-    "activities, as printed %": Statistics(mean=96.2),
+    "activities, printed %": Statistics(mean=96.2),
+    "corridor's end, one foot %": Statistics(mean=14.65),
+    "corridor's end, one-metre rule %": Statistics(mean=4.19),
+    "corridor, printed %": Statistics(mean=14.65),
     "turn classes %": Statistics(mean=98.3),
     "place m": Statistics(mean=1.0),
+    "place, case study, printed m": Statistics(mean=1.0),
     "steps until decided": Statistics(mean=6.0),
 }
 """Figures in the text of sections V-C to V-F.

@@ -59,7 +59,17 @@ class Curves:
     limits: tuple[float, float] | None = None
 
 
-Panel = FloorPanel | BoxPlots | Curves
+@frozen
+class Bars:
+    """A panel with a group of bars for each name; a series is its title and its value for each name."""
+
+    title: str
+    names: tuple[str, ...]
+    series: tuple[tuple[str, tuple[float, ...]], ...]
+    label: str
+
+
+Panel = FloorPanel | BoxPlots | Curves | Bars
 
 
 @frozen

@@ -9,7 +9,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.tables import BoxPlots, Curves, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
+from ..reproduce.tables import Bars, BoxPlots, Curves, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Colours that colour-blind people can distinguish (Okabe and Ito 2008)."""
@@ -17,6 +17,8 @@ MARKERS = ("o", "s", "^", "D", "v")
 GREY = "0.55"
 PANEL_SIZE = 5.4
 """Side of a panel, inches."""
+MOST_COLUMNS = 6
+"""Largest number of panels side by side."""
 
 
 def formats() -> list[str]:
@@ -29,14 +31,21 @@ METADATA_KEYS = {"png": "Software", "pdf": "Creator", "svg": "Creator", "eps": "
 
 
 def draw(reproduction: Reproduction, path: Path, extension: str) -> None:
-    """Draw the panels side by side into a file, in the format of an extension. Raise OSError when that fails."""
-    figure = Figure(figsize=(PANEL_SIZE * max(1, len(reproduction.panels)), PANEL_SIZE), layout="constrained")
-    axes = figure.subplots(1, max(1, len(reproduction.panels)), squeeze=False)[0]
+    """Draw the panels in rows into a file, in the format of an extension. Raise OSError when that fails."""
+    count = max(1, len(reproduction.panels))
+    n_rows = -(-count // MOST_COLUMNS)
+    columns = -(-count // n_rows)
+    figure = Figure(figsize=(PANEL_SIZE * columns, PANEL_SIZE * n_rows), layout="constrained")
+    axes = figure.subplots(n_rows, columns, squeeze=False).flatten()
+    for ax in axes[count:]:
+        ax.set_axis_off()
     for ax, panel in zip(axes, reproduction.panels, strict=False):
         if isinstance(panel, BoxPlots):
             _draw_boxes(ax, panel, reproduction)
         elif isinstance(panel, Curves):
             _draw_curves(ax, panel)
+        elif isinstance(panel, Bars):
+            _draw_bars(ax, panel)
         else:
             _draw_floor(ax, panel)
         ax.set_title(panel.title, fontsize=10)
@@ -121,6 +130,16 @@ def _draw_curves(ax: Axes, panel: Curves) -> None:
     ax.grid(color="0.92")
     ax.set_axisbelow(True)
     ax.legend(fontsize=8)
+
+
+def _draw_bars(ax: Axes, panel: Bars) -> None:
+    width = 0.8 / max(1, len(panel.series))
+    for k, (title, values) in enumerate(panel.series):
+        middles = [n + (k - 0.5 * (len(panel.series) - 1)) * width for n in range(len(values))]
+        ax.bar(middles, values, width, color=COLOURS[k % len(COLOURS)], label=title)
+    ax.set_xticks(list(range(len(panel.names))), list(panel.names), fontsize=7)
+    ax.set_ylabel(panel.label)
+    ax.legend(fontsize=8, loc="lower right")
 
 
 def _columns(track: PictureTrack) -> tuple[list[float], list[float]]:

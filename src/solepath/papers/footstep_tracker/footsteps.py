@@ -5,6 +5,10 @@ mean of them as the displacement, and restart the estimation process." Each foot
 strides since the last such restart. Strides are turned into the common heading, the mean of both feet's headings
 (section IV.D). The paper leaves these points open:
 
+- Where the wearer is while the feet agree. As printed (`FootstepsSettings.as_printed`) it is the displacement of one
+  foot, here the right one, until the feet differ by more than 1 m. The first restart puts both feet at their mean. From
+  then on the next stride of either foot, if it is longer than 1 m, is a difference of more than 1 m at once, so the
+  rule restarts at every stride and the wearer is at the mean of both feet. Ours starts with that.
 - The wearer is at the mean of both paths at all times, so a restart does not move the wearer. It sets the difference
   to zero, so that old strides no longer count in it.
 - After a stride the foot is half a stride ahead of the other, so the difference of the paths alternates. Therefore the
@@ -25,9 +29,11 @@ from ...body.part import PartInput, PartOutput, Position, TrackPart
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
 from ...types import OTHER, Foot, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO
 
+PRINTED_FOOT = Foot.RIGHT
+"""Foot whose displacement is the wearer's as printed, while the feet agree."""
 LARGEST_DISTANCE = 1.0
 """Distance between the feet's paths that causes a restart, m: the paper's one metre."""
 ABSENT_STRIDES = 3
@@ -83,6 +89,14 @@ class FootPath:
         self.assumed_displacement, self.assumed_turn, self.t = (0.0, 0.0), 0.0, taken.t
 
 
+@frozen
+class FootstepsSettings:
+    """Settings of `Footsteps`."""
+
+    as_printed: bool = False
+    """Flag: the wearer is where one foot is until the one-metre rule chooses the mean of both."""
+
+
 @define
 class Footsteps(TrackPart):
     """Tracks the wearer by the strides of both feet.
@@ -92,6 +106,7 @@ class Footsteps(TrackPart):
 
     needs_samples: ClassVar[bool] = True
 
+    settings: FootstepsSettings = FootstepsSettings()
     paths: dict[Foot, FootPath] = field(init=False)
     restart_position: Horizontal = field(default=(0.0, 0.0), init=False)
     """Position of the wearer at the last restart, m."""
@@ -140,7 +155,8 @@ class Footsteps(TrackPart):
         (lx, ly), (rx, ry) = (path.displacement for path in self.paths.values())
         this.difference = (lx - rx, ly - ry)
         (ax, ay), (bx, by) = this.difference, other.difference
-        if 0.5 * hypot(ax + bx, ay + by) > LARGEST_DISTANCE:
+        distance = hypot(ax, ay) if self.settings.as_printed else 0.5 * hypot(ax + bx, ay + by)
+        if distance > LARGEST_DISTANCE:
             self.restart_position = self._mean()
             for path in self.paths.values():
                 path.displacement = path.difference = (0.0, 0.0)
@@ -155,7 +171,12 @@ class Footsteps(TrackPart):
         poses = list(feet.values())
         if not poses:
             return None
+        t = max([foot.t for foot in poses])
         x, y = self._mean()
+        if self.settings.as_printed:
+            poses = [pose for pose in poses if pose.foot is PRINTED_FOOT] or poses
+            (dx, dy), (x0, y0) = self.paths[poses[0].foot].displacement, self.restart_position
+            x, y = x0 + dx, y0 + dy
         heading = 0.5 * fsum([path.heading for path in self.paths.values()])
         present = [
             f
@@ -169,7 +190,6 @@ class Footsteps(TrackPart):
             x, y = x + k * dx, y + k * dy
         covariances = [foot.covariance for foot in present]
         xx, xy, xz, yy, yz, zz = (fsum([c[i] for c in covariances]) * k * k for i in range(6))
-        t = max([foot.t for foot in poses])
         return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
 
 

@@ -8,12 +8,13 @@ stride_length.py has the equations for a stride's length and turn. The paper lea
 - A foot that pivots on its sole may seem to be in a static zone. Then its attitude follows the gyroscope.
 - The paper's track has no height. Here the rise of a stride is integrated like its length, because it distinguishes
   stairs from level ground. A stride whose rise is much likelier on level ground ends as high as it started.
-- `as_printed` uses the equations without the changes of stride_length.py, ignores pivots, and its strides have no rise.
+- `PRINTED` has the equations without the changes of stride_length.py, ignores pivots, and its strides have no rise.
 
 Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
+from enum import Enum
 from math import atan2, cos, fsum, hypot, inf, sin
 
 from ...body.activity.blocks.stride_slope import slope_evidence
@@ -55,6 +56,17 @@ UNSEEN_DISTANCE = 1.0
 """Distance assumed to be walked in a gap that is not integrated, m."""
 
 
+class Interval(Enum):
+    """The interval over which (5) is integrated."""
+
+    LIFTOFF_TO_LANDING = "liftoff to landing"
+    """As printed: zero velocity at liftoff."""
+    UPLIFT_TO_LANDING = "uplift to landing"
+    """Zero velocity at uplift."""
+    UPLIFT_TO_REST = "uplift to rest"
+    """Zero velocity and pitch at uplift and at rest: what the integrals give there is removed as an error."""
+
+
 @frozen
 class ProjectionSettings:
     """Settings of `Projection`; phi of (1) in stride_length.py is `outwards` times `toe_out`."""
@@ -63,8 +75,20 @@ class ProjectionSettings:
     """Toe-out angle phi of this foot, rad, outwards positive."""
     outwards: float = 1.0
     """Sign of the outward direction: 1 for a left foot, -1 for a right one."""
-    as_printed: bool = False
-    """Flag: the equations for length and turn are used as they are printed."""
+    interval: Interval = Interval.UPLIFT_TO_REST
+    """Interval of the stride length."""
+    restores_clipped: bool = True
+    """Flag: angles beyond the range of the gyroscope are estimated."""
+    turns_about_vertical: bool = True
+    """Flag: the turn is that about the vertical up to rest, with pivots; otherwise (7) as printed."""
+    has_rise: bool = True
+    """Flag: strides have a rise."""
+
+
+PRINTED = ProjectionSettings(
+    interval=Interval.LIFTOFF_TO_LANDING, restores_clipped=False, turns_about_vertical=False, has_rise=False
+)
+"""Settings with which (5) and (7) are used as they are printed."""
 
 
 @define
@@ -120,7 +144,7 @@ class Projection(Strapdown):
         if self.moving_time > LONGEST_MOTION:
             self.velocity, self.position = ZERO, before
             return
-        if self.settings.as_printed:
+        if not self.settings.has_rise:
             vx, vy, _ = self.velocity
             x, y, _ = self.position
             self.velocity, self.position = (vx, vy, 0.0), (x, y, 0.0)
@@ -131,7 +155,7 @@ class Projection(Strapdown):
         segment = stance.detail
         if isinstance(segment, StrideSegment):
             self._end_stride(segment)
-        elif self.settings.as_printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT_RATE:
+        elif not self.settings.turns_about_vertical or self._rate_about_vertical() < PIVOT_RATE:
             self.attitude = self.rest_attitude
         self.position, self.velocity = self.rest_position, ZERO
         self._level(min(self.moving_time, LONGEST_LEVELLING))
@@ -155,13 +179,18 @@ class Projection(Strapdown):
         """Return the position at the end of a stride by the equations, m."""
         settings, rows = self.settings, segment.rows
         phi = settings.outwards * settings.toe_out
-        if settings.as_printed:
-            length, turn = fsum(stride_length(rows, times, phi)), swing_turn(rows, times)
-            rise = 0.0
-        else:
-            end = AXIS_SHARE * self.least_saturated if self.least_saturated > 0.0 else inf
-            length, turn = fsum(closed_stride_length(rows, times, phi, end)), vertical_turn(rows, times, end)
-            rise = closed_stride_rise(rows, times, end)
+        clips = settings.restores_clipped and self.least_saturated > 0.0
+        end = AXIS_SHARE * self.least_saturated if clips else inf
+        match settings.interval:
+            case Interval.LIFTOFF_TO_LANDING:
+                parts = stride_length(rows, times, phi)
+            case Interval.UPLIFT_TO_LANDING:
+                parts = stride_length(rows, evolve(times, liftoff=times.uplift), phi)
+            case _:
+                parts = closed_stride_length(rows, times, phi, end)
+        length = fsum(parts)
+        turn = vertical_turn(rows, times, end) if settings.turns_about_vertical else swing_turn(rows, times)
+        rise = closed_stride_rise(rows, times, end) if settings.has_rise else 0.0
         turn = self.turning.turn(turn)
         fx, fy, _ = rotate(self.rest_attitude, segment.forward)
         # the direction of walking lies phi to the right of the foot's long axis
@@ -223,8 +252,14 @@ class Projection(Strapdown):
         x0, y0, _ = self.rest_position
         variance = (STRIDE_ERROR * (self.length + hypot(x - x0, y - y0))) ** 2
         yaw = TURN_ERROR * TURN_ERROR * min(self.stride_count, MOST_TURN_ERRORS)
-        rises = 0.0 if self.settings.as_printed else RISE_ERROR * RISE_ERROR * min(self.stride_count, MOST_TURN_ERRORS)
+        rises = (
+            0.0 if not self.settings.has_rise else RISE_ERROR * RISE_ERROR * min(self.stride_count, MOST_TURN_ERRORS)
+        )
         return (variance, 0.0, 0.0, variance, 0.0, rises, yaw)
+
+    def _rate_about_vertical(self) -> float:
+        """Return the size of the rate about the vertical, rad/s; 0 before the first sample."""
+        return 0.0 if self.rate is None else abs(rotate(self.attitude, self.rate)[2])
 
     def _level(self, dt: float) -> None:
         """Tilt the attitude so that the specific force comes to point up, with a time constant of 1 s."""

@@ -6,10 +6,10 @@ from ...body.height.altitude import Altitude
 from ...recipes import Recipe, usual_parts
 from .activity.two_second_windows import TwoSecondWindows
 from .critical_cues import CriticalCues
-from .footsteps import Footsteps
-from .projection import Projection, ProjectionSettings
-from .snake import SnakeGame
-from .static_zones import StaticZones
+from .footsteps import Footsteps, FootstepsSettings
+from .projection import PRINTED, Projection
+from .snake import SnakeGame, SnakeSettings
+from .static_zones import StaticZones, StaticZonesSettings
 
 FOOTSTEP_TRACKER = Recipe(
     "footstep-tracker",
@@ -26,10 +26,13 @@ elevators and air pressure; stairs count in it only where there is a barometer."
 
 FOOTSTEP_TRACKER_PRINTED = Recipe(
     "footstep-tracker-printed",
-    StaticZones(),
-    Projection(ProjectionSettings(as_printed=True)),
+    StaticZones(StaticZonesSettings(has_loose_rule=False, knows_offset=False)),
+    Projection(PRINTED),
     CriticalCues(),
-    parts=usual_parts(Footsteps(), TwoSecondWindows()),
-    place=SnakeGame(),
+    parts=usual_parts(Footsteps(FootstepsSettings(as_printed=True)), TwoSecondWindows()),
+    place=SnakeGame(SnakeSettings(drops_at_walls=True)),
 )
-"""The same with the equations as they are printed, and the activities of the paper's tree and hidden Markov model."""
+"""The same with the equations and rules as they are printed.
+
+These are: six samples at rest, (5) and (7) from liftoff to landing, the mean of both feet by the one-metre rule, the
+tree and the hidden Markov model for activities, and candidates on the plan that a wall drops."""

@@ -105,6 +105,10 @@ class StaticZonesSettings:
     rest stays below it for 0.1 s."""
     sigma: float = 0.01
     """Noise of the zero velocity in a zone, m/s."""
+    has_loose_rule: bool = True
+    """Flag: a zone is also detected by `loose_within` and `low_rate`; otherwise by six samples, as in the paper."""
+    knows_offset: bool = True
+    """Flag: the error at rest of an accelerometer with coarse counts is an offset, not a scale."""
 
 
 @define
@@ -167,7 +171,7 @@ class StaticZones(Detector):
         segment = None
         if self._add_to_row(t, gap, acc, gyro):
             self._add_to_runs(self.rows[-1])
-            if self.loose.count == 1:
+            if self._run().count == 1:
                 if self.static:
                     self._end_zone(t)
             elif not self.static and self._is_static():
@@ -235,11 +239,15 @@ class StaticZones(Detector):
         elif self.low_rate_since is None:
             self.low_rate_since = t
 
+    def _run(self) -> StaticRun:
+        """Return the run whose end ends a zone."""
+        return self.loose if self.settings.has_loose_rule else self.strict
+
     def _is_static(self) -> bool:
         t = self.rows[-1][0]
         if self.strict.duration(t) >= self.settings.length - TIME_TOLERANCE:
             return True
-        if self.low_rate_since is None:
+        if self.low_rate_since is None or not self.settings.has_loose_rule:
             return False
         if self.zone_end is not None and t - self.zone_end > LONGEST_WALKING_STRIDE:
             self.relaxed = True
@@ -256,8 +264,9 @@ class StaticZones(Detector):
         """Drop the rows of a zone that the next segment does not start with."""
         rows = self.rows
         oldest = t - KEPT_ZONE_TIME
-        if self.loose.since is not None and self.loose.since > oldest:
-            oldest = self.loose.since  # earlier rows belong to the previous segment
+        since = self._run().since
+        if since is not None and since > oldest:
+            oldest = since  # earlier rows belong to the previous segment
         while rows[0][0] < oldest and len(rows) > 1:
             del rows[0]
         self.longest_gap = 0.0
@@ -272,7 +281,7 @@ class StaticZones(Detector):
 
     def _segment(self) -> StrideSegment | None:
         """Return the segment that ends with the zone that starts now; None while the foot's axes are unknown."""
-        x, y, z = self.loose.mean
+        x, y, z = self._run().mean
         k = 1.0 / (x * x + y * y + z * z) ** 0.5
         up = (x * k, y * k, z * k)
         self.axes.add_segment(self.rows, up)
@@ -281,7 +290,7 @@ class StaticZones(Detector):
             return None
         right, forward = axes
         rows = to_foot_axes(self.rows, right, forward, up)
-        if self.resolution >= COARSE_COUNT:
+        if self.settings.knows_offset and self.resolution >= COARSE_COUNT:
             rows = scale_to_offset(rows, self.scale)
         return StrideSegment(rows, critical_times(rows), forward, self.longest_gap)
 

@@ -21,7 +21,9 @@ and signs are those of critical_times.py. The paper leaves these points open:
   is removed (of theta before (2), of the velocity after it), so the integrals end at rest.
 - The range of the paper's gyroscope ends at 250 degrees/s. A foot turns faster while the heel rises and again while the
   toe rises. Then clipping causes the error of theta. The clipped toe-up and toe-down angles are two unknowns; theta and
-  the velocity at rest, which must be zero, are the two equations for them.
+  the velocity at rest, which must be zero, are the two equations for them. The clipped part of a peak is taken for a
+  parabola. On emulated feet without any other error than the clipped gyroscope (63 m, four wearers) lengths are then
+  0.3 % off; they are 3.8 % too long if the angle is spread evenly over the clipped samples, in both feet alike.
 - "When the users are turning they always take the gravity direction as the axis": the rate about it is g_z while the
   foot is flat, and g_z cos(theta) + g_y sin(theta) in general. On four walks with surveyed strides, whose turns were
   178, 175, 1082 and 239 degrees, this gives 183, 200, 1092 and 295 from uplift to rest; (7) as printed gives 333, 352,
@@ -29,6 +31,8 @@ and signs are those of critical_times.py. The paper leaves these points open:
 - When the wearer turns back, a foot swings round at up to 570 degrees/s. The paper's gyroscope measures 105 degrees of
   such a turn of 160. Nothing at rest shows the clipped angle. It is estimated as the area between the range's end and a
   cubic that leaves and reenters the range with the slopes of g_z. The estimate is 40 to 100 % of the clipped angle.
+- A foot that moves along the way with its long axis turned by phi has a_f = a_m cos(phi) and a_x = a_m sin(phi). Only
+  then is (1) true. So the double integral of a_f is S cos(phi), and that of a_x is S sin(phi) (toe_out.py).
 - The integrals use the trapezoidal rule. Between two samples, where the critical times lie, signals are straight lines.
 
 Numbers without a source were chosen by hand."""
@@ -66,6 +70,16 @@ def closed_stride_length(rows: Sequence[Row], times: CriticalTimes, toe_out: flo
     return (x - half * vx, y - half * vy, z - half * vz)
 
 
+def closed_stride_across(rows: Sequence[Row], times: CriticalTimes) -> float:
+    """Return the double integral of a_x, m, right positive, closed at rest like that of a_f."""
+    duration = times.rest - times.uplift
+    if not duration > 0.0:
+        return 0.0
+    stride = span(rows, times.uplift, times.rest)
+    across, velocity = _integrals(stride, [row[1] for row in stride])
+    return across - 0.5 * duration * velocity
+
+
 def closed_stride_rise(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> float:
     """Return the change of height of a stride, m, integrated from uplift to rest like `closed_stride_length`.
 
@@ -88,11 +102,8 @@ def rows_closed_at_rest(rows: Sequence[Row], times: CriticalTimes, end: float = 
     If g_x exceeded `end`, rad/s, in both directions, it is changed so that the velocity of a_f is zero at rest, too."""
     stride = span(rows, times.uplift, times.rest)
     angle_at_rest = _angle(stride, 4)
-    toe_up_clipped = [1.0 if row[4] > end else 0.0 for row in stride]
-    toe_down_clipped = [1.0 if row[4] < -end else 0.0 for row in stride]
-    toe_up_time = toe_down_time = 0.0
-    if 1.0 in toe_up_clipped and 1.0 in toe_down_clipped:
-        (_, toe_up_time), (_, toe_down_time) = _integrals(stride, toe_up_clipped), _integrals(stride, toe_down_clipped)
+    toe_up_clipped, toe_down_clipped = _clipped_peaks(stride, 1.0, end), _clipped_peaks(stride, -1.0, end)
+    (_, toe_up_time), (_, toe_down_time) = _integrals(stride, toe_up_clipped), _integrals(stride, toe_down_clipped)
     if not (toe_up_time > 0.0 and toe_down_time > 0.0):
         drift = angle_at_rest / (times.rest - times.uplift)
         return [(t, ax, ay, az, gx - drift, gy, gz) for t, ax, ay, az, gx, gy, gz in stride]
@@ -119,6 +130,27 @@ def rows_closed_at_rest(rows: Sequence[Row], times: CriticalTimes, end: float = 
         changed_rows = with_clipped_angle(angle)
         speed_at_rest = speed(changed_rows)
     return changed_rows
+
+
+def _clipped_peaks(stride: Sequence[Row], sign: float, end: float) -> list[float]:
+    """Return the shape of what was clipped of `sign` times g_x at each row, in any unit: a parabola over each span.
+
+    A smooth peak looks like that above the end of the range, rad/s. It leaves and reenters the range between two rows;
+    the parabola is zero in the middle between them."""
+    shape = [0.0] * len(stride)
+    i, last = 0, len(stride) - 1
+    while i <= last:
+        if sign * stride[i][4] <= end:
+            i += 1
+            continue
+        first = i
+        while i <= last and sign * stride[i][4] > end:
+            i += 1
+        left = 0.5 * (stride[max(first - 1, 0)][0] + stride[first][0])
+        right = 0.5 * (stride[i - 1][0] + stride[min(i, last)][0])
+        for k in range(first, i):
+            shape[k] = max(0.0, (stride[k][0] - left) * (right - stride[k][0]))
+    return shape
 
 
 def swing_turn(rows: Sequence[Row], times: CriticalTimes) -> float:

@@ -1,0 +1,138 @@
+"""Wearers of the experiments, the shoes and sensors that they may have, and the variants of the recipe.
+
+A CC2541 in each insole samples at 20 Hz (section IV, "System Deployment"). Every wearer has another pair. The soles are
+worn ones, which flex and slip (emulate/wearers/soles/contact.py)."""
+
+from __future__ import annotations
+
+import numpy as np
+from attrs import evolve, frozen
+
+from ....calibration import Calibration
+from ....emulate.routes.route import Route
+from ....emulate.sensors.air import STILL_AIR, Air, PressureStep
+from ....emulate.sensors.device import Device
+from ....emulate.sensors.parts import MPU6050
+from ....emulate.sensors.sensortags import CC2541, CC2650
+from ....emulate.walk import EmulatedWalk, emulate
+from ....emulate.wearers.gait import Wearer, random_wearer
+from ....emulate.wearers.shoe import IN_SOLE, ON_INSTEP
+from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
+from ....papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
+from ....papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
+from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
+from ....papers.footstep_tracker.snake import SnakeGame, SnakeSettings
+from ....papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
+from ....types import SITE_OF_FOOT, Packet
+
+RATE = 20.0
+"""Sampling rate, Hz."""
+WEATHER = Air(
+    trend=0.014,
+    gusts=6.0,
+    steps=(PressureStep(60.0, 10.0), PressureStep(150.0, -25.0, lasting=20.0), PressureStep(240.0, 100.0, 120.0)),
+)
+"""A falling barometer, gusts, a door of a clean room, one of a stairwell, and a front (emulate/sensors/air.py)."""
+
+
+@frozen(eq=False)
+class Setting:
+    """The shoe, the sensors and the air of a walk."""
+
+    name: str
+    """Name in the table."""
+    contact: GroundContact = WORN
+    """Contact of the sole with the ground."""
+    device: Device = CC2541(rate=RATE, mounting=IN_SOLE)
+    """Sensor in each shoe."""
+    air: Air = STILL_AIR
+    """Air of the building."""
+    activities: bool = False
+    """Flag: activities are scored with this setting too; other settings change only the corridor."""
+
+
+STANDARD = Setting("worn sole, CC2541")
+SETTINGS = (
+    Setting("rigid sole", RIGID),
+    Setting("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    Setting("flex", evolve(WORN, pivot_shift=-0.02, pivot_variation=0.006, radius_ratio=0.6)),
+    Setting("on the instep", device=CC2541(rate=RATE, mounting=ON_INSTEP)),
+    Setting("CC2650", device=CC2650(rate=RATE, mounting=IN_SOLE), activities=True),
+    Setting("MPU-6050", device=CC2650(rate=RATE, mounting=IN_SOLE, chip=MPU6050), activities=True),
+)
+"""Settings of the sensitivity rows; each differs from STANDARD in one thing."""
+IN_WEATHER = Setting("weather", air=WEATHER, activities=True)
+"""Air that changes by itself, which touches only activities."""
+
+LENGTH_RECIPES = {
+    "printed": FOOTSTEP_TRACKER_PRINTED,
+    "+ from uplift": evolve(
+        FOOTSTEP_TRACKER_PRINTED, corrector=Projection(evolve(PRINTED, interval=Interval.UPLIFT_TO_LANDING))
+    ),
+    "+ closed at rest": evolve(
+        FOOTSTEP_TRACKER_PRINTED, corrector=Projection(evolve(PRINTED, interval=Interval.UPLIFT_TO_REST))
+    ),
+    "+ clipped angles": evolve(
+        FOOTSTEP_TRACKER_PRINTED,
+        corrector=Projection(evolve(PRINTED, interval=Interval.UPLIFT_TO_REST, restores_clipped=True)),
+    ),
+    "+ loose zones": evolve(FOOTSTEP_TRACKER, detector=StaticZones(StaticZonesSettings(knows_offset=False))),
+    "+ offset": FOOTSTEP_TRACKER,
+}
+"""Our additions to the stride length, one after the other; the last one has all but the toe-out."""
+ONE_METRE_RULE = FOOTSTEP_TRACKER.exchanged(Footsteps, Footsteps(FootstepsSettings(as_printed=True)), "one-metre rule")
+"""Ours with the one-metre rule as printed."""
+PRINTED_TURN = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False)))
+"""Ours with (7) as printed, from liftoff to landing."""
+DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=SnakeGame(SnakeSettings(drops_at_walls=True)))
+"""Ours with the Snake game as printed."""
+BAROMETERS = ("cc2541/barometer", "cc2650/barometer")
+"""Channels of air pressure."""
+
+
+@frozen
+class WearerJob:
+    """One wearer in one setting; `key` is another for each other job of an experiment."""
+
+    seed: int
+    setting: Setting = STANDARD
+
+    @property
+    def key(self) -> str:
+        """Description by the seed and the name of the setting."""
+        return f"{self.seed}, {self.setting.name}"
+
+    @property
+    def is_standard(self) -> bool:
+        """Flag: the setting is STANDARD."""
+        return self.setting.name == STANDARD.name
+
+    @property
+    def wearer(self) -> Wearer:
+        """The wearer, in the shoes of the setting."""
+        return in_shoes(random_wearer(np.random.default_rng([self.seed, 17]))[0], self.setting)
+
+    @property
+    def stature(self) -> float:
+        """Stature of the wearer, m."""
+        return random_wearer(np.random.default_rng([self.seed, 17]))[1]
+
+    def walk(self, route: Route, more: int = 0, wearer: Wearer | None = None) -> EmulatedWalk:
+        """Emulate a walk; `more` is added to the seed of gait and sensors, so that the wearer walks another time."""
+        devices = {site: self.setting.device for site in SITE_OF_FOOT.values()}
+        wearer = self.wearer if wearer is None else in_shoes(wearer, self.setting)
+        return emulate(route, wearer=wearer, devices=devices, air=self.setting.air, seed=self.seed + more)
+
+
+def in_shoes(wearer: Wearer, setting: Setting) -> Wearer:
+    """Return the wearer with the soles of the setting."""
+    return evolve(wearer, shoe=evolve(wearer.shoe, contact=setting.contact))
+
+
+def without_barometer(packets: tuple[Packet, ...]) -> list[Packet]:
+    """Return the packets without air pressure."""
+    return [packet for packet in packets if packet.channel not in BAROMETERS]
+
+
+NOTHING_KNOWN = Calibration()
+"""Calibration of a wearer who has not been measured."""

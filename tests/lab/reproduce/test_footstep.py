@@ -1,0 +1,62 @@
+"""The experiments of footstep-tracker: what is counted, by hand."""
+
+from __future__ import annotations
+
+import pytest
+
+from solepath.events import ActivityChanged
+from solepath.lab.measures.confusion import ActivityScore
+from solepath.lab.reproduce.footstep.activities import fitted_climb, stair_stretches
+from solepath.lab.reproduce.footstep.corridor import WatchedZones
+from solepath.lab.reproduce.footstep.figures import class_shares, share_right
+from solepath.lab.reproduce.footstep.wearers import SETTINGS, STANDARD, WearerJob
+from solepath.lab.reproduce.tables import Bars, Reproduction
+from solepath.show.timeline import Timeline
+from solepath.types import Activity, Site
+from solepath.types.vector import GRAVITY, ZERO
+
+UP, DOWN, WALK = Activity.STAIRS_UP, Activity.STAIRS_DOWN, Activity.WALKING
+
+
+def test_a_stretch_of_stairs_is_one_whatever_directions_were_reported_in_it() -> None:
+    timeline = Timeline()
+    for t, activity in ((0.0, WALK), (5.0, DOWN), (8.0, UP), (11.0, DOWN), (12.0, WALK), (20.0, UP)):
+        timeline.add(ActivityChanged(t=t, known_at=t, activity=activity, probability=None))
+    assert stair_stretches(timeline, 24.0) == [(5.0, 12.0), (20.0, 24.0)]
+
+
+def test_the_climb_is_the_slope_of_both_barometers_whatever_their_offsets() -> None:
+    left = [(float(t), 50.0 - 0.3 * t) for t in range(10)]
+    right = [(t + 0.5, -80.0 - 0.3 * t) for t in range(10)]
+    assert fitted_climb({Site.LEFT_FOOT: left, Site.RIGHT_FOOT: right}, 0.0, 9.5) == pytest.approx(-0.3)
+    assert fitted_climb({Site.LEFT_FOOT: left}, 20.0, 30.0) == 0.0
+
+
+def test_shares_leave_out_walks_without_the_class() -> None:
+    scores = [ActivityScore({(UP, UP): 3, (UP, DOWN): 1}), ActivityScore({(DOWN, DOWN): 2})]
+    assert class_shares(scores, UP) == [75.0]
+    assert share_right([(3, 4), (1, 4)]) == 50.0
+
+
+def test_a_zone_counts_as_strict_when_six_samples_were_at_rest_in_it() -> None:
+    zones = WatchedZones()
+    t = 0.0
+    for force in [0.0] * 8 + [8.0] * 3 + [0.0, 1.2] * 3 + [8.0] * 3:  # eight at rest; then six uneven ones
+        zones.update(t, 0.05, (force, 0.0, GRAVITY), ZERO, None)
+        t += 0.05
+    assert (zones.zones, zones.strict_zones) == (2, 1)
+
+
+def test_jobs_are_known_by_seed_and_setting_and_a_wearer_is_the_same_in_all_shoes() -> None:
+    jobs = [WearerJob(seed, setting) for seed in (1, 2) for setting in (STANDARD, *SETTINGS)]
+    assert len({job.key for job in jobs}) == len(jobs)
+    assert len({(job.seed, job.stature, job.wearer.mass) for job in jobs}) == 2
+    assert WearerJob(1).is_standard and not WearerJob(1, SETTINGS[0]).is_standard
+
+
+def test_bars_are_drawn(tmp_path):
+    figures = pytest.importorskip("solepath.lab.tables.figures", exc_type=ImportError)
+    bars = Bars("two", ("a", "b"), (("ours", (1.0, 2.0)), ("theirs", (3.0, 4.0))), "%")
+    for count in (1, 9):  # nine are in two rows
+        figures.draw(Reproduction("x", "a paper", "2 walks", "m", (), (bars,) * count), tmp_path / "f.png", "png")
+        assert (tmp_path / "f.png").read_bytes().startswith(b"\x89PNG")

@@ -1,0 +1,164 @@
+"""What is as printed and what is ours in footstep-tracker; expected values by hand."""
+
+from __future__ import annotations
+
+from math import atan, hypot, pi, radians, tan
+
+import pytest
+from floors import OFFICE
+from strides import stride
+from walks import of, run_session
+
+from solepath.body.place.rows.rows import Row as PlaceRow
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import Imu, TriadErrors
+from solepath.emulate.wearers.walker import Walker
+from solepath.events import StrideTaken
+from solepath.foot.stance.stance import Stance
+from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row
+from solepath.papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
+from solepath.papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
+from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
+from solepath.papers.footstep_tracker.segment import FootAxes, StrideSegment
+from solepath.papers.footstep_tracker.snake import SnakeGame, SnakeSettings, moved_rows
+from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
+from solepath.papers.footstep_tracker.stride_length import closed_stride_across, closed_stride_length
+from solepath.types import Foot, Phase, Sample, Vec3
+from solepath.types.attrs import evolve
+from solepath.types.vector import GRAVITY, ZERO
+
+G = GRAVITY
+STRICT = StaticZonesSettings(has_loose_rule=False)
+
+
+def first_zone(settings: StaticZonesSettings, acc_of: list[Vec3], gyro: Vec3 = ZERO) -> int | None:
+    """Return the number of the sample, from 1, at which a zone is detected at 20 Hz."""
+    zones = StaticZones(settings)
+    for k, acc in enumerate(acc_of):
+        if zones.update(0.05 * k, 0.05, acc, gyro, None).hint is Phase.STATIONARY:
+            return k + 1
+    return None
+
+
+def test_as_printed_only_six_samples_within_half_a_metre_per_second_squared_are_a_zone() -> None:
+    at_rest = [(0.0, 0.0, G)] * 8
+    assert first_zone(StaticZonesSettings(), at_rest) == 3
+    assert first_zone(STRICT, at_rest) == 6
+    uneven = [(0.8 * (k % 2), 0.0, G + 0.01 * k) for k in range(12)]  # 0.8 is within 1.0 and not within 0.5
+    assert first_zone(StaticZonesSettings(), uneven) is not None
+    assert first_zone(STRICT, uneven) is None
+
+
+def test_as_printed_a_zone_ends_by_the_printed_tolerance() -> None:
+    # a difference of 1.2 is less than 1.0 and half of a count of 0.7, and more than 0.5 and half of a count
+    for settings, hint in ((STRICT, None), (StaticZonesSettings(), Phase.STATIONARY)):
+        zones = StaticZones(settings)
+        hints = [zones.update(0.05 * k, 0.05, (0.0 if k < 8 else 1.2, 0.0, G), ZERO, None).hint for k in range(9)]
+        assert hints[-2:] == [Phase.STATIONARY, hint]
+
+
+def moved_by(settings: ProjectionSettings) -> float:
+    """Return the length of a stride whose foot speeds up from uplift at 0 s to 0.4 s, and slows down to 0.8 s."""
+    push = [(0.01 * k, 0.0, 4.0 if k < 40 else -4.0 if k > 40 else 0.0, -G, 0.0, 0.0, 0.0) for k in range(101)]
+    rows = tuple(row if row[0] <= 0.8 else (*row[:2], 0.0, *row[3:]) for row in push)
+    projection = Projection(settings)
+    projection.start((1.0, 0.0, 0.0, 0.0), 0.0)
+    projection.predict(0.01, (0.0, 0.0, G), ZERO)
+    segment = StrideSegment(rows, CriticalTimes(0.0, 0.2, 0.6, 0.8), (1.0, 0.0, 0.0), 0.01)
+    projection.correct(1.0, Stance(ZERO, 0.01, 0.0, Phase.STATIONARY, segment))
+    return hypot(projection.position[0], projection.position[1])
+
+
+def test_equation_5_as_printed_lacks_the_velocity_that_the_foot_has_at_liftoff() -> None:
+    # speed 1.6 m/s at 0.4 s; 0.64 m in all, of which 0.48 m from liftoff at 0.2 s to landing at 0.6 s
+    assert moved_by(ProjectionSettings()) == pytest.approx(0.64, abs=0.01)
+    assert moved_by(PRINTED) == pytest.approx(0.5 * 4.0 * 0.2**2 + 0.8 * 0.2 - 0.5 * 4.0 * 0.2**2, abs=0.01)
+    from_uplift = evolve(PRINTED, interval=Interval.UPLIFT_TO_LANDING)
+    assert moved_by(from_uplift) == pytest.approx(0.64 - 0.08, abs=0.01)
+
+
+def test_the_distance_across_the_foot_is_that_along_it_times_the_tangent_of_the_toe_out() -> None:
+    phi = 0.12
+    drawn = [(0.01 * k, 4.0 if k < 50 else -4.0 if k > 50 else 0.0) for k in range(101)]
+    rows: list[Row] = [(t, a * tan(phi), a, -G, 0.0, 0.0, 0.0) for t, a in drawn]
+    times = CriticalTimes(0.0, 0.2, 0.9, 1.0)
+    along = sum(closed_stride_length(rows, times))
+    assert atan(closed_stride_across(rows, times) / along) == pytest.approx(phi, abs=1e-6)
+
+
+def test_the_axis_of_the_foot_is_read_before_the_shoe_leaves_the_ground() -> None:
+    # the heel rises by 1 rad about y in 0.2 s, then the foot in the air rolls about x and the toe rises again
+    rates = [(0.0, 5.0)] * 20 + [(3.0, 0.5)] * 10 + [(0.0, -5.0)] * 20
+    rows: list[Row] = [(0.01 * k, 0.0, 0.0, G, x, y, 0.0) for k, (x, y) in enumerate(rates)]
+    axes = FootAxes()
+    axes.add_segment(rows, (0.0, 0.0, 1.0))
+    assert axes.right == pytest.approx((0.0, -1.0, 0.0), abs=1e-6)
+
+
+def printed_track() -> Footsteps:
+    body = Footsteps(FootstepsSettings(as_printed=True))
+    for path in body.paths.values():
+        path.has_samples = True
+    return body
+
+
+def wearer_at(body: Footsteps) -> float:
+    """Return x of the wearer while the feet rest, m."""
+    (x, _), (x0, _) = body.paths[Foot.RIGHT].displacement, body.restart_position
+    return x0 + x
+
+
+def test_as_printed_the_one_metre_rule_once_it_acts_acts_at_every_stride() -> None:
+    body = printed_track()
+    body.add_stride(stride(Foot.LEFT, 0.5, (0.7, 0.0, 0.0)))
+    assert (body.restarts, wearer_at(body)) == (0, 0.0)  # the right foot has not moved
+    for k in range(4):
+        body.add_stride(stride(Foot.RIGHT, k + 1.0, (1.4, 0.0, 0.0)))  # 0.7 m ahead: no difference of more than 1 m
+        assert (body.restarts, wearer_at(body)) == (0, pytest.approx(1.4 * (k + 1)))
+        body.add_stride(stride(Foot.LEFT, k + 1.5, (1.4, 0.0, 0.0)))
+    body.add_stride(stride(Foot.RIGHT, 5.0, (2.0, 0.0, 0.0)))  # right 7.6 m, left 6.3 m: both at 6.95 m
+    assert (body.restarts, wearer_at(body)) == (1, pytest.approx(6.95))
+    body.add_stride(stride(Foot.LEFT, 5.5, (1.4, 0.0, 0.0)))
+    assert (body.restarts, wearer_at(body)) == (2, pytest.approx(7.65))
+    body.add_stride(stride(Foot.RIGHT, 6.0, (1.4, 0.0, 0.0)))
+    assert (body.restarts, wearer_at(body)) == (3, pytest.approx(8.35))
+
+
+def test_as_printed_a_wall_drops_a_candidate_and_changes_no_weight() -> None:
+    # two candidates in the corridor at the bottom of the office: one walks along it, the other into a room's wall
+    along: PlaceRow = (10.0, 6.2, 1.0, 0.0, 0.25, 0, 0, 0)
+    across: PlaceRow = (10.0, 6.2, 0.0, 1.0, 0.75, 0, 0, 0)
+    kept = moved_rows(OFFICE, [along, across], (2.0, 0.0))
+    assert kept == [(12.0, 6.2, 1.0, 0.0, 0.25, 0, 0, 0)]
+    game = SnakeGame(SnakeSettings(drops_at_walls=True))
+    assert game.extend(OFFICE, [along, across], (2.0, 0.0), 1.0, 0.0) == kept
+    assert game.thin([along, across], 1) == [along, across]
+    assert len(SnakeGame().extend(OFFICE, [along], (2.0, 0.0), 1.0, pi)) == 1
+
+
+def test_the_recipes_stand_side_by_side() -> None:
+    ours, printed = FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
+    assert isinstance(printed.corrector, Projection) and printed.corrector.settings == PRINTED
+    assert isinstance(ours.corrector, Projection) and ours.corrector.settings == ProjectionSettings()
+    assert isinstance(printed.detector, StaticZones) and not printed.detector.settings.has_loose_rule
+    assert isinstance(printed.place, SnakeGame) and printed.place.settings.drops_at_walls
+
+
+LOW_PASSED = TriadErrors(density=1e-6, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=10.0)
+"""Errors of a sensor that has none, but a low pass at half of 20 Hz."""
+
+
+def clipped(sample: Sample) -> Sample:
+    end = radians(250.0)
+    assert sample.gyro is not None
+    x, y, z = (min(max(rate, -end), end) for rate in sample.gyro)
+    return evolve(sample, gyro=(x, y, z), saturated=(x, y, z) != sample.gyro)
+
+
+@pytest.mark.parametrize("foot", list(Foot))
+def test_a_gyroscope_that_clips_and_has_no_other_error_leaves_lengths_right(foot: Foot) -> None:
+    walker = Walker(Route().stand(3.0).walk(30.0, 1.3).stop(2.0), seed=7201)
+    samples = [clipped(one) for one in walker.samples(foot, 20.0, Imu("exact", LOW_PASSED, LOW_PASSED))]
+    assert sum(one.saturated for one in samples) > 50
+    strides = of(StrideTaken, run_session(samples, FOOTSTEP_TRACKER))
+    assert sum(one.length for one in strides) == pytest.approx(30.0, rel=0.015)
