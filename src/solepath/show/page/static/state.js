@@ -51,6 +51,7 @@ export class State {
     this.gait = null;
     this.links = {};
     this.playback = null;
+    this.posture = null; // {foot, task, target, pitch, lean: rad or null, still}: a shoe that is measured
     this.pace = null;
     this.scales = {};
   }
@@ -185,8 +186,14 @@ const fused = (value) => {
   return { foot, chosen, length, distance, similarity: number(similarity), errorIndex: number(errorIndex), share: number(share) };
 };
 
+const posture = (value) => {
+  const { foot, task, target, pitch, lean, still } = record(value);
+  if (!FEET.includes(foot)) return null;
+  return { foot, task: text(task), target: number(target), pitch: number(pitch), lean: number(lean), still: still === true };
+};
+
 // Members that a frame sends whole, with the function that checks each.
-const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, playback };
+const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, playback, posture };
 
 // Sorted by time: a phase may become known after one that started later.
 function insert(phases, one) {
