@@ -36,6 +36,7 @@ from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
 from ....types.attrs import NOT_SAVED
 from ...observer import REJECTIONS, FootCounts, Observer
 from ...valid import has_valid_numbers
+from ..body import LiveBody
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
 from ..posture import Posture
@@ -83,6 +84,7 @@ class Scene:
     plan: FloorPlan | None = field(default=None, metadata=NOT_SAVED)
     playback: Playback | None = field(default=None, metadata=NOT_SAVED)
     posture: Posture | None = field(default=None, metadata=NOT_SAVED)
+    body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
     observer: Observer = field(factory=Observer)
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
@@ -255,9 +257,8 @@ class Scene:
         feet: dict[str, Any] = {}
         for foot, foot_scene in self.feet.items():
             link = links.get(SITE_OF_FOOT[foot])
-            feet[foot.value] = foot_scene.frame(
-                0.0 if link is None else link["rate"], observer.feet.get(foot, NO_COUNTS)
-            )
+            rate = 0.0 if link is None else link["rate"]
+            feet[foot.value] = foot_scene.frame(rate, observer.feet.get(foot, NO_COUNTS))
         silent_since, (since, activity) = feet_silent_since(observer.links, now), observer.timeline.last
         return {
             "feet": feet,
@@ -265,7 +266,7 @@ class Scene:
             "place": self.wearer.place_frame(observer.places.last),
             "activity": activity_frame(since, activity, silent_since),
             "pace": None if silent_since is not None else self.pace.frame(now, activity, since),
-            **both_feet_frame(self.feet, observer),
+            **both_feet_frame(self.feet, observer, self.body),
             "scales": self.scales.frame(),
             "gait": self.gait_means.frame(observer.recent_gait),
             "links": {site.words: link for site, link in links.items()},

@@ -46,7 +46,7 @@ export class State {
     this.activity = null;
     this.support = null;
     this.touchdown = null; // {t, foot, mode, position: world frame, m}
-    this.body = null; // {left, right: hip, knee, ankle, end of the foot as [ahead, up], m}
+    this.body = null; // {t, left, right: hip, knee, ankle, end of the foot as [ahead, up], m}
     this.fused = null; // {foot, length, similarity, errorIndex, share, chosen, distance}: the last fused stride
     this.gait = null;
     this.links = {};
@@ -175,9 +175,9 @@ const touchdown = (value) => {
 };
 
 const body = (value) => {
-  const { left, right } = record(value);
+  const { t, left, right } = record(value);
   const legs = [left, right].map((leg) => list(leg).filter((point) => numbers(point, 2)).slice(0, 4));
-  return legs.every((leg) => leg.length === 4) ? { left: legs[0], right: legs[1] } : null;
+  return legs.every((leg) => leg.length === 4) && sound(t) ? { t, left: legs[0], right: legs[1] } : null;
 };
 
 const fused = (value) => {
