@@ -204,6 +204,9 @@ def walk(job: KuptJob) -> KuptResults:
     if job.corridor:
         tracks, end_distances = _tracks(prepared.walk.truth, prepared.t_halt, zupt, known)
         return KuptResults(distances, true, tracks, end_distances)
+    same = _run(SAME_ADDITIONS, prepared)
+    distances[SAME_ROW] = tuple([_distance(same, foot) for foot in Foot])
+    distances[SAME_FUSED_ROW] = (_fused_distance(same),)
     if not job.setting.with_additions:
         return KuptResults(distances, true)
     printed = _run(KUPT_DFPC_PRINTED, prepared)
@@ -212,9 +215,7 @@ def walk(job: KuptJob) -> KuptResults:
     for name, recipe in ABLATIONS.items():
         events = known if recipe is KUPT else _run(recipe, prepared)
         distances[name] = tuple([_distance(events, foot) for foot in Foot])
-    by_index, same = _run(BY_ERROR_INDEX, prepared), _run(SAME_ADDITIONS, prepared)
-    distances[SAME_ROW] = tuple([_distance(same, foot) for foot in Foot])
-    distances[SAME_FUSED_ROW] = (_fused_distance(same),)
+    by_index = _run(BY_ERROR_INDEX, prepared)
     distances[BY_ERROR_INDEX.name] = (_fused_distance(by_index),)
     if job.setting != STANDARD:
         return KuptResults(distances, true)
