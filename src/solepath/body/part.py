@@ -88,17 +88,6 @@ class Position:
     None without magnetometers in the feet, and until turns have proven them (docs/compass.md)."""
 
 
-@frozen
-class Legs:
-    """The rods of both legs at one time, as sensors of pelvis, thighs, shanks and feet show them."""
-
-    t: float
-    """Time of the attitudes, s."""
-    rods: tuple[tuple[Vec3, ...], tuple[Vec3, ...]]
-    """Hip, knee, ankle and end of the foot of the left and of the right leg, world frame, m, relative to the middle of
-    the hips."""
-
-
 PartOutput = Happening | Shift | HeightShift | Replacement
 """Everything that a part may return: corrections and events, including events of an app."""
 PartInput = Event | ClockUnsettled | LayoutReported

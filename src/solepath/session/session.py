@@ -10,7 +10,7 @@ from copy import deepcopy
 from typing import TYPE_CHECKING, Any
 
 from ..body.gait.means import GaitParameters
-from ..body.part import Legs, Position
+from ..body.part import Position
 from ..calibration import Calibration
 from ..events import Event, Placed
 from ..foot.phase import SUPPORT
@@ -177,12 +177,6 @@ class Session:
         """Place of the wearer on the floor plan; None without a plan, and while unknown."""
         place: Placed | None = self._state.wearer.find_attribute("place")
         return place
-
-    @property
-    def legs(self) -> Legs | None:
-        """Newest rods of both legs; None without a recipe that has them, and while an attitude is not known."""
-        legs: Legs | None = self._state.wearer.find_attribute("legs")
-        return legs
 
     @property
     def activity(self) -> Activity:

@@ -9,11 +9,10 @@ from shown import frame, open_page, shown
 from walks import insoles
 
 from solepath import Foot, StrideFused
-from solepath.body.part import Legs
 from solepath.emulate.routes.route import Route
 from solepath.events import TouchedDown
 from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC
-from solepath.show.page.body import LiveBody
+from solepath.show.page.body import Legs, LiveBody
 from solepath.types import WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -112,7 +111,7 @@ def test_legs_between_touchdowns_are_those_of_the_session_ten_times_a_second() -
     def legs() -> Legs | None:
         looked_up.append(scene.now)
         rods = (standing(0.08, 0.1 * scene.now), standing(-0.08, -0.1 * scene.now))
-        return Legs(scene.now, rods) if scene.now < 9.0 else None
+        return (scene.now, rods) if scene.now < 9.0 else None
 
     scene = shown([foot_moved(1.0), DOWN])
     scene.body = LiveBody(legs)

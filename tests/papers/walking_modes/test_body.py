@@ -30,6 +30,7 @@ from solepath.papers.walking_modes.settings import ModeRule, ModesSettings
 from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
 from solepath.recipes import DEFAULT
 from solepath.session import Session
+from solepath.show.page.body import legs_of
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 from solepath.types.vector import sub
 
@@ -100,11 +101,11 @@ def test_the_legs_of_a_session_move_between_touchdowns() -> None:
     for sample in suit_samples():
         session.feed(sample)
         if sample.site is Site.PELVIS and 4.0 < sample.t < 5.0:
-            seen.append(session.legs)
-    assert Session().legs is None
-    times = [legs.t for legs in seen if legs is not None]
+            seen.append(legs_of(session))
+    assert legs_of(Session()) is None
+    times = [legs[0] for legs in seen if legs is not None]
     assert len(set(times)) == len(seen) > 40
-    apart = [left[3][0] - right[3][0] for left, right in (legs.rods for legs in seen if legs is not None)]
+    apart = [left[3][0] - right[3][0] for left, right in (legs[1] for legs in seen if legs is not None)]
     assert max(apart) > 0.3 and min(apart) < -0.3
     assert max(abs(b - a) for a, b in pairwise(apart)) < 0.15
 

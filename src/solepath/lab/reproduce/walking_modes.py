@@ -93,7 +93,7 @@ CONDITIONS = {
     "slip 2 cm": evolve(USUAL, contact=evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
     "tilt 1 deg": evolve(USUAL, tilt=radians(1.0)),
 }
-"""Conditions for which the mean distance over the corners is a row of its own, with one walk over marks in all of them."""
+"""Conditions for which the mean distance over the corners is a row of its own, with one walk over marks in all."""
 
 
 def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:

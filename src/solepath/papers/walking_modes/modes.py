@@ -28,13 +28,13 @@ from copy import deepcopy
 from math import atan2, fsum, hypot
 from typing import ClassVar
 
-from ...body.part import Legs, PartOutput, Position, TrackPart
+from ...body.part import PartOutput, Position, TrackPart
 from ...calibration import Calibration
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
 from ...foot.view import FootPose, FootView, PressedCells
 from ...foot.world import Covariance3
-from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site
+from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site, Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO, sub
 from .compensation import epsilon_p, merge_own
@@ -284,8 +284,8 @@ class Modes(TrackPart):
         return Position(t, (x, y, z), self._covariance(x, y, poses))
 
     @property
-    def legs(self) -> Legs | None:
-        """Newest rods of both legs; None while an attitude is not known."""
+    def legs(self) -> tuple[float, tuple[tuple[Vec3, ...], tuple[Vec3, ...]]] | None:
+        """Time, s, and rods of both legs then, as they are known now; None while an attitude is not known."""
         return self.places.chain.newest_legs()
 
     def _covariance(self, x: float, y: float, poses: list[FootPose]) -> Covariance3:

@@ -8,10 +8,12 @@ from typing import Any
 
 from attrs import define, field
 
-from ...body.part import Legs
+from ...session import Session
 from ...types import Vec3
 from .messages import rounded, rounded_all
 
+Legs = tuple[float, tuple[tuple[Vec3, ...], tuple[Vec3, ...]]]
+"""Time, s, and rods of the left and the right leg: hip, knee, ankle and end of the foot as in `TouchedDown.legs`, m."""
 INTERVAL = 0.1
 """Least time between two figures, s: enough to see how the legs move; chosen by hand."""
 
@@ -20,7 +22,7 @@ INTERVAL = 0.1
 class LiveBody:
     """The legs of a session that is shown, looked up when a watcher gets a frame, so that no event is needed for them.
 
-    `legs` returns `Session.legs` of the session that is shown now."""
+    `legs` returns them (`legs_of`) for the session that is shown now, which a player replaces when it seeks."""
 
     legs: Callable[[], Legs | None]
     _looked_at: float | None = field(default=None, init=False)
@@ -31,8 +33,14 @@ class LiveBody:
         """Return the member "body" of a frame at `now`, s, a new one every INTERVAL at most; None without legs."""
         if self._looked_at is None or abs(now - self._looked_at) >= INTERVAL:
             legs, self._looked_at = self.legs(), now
-            self._frame = None if legs is None else body_frame(legs.t, legs.rods)
+            self._frame = None if legs is None else body_frame(*legs)
         return self._frame
+
+
+def legs_of(session: Session) -> Legs | None:
+    """Return the newest legs of a session whose recipe has them; None for others, and while an attitude is missing."""
+    legs: Legs | None = session._state.wearer.find_attribute("legs")
+    return legs
 
 
 def body_frame(t: float, legs: tuple[tuple[Vec3, ...], tuple[Vec3, ...]]) -> dict[str, Any] | None:

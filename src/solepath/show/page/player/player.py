@@ -22,7 +22,7 @@ from ....events import Event
 from ....floorplan.index import IndexedPlan
 from ....session import Session
 from ....types import Packet, Sample
-from ..body import LiveBody
+from ..body import LiveBody, legs_of
 from ..messages import HERE, MAX_SPEED, MIN_SPEED, Command, CommandError
 from ..scene.scene import Scene
 from .packed_items import PackedItems
@@ -81,7 +81,7 @@ class Player:
         start, end = self.items.start, self.items.end
         self._due = start
         self.playback = Playback(start=start, end=end, t=start, state="playing", speed=1.0, seeking=None)
-        self.scene.playback, self.scene.body = self.playback, LiveBody(lambda: self.session.legs)
+        self.scene.playback, self.scene.body = self.playback, LiveBody(lambda: legs_of(self.session))
         self._save(start)
 
     def command(self, command: Command) -> None:
