@@ -1,5 +1,6 @@
 """Tests `solepath calibrate shoe --live`: a person in a terminal, and the shoe of emulated insoles in postures."""
 
+import asyncio
 import csv
 import os
 import re
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from programs import TAKES, drawn, emulator, run, started
+from watchers import ANYWHERE, watching
 
 from solepath.calibration.file import read_calibration
 from solepath.emulate.routes.postures import PITCHES, posture
@@ -21,10 +23,10 @@ HOLD = 2.5
 
 
 @contextmanager
-def measuring(folder: Path, hold: float, *options: object) -> Iterator[tuple[int, subprocess.Popen[str]]]:
-    """Yield a terminal and the program in it, which shows the pitch of a left shoe and makes two files in a folder.
+def measuring(folder: Path, hold: float, *options: object) -> Iterator[tuple[int, subprocess.Popen[str], str]]:
+    """Yield a terminal, the program in it, and what it printed; it shows the pitch of a left shoe and makes two files.
 
-    The files are postures.csv and me.json. The emulated shoe is held for `hold` s in each posture."""
+    The files are postures.csv and me.json in `folder`. The emulated shoe is held for `hold` s in each posture."""
     pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()
     terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
@@ -34,8 +36,7 @@ def measuring(folder: Path, hold: float, *options: object) -> Iterator[tuple[int
         started(*files, "--via", where, "--left", "solepath L", *options, **terminal) as process,
     ):
         os.close(theirs)
-        drawn(ours, "left foot: steady")
-        yield ours, process
+        yield ours, process, drawn(ours, "left foot: steady")
     os.close(ours)
 
 
@@ -54,7 +55,7 @@ def test_options_of_the_sensor_without_live_are_rejected(tmp_path: Path) -> None
 
 def test_a_person_measures_five_postures_while_the_shoe_s_sensor_gives_the_pitch(tmp_path: Path) -> None:
     table, out = tmp_path / "postures.csv", tmp_path / "me.json"
-    with measuring(tmp_path, HOLD, "--times", 1, "--height", 0.029) as (terminal, process):
+    with measuring(tmp_path, HOLD, "--times", 1, "--height", 0.029) as (terminal, process, _):
         os.write(terminal, b"\n")
         for number, pitch in enumerate(PITCHES, 1):
             drawn(terminal, f"Posture {number} of 5, time 1 of 1")
@@ -95,7 +96,7 @@ def shown_until(terminal: int, pitch: float) -> None:
 )
 def test_who_ends_before_any_measurement_changes_nothing(tmp_path: Path, end: bytes, status: int, words: str) -> None:
     """Ends are the letter q, the end of the input (Ctrl-D) and Ctrl-C."""
-    with measuring(tmp_path, HOLD) as (terminal, process):
+    with measuring(tmp_path, HOLD) as (terminal, process, _):
         if end == b"\x03":
             process.send_signal(signal.SIGINT)  # this terminal controls no process
         else:
@@ -106,9 +107,36 @@ def test_who_ends_before_any_measurement_changes_nothing(tmp_path: Path, end: by
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_page_shows_the_pitch_and_the_task_beside_the_terminal(tmp_path: Path) -> None:
+    pytest.importorskip("aiohttp")
+
+    async def watch(terminal: int, url: str) -> str:
+        printed = asyncio.create_task(asyncio.to_thread(drawn, terminal))  # a full terminal would stop the program
+        async with watching(url) as watcher:
+            await watcher.until(lambda frame: "flat on level ground" in frame["posture"]["task"])
+            assert (watcher.frame["posture"]["pitch"], watcher.frame["posture"]["target"]) == (None, None)
+            await watcher.until(lambda frame: frame["posture"]["still"] is True)
+            os.write(terminal, b"\n")
+            await watcher.until(lambda frame: frame["posture"]["task"].startswith("Posture 1 of 5"))
+            assert watcher.frame["posture"]["foot"] == "left"
+            assert watcher.frame["posture"]["target"] == pytest.approx(radians(10.0), abs=1e-3)
+            await watcher.until(lambda frame: abs((frame["posture"]["pitch"] or 0.0) - PITCHES[0]) < radians(1.5))
+            os.write(terminal, b"\n")
+            await watcher.until(lambda frame: "L_r in mm" in frame["posture"]["task"])
+            assert watcher.frame["posture"]["target"] is None
+            os.write(terminal, b"q\n")
+        return await printed
+
+    with measuring(tmp_path, HOLD, "--times", 1, *ANYWHERE) as (terminal, process, text):
+        found = re.search(r"the page: (http://\S+#token=\S+)", text)
+        assert found is not None
+        assert "no posture was measured" in asyncio.run(watch(terminal, found[1]))
+        assert process.wait(TAKES) == 2
+
+
 def test_a_measurement_is_taken_back(tmp_path: Path) -> None:
     table = tmp_path / "postures.csv"
-    with measuring(tmp_path, 60, "--times", 1) as (terminal, process):
+    with measuring(tmp_path, 60, "--times", 1) as (terminal, process, _):
         for answer, reply in ((b"\n", "Posture 1"), (b"\n", "L_r in mm"), (b"80\n", "L_p2t"), (b"70\n", "Posture 2")):
             os.write(terminal, answer)
             drawn(terminal, reply)

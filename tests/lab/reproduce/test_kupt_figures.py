@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from solepath.lab.reproduce.kupt.figures import KnownSample, coverage, without_drift
+from solepath import StrideFused
+from solepath.lab.reproduce.kupt.figures import KnownSample, coverage, panels, without_drift
+from solepath.types import Foot
 
 CYCLE = ("stands", "stands", "rolls", "air", "air", "air", "air", "air", "rolls", "air")
 """Samples of one stride from the start of the stance; 0.1 s each."""
@@ -49,3 +51,36 @@ def test_kupt_takes_the_line_of_equation_8_out_of_the_swing_alone() -> None:
     velocity = without_drift(series(2), knows_rolling=True)
     assert [v for _, v in velocity[2:5]] == pytest.approx([0.5, 0.3 + 0.2, 0.4 + 0.1])
     assert [v for _, v in velocity[8:10]] == pytest.approx([0.5, 0.0])
+
+
+def test_figure_11_has_the_weights_and_adds_up_the_strides_and_figure_14_shows_three_strides() -> None:
+    fused = [
+        StrideFused(
+            t=float(k),
+            known_at=float(k),
+            foot=foot,
+            number=k,
+            stride_length=1.3,
+            own_length=1.2,
+            similarity=0.9,
+            error_index=0.1 * k if k else None,
+            coefficient=0.6,
+            chosen=Foot.RIGHT,
+            distance=1.3 * k,
+            position=(1.3 * k, 0.0, 0.0),
+        )
+        for k in range(3)
+        for foot in Foot
+    ]
+    seen = dict.fromkeys(Foot, tuple(series(8)))
+    velocity, weights, distance, drift = panels(seen, {"ZUPT": [], "KUPT+DFPC": [*fused]}, [*fused])
+    similarity, index, coefficient = (curve.points for curve in weights.curves)
+    assert similarity == ((0.0, 0.9), (1.0, 0.9), (2.0, 0.9)) and index == ((1.0, 0.1), (2.0, 0.2))
+    assert coefficient == ((0.0, 0.6), (1.0, 0.6), (2.0, 0.6))
+    sums = {curve.name: curve.points for curve in distance.curves}
+    assert sums["KUPT + 1st stage DFPC"] == ((0.0, 1.3), (1.0, 2.6), (2.0, pytest.approx(3.9)))
+    assert sums["KUPT+DFPC"] == ((0.0, 0.0), (1.0, 1.3), (2.0, 2.6))
+    (raw, reference, zupt, kupt), (shown, *_) = velocity.curves, drift.curves
+    assert [one.name for one in (raw, reference, zupt, kupt)] == ["V-raw", "V-ref", "ZUPT", "KUPT"]
+    stands = [t for t, v in shown.points if v == 0.0]
+    assert len(stands) == 7 and shown.points[-1][0] - shown.points[0][0] == pytest.approx(3.0)

@@ -36,7 +36,7 @@ def test_known_velocity_scatters_and_errs_less_than_zero_velocity_and_the_fusion
         zupt, kupt = values(found, f"ZUPT-{foot}"), values(found, f"KUPT-{foot}")
         assert kupt.std() < zupt.std() and both.std() < kupt.std()
         assert rms(kupt - 20.0) < rms(zupt - 20.0) and rms(both - 20.0) < rms(kupt - 20.0)
-    (corridor,) = (note for note in found.notes if note.startswith("91 m") and "KUPT+DFPC" in note)
+    (corridor,) = (note for note in found.notes if note.startswith("91 m of corridors, KUPT+DFPC"))
     (share,) = re.findall(r"([\d.]+) % of it on average", corridor)
     assert float(share) <= 1.0
     for setting in ("pivot -1 cm", "pivot +1 cm", "impact 50 ms", "no low pass"):

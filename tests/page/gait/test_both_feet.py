@@ -12,6 +12,7 @@ from solepath import Foot, StrideFused
 from solepath.emulate.routes.route import Route
 from solepath.events import TouchedDown
 from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC
+from solepath.show.page.body import Legs, LiveBody
 from solepath.types import WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -102,6 +103,26 @@ def test_the_body_is_seen_from_the_right_whichever_way_the_wearer_faces() -> Non
         "left": [[0.0, 0.0], [-0.15, -0.42], [-0.3, -0.83], [-0.15, -0.91]],
         "right": [[0.0, 0.0], [0.15, -0.42], [0.3, -0.83], [0.45, -0.91]],
     }
+
+
+def test_legs_between_touchdowns_are_those_of_the_session_ten_times_a_second() -> None:
+    looked_up: list[float] = []
+
+    def legs() -> Legs | None:
+        looked_up.append(scene.now)
+        rods = (standing(0.08, 0.1 * scene.now), standing(-0.08, -0.1 * scene.now))
+        return (scene.now, rods) if scene.now < 9.0 else None
+
+    scene = shown([foot_moved(1.0), DOWN])
+    scene.body = LiveBody(legs)
+    shown_at = []
+    for k in range(60):
+        scene.tick(2.0 + 0.03 * k)
+        shown_at.append(frame(scene)["body"]["t"])
+    assert shown_at[0] == 2.0 and 14 <= len(set(shown_at)) == len(looked_up) <= 18
+    assert frame(scene)["body"]["left"][2] == [round(0.1 * looked_up[-1], 3), -0.83]
+    scene.tick(9.5)
+    assert frame(scene)["body"]["t"] == DOWN.t  # an attitude is not known: the last touchdown
 
 
 def test_feet_that_point_straight_down_show_no_body() -> None:

@@ -15,10 +15,13 @@ from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.laps import square
 from solepath.emulate.sensors.insoles import heel_array, layout
 from solepath.emulate.walk import SampledWalk, sampled
+from solepath.emulate.wearers.walker import Walker
 from solepath.foot.stance.stance import Load
-from solepath.lab.reproduce.contour.figures import stance_curves
+from solepath.lab.reproduce.contour.figures import bias_curves, stance_curves
 from solepath.lab.reproduce.contour.runs import ContourRun, run_foot, sign_test, stance_velocities
-from solepath.lab.reproduce.contour.variants import SETUPS, TABLE, VARIANTS
+from solepath.lab.reproduce.contour.variants import PRESSURE_PRINTED_ROW, SETUPS, TABLE, VARIANTS
+from solepath.lab.reproduce.contour.walks import HALF_HOUR, ContourJob, route_of, walk
+from solepath.lab.reproduce.published import LOOPS
 from solepath.papers.pressure_contour.contour_stance import ContourVelocity
 from solepath.papers.pressure_contour.printed import PrintedContour
 from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR, PRESSURE_CONTOUR_PRINTED
@@ -114,6 +117,35 @@ def test_without_the_filter_no_bias_is_learnt() -> None:
     name = "Pressure as printed, no bias filter"
     assert not run_foot(VARIANTS[name], RIGHT, lap().samples[:1500], KNOWN).bias.any()
     assert walked("pressure-contour-printed").bias[-1].any()
+
+
+def test_figure_9_is_the_bias_of_each_axis_in_mg_over_minutes() -> None:
+    t = np.array([10.0, 40.0, 70.0])
+    bias = GRAVITY * 1e-3 * np.array([[1.0, 0.0, -2.0], [2.0, 0.0, -4.0], [3.0, 5.0, -6.0]])
+    x, y, z = bias_curves(ContourRun((), t, np.array([True] * 3), bias))
+    assert [name.name for name in (x, y, z)] == ["bias of x", "bias of y", "bias of z"]
+    assert np.array(x.points) == pytest.approx(np.array([(0.0, 1.0), (0.5, 2.0), (1.0, 3.0)]))
+    assert np.array(z.points)[:, 1] == pytest.approx([-2.0, -4.0, -6.0]) and y.points[-1][1] == pytest.approx(5.0)
+
+
+@pytest.mark.parametrize("number", [3, 4])
+def test_as_in_figure_13_laps_and_a_halt_come_before_half_an_hour_that_ends_where_it_began(number: int) -> None:
+    job = ContourJob(1, number, HALF_HOUR, 5, TABLE, ())
+    laps, whole = route_of(job)
+    assert laps.end.x == pytest.approx(0.0, abs=1e-6) and laps.end.y == pytest.approx(0.0, abs=1e-6)
+    assert np.hypot(whole.end.x, whole.end.y) < 0.1
+    assert whole.length - laps.length == pytest.approx(LOOPS[number].distance, rel=0.05)
+    walked_for = Walker(whole, TABLE.wearer).duration - Walker(laps, TABLE.wearer).duration
+    assert walked_for == pytest.approx(HALF_HOUR, rel=0.05)
+
+
+def test_a_track_without_calibration_is_drawn_beside_the_calibrated_ones() -> None:
+    job = ContourJob(1, 3, 30.0, 2, TABLE, (PRESSURE_PRINTED_ROW,), uncalibrated=True)
+    result = walk(job)
+    tracks = {track.name: np.array(track.points) for track in result.tracks}
+    assert list(tracks) == ["true path", "pressure as printed", "pressure as printed, uncalibrated"]
+    assert job.key != evolve(job, uncalibrated=False).key
+    assert np.linalg.norm(tracks["pressure as printed"][-1] - tracks["pressure as printed, uncalibrated"][-1]) > 0.001
 
 
 def test_every_variant_is_another_recipe_and_every_setup_another_walk() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from itertools import pairwise
 from math import hypot, pi
 
 import pytest
@@ -29,6 +30,7 @@ from solepath.papers.walking_modes.settings import ModeRule, ModesSettings
 from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
 from solepath.recipes import DEFAULT
 from solepath.session import Session
+from solepath.show.page.body import legs_of
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 from solepath.types.vector import sub
 
@@ -91,6 +93,21 @@ def test_the_legs_at_a_touchdown_reach_down_and_as_far_apart_as_the_feet() -> No
             assert apart == pytest.approx(hypot(x, y), abs=0.1)
         before = down
     assert before is not None
+
+
+def test_the_legs_of_a_session_move_between_touchdowns() -> None:
+    session = Session(METHOD_III.exchanged(TrackPart, Modes(settings=KNOWN_HEADING)), calibration=KNOWN)
+    seen = []
+    for sample in suit_samples():
+        session.feed(sample)
+        if sample.site is Site.PELVIS and 4.0 < sample.t < 5.0:
+            seen.append(legs_of(session))
+    assert legs_of(Session()) is None
+    times = [legs[0] for legs in seen if legs is not None]
+    assert len(set(times)) == len(seen) > 40
+    apart = [left[3][0] - right[3][0] for left, right in (legs[1] for legs in seen if legs is not None)]
+    assert max(apart) > 0.3 and min(apart) < -0.3
+    assert max(abs(b - a) for a, b in pairwise(apart)) < 0.15
 
 
 def test_a_touchdown_is_known_within_three_samples() -> None:

@@ -19,6 +19,7 @@ from ...recipes import Recipe
 from ...recording import printable
 from ...session import Session
 from ...show.observer import Observer
+from ...show.page.body import LiveBody, legs_of
 from ...show.page.live_commands import position_of
 from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
@@ -61,6 +62,7 @@ async def listen(
         if address is not None:
             floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)
             scene = Scene("Live", recipe.name, "live", plan=floor_plan, newtons=newtons, observer=observer)
+            scene.body = LiveBody(lambda: legs_of(session))
             await stack.enter_async_context(
                 serve_page(scene, address, lambda command: packets.report_position(position_of(command, floor_plan)))
             )

@@ -13,10 +13,11 @@ from ...calibration import Calibration
 from ..bluetooth.devices import add_feet, need_bleak
 from ..common.failure import Failure, parse_count, parse_positive
 from ..common.files import Kind, OutputFile, add_force, check_outputs, check_writable
+from ..common.view import add_view, need_page, page_address_of
 
 TIMES = 3
 """Number of measurements of each posture, as in the paper."""
-OF_LIVE = ("height", "heel", "via", "left", "right", "profile", "pair")
+OF_LIVE = ("height", "heel", "via", "left", "right", "profile", "pair", "view", "no_browser")
 """Options that only --live uses."""
 MEASUREMENTS = Kind(None)
 """A file of postures: what was measured once cannot be computed again."""
@@ -45,6 +46,7 @@ def add_shoe(kinds: Any) -> None:
         "--heel", metavar="M", type=parse_positive, help="from the heel's end to below the sensor, m, with --live"
     )
     add_feet(command)
+    add_view(command, command, "with --live: show the pitch and what to do next")
     add_force(command)
 
 
@@ -54,7 +56,7 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> tuple[Calibration,
     if options.live:
         _measure(options)
     else:
-        given = [name for name in OF_LIVE if getattr(options, name)]
+        given = [name.replace("_", "-") for name in OF_LIVE if getattr(options, name) not in (None, False)]
         if given:
             raise Failure(f"--{given[0]} is an option of --live: without it nothing is measured now")
     fit = fit_shoe(options.file)
@@ -71,12 +73,14 @@ def _measure(options: argparse.Namespace) -> None:
     """Write the file of postures, measured with a person at the terminal; raise SystemExit when that was stopped."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise Failure("calibrate shoe --live asks a person for what the rulers show: it needs a terminal")
+    need_page(options, options.view is not None)
+    address = page_address_of(options)
     check_outputs([OutputFile(options.file, MEASUREMENTS)], [options.out], force=options.force)
     check_writable(options.file)
     need_bleak()
     from ..bluetooth.backend import listen_to_end
     from .shoe_live import measure
 
-    status = listen_to_end(partial(measure, options))
+    status = listen_to_end(partial(measure, options, address))
     if status != 0:
         raise SystemExit(status)

@@ -8,7 +8,7 @@ import argparse
 import asyncio
 from collections.abc import AsyncIterable
 from contextlib import AsyncExitStack
-from math import degrees
+from math import degrees, radians
 from pathlib import Path
 
 from attrs import define, field
@@ -19,11 +19,14 @@ from ...link.decoder import Decoder
 from ...papers.kupt_dfpc.shoe.fit import CONSTANT_COLUMNS, LONGEST_SHOE, MeasuredPosture, write_measurements
 from ...papers.kupt_dfpc.shoe.gauge import STILL_TIME, PitchGauge
 from ...recording import printable
-from ...types import Packet, Sample, Site
+from ...show.page.posture import Posture
+from ...show.page.scene.scene import Scene
+from ...types import Foot, Packet, Sample, Site
 from ..bluetooth.backend import backend_of
 from ..bluetooth.devices import SCAN_TIME, named_devices
 from ..common.failure import Failure
 from ..common.loop import unless_stopped
+from ..common.view import PageAddress, serve_page
 from .terminal import Dialogue
 
 PITCHES = (10, 22, 34, 46, 58)
@@ -44,8 +47,10 @@ class _Ended(Exception):
     """The person wants to measure no more."""
 
 
-async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
-    """Measure until all postures are in the file or the person ends; return 0. Raise StoppedEarly at a signal."""
+async def measure(options: argparse.Namespace, address: PageAddress | None, stop: asyncio.Event) -> int:
+    """Measure until all postures are in the file or the person ends; return 0. Raise StoppedEarly at a signal.
+
+    With an `address`, a page there shows the pitch as well."""
     constants = dict(zip(CONSTANT_COLUMNS, (options.height, options.heel), strict=True))
     devices = named_devices(options)
     if len(devices) > 1:
@@ -61,7 +66,10 @@ async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
                 raise Failure(f"{names or 'no device that is known here'} in range: say which with --left or --right")
             devices = [DeviceConfig(Site.RIGHT_FOOT, found[0].address, found[0].profile)]
         packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
-        shoe = LiveShoe(devices[0].site or Site.RIGHT_FOOT)
+        site = devices[0].site or Site.RIGHT_FOOT
+        shoe = LiveShoe(site, Scene("A shoe is measured", "", posture=Posture(site.foot or Foot.RIGHT)))
+        if address is not None:
+            await stack.enter_async_context(serve_page(shoe.scene, address))
         receiving = asyncio.create_task(shoe.receive(packets))
         try:
             known = {name: value for name, value in constants.items() if value is not None}
@@ -77,6 +85,8 @@ class LiveShoe:
     """The pitch of a shoe whose sensor sends packets."""
 
     site: Site
+    scene: Scene
+    """Scene for a page, which shows `Posture` and the link."""
     gauge: PitchGauge = field(factory=PitchGauge, init=False)
     now: float = field(default=0.0, init=False)
     """Time of the newest packet, s."""
@@ -91,18 +101,40 @@ class LiveShoe:
         async for packet in packets:
             self.now = packet.t
             for output in decoder.feed(packet):
-                if isinstance(output, Sample) and output.acc is not None:
-                    self.gauge.add_sample(output.t, output.acc)
-                    self.sample_at, self.trouble = packet.t, None
-                elif isinstance(output, LinkTrouble):
+                if isinstance(output, Sample):
+                    self.scene.take(output, [])
+                    if output.acc is not None:
+                        self.gauge.add_sample(output.t, output.acc)
+                        self.sample_at, self.trouble = packet.t, None
+                    continue
+                self.scene.take(None, [output])
+                if isinstance(output, LinkTrouble):
                     self.trouble = output.what
             if self.is_silent:
                 self.gauge.restart()
+            self._show()
 
     @property
     def is_silent(self) -> bool:
         """True while no sample comes."""
         return self.sample_at is None or self.now - self.sample_at > SILENCE
+
+    def ask(self, task: str, target: float | None = None) -> None:
+        """Show on the page what the person is to do, and the pitch to reach, degrees."""
+        posture = self.scene.posture
+        if posture is not None:
+            posture.task, posture.target = task, None if target is None else radians(target)
+
+    def _show(self) -> None:
+        """Show the present pitch on the page."""
+        posture, reading = self.scene.posture, None if self.is_silent else self.gauge.read()
+        if posture is None:
+            return
+        posture.is_still, posture.pitch, posture.lean = False, None, None
+        if reading is not None:
+            posture.is_still = reading.is_still
+            posture.pitch = None if self.gauge.flat is None else reading.pitch
+            posture.lean = reading.sideways if degrees(abs(reading.sideways)) > SEEN_LEAN else None
 
     def line(self) -> str:
         """Return the present pitch in words."""
@@ -135,7 +167,7 @@ class Measuring:
         try:
             while len(self.done) < times * len(PITCHES):
                 if self.shoe.gauge.flat is None:
-                    self.talk.print_line("Stand with the shoe flat on level ground: from there the pitch is counted.")
+                    self._ask("Stand with the shoe flat on level ground: from there the pitch is counted.")
                     await self._take()
                 else:
                     await self._measure(times)
@@ -147,9 +179,10 @@ class Measuring:
     async def _measure(self, times: int) -> None:
         """Measure the next posture, or take the last one back."""
         k, time = divmod(len(self.done), times)
-        self.talk.print_line(
+        self._ask(
             f"Posture {k + 1} of {len(PITCHES)}, time {time + 1} of {times}: forefoot on the ground, heel up by about "
-            f"{PITCHES[k]} degrees"
+            f"{PITCHES[k]} degrees",
+            PITCHES[k],
         )
         pitch = await self._take()
         if pitch is None:
@@ -165,6 +198,11 @@ class Measuring:
         to_toe = await self._length("L_p2t in mm, on the ground from there to where the toe stood:")
         self.done.append(MeasuredPosture(pitch, to_ruler, to_toe))
         self._write()
+
+    def _ask(self, task: str, target: float | None = None) -> None:
+        """Say at the terminal and on the page what to do, with the pitch to reach, degrees."""
+        self.talk.print_line(task)
+        self.shoe.ask(task, target)
 
     async def _take(self) -> float | None:
         """Return the pitch, rad, of a still second after Enter; None for u. Raise _Ended for q."""
@@ -187,6 +225,7 @@ class Measuring:
 
     async def _length(self, question: str) -> float:
         """Return a length that is typed in mm, m. Raise _Ended for q."""
+        self.shoe.ask(f"Hold the shoe and answer at the terminal: {question}")
         while True:
             typed = await self.talk.prompt(question)
             if typed == "q":

@@ -1,8 +1,10 @@
 """Chen et al. 2019: 20 walks of 20 m, and 91 m through a building, with two smart insoles at 30 Hz.
 
 The shoes are worn ones: they bend elsewhere than in the postures, land softly and slide (emulate/wearers/soles/). Our
-additions to the printed method are rows of the table, one after the other, for both feet together. A block of rows
-changes one thing at a time about shoe and sensors (`SETTINGS`).
+additions to the printed method are rows of the table, one after the other, for both feet together; ZUPT has rows with
+the same additions, so that the difference is what the known velocity is worth. A block of rows changes one thing at a
+time about shoe and sensors (`SETTINGS`). The law by which the load moves in bends is changed in the corridor, because
+straight walks have no bends.
 
 Each walk has another pair of insoles, for which the shoe is measured in five postures, three times each (section
 III-C). A recording has 20 s of walking to measure the pressure noise (section III-B), a halt, and then the 20 m. The
@@ -22,12 +24,15 @@ from ...recipes import Recipe
 from ...types import Foot
 from ..measures.alignment import Floats
 from . import published
+from .contour.runs import sign_test
 from .kupt.figures import coverage, panels, watch
 from .kupt.walks import (
     ABLATIONS,
     BY_ERROR_INDEX,
     CORRIDOR_LENGTH,
+    OTHER_LAW,
     RATE,
+    SAME_ADDITIONS,
     SETTINGS,
     STANDARD,
     WALK_LENGTH,
@@ -45,6 +50,8 @@ WALKS_PER_CORRIDOR = 4
 """Number of walks of 20 m for each corridor walk. The paper has a single corridor walk, too few for a mean."""
 FOOT_LETTERS = {Foot.LEFT: "L", Foot.RIGHT: "R"}
 PRINTED_ROWS = ("KUPT-L, printed", "KUPT-R, printed", "KUPT+DFPC, printed")
+SAME_ROW, SAME_FUSED_ROW = "ZUPT (+ bias)", "ZUPT+DFPC, same additions"
+"""Rows of ZUPT with all our additions to KUPT, of both feet and of their fusion."""
 COVERAGE_ROWS = ("known by ZUPT %", "known by KUPT %")
 
 
@@ -86,16 +93,18 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     """Return the results of `walks` walks of 20 m, and of one corridor walk for every WALKS_PER_CORRIDOR of them."""
     count = WALKS if walks is None else walks
     corridors = max(1, count // WALKS_PER_CORRIDOR)
-    jobs = [KuptJob(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
+    laws = (STANDARD, OTHER_LAW)
+    jobs = [KuptJob(1000 * seed + 500 + k, corridor=True, setting=law) for law in laws for k in range(corridors)]
     jobs += [KuptJob(1000 * seed + k, drawn=k == 1) for k in range(1, count + 1)]
     jobs += [KuptJob(1000 * seed + k, setting=setting) for setting in SETTINGS for k in range(1, count + 1)]
     results = runner.run(walk, jobs, _describe)
-    corridor_walks, short_walks, others = results[:corridors], results[corridors:][:count], results[corridors + count :]
+    corridor_walks, results = results[: len(laws) * corridors], results[len(laws) * corridors :]
+    short_walks, others = results[:count], results[count:]
     paper = published.KUPT_DFPC
     rows = [_row(name, short_walks) for name in short_walks[0].distances]
     for number, setting in enumerate(SETTINGS):
         walks_of_setting = others[number * count :][:count]
-        rows += [_row(name, walks_of_setting, f"{setting.name}: {name}") for name in paper]
+        rows += [_row(name, walks_of_setting, f"{setting.name}: {name}") for name in walks_of_setting[0].distances]
     return Reproduction(
         name=NAME,
         paper_title=published.KUPT_DFPC_TITLE,
@@ -109,7 +118,13 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
             ),
             *short_walks[0].panels,
         ),
-        notes=_notes(rows, short_walks, corridor_walks),
+        notes=(
+            *_notes(rows, short_walks),
+            *_corridor_notes("", corridor_walks[:corridors]),
+            *_corridor_notes(f" with {OTHER_LAW.name}", corridor_walks[corridors:]),
+            f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I "
+            f"and {published.KUPT_L_MEAN_IN_TEXT} m in the text below it.",
+        ),
     )
 
 
@@ -123,7 +138,7 @@ def _row(name: str, walks: list[KuptResults], shown: str | None = None) -> Figur
     return row_of(published.KUPT_DFPC_ROWS, name if shown is None else shown, values, digits)
 
 
-def _notes(rows: list[FigureRow], short_walks: list[KuptResults], corridor_walks: list[KuptResults]) -> tuple[str, ...]:
+def _notes(rows: list[FigureRow], short_walks: list[KuptResults]) -> list[str]:
     squares = {
         row.name: float(np.sqrt(np.mean([(value - WALK_LENGTH) ** 2 for value in row.values])))
         for row in rows
@@ -133,29 +148,40 @@ def _notes(rows: list[FigureRow], short_walks: list[KuptResults], corridor_walks
     paths = statistics([one.true[foot] for one in short_walks for foot in Foot])
     lines = [f"Root mean square of the error of {len(short_walks)} walks, m: {', '.join(own)}."]
     for setting in SETTINGS:
-        off = [f"{name} {squares[f'{setting.name}: {name}']:.2f}" for name in published.KUPT_DFPC]
+        start = f"{setting.name}: "
+        off = [f"{name[len(start) :]} {value:.2f}" for name, value in squares.items() if name.startswith(start)]
         zero, known = (
             sum(squares[f"{setting.name}: {method}-{letter}"] ** 2 for letter in "LR") ** 0.5
             for method in ("ZUPT", "KUPT")
         )
         lines.append(f"With {setting.name}: {', '.join(off)}; KUPT over ZUPT, both feet: {known / zero:.2f}.")
     lines.append(f"The feet really went {paths.mean:.2f} m on average.")
+    with_known, without = (
+        np.abs(np.array([value for one in short_walks for value in one.distances[name]]) - WALK_LENGTH)
+        for name in ("KUPT (+ bias)", SAME_ROW)
+    )
+    test = sign_test(with_known, without)
+    lines.append(
+        f"The known velocity alone: KUPT errs less than ZUPT with the same additions in {test.smaller} of {test.pairs} "
+        f"walks of a foot (sign test, p = {test.probability:.2g})."
+    )
+    return lines
+
+
+def _corridor_notes(condition: str, walks: list[KuptResults]) -> list[str]:
+    lines = []
     for name, drift in published.CORRIDOR_DRIFT.items():
-        off_by = [one.distances[name][0] - _true_distance(one, name) for one in corridor_walks]
+        off_by = [one.distances[name][0] - _true_distance(one, name) for one in walks]
         share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR_LENGTH
         worst = 100.0 * float(np.max(np.abs(off_by))) / CORRIDOR_LENGTH
-        ends = float(np.mean([one.end_distances[name] for one in corridor_walks]))
+        ends = float(np.mean([one.end_distances[name] for one in walks]))
         lines.append(
-            f"{CORRIDOR_LENGTH:g} m of corridors, {name}: distance off by "
+            f"{CORRIDOR_LENGTH:g} m of corridors{condition}, {name}: distance off by "
             f"{', '.join(f'{off:+.2f}' for off in off_by)} m, {share:.2f} % of it on average, {worst:.2f} % at worst, "
             f"end {ends:.2f} m from the start of this closed way; paper {drift:.2f} m, "
             f"{100.0 * drift / CORRIDOR_LENGTH:.2f} %."
         )
-    lines.append(
-        f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I and "
-        f"{published.KUPT_L_MEAN_IN_TEXT} m in the text below it."
-    )
-    return tuple(lines)
+    return lines
 
 
 def _true_distance(one: KuptResults, name: str) -> float:
@@ -178,7 +204,10 @@ def walk(job: KuptJob) -> KuptResults:
     if job.corridor:
         tracks, end_distances = _tracks(prepared.walk.truth, prepared.t_halt, zupt, known)
         return KuptResults(distances, true, tracks, end_distances)
-    if job.setting != STANDARD:
+    same = _run(SAME_ADDITIONS, prepared)
+    distances[SAME_ROW] = tuple([_distance(same, foot) for foot in Foot])
+    distances[SAME_FUSED_ROW] = (_fused_distance(same),)
+    if not job.setting.with_additions:
         return KuptResults(distances, true)
     printed = _run(KUPT_DFPC_PRINTED, prepared)
     values = (*(_distance(printed, foot) for foot in Foot), _fused_distance(printed))
@@ -188,6 +217,8 @@ def walk(job: KuptJob) -> KuptResults:
         distances[name] = tuple([_distance(events, foot) for foot in Foot])
     by_index = _run(BY_ERROR_INDEX, prepared)
     distances[BY_ERROR_INDEX.name] = (_fused_distance(by_index),)
+    if job.setting != STANDARD:
+        return KuptResults(distances, true)
     seen = watch(prepared.parts.after, prepared.calibration)
     shares = [coverage(seen[foot]) for foot in Foot]
     distances.update({name: tuple([share[k] for share in shares]) for k, name in enumerate(COVERAGE_ROWS)})

@@ -48,7 +48,7 @@ SHORT_DURATION = 300.0
 """Duration of the short walks, s."""
 CALIBRATION_LAPS = 5
 """Number of laps of the calibration square; the paper has "four to six"."""
-FIGURE_TITLES = {3: "square (fig. 14)", 4: "random walk (fig. 16)"}
+FIGURE_TITLES = {3: "square (fig. 14)", 4: "random walk (figs. 15 and 16)"}
 """Titles of the walks that the paper draws, by their index in LOOPS. These are walked first."""
 LOOP_ORDER = (*FIGURE_TITLES, 0, 1, 2, 5)
 """Indices of LOOPS in the order in which they are walked."""
@@ -87,7 +87,9 @@ def loop_jobs(count: int, seed: int) -> list[ContourJob]:
     """Return the walks of table I; `count` other than 6 leaves some out or repeats them."""
     numbers = [LOOP_ORDER[k % len(LOOP_ORDER)] for k in range(count)]
     return [
-        ContourJob(1000 * seed + k, number, WALK_DURATION, CALIBRATION_LAPS, TABLE, tuple(MAIN))
+        ContourJob(
+            1000 * seed + k, number, WALK_DURATION, CALIBRATION_LAPS, TABLE, tuple(MAIN), number in FIGURE_TITLES
+        )
         for k, number in enumerate(numbers)
     ]
 

@@ -14,6 +14,7 @@ piece (`VARIANTS`). Then come recognition of the modes under two load laws, and 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import radians
 
 import numpy as np
 from attrs import evolve
@@ -21,6 +22,7 @@ from attrs import evolve
 from ...calibration import Calibration
 from ...emulate.routes.laps import ACROSS, ALONG
 from ...emulate.wearers.gait import SUBJECTS, LoadLaw
+from ...emulate.wearers.soles.contact import WORN
 from ...papers.walking_modes.calibrate import MODES
 from ...papers.walking_modes.compensation import Compensation
 from ...papers.walking_modes.modes import Modes
@@ -86,8 +88,12 @@ CONDITIONS = {
     "no soft tissue": evolve(USUAL, tissue=0.0),
     "twice the soft tissue": evolve(USUAL, tissue=2.0),
     "load outward": evolve(USUAL, law=LoadLaw.OUTWARD, variation=0.0),
+    "worn sole": evolve(USUAL, contact=WORN),
+    "pivot +2 cm": evolve(USUAL, contact=evolve(WORN, pivot_shift=0.02)),
+    "slip 2 cm": evolve(USUAL, contact=evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    "tilt 1 deg": evolve(USUAL, tilt=radians(1.0)),
 }
-"""Conditions for which the mean distance over the corners is a row of its own."""
+"""Conditions for which the mean distance over the corners is a row of its own, with one walk over marks in all."""
 
 
 def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
@@ -109,20 +115,21 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
         BendsJob(subject, 1000 * seed + 700 + subject, BEND_STEPS, c) for c in BENDS.values() for subject in wearers
     ]
     shares = runner.run(recognise, bends, lambda _: "modes in bends")
-    others = [c for c in CONDITIONS.values() if c != USUAL]
     again = [
-        MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, BEND_STEPS, 1, c) for c in others for subject in wearers
+        MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, BEND_STEPS, 1, c)
+        for c in CONDITIONS.values()
+        for subject in wearers
     ]
-    learnt = runner.run(learn, again, lambda _: "walks over marks in other conditions")
+    learnt = runner.run(learn, again, lambda _: "one walk over marks")
     condition_jobs = [
         ModesJob(
             k % len(wearers), 1000 * seed + k, _two_methods(learnt[n * len(wearers) + k % len(wearers)]), condition
         )
-        for n, condition in enumerate(others)
+        for n, condition in enumerate(CONDITIONS.values())
         for k in range(few)
     ]
     found = runner.run(walk, condition_jobs, _describe)
-    by_condition = [results[:few], *np.array(found, dtype=object).reshape(len(others), few).tolist()]
+    by_condition = [found[n * few : (n + 1) * few] for n in range(len(CONDITIONS))]
 
     rows = [
         *_corner_rows(results),

@@ -159,11 +159,13 @@ class SoftSwing(SwingDedrift):
         error, heel_error = toe_off.error, self.heel_strike_error
         x, y, _ = toe_off.known_displacement
         rolled = hypot(x, y)
-        if error is None or rolled < LEAST_ROLL or not self.settings.uses_rolling:
+        if error is None or rolled < LEAST_ROLL:
             return
         x, y = x / rolled, y / rolled
         last_error = self.raw_velocity if heel_error is None else heel_error
         self.last_error_index = hypot(error[0] + last_error[0], error[1] + last_error[1])
+        if not self.settings.uses_rolling:
+            return
         first, _, last = variances
         pivot, slide, lift_rate = self.pivot, self.toe_slide, toe_off.lift_rate
         expected = slide.mean + pivot.shift * lift_rate

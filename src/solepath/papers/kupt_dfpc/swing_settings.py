@@ -38,7 +38,7 @@ class SoftSwingSettings(SwingSettings):
     twice as large as 1 g times the tolerance of the scale; so four fifths of the variance of that difference are
     offset."""
     uses_rolling: bool = True
-    """Flag: the velocities of the rolling shoe are used."""
+    """Flag: the velocities of the rolling shoe correct the track; if False, they only give the error index (10)."""
     learns_rolling: bool = True
     """Flag: pivot and slide are learnt; if False, their starting values stay."""
     learns_time: bool = True

@@ -34,7 +34,7 @@ from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
 from ...foot.view import FootPose, FootView, PressedCells
 from ...foot.world import Covariance3
-from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site
+from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site, Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO, sub
 from .compensation import epsilon_p, merge_own
@@ -202,8 +202,7 @@ class Modes(TrackPart):
         """Compute the pending touchdown once all attitudes of its instant are known, or after `LONGEST_WAIT`."""
         if self.pending is None:
             return []
-        _, touchdown_t = self.pending
-        chain = self.places.chain
+        (_, touchdown_t), chain = self.pending, self.places.chain
         if chain.is_current(touchdown_t) and t - touchdown_t < LONGEST_WAIT:
             complete = chain.complete()
             if complete is not None and complete < touchdown_t - TIE:
@@ -228,8 +227,7 @@ class Modes(TrackPart):
         """Add a touchdown, as in the flow of fig. 12.
 
         `by_own_track` is True if the foot itself is the reference, so that only its own track has its place."""
-        places = self.places
-        side, chain = places.sides[foot], places.chain
+        places, side, chain = self.places, self.places.sides[foot], self.places.chain
         if chain.is_current(t):
             first_step_foot = places.first_step_foot(foot)
             x, y, _ = sub(places.sides[first_step_foot].own_position, places.sides[first_step_foot].place)
@@ -284,6 +282,11 @@ class Modes(TrackPart):
             places.append(self.places.locate(foot, t)[0] if moving else side.place)
         x, y, z = (0.5 * (one + other) for one, other in zip(*places, strict=True))
         return Position(t, (x, y, z), self._covariance(x, y, poses))
+
+    @property
+    def legs(self) -> tuple[float, tuple[tuple[Vec3, ...], tuple[Vec3, ...]]] | None:
+        """Time, s, and rods of both legs then, as they are known now; None while an attitude is not known."""
+        return self.places.chain.newest_legs()
 
     def _covariance(self, x: float, y: float, poses: list[FootPose]) -> Covariance3:
         """Return the covariance by errors of touchdowns, scale and first heading, m^2; for z, that of the tracks."""

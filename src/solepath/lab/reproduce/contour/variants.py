@@ -5,13 +5,15 @@
 
 from __future__ import annotations
 
-from math import radians
+from math import inf, radians
 
 from attrs import evolve, frozen
 
 from ....emulate.sensors.insole_device import Insole, boot
 from ....emulate.sensors.parts import INERTIACUBE3, TILTED_INERTIACUBE3, WORN_CAPACITIVE
-from ....emulate.wearers.gait import Wearer
+from ....emulate.wearers.gait import LoadLaw, Wearer
+from ....emulate.wearers.shoe import Shoe
+from ....emulate.wearers.soles.contact import WORN, GroundContact
 from ....emulate.wearers.soles.heel_pad import HeelPad
 from ....papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from ....papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
@@ -101,6 +103,10 @@ def _pad(**changes: float) -> Wearer:
     return evolve(TABLE.wearer, pad=HeelPad(**changes))
 
 
+def _in_shoe(contact: GroundContact) -> Wearer:
+    return evolve(TABLE.wearer, shoe=Shoe(contact=contact))
+
+
 TABLE = Setup(
     "the boot of the table",
     Wearer(rest_pitch=0.01, pad=HeelPad()),
@@ -119,6 +125,11 @@ SETUPS = (
     Setup("a pad of half the stiffness in shear", _pad(shear_stiffness=20e3), TABLE.device),
     Setup("feet that hardly turn in stance", evolve(TABLE.wearer, rest_pitch=4e-4), TABLE.device),
     Setup("feet that turn twice as far in stance", evolve(TABLE.wearer, rest_pitch=0.02), TABLE.device),
+    Setup("a worn sole, which bends and slips", _in_shoe(WORN), TABLE.device),
+    Setup("a worn sole, pivot 2 cm ahead", _in_shoe(evolve(WORN, pivot_shift=0.02)), TABLE.device),
+    Setup("a worn sole that slips by 2 cm", _in_shoe(
+        evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)), TABLE.device),
+    Setup("no low pass before sampling", TABLE.wearer, evolve(TABLE.device, bandwidth=inf)),
     Setup("no tilt that stays", TABLE.wearer, evolve(TABLE.device, attitude=INERTIACUBE3)),
     Setup("a tilt of half a degree that stays", TABLE.wearer, _attitude_source(0.5, 30.0)),
     Setup("attitude errors of one degree", TABLE.wearer, evolve(
@@ -129,8 +140,13 @@ SETUPS = (
     Setup("an array that bears 0.3 of the load", TABLE.wearer, evolve(TABLE.device, borne_share=0.3)),
     Setup("99 cells under the whole sole", TABLE.wearer, evolve(
         TABLE.device, cells=99, cell_part=WORN_CAPACITIVE, borne_share=1.0)),
+    Setup("99 cells, and a load that moves inwards under the forefoot in bends", evolve(
+        TABLE.wearer, load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN), evolve(
+        TABLE.device, cells=99, cell_part=WORN_CAPACITIVE, borne_share=1.0)),
     Setup("samples at 100 Hz", TABLE.wearer, evolve(TABLE.device, rate=100.0)),
     Setup("a wearer of 100 kg", evolve(TABLE.wearer, mass=100.0), TABLE.device),
     Setup("a speed of 1.3 m/s", TABLE.wearer, TABLE.device, speed=1.3),
 )  # fmt: skip
-"""The setup of the table, and those that differ from it by one thing."""
+"""The setup of the table, and those that differ from it by one thing.
+
+The second load law is tried with 99 cells: under the heel, where the array is, both laws move the load alike."""

@@ -48,11 +48,13 @@ class ContourJob:
     setup: Setup
     variants: tuple[str, ...]
     """Recipes that walk it, keys of VARIANTS."""
+    uncalibrated: bool = False
+    """True if the track as printed is drawn as well without bias filter and laps: "position" in figs. 14 and 15."""
 
     @property
     def key(self) -> str:
         """Description that is another for each other job: setups and variants are known by their names."""
-        names = ", ".join((self.setup.name, *self.variants))
+        names = ", ".join((self.setup.name, *self.variants, *(("uncalibrated",) if self.uncalibrated else ())))
         return f"{self.seed}, {self.number}, {self.duration}, {self.laps}, {names}"
 
     @property
@@ -78,7 +80,7 @@ class ContourResults:
     found: dict[str, float]
     """Share of the stances that were found."""
     tracks: tuple[PictureTrack, ...]
-    """True path, then the tracks of MAIN and of the printed recipe without its filter."""
+    """True path, then the tracks of MAIN and of the printed recipe without its filter or without calibration."""
     stance: tuple[PictureTrack, ...]
     """Curves of figure 7: time in a stance, ms, and velocities, mm/s."""
     bias_filter: tuple[PictureTrack, ...]
@@ -129,6 +131,8 @@ def walk(job: ContourJob) -> ContourResults:
         )
     velocities = {name: stance_velocities(run, walked.truth, FOOT, t_halt) for name, run in runs.items()}
     shown = {name: run for name, run in runs.items() if name in MAIN or name == WITHOUT_BIAS_ROW}
+    if job.uncalibrated:
+        shown["Pressure as printed, uncalibrated"] = run_foot(VARIANTS[WITHOUT_BIAS_ROW], FOOT, after, known)
     return ContourResults(
         number=job.number,
         distance=whole.length - laps.length,

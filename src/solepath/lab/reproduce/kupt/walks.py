@@ -14,7 +14,7 @@ from ....emulate.routes.postures import postures, write_postures
 from ....emulate.sensors.insole_device import Insole
 from ....emulate.sensors.parts import LSM6DSOX, MPU9250, WORN_RESISTIVE, Imu
 from ....emulate.walk import EmulatedWalk, emulate
-from ....emulate.wearers.gait import Wearer
+from ....emulate.wearers.gait import LoadLaw, Wearer
 from ....emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
 from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
 from ....papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
@@ -24,7 +24,8 @@ from ....papers.kupt_dfpc.shoe.fit import fit_shoe
 from ....papers.kupt_dfpc.soft_swing import SoftSwing
 from ....papers.kupt_dfpc.swing_dedrift import SwingDedrift
 from ....papers.kupt_dfpc.swing_settings import PRINTED, SoftSwingSettings
-from ....types import SITE_OF_FOOT, Foot
+from ....types import SITE_OF_FOOT, Foot, Vec3
+from ....types.attrs import define
 from ....types.vector import from_rotation_vector
 from ..walks import WalkParts, cut_walk, find_halt, join_routes
 
@@ -56,14 +57,18 @@ class Setting:
     """Tilt of the IMU in the sole about the axis across the foot, rad; nobody knows it."""
     bounce_speed: float = SPEED
     """Walking speed, m/s: the load's peaks grow with its square, the steps with its root."""
+    load_law: LoadLaw = LoadLaw.OUTWARD
+    """Law by which the load moves in a bend; a straight walk has none."""
+    with_additions: bool = False
+    """True if these walks, too, have a row for each of our additions."""
 
 
-STANDARD = Setting("worn sole")
+STANDARD = Setting("worn sole", with_additions=True)
 SETTINGS = (
     Setting("rigid sole", RIGID),
     Setting("pivot -1 cm", evolve(WORN, pivot_shift=-0.01)),
     Setting("pivot +1 cm", evolve(WORN, pivot_shift=0.01)),
-    Setting("pivot +2 cm", evolve(WORN, pivot_shift=0.02)),
+    Setting("pivot +2 cm", evolve(WORN, pivot_shift=0.02), with_additions=True),
     Setting("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
     Setting("impact 14 ms", evolve(WORN, impact_time=0.014, impact_variation=0.0)),
     Setting("impact 50 ms", evolve(WORN, impact_time=0.05, impact_variation=0.0)),
@@ -73,6 +78,17 @@ SETTINGS = (
     Setting("slow, flat load", bounce_speed=0.9),
 )
 """Settings of the sensitivity block; each differs from STANDARD in one thing."""
+OTHER_LAW = Setting("load heel out, forefoot in", load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN)
+"""Setting of the corridor, the walk with bends, in which the load moves by the other law."""
+
+
+@define
+class ZuptBias(SoftSwing):
+    """ZUPT with one linear drift for each motion, to which only the accelerometer's bias is added."""
+
+    def _calibrated_displacement(self, duration: float) -> Vec3 | None:
+        return None
+
 
 ABLATIONS = {
     "KUPT as printed, our load": evolve(KUPT, corrector=SwingDedrift(PRINTED)),
@@ -83,9 +99,17 @@ ABLATIONS = {
     "KUPT + pivot, slide": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, learns_time=False))),
     "KUPT + time": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0))),
     "KUPT (+ bias)": KUPT,
-    "KUPT, no rolling": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(uses_rolling=False))),
+    "ZUPT + bias only": evolve(KUPT, corrector=ZuptBias()),
+    "ZUPT + soft": evolve(
+        KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, uses_rolling=False, learns_time=False))
+    ),
+    "ZUPT + time": evolve(KUPT, corrector=SoftSwing(SoftSwingSettings(bias_share=0.0, uses_rolling=False))),
 }
-"""Our additions to KUPT, one after the other, and ours without the velocities of the rolling shoe."""
+"""Our additions to KUPT, one after the other, and those additions to ZUPT, which has no velocity of a rolling shoe."""
+SAME_ADDITIONS = evolve(KUPT_DFPC, corrector=SoftSwing(SoftSwingSettings(uses_rolling=False)))
+"""ZUPT with all our additions to KUPT, fused: unlike in `KUPT_DFPC` no velocity of a rolling shoe corrects the track.
+
+Error indices (10) still tell which strides are normal; `DoubleFoot` leaves the others alone."""
 BY_ERROR_INDEX = KUPT_DFPC.exchanged(
     DoubleFoot, DoubleFoot(FusionSettings(by_variance=False)), "KUPT+DFPC by error index"
 )
@@ -116,7 +140,7 @@ def prepare(seed: int, setting: Setting, in_corridor: bool) -> PreparedWalk:
     insole = Insole(
         rate=RATE, cell_part=WORN_RESISTIVE, bandwidth=setting.bandwidth, chip=setting.chip, mounting=tilted
     )
-    wearer = Wearer(shoe=Shoe(contact=setting.contact))
+    wearer = Wearer(shoe=Shoe(contact=setting.contact), load_law=setting.load_law)
     devices = {SITE_OF_FOOT[foot]: insole for foot in Foot}
     walk = emulate(join_routes(NOISE_WALK, route), wearer=wearer, devices=devices, seed=seed)
     t_halt = find_halt(walk.walker, NOISE_WALK)

@@ -15,9 +15,10 @@ from ....calibration import Calibration, InsoleCalibration, Limbs, merged
 from ....emulate.routes.laps import LapCorner, corners, marked, rectangle
 from ....emulate.routes.laps import marks as marks_of
 from ....emulate.sensors.insoles import layout
-from ....emulate.sensors.parts import WORN_RESISTIVE
+from ....emulate.sensors.parts import CRE_CC02, WORN_RESISTIVE
 from ....emulate.sensors.suit import limb_samples
 from ....emulate.wearers.gait import SUBJECTS, LoadLaw, Wearer
+from ....emulate.wearers.soles.contact import RIGID, GroundContact
 from ....emulate.wearers.walker import Walker
 from ....events import TouchedDown
 from ....papers.walking_modes.calibrate import MODES, ModeMark, StepError, mean_errors, step_errors, touchdowns
@@ -59,10 +60,16 @@ class Conditions:
     """Law by which the load moves in a bend."""
     variation: float = LOAD_VARIATION
     """Variation of the load's lateral position, m."""
+    contact: GroundContact = RIGID
+    """Contact of the soles with the ground."""
+    tilt: float = 0.0
+    """Tilt that stays about either horizontal axis of each sensor's world, rad (`AttitudeErrors.steady_tilt`)."""
 
     def wearer(self, subject: int) -> Wearer:
         """Return the wearer of this index in SUBJECTS."""
-        return evolve(SUBJECTS[subject], load_law=self.law, load_variation=self.variation)
+        wearer = SUBJECTS[subject]
+        shoe = evolve(wearer.shoe, contact=self.contact)
+        return evolve(wearer, shoe=shoe, load_law=self.law, load_variation=self.variation)
 
     def calibration(self, subject: int) -> Calibration:
         """Return the calibration that needs no walk: lengths of the limbs, weight, and layouts of the insoles."""
@@ -81,6 +88,7 @@ class Conditions:
             walker,
             RATE,
             seed=seed,
+            attitude=evolve(CRE_CC02, steady_tilt=self.tilt),
             layouts=layouts,
             cell_part=WORN_RESISTIVE,
             tissue=self.tissue,

@@ -223,6 +223,12 @@ class LowerLimbs:
         """Return the rods of both legs, left and right, at `t` s; None if an attitude is not known then."""
         return (self.rods(Foot.LEFT, t), self.rods(Foot.RIGHT, t)) if self.is_current(t) else None
 
+    def newest_legs(self) -> tuple[float, tuple[tuple[Vec3, ...], tuple[Vec3, ...]]] | None:
+        """Return the newest instant at which all attitudes are known, s, and the rods then; None if one is missing."""
+        t = self.complete()
+        rods = None if t is None else self.legs(t)
+        return None if t is None or rods is None else (t, rods)
+
     def height(self, foot: Foot, t: float) -> float:
         """Return the height of the sole below the ankle at `t` s, relative to the middle of the hips, upwards, m.
 

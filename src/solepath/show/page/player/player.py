@@ -22,6 +22,7 @@ from ....events import Event
 from ....floorplan.index import IndexedPlan
 from ....session import Session
 from ....types import Packet, Sample
+from ..body import LiveBody, legs_of
 from ..messages import HERE, MAX_SPEED, MIN_SPEED, Command, CommandError
 from ..scene.scene import Scene
 from .packed_items import PackedItems
@@ -80,7 +81,7 @@ class Player:
         start, end = self.items.start, self.items.end
         self._due = start
         self.playback = Playback(start=start, end=end, t=start, state="playing", speed=1.0, seeking=None)
-        self.scene.playback = self.playback
+        self.scene.playback, self.scene.body = self.playback, LiveBody(lambda: legs_of(self.session))
         self._save(start)
 
     def command(self, command: Command) -> None:
@@ -201,8 +202,8 @@ class Player:
 
     def _save(self, t: float) -> None:
         scene = copy(self.scene)
-        # plans are large; `_restore` sets all three again
-        scene.plan = scene.drawing = scene.playback = None
+        # plans are large, and a lambda cannot be pickled; `_restore` sets all four again
+        scene.plan = scene.drawing = scene.playback = scene.body = None
         session = json.dumps(self.session.snapshot()).encode()
         packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only this process reads it
         self._saved.append(_SavedState(t, self._next, zlib.compress(session, 1), zlib.compress(packed, 1)))
@@ -211,8 +212,9 @@ class Player:
             self.spacing *= 2.0
 
     def _restore(self, saved: _SavedState) -> None:
-        plan, drawing = self.scene.plan, self.scene.drawing
+        plan, drawing, body = self.scene.plan, self.scene.drawing, self.scene.body
         self.session = Session.restore(json.loads(zlib.decompress(saved.session)), floorplan=self.plan)
         self.scene = pickle.loads(zlib.decompress(saved.scene))
         self.scene.plan, self.scene.drawing, self.scene.playback = plan, drawing, self.playback
+        self.scene.body = body
         self._next, self._finished = saved.next, False

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from math import hypot, isfinite
 from typing import Any
 
 from ....events import StrideFused, TouchedDown
 from ....foot.phase import SUPPORT
 from ....types import Foot
 from ...observer import Observer
+from ..body import LiveBody, body_frame
 from ..messages import rounded, rounded_all
 from .feet import FootScene
 
 
-def both_feet_frame(feet: dict[Foot, FootScene], observer: Observer) -> dict[str, Any]:
-    """Return the members "support", "touchdown", "body" and "fused" of a frame."""
+def both_feet_frame(feet: dict[Foot, FootScene], observer: Observer, body: LiveBody | None) -> dict[str, Any]:
+    """Return the members "support", "touchdown", "body" and "fused" of a frame; `body` has the legs between events."""
     left, right = feet[Foot.LEFT].phase, feet[Foot.RIGHT].phase
+    down = observer.touchdown
+    legs = None if body is None else body.frame(observer.now)
     return {
         "support": None if left is None or right is None else SUPPORT[left][right].value,
-        "touchdown": _touchdown_frame(observer.touchdown),
-        "body": None if observer.touchdown is None else body_frame(observer.touchdown),
+        "touchdown": _touchdown_frame(down),
+        "body": legs if legs is not None or down is None or down.legs is None else body_frame(down.t, down.legs),
         "fused": _fused_frame(observer.fused),
     }
 
@@ -34,24 +36,6 @@ def _touchdown_frame(touchdown: TouchedDown | None) -> dict[str, Any] | None:
         "mode": touchdown.mode.value,
         "position": rounded_all(touchdown.position),
     }
-
-
-def body_frame(touchdown: TouchedDown) -> dict[str, Any] | None:
-    """Return the member "body": the legs at a touchdown seen from the wearer's right; None without their sensors.
-
-    Coordinates are ahead of the middle of the hips and above it, m. Ahead is the mean horizontal direction from the
-    ankles to the ends of the feet."""
-    if touchdown.legs is None:
-        return None
-    x = y = 0.0
-    for _, _, ankle, end in touchdown.legs:
-        x, y = x + end[0] - ankle[0], y + end[1] - ankle[1]
-    length = hypot(x, y)
-    if not (isfinite(length) and length > 0.0):
-        return None
-    sides = [[[(a * x + b * y) / length, up] for a, b, up in leg] for leg in touchdown.legs]
-    left, right = [[rounded_all(point) for point in side] for side in sides]
-    return {"t": rounded(touchdown.t), "left": left, "right": right}
 
 
 def _fused_frame(fused: StrideFused | None) -> dict[str, Any] | None:

@@ -36,8 +36,10 @@ from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
 from ....types.attrs import NOT_SAVED
 from ...observer import REJECTIONS, FootCounts, Observer
 from ...valid import has_valid_numbers
+from ..body import LiveBody
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
+from ..posture import Posture
 from .bending import bend_of
 from .both_feet import both_feet_frame
 from .feet import FootScene
@@ -71,7 +73,7 @@ class Scene:
 
     Times are in s on the session's clock; positions in m, in the world frame, places on `plan` in the plan frame.
     `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. A player
-    writes `playback`. The scene feeds `observer` and shows its counts.
+    writes `playback`, who measures a shoe `posture`. The scene feeds `observer` and shows its counts.
 
     `take` is cheap: it is called for every packet. `message_since` takes some 0.1 ms and is for at most 30 calls a
     second. Memory is bounded. Two threads must not use a scene at once."""
@@ -81,6 +83,8 @@ class Scene:
     source: str = "live"
     plan: FloorPlan | None = field(default=None, metadata=NOT_SAVED)
     playback: Playback | None = field(default=None, metadata=NOT_SAVED)
+    posture: Posture | None = field(default=None, metadata=NOT_SAVED)
+    body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
     observer: Observer = field(factory=Observer)
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
@@ -253,9 +257,8 @@ class Scene:
         feet: dict[str, Any] = {}
         for foot, foot_scene in self.feet.items():
             link = links.get(SITE_OF_FOOT[foot])
-            feet[foot.value] = foot_scene.frame(
-                0.0 if link is None else link["rate"], observer.feet.get(foot, NO_COUNTS)
-            )
+            rate = 0.0 if link is None else link["rate"]
+            feet[foot.value] = foot_scene.frame(rate, observer.feet.get(foot, NO_COUNTS))
         silent_since, (since, activity) = feet_silent_since(observer.links, now), observer.timeline.last
         return {
             "feet": feet,
@@ -263,11 +266,12 @@ class Scene:
             "place": self.wearer.place_frame(observer.places.last),
             "activity": activity_frame(since, activity, silent_since),
             "pace": None if silent_since is not None else self.pace.frame(now, activity, since),
-            **both_feet_frame(self.feet, observer),
+            **both_feet_frame(self.feet, observer, self.body),
             "scales": self.scales.frame(),
             "gait": self.gait_means.frame(observer.recent_gait),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
+            "posture": None if self.posture is None else self.posture.frame(),
         }
 
 

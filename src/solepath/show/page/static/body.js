@@ -1,12 +1,13 @@
-// The legs at the last touchdown, from the right: rods from hip to knee, ankle and the end of the foot.
+// The legs as they are, or at the last touchdown, from the right: rods from hip to knee, ankle and the end of the foot.
 
 import { describe, fixed, show, write } from "./words.js";
 
 const SCALE = 100; // units of the drawing per m
+const OLD = 0.5; // age of legs that are not those of now, s
 const FLOOR = 114; // where the lower foot stands, units of the drawing
 
 export class BodyFigure {
-  uses = ["body", "scene"];
+  uses = ["body", "scene", "second"];
 
   constructor() {
     this.figure = document.getElementById("body-figure");
@@ -15,7 +16,7 @@ export class BodyFigure {
     this.hips = document.getElementById("body-hips");
   }
 
-  draw({ body }) {
+  draw({ body, t }) {
     show(this.figure, body !== null);
     if (body === null) return "done";
     const lowest = Math.min(...[...body.left, ...body.right].map(([, up]) => up));
@@ -23,7 +24,8 @@ export class BodyFigure {
     for (const foot of ["left", "right"]) describe(this.legs[foot], "points", body[foot].map(place).join(" "));
     describe(this.hips, "cy", fixedPoint(FLOOR + SCALE * lowest));
     const apart = Math.abs(body.left[3][0] - body.right[3][0]);
-    write(this.words, `Legs at the last touchdown, from the right: feet ${fixed(100 * apart)} cm apart`);
+    const when = t - body.t > OLD ? " at the last touchdown" : "";
+    write(this.words, `Legs${when}, from the right: feet ${fixed(100 * apart)} cm apart`);
     return "done";
   }
 }

@@ -16,6 +16,7 @@ import { Log } from "./log.js";
 import { Looking } from "./looking.js";
 import { Pace } from "./pace.js";
 import { Playback } from "./playback.js";
+import { PosturePanel } from "./posture.js";
 import { Ribbon } from "./ribbon.js";
 import { Seeking } from "./seeking.js";
 import { Soles } from "./soles.js";
@@ -28,6 +29,8 @@ const element = (id) => document.getElementById(id);
 const state = new State();
 const seen = { frames: 0, messages: 0, state };
 window.solepath = seen;
+
+const WHILE_MEASURING = [PosturePanel, Links, Log]; // what is shown while a shoe is measured
 
 let changed = new Set();
 let frameRequested = false;
@@ -54,6 +57,7 @@ const panels = [
   new Height(redraw),
   new ActivityPanel(),
   new BodyFigure(),
+  new PosturePanel(),
   new Gait(),
   new Links(),
   new Log(),
@@ -76,6 +80,7 @@ function draw(now) {
   const t = pace.at(state, now);
   let drew = false;
   for (const panel of panels) {
+    if (state.posture !== null && !WHILE_MEASURING.some((kind) => panel instanceof kind)) continue; // it is hidden
     const due = uses(panel, news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
     if (!due) continue;
     if (panel.draw(state, now, news, t) === "done") drew = true;

@@ -46,11 +46,12 @@ export class State {
     this.activity = null;
     this.support = null;
     this.touchdown = null; // {t, foot, mode, position: world frame, m}
-    this.body = null; // {left, right: hip, knee, ankle, end of the foot as [ahead, up], m}
+    this.body = null; // {t, left, right: hip, knee, ankle, end of the foot as [ahead, up], m}
     this.fused = null; // {foot, length, similarity, errorIndex, share, chosen, distance}: the last fused stride
     this.gait = null;
     this.links = {};
     this.playback = null;
+    this.posture = null; // {foot, task, target, pitch, lean: rad or null, still}: a shoe that is measured
     this.pace = null;
     this.scales = {};
   }
@@ -174,9 +175,9 @@ const touchdown = (value) => {
 };
 
 const body = (value) => {
-  const { left, right } = record(value);
+  const { t, left, right } = record(value);
   const legs = [left, right].map((leg) => list(leg).filter((point) => numbers(point, 2)).slice(0, 4));
-  return legs.every((leg) => leg.length === 4) ? { left: legs[0], right: legs[1] } : null;
+  return legs.every((leg) => leg.length === 4) && sound(t) ? { t, left: legs[0], right: legs[1] } : null;
 };
 
 const fused = (value) => {
@@ -185,8 +186,14 @@ const fused = (value) => {
   return { foot, chosen, length, distance, similarity: number(similarity), errorIndex: number(errorIndex), share: number(share) };
 };
 
+const posture = (value) => {
+  const { foot, task, target, pitch, lean, still } = record(value);
+  if (!FEET.includes(foot)) return null;
+  return { foot, task: text(task), target: number(target), pitch: number(pitch), lean: number(lean), still: still === true };
+};
+
 // Members that a frame sends whole, with the function that checks each.
-const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, playback };
+const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, playback, posture };
 
 // Sorted by time: a phase may become known after one that started later.
 function insert(phases, one) {

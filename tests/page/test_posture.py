@@ -1,0 +1,38 @@
+"""Tests the page of a shoe that is held in postures while it is measured."""
+
+from __future__ import annotations
+
+from math import radians
+
+from browsers import Browser
+from page_events import foot_moved
+from shown import frame, open_page, shown
+
+from solepath import Foot
+from solepath.show.page.posture import Posture
+from solepath.show.page.scene.scene import Scene
+
+
+def test_a_session_that_measures_no_shoe_shows_no_posture() -> None:
+    assert frame(shown([foot_moved(1.0)]))["posture"] is None
+
+
+async def test_the_page_shows_pitch_target_and_task_as_they_change(chromium: Browser) -> None:
+    posture = Posture(Foot.LEFT, "Stand flat.")
+    scene = shown([foot_moved(1.0)], Scene("A shoe", "", posture=posture))
+    async with open_page(chromium, scene) as (view, _):
+        await view.until("document.getElementById('posture-task').innerText === 'Stand flat.'")
+        target = view.tab.locator("#posture-target")
+        assert await view.text("posture-pitch") == "–°"
+        assert await view.text("posture-words") == "Left foot: unsteady"
+        assert await target.get_attribute("visibility") == "hidden"
+        for card, visible in (("posture", True), ("links", True), ("soles", False), ("track", False)):
+            assert await view.tab.locator(f".card.{card}").is_visible() == visible, card
+        posture.task, posture.target = "Raise the heel.", radians(22.0)
+        posture.pitch, posture.lean, posture.is_still = radians(-23.44), radians(-7.2), True
+        await view.until("document.getElementById('posture-task').innerText === 'Raise the heel.'")
+        assert await view.text("posture-pitch") == "−23.4°"
+        assert await view.text("posture-words") == "Left foot: steady, leans 7° sideways"
+        assert await view.tab.locator("#posture-shoe").get_attribute("transform") == "rotate(-23.4 150,126)"
+        assert await target.get_attribute("transform") == "rotate(22.0 150,126)"
+        assert await target.get_attribute("visibility") == "visible"
