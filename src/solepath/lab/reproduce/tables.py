@@ -59,7 +59,24 @@ class Curves:
     limits: tuple[float, float] | None = None
 
 
-Panel = FloorPanel | BoxPlots | Curves
+@frozen
+class SpaceTrack:
+    """A track in space to draw, with its name. `points` are (x, y, z) in m, z up, in order of time."""
+
+    name: str
+    points: tuple[tuple[float, float, float], ...]
+    style: DrawStyle = DrawStyle.LINE
+
+
+@frozen
+class SpacePanel:
+    """A panel with tracks in space, seen obliquely from above."""
+
+    title: str
+    tracks: tuple[SpaceTrack, ...]
+
+
+Panel = FloorPanel | BoxPlots | Curves | SpacePanel
 
 
 @frozen
