@@ -1,11 +1,11 @@
 """Li et al. 2016: walking, jogging, stairs, a rectangle and five minutes in a building with an MPU-6050 on one shoe.
 
-Each wearer goes 19.2 m there and back twenty times at a walk and at a jog, a flight up and down twenty times, around a
-rectangle, over ramps, and for five minutes through a building (shoe/walks.py). Two methods are compared everywhere: the
-printed one and ours. On a short walk each of our additions is left out once, and windows of other lengths are tried;
-other rates, shoes and sensors walk it too (shoe/variants.py). The values of a row are the single strides of all
-wearers, unless stated otherwise. The paper calls strides steps, and so do the rows. It draws figures 21 and 22 and does
-not print their values."""
+Ten wearers go 19.2 m there and back at a walk and at a jog, and a flight up and down, twice each: twenty rounds in all.
+They go around a rectangle, over ramps, and for five minutes through a building (shoe/walks.py). One of them goes there
+and back twenty times more. Two methods are compared everywhere: the printed one and ours. On a short walk of some
+wearers each of our additions is left out once, and windows of other lengths are tried; other rates, shoes and sensors
+walk it too (shoe/variants.py). The values of a row are the single strides of all wearers, unless stated otherwise. The
+paper calls strides steps, and so do the rows. It draws figures 21 and 22 and does not print their values."""
 
 from __future__ import annotations
 
@@ -15,15 +15,17 @@ from functools import partial
 from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from . import published
 from .runner import Runner
-from .shoe.notes import DEFINITIONS, PAPER_NOTES, height_notes, length_notes, setup_notes, tour_notes
+from .shoe.notes import DEFINITIONS, PAPER_NOTES, height_notes, length_notes, long_notes, setup_notes, tour_notes
 from .shoe.scores import StrideErrors, relative_error
 from .shoe.variants import BEFORE, BY_ANGLE, DEFAULT_ROW, MAGNITUDE, OURS, PRINTED, SETUPS, SHORT, STATES
 from .shoe.walks import SLOPES, SessionScores, ShoeJob, ShoeResults, walk
 from .tables import FigureRow, Panel, Reproduction, SpacePanel, row_of
 
 NAME = SHOE_SENSING.name
-WALKS = 3
-"""Number of wearers; section 4.2.5: "three participants"."""
+WALKS = 10
+"""Number of wearers, each with two rounds; section 4.2.1: "20 rounds each (i.e., back and forth)"."""
+SHORT_WALKS = 4
+"""Number of wearers who go the short walk for all recipes."""
 LONG_WALKS = ("walking", "jogging", "stairs", "rectangle", "ramps", "five minutes", "short")
 METHODS = (PRINTED, OURS)
 LEVEL, STAIRS = STATES[:2], STATES[2:]
@@ -38,7 +40,11 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
     """Return the results of `walks` wearers, each of whom walks every experiment."""
     count = WALKS if walks is None else walks
     done = runner.run(walk, jobs_of(count, seed), _describe)
-    results = {name: done[number * count :][:count] for number, name in enumerate(LONG_WALKS)}
+    setups, long_walk, wearers = done[: len(SETUPS)], done[len(SETUPS)], done[len(SETUPS) + 1 :]
+    names = [job.walk for job in jobs_of(count, seed)[len(SETUPS) + 1 :]]
+    results = {
+        name: [one for one, of in zip(wearers, names, strict=True) if of == name] for name in dict.fromkeys(names)
+    }
     return Reproduction(
         name=NAME,
         paper_title=published.SHOE_SENSING_TITLE,
@@ -51,20 +57,24 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
             *length_notes(results),
             *height_notes(results),
             *tour_notes(results),
-            *setup_notes(SETUPS, done[-len(SETUPS) :]),
+            *long_notes(long_walk),
+            *setup_notes(SETUPS, setups),
             *PAPER_NOTES,
         ),
     )
 
 
 def jobs_of(count: int, seed: int) -> list[ShoeJob]:
-    """Return the walks of `count` wearers, one kind after the other, and then the short walk of each setup."""
-    jobs = [
-        ShoeJob(1000 * seed + 10 * k + number, name, drawn=k == 0)
-        for number, name in enumerate(LONG_WALKS)
-        for k in range(count)
-    ]
-    return jobs + [ShoeJob(1000 * seed + 900, "short", setup) for setup in SETUPS]
+    """Return the short walk of each setup, a walk of twenty rounds, and all walks of each of `count` wearers."""
+    jobs = [ShoeJob(1000 * seed + 900, "short", setup) for setup in SETUPS]
+    jobs.append(ShoeJob(1000 * seed + 901, "twenty rounds"))
+    for k in range(count):
+        jobs += [
+            ShoeJob(1000 * seed + 10 * k + number, name, drawn=k == 0)
+            for number, name in enumerate(LONG_WALKS)
+            if name != "short" or k < SHORT_WALKS
+        ]
+    return jobs
 
 
 def _describe(one: ShoeResults) -> str:

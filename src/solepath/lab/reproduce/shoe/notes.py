@@ -104,6 +104,23 @@ def tour_notes(results: Results) -> list[str]:
     return lines
 
 
+def long_notes(walk: ShoeResults) -> list[str]:
+    """Return a sentence about the walk of twenty rounds by each method."""
+    lines = []
+    for method in (PRINTED, OURS):
+        of = walk.scores[method]
+        courses = [abs(course) for leg in of.legs for course in leg.courses]
+        ours, true = _mean([sum(leg.length) for leg in of.legs]), _mean([leg.length[1] for leg in of.legs])
+        lines.append(
+            f"Twenty rounds by one wearer, {walk.path_length:.0f} m, {method}: steps "
+            f"{of.states['walking'].stride_f1:.1f} %, a leg of {true:.2f} m comes out as {ours:.2f} "
+            f"m, the course of steps is off by {_mean(courses):.1f} "
+            f"degrees, the heading of the last leg by {abs(of.legs[-1].heading):.0f} degrees, the end by "
+            f"{of.track.end_error:.1f} m and its height by {abs(of.track.height_error):.2f} m."
+        )
+    return lines
+
+
 def setup_notes(setups: Sequence[Setup], walks: Sequence[ShoeResults]) -> list[str]:
     """Return a sentence about each setup of the short walk."""
     lines = [

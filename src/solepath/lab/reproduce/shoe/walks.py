@@ -29,8 +29,8 @@ WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
 """Walking and jogging speed, m/s: assumed, so that strides are about as long as the paper's 1.20 m and 1.60 m."""
 LEG = 19.2
 """Length of the straight line, m (section 4.2.1)."""
-ROUNDS = 20
-"""Number of rounds "back and forth", and on the stairs up and down (section 4.2.1)."""
+ROUNDS, MANY_ROUNDS = 2, 20
+"""Number of rounds "back and forth", and on the stairs up and down, of each wearer, and of the longest walk."""
 SIDES = (6.0, 7.0)
 """Sides of the rectangle, m (section 4.2.4, fig. 25b)."""
 RISERS = 11
@@ -77,9 +77,14 @@ def stairs_route(setup: Setup = TABLE, rounds: int | None = None) -> Route:
     return route
 
 
+def long_route(setup: Setup = TABLE) -> Route:
+    """Return the line there and back twenty times."""
+    return walking_route(setup, MANY_ROUNDS)
+
+
 def short_route(setup: Setup = TABLE) -> Route:
     """Return one round of each: walking, jogging, stairs."""
-    parts = (walking_route(setup, 1), jogging_route(setup, 1), stairs_route(setup, 2))
+    parts = (walking_route(setup, 1), jogging_route(setup, 1), stairs_route(setup, 1))
     actions = [action for k, part in enumerate(parts) for action in part.actions[1 if k else 0 :]]
     return Route(tuple(actions))
 
@@ -119,6 +124,7 @@ ROUTES = {
     "walking": walking_route,
     "jogging": jogging_route,
     "stairs": stairs_route,
+    "twenty rounds": long_route,
     "short": short_route,
     "rectangle": rectangle_route,
     "ramps": ramps_route,
@@ -128,7 +134,7 @@ ROUTES = {
 WALK_RECIPES: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("walking", "jogging", "stairs"), tuple(MAIN)),
     "short": tuple(SHORT),
-    "rectangle": (OURS, PRINTED),
+    **dict.fromkeys(("rectangle", "twenty rounds"), (OURS, PRINTED)),
     "ramps": (*MAIN, BY_ANGLE, DEFAULT_ROW),
     "five minutes": (OURS, PRINTED, DEFAULT_ROW),
 }
@@ -221,7 +227,7 @@ def sample_walk(route: Route, seed: int, setup: Setup = TABLE) -> tuple[list[Sam
 
 def _score(job: ShoeJob, events: Sequence[Event], truth: Truth) -> SessionScores:
     strides = strides_of(events, FOOT)
-    turns = job.walk in ("walking", "jogging", "rectangle")
+    turns = job.walk in ("walking", "jogging", "rectangle", "twenty rounds")
     return SessionScores(
         states=score_strides(strides, truth, FOOT),
         legs=score_legs(strides, truth, FOOT) if turns else (),
