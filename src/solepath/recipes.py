@@ -190,6 +190,7 @@ PARTS: dict[str, str] = {
     "SnakeGame": _TRACKER + "snake",
     "ShortTimeEnergy": _SHOE + "short_time_energy",
     "AccelerationMagnitude": _SHOE + "short_time_energy",
+    "GatedTilt": _SHOE + "printed",
     "ShoeSensing": _SHOE + "gated_tilt",
     "AnglePerMetre": _SHOE + "walking_state",
 }

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
+from math import cos, radians
+from xml.etree.ElementTree import Element, tostring
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pages import parse_page
 
-from solepath import FootPressed, GaitCycleMeasured
+from solepath import FootPressed, GaitCycleMeasured, WearerMoved
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import ThinnedList
@@ -15,11 +19,57 @@ from solepath.show.report.clock import ReportClock, duration_text
 from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
 from solepath.show.report.figures.cycle import gaps, overlaps, stance_spans
 from solepath.show.report.figures.pressure import SHADES
+from solepath.show.report.figures.space import project, space_figure
 from solepath.show.report.soles import MAX_SAMPLES, STATIONS, ReportSole
 from solepath.show.tables.plan import PlanPicture, blend
-from solepath.types import Cell, Foot, Layout
+from solepath.types import Cell, Foot, Layout, Vec3
 
 L, R = Foot.LEFT, Foot.RIGHT
+
+
+def test_in_space_x_goes_down_to_the_right_y_up_to_the_right_and_z_up() -> None:
+    side, half = cos(radians(30.0)), 0.5
+    for position, place in (((2.0, 0.0, 0.0), (2 * side, 2 * half)), ((0.0, 2.0, 0.0), (2 * side, -2 * half))):
+        assert project(position, 1.0) == pytest.approx(place)
+    assert project((0.0, 0.0, 2.0), 5.0) == pytest.approx((0.0, -10.0))
+
+
+def moves(*positions: Vec3) -> list[WearerMoved]:
+    """Return events of a wearer at these positions, one a second."""
+    return [
+        WearerMoved(t=float(k), known_at=float(k), position=position, covariance=(0.0,) * 6)
+        for k, position in enumerate(positions)
+    ]
+
+
+def test_a_flat_track_is_not_drawn_in_space() -> None:
+    for track in ([], moves((0.0, 0.0, 0.0)), moves((0.0, 0.0, 0.0), (9.0, 2.0, 0.9))):
+        parent = Element("div")
+        assert not space_figure(parent, track) and not list(parent)
+
+
+def test_a_flat_building_is_drawn_with_larger_heights() -> None:
+    parent = Element("div")
+    assert space_figure(parent, moves((0.0, 0.0, 0.0), (60.0, 0.0, 0.0), (60.0, 30.0, 3.5), (0.0, 30.0, 3.5)))
+    page = parse_page(tostring(parent, encoding="unicode", method="html"))
+    assert "Heights are drawn 10 times as large." in page.text
+    assert "A square of the floor is 10 m wide" in page.text
+    parent = Element("div")
+    assert space_figure(parent, moves((0.0, 0.0, 0.0), (2.0, 0.0, 3.0)))
+    assert "as large" not in parse_page(tostring(parent, encoding="unicode", method="html")).text
+
+
+@given(st.lists(st.tuples(st.floats(-1e4, 1e4), st.floats(-1e4, 1e4), st.floats(-1e3, 1e3)), min_size=2, max_size=20))
+def test_whatever_the_track_its_drawing_in_space_is_within_its_box(positions: list[Vec3]) -> None:
+    parent = Element("div")
+    if not space_figure(parent, moves(*positions)):
+        return
+    svg = next(parent.iter("svg"))
+    width, height = (float(word) for word in svg.attrib["viewBox"].split()[2:])
+    for path in svg.iter("path"):
+        numbers = [float(word) for word in re.findall(r"-?[0-9.]+", path.attrib["d"].replace("h0", ""))]
+        assert all(-0.1 <= x <= width + 0.1 for x in numbers[::2]) and len(numbers) % 2 == 0
+        assert all(-0.1 <= y <= height + 0.1 for y in numbers[1::2])
 
 
 @given(st.floats(-1e9, 1e9), st.floats(1e-3, 1e9), st.integers(2, 10))

@@ -8,7 +8,7 @@ from commands import run, run_failing
 
 from solepath.calibration import Calibration
 from solepath.emulate.routes.laps import straight
-from solepath.lab.reproduce import kupt_dfpc, pressure_contour, shoe_walks, walking_modes
+from solepath.lab.reproduce import kupt_dfpc, pressure_contour, shoe_sensing, walking_modes
 from solepath.lab.reproduce.done_jobs import DoneJobs, DoneJobsError, describe_job
 from solepath.lab.reproduce.kupt import walks as kupt_walks
 from solepath.lab.reproduce.modes.walks import ModesJob, learn, walk, with_compensation
@@ -108,7 +108,8 @@ def test_jobs_that_differ_in_anything_are_different_jobs():
     jobs += [attrs.evolve(jobs[0], methods={"IV": (recipes[0], Calibration(weight=700.0))})]
     described = [describe_job(walk, job) for job in jobs]
     described += [describe_job(learn, jobs[0])]
-    described += [describe_job(shoe_walks.score_wearer, seed) for seed in (3, 4)]
+    shoe_jobs = [*shoe_sensing.jobs_of(2, 1), *shoe_sensing.jobs_of(1, 2)]
+    described += [describe_job(shoe_sensing.walk, job) for job in shoe_jobs]
     settings = (kupt_dfpc.STANDARD, *kupt_dfpc.SETTINGS)
     kupt_jobs = [kupt_dfpc.KuptJob(seed, setting=setting) for seed in (1, 2) for setting in settings]
     described += [describe_job(kupt_dfpc.walk, job) for job in (*kupt_jobs, kupt_dfpc.KuptJob(1, corridor=True))]

@@ -69,7 +69,24 @@ class Bars:
     label: str
 
 
-Panel = FloorPanel | BoxPlots | Curves | Bars
+@frozen
+class SpaceTrack:
+    """A track in space to draw, with its name. `points` are (x, y, z) in m, z up, in order of time."""
+
+    name: str
+    points: tuple[tuple[float, float, float], ...]
+    style: DrawStyle = DrawStyle.LINE
+
+
+@frozen
+class SpacePanel:
+    """A panel with tracks in space, seen obliquely from above."""
+
+    title: str
+    tracks: tuple[SpaceTrack, ...]
+
+
+Panel = FloorPanel | BoxPlots | Curves | Bars | SpacePanel
 
 
 @frozen

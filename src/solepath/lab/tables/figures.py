@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.tables import Bars, BoxPlots, Curves, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
+from ..reproduce.tables import (
+    Bars,
+    BoxPlots,
+    Curves,
+    DrawStyle,
+    FloorPanel,
+    PictureTrack,
+    Reproduction,
+    SpacePanel,
+    Statistics,
+)
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Colours that colour-blind people can distinguish (Okabe and Ito 2008)."""
@@ -33,13 +44,16 @@ METADATA_KEYS = {"png": "Software", "pdf": "Creator", "svg": "Creator", "eps": "
 def draw(reproduction: Reproduction, path: Path, extension: str) -> None:
     """Draw the panels in rows into a file, in the format of an extension. Raise OSError when that fails."""
     count = max(1, len(reproduction.panels))
-    n_rows = -(-count // MOST_COLUMNS)
-    columns = -(-count // n_rows)
-    figure = Figure(figsize=(PANEL_SIZE * columns, PANEL_SIZE * n_rows), layout="constrained")
-    axes = figure.subplots(n_rows, columns, squeeze=False).flatten()
-    for ax in axes[count:]:
-        ax.set_axis_off()
-    for ax, panel in zip(axes, reproduction.panels, strict=False):
+    rows = -(-count // MOST_COLUMNS)
+    columns = -(-count // rows)
+    figure = Figure(figsize=(PANEL_SIZE * columns, PANEL_SIZE * rows), layout="constrained")
+    for number, panel in enumerate(reproduction.panels, 1):
+        if isinstance(panel, SpacePanel):
+            ax = figure.add_subplot(rows, columns, number, projection="3d")
+            _draw_space(ax, panel)
+            ax.set_title(panel.title, fontsize=10)
+            continue
+        ax = figure.add_subplot(rows, columns, number)
         if isinstance(panel, BoxPlots):
             _draw_boxes(ax, panel, reproduction)
         elif isinstance(panel, Curves):
@@ -113,6 +127,19 @@ def _draw_floor(ax: Axes, panel: FloorPanel) -> None:
     ax.grid(color="0.92")
     ax.set_axisbelow(True)
     ax.legend(fontsize=8, loc="center" if len(panel.marks) > 1 else "best")
+
+
+def _draw_space(ax: Any, panel: SpacePanel) -> None:
+    # `Any`: matplotlib's axes in space have no types
+    for k, track in enumerate(panel.tracks):
+        is_truth = track.style is DrawStyle.TRUTH
+        colour = "0.3" if is_truth else COLOURS[(k - 1) % len(COLOURS)]
+        x, y, z = zip(*track.points, strict=True)
+        ax.plot(x, y, z, color=colour, linestyle="--" if is_truth else "-", linewidth=1.0, label=track.name)
+    ax.set_xlabel("x, m")
+    ax.set_ylabel("y, m")
+    ax.set_zlabel("z, m")
+    ax.legend(fontsize=8)
 
 
 def _draw_curves(ax: Axes, panel: Curves) -> None:

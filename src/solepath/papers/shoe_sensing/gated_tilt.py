@@ -1,40 +1,38 @@
-"""Navigation of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), sections 3.2 to 3.4.
+"""Navigation by Li et al. 2016 (printed.py) with what joggers, landings and cheap accelerometers need beyond the paper.
 
-Gravity corrects the tilt in stance only. A drift that is linear in time is removed from the velocity and, on level
-strides, from the height. Numbers without a source were chosen by hand."""
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
 from collections import deque
-from math import hypot, sqrt
+from math import hypot
 
-from ...body.activity.steepness import steepness
 from ...foot.navigate.dedrift import LinearDedrift
-from ...foot.settings import DedriftSettings
+from ...foot.navigate.level import LevelGround
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, TIE, ZERO, rotate, tipped
-from .posture import gravity_error, posture, turn
+from ...types.vector import GRAVITY, TIE, tipped
+from .printed import GatedTilt, GatedTiltSettings
 
-LEAST_LENGTH = 0.5
-"""Length below which a stride is not used to learn the height gained per metre, m."""
-LEARNT_STRIDES = 8
-"""Number of level strides over which `level_slope` is a plain mean; later strides have a weight of 1/8 each."""
 SHORTEST_SWING = 0.3
 """Duration of the shortest swing, s."""
-LONGEST_USUAL_STRIDE = 1.2
-"""Duration, s, above which a stride contains an undetected stance; its height error grows with the square of time."""
 SHORTEST_STANCE = 0.03
 """Duration of the shortest stance, s."""
 REPORT_DELAY = 0.05
 """Time after which an uncertain stance is reported even if the previous stance became certain, s."""
 OVERDUE_LIMIT_GROWTH = 10.0
 """Growth of the speed limit with the square of the time after `LONGEST_SWING`, m/s^3: speeds may err by any amount."""
-HIGHEST_SPEED = 15.0
-"""Highest speed of a foot, m/s."""
+HEIGHT_SIGMA = 0.05
+"""Standard deviation of the height of a motion of 1 s, m; it grows with the square of time, and its scale is learnt."""
+TURN_LEFT = 0.36
+"""Share of a turn that still shows in the tilt after the next stance.
+
+The feedback leaves exp(-0.5) of it in half a second of stance, and `tilt_share` leaves 0.6 of that."""
+LARGEST_SETTLED_TURN = 0.2
+"""Turn that the tilt has not followed from which on a stride with a small height is level, rad."""
 LARGEST_LEVEL_HEIGHT = 0.12
-"""Absolute height change from which on a stride is not level, m."""
+"""Absolute height change, m, up to which a height is small in that sense; a riser is higher."""
 UNCERTAIN_SIGMA, LONGEST_SWING = 0.04, 0.9
 """Largest sigma of a stance, m/s, and time without a stance, s, after which twice that sigma is accepted."""
 SPEED_LIMIT, SPEED_LIMIT_GROWTH, UNCERTAIN_SHARE = 0.5, 1.0, 0.5
@@ -44,67 +42,53 @@ The factor applies without the hint STATIONARY. A tilt error of 6 degrees makes 
 
 
 @frozen
-class ShoeSensingSettings(DedriftSettings):
-    """Settings of `ShoeSensing`."""
+class ShoeSensingSettings(GatedTiltSettings):
+    """Settings of `ShoeSensing`. Each of those below turns an addition to the paper on or off."""
 
-    kp: float = 1.0
-    """Gain of the tilt feedback in stance, 1/s; the paper gives no value."""
+    initial_time: float = 0.0
+    """Time in stance, s, in which the first attitude is found as printed; 0: it is computed in closed form."""
     tilt_share: float = 0.4
     """Share of the tilt error that is corrected after a motion, 0 to 1; 0 for none. The tilt error is computed from the
-    velocity left at the end of the motion. The paper does not have this. The stances of joggers are too short for the
-    feedback."""
-    eliminate: bool = True
-    """Flag: the height error of level strides is removed."""
+    velocity left at the end of the motion. The stances of joggers are too short for the feedback."""
     detector_delay: float = 0.15
     """Longest delay of the detector, s: the window of `ShortTimeEnergy`. The samples of this time before the detected
-    end of a stance count as motion."""
+    end of a stance count as motion; 0 for none."""
+    gates_speed: bool = True
+    """Flag: a stance is only accepted where the integrated speed is low."""
+    finds_slopes: bool = True
+    """Flag: what is level is decided by height and pitch (`LevelGround`), instead of the angle per metre."""
 
 
 @define
-class ShoeSensing(LinearDedrift):
-    """Corrector with tilt feedback in stance that removes linear drifts of velocity and, on level strides, height.
+class ShoeSensing(GatedTilt):
+    """Corrector of `GatedTilt` that also finds the stances of joggers, corrects tilt after a motion and keeps landings.
 
-    In stance gyro' = gyro - Kp e. The quaternion is integrated by Runge and Kutta's method. At the end of a motion from
-    t_a to t_b, e~ (T - t_a) is subtracted from V(T), and e~_s (T - t_a) from the height S_z(T). Frame and units are
-    those of `Corrector`. Latency: velocity, position and height are corrected in one jump at the first sample of
-    stance, and once more when an uncertain stance becomes certain.
+    Latency: velocity, position and height are corrected in one jump at the first sample of stance, and once more when
+    an uncertain stance becomes certain.
 
-    e~ = (dv2 - dv1) / (t_b - t_a) of section 3.3 is the velocity left when the foot stands again, divided by the time
-    since it last stood. So half of the product of both is subtracted from the position. The height error of
-    section 3.4.2 is removed likewise: after a level stride the foot stands as high as before. The paper does not say
-    how its live track knows e~_s before t_b. Here the live height within a stride (`FootMoved`) has the whole drift
-    since t_a. It is corrected in one jump when the foot stands, and earlier heights are not reported again. The paper
-    prints V(T) and S_z(T) with `stationary = 1` for the moving foot, but its section 3.1.2 has the opposite. A stride
-    is level by its angle per metre (steepness.py).
-
-    Beyond the paper: There are moments without acceleration in mid-swing and before foot-flat. The moments without
-    acceleration in the stance of joggers are hardly longer. So evidence without the hint STATIONARY is only an
-    uncertain stance: the last stance must have been `SHORTEST_SWING` before, sigma at most `UNCERTAIN_SIGMA`, and the
-    integrated speed low. If more certain evidence follows, the motion is corrected again at that later sample. After a
-    certain stance an uncertain one is reported only when it has lasted for `REPORT_DELAY`, because every stance of a
-    walker becomes certain. So a jogger's first two strides may become one. The velocity left at the end of a motion
-    also corrects the tilt (`tilt_share`).
+    There are moments without acceleration in mid-swing and before foot-flat. The moments without acceleration in the
+    stance of joggers are hardly longer. So evidence without the hint STATIONARY is only an uncertain stance: the last
+    stance must have been `SHORTEST_SWING` before, sigma at most `UNCERTAIN_SIGMA`, and the integrated speed low. If
+    more certain evidence follows, the motion is corrected again at that later sample. After a certain stance an
+    uncertain one is reported only when it has lasted for `REPORT_DELAY`, because every stance of a walker becomes
+    certain. So a jogger's first two strides may become one. The velocity left at the end of a motion also corrects the
+    tilt (`tilt_share`).
 
     Most of the height error of a level stride comes from a tilt due to an accelerometer bias. This error per metre is
-    equal in all strides (25 mg make 3.5 cm in 1.4 m). So its mean over the level strides, `level_slope`, is removed
-    from every stride before the angle is computed. A stride that then still ends `LARGEST_LEVEL_HEIGHT` or more above
-    or below its start is not level, whatever its angle: it leads onto or off a stair, and its height is not removed."""
+    equal in all strides (25 mg make 3.5 cm in 1.4 m). A stride onto or off a stair, a kerb and a ramp have an angle per
+    metre of level ground. `LevelGround` learns that error and removes it from every stride. It keeps heights that
+    differ from those of level strides, and those of strides after which the foot is pitched. The tilt is one of the
+    sensor and turns with it, but only in stance: in a turn, and just after one, small heights say nothing."""
 
     settings: ShoeSensingSettings = ShoeSensingSettings()
-    level_slope: float = field(default=0.0, init=False)
-    """Height gained per metre of level strides, m/m, positive upwards; zero without `eliminate`."""
-    level_strides: int = field(default=0, init=False)
-    """Number of strides in the mean `level_slope`, at most `LEARNT_STRIDES`."""
-    stride_slope: float = field(default=0.0, init=False)
-    """Height per metre of the last stride in excess of `level_slope`, m/m; zero if that stride was not level."""
-    last_acc: Vec3 = field(default=ZERO, init=False)
-    """Specific force of the last sample, sensor frame, m/s^2."""
-    velocity_change: Vec3 = field(default=ZERO, init=False)
-    """Change of the velocity by the last sample, m/s."""
+    level: LevelGround = field(factory=LevelGround, init=False)
+    """Decision which strides are level."""
+    turned: float = field(default=0.0, init=False)
+    """Turn that the tilt has not yet followed, rad."""
+    motion_time: float = field(default=0.0, init=False)
+    """Duration of the last motion, s."""
     recent_samples: deque[tuple[float, float, Vec3]] = field(factory=deque, init=False)
     """Last samples of stance, each with its time, s, duration, s, and change of the velocity, m/s."""
-    standing: bool = field(default=True, init=False)
-    """Flag: the last sample was in stance."""
     least_sigma: float = field(default=0.0, init=False)
     """Least sigma of this stance, m/s."""
     stance_age: float = field(default=0.0, init=False)
@@ -119,64 +103,26 @@ class ShoeSensing(LinearDedrift):
     """Duration of `continued_motion`, s."""
     last_dt: float = field(default=0.0, init=False)
     """Time between the last two samples, s."""
-    stance_position: Vec3 = field(default=ZERO, init=False)
-    """Position where the foot stands or last stood, m."""
-    previous_position: Vec3 = field(default=ZERO, init=False)
-    """Position where the foot stood before `stance_position`, m."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        # the upward direction in the sensor frame: that of the mean specific force from which `attitude` was computed
-        w, x, y, z = attitude
-        up = (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z)
-        LinearDedrift.start(self, posture(up), tilt_sigma)
-        self.stance_position = self.previous_position = ZERO
-        self.standing = True
+        GatedTilt.start(self, attitude, tilt_sigma)
         self.least_sigma = 0.0
-        self.stance_age = self.continued_time = self.stride_slope = 0.0
+        self.stance_age = self.continued_time = self.motion_time = self.turned = 0.0
         self.continued_motion = None
         self.is_certain = True
         self.tilt_correction = (0.0, 0.0)
         self.recent_samples.clear()
-        self.last_acc = up
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        rate_before = gyro if self.rate is None else self.rate
-        self.rate = rate_after = gyro
-        attitude = self.attitude
-        if self.standing:
-            k = min(self.settings.kp, 0.5 / dt) if dt > 0.0 else 0.0  # at most half of the error in one sample
-            ex, ey, ez = gravity_error(attitude, self.last_acc)
-            ex, ey, ez = k * ex, k * ey, k * ez
-            x, y, z = rate_before
-            rate_before = (x - ex, y - ey, z - ez)
-            x, y, z = rate_after
-            rate_after = (x - ex, y - ey, z - ez)
-        self.last_acc = acc
-        self.attitude = attitude = turn(attitude, rate_before, rate_after, dt)
-        fx, fy, fz = force = rotate(attitude, acc)
-        px, py, pz = force if self.force is None else self.force
-        self.force = force
-        half = 0.5 * dt
-        dx, dy, dz = self.velocity_change = ((fx + px) * half, (fy + py) * half, (fz + pz) * half - GRAVITY * dt)
-        vx, vy, vz = self.velocity
-        ux, uy, uz = vx + dx, vy + dy, vz + dz
-        x, y, z = self.position
-        self.position = (x + (vx + ux) * half, y + (vy + uy) * half, z + (vz + uz) * half)
-        speed = sqrt(ux * ux + uy * uy + uz * uz)
-        if speed > HIGHEST_SPEED:
-            k = HIGHEST_SPEED / speed
-            ux, uy, uz, speed = ux * k, uy * k, uz * k, HIGHEST_SPEED
-        self.velocity = (ux, uy, uz)
-        self.length += speed * dt
+        GatedTilt.predict(self, dt, acc, gyro, saturated)
         if self.continued_motion is not None:
+            dx, dy, dz = self.velocity_change
             (x, y, z), (vx, vy, vz) = self.continued_motion
             x, y, z = x + (vx + 0.5 * dx) * dt, y + (vy + 0.5 * dy) * dt, z + (vz + 0.5 * dz) * dt
             self.continued_motion = ((x, y, z), (vx + dx, vy + dy, vz + dz))
             self.continued_time += dt
         self.last_dt = dt
         self.stance_age += dt
-        self.swing += dt
-        self.time_since_anchor += dt
 
     def correct(self, t: float, stance: Stance) -> bool:
         was_standing = self.standing
@@ -226,40 +172,41 @@ class ShoeSensing(LinearDedrift):
             limit += OVERDUE_LIMIT_GROWTH * (swing - LONGEST_SWING) ** 2
         elif sigma > UNCERTAIN_SIGMA:
             return False
+        if not self.settings.gates_speed:
+            return True
         return vx * vx + vy * vy + vz * vz < limit * limit
 
     def _end_motion(self, position: Vec3, velocity: Vec3, stance: Stance) -> None:
         """End the motion at this position and velocity, because the evidence is the most certain so far."""
-        (x, y, z), (vx, vy, vz), (rx, ry, rz) = position, velocity, stance.v_ref
-        half = 0.5 * self.continued_time
+        (vx, vy, _), (rx, ry, _) = velocity, stance.v_ref
         k = 0.5 * self.settings.tilt_share / (GRAVITY * max(self.continued_time, SHORTEST_SWING))  # half angles
         self.tilt_correction = (k * (vy - ry), -k * (vx - rx))
-        x, y, z = x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half
-        if self.settings.eliminate:
-            z = self._height_at_end(x, y, z)
-        self.stance_position = (x, y, z)
-        self.least_sigma = stance.sigma
+        self.stance_position = self.dedrifted(position, velocity, self.continued_time, stance.v_ref)
+        self.least_sigma, self.motion_time = stance.sigma, self.continued_time
         if stance.hint is Phase.STATIONARY:
             self.continued_motion = None
 
-    def _height_at_end(self, x: float, y: float, z: float) -> float:
-        """Return the height S_z, m, at the end of a stride whose integrated end is (x, y, z), m."""
-        bx, by, bz = self.previous_position
-        distance = hypot(x - bx, y - by)
-        height = z - bz - self.level_slope * distance
-        height_limit = LARGEST_LEVEL_HEIGHT * max(1.0, self.continued_time / LONGEST_USUAL_STRIDE) ** 2
-        if abs(height) >= height_limit or steepness(distance, height) != 0:
-            self.stride_slope = 0.0
-            return bz + height
-        self.stride_slope = height / distance if distance > LEAST_LENGTH else 0.0
-        return bz
+    def height_at_end(self, x: float, y: float, z: float) -> float:
+        return z if self.settings.finds_slopes else GatedTilt.height_at_end(self, x, y, z)
+
+    def flat(self, start: Vec3, turn: float) -> None:
+        settings = self.settings
+        if not (settings.eliminate and settings.finds_slopes and self.standing):
+            return
+        (x, y, z), (sx, sy, sz) = self.stance_position, start
+        sigma = HEIGHT_SIGMA * max(self.motion_time, SHORTEST_SWING) ** 2
+        self.turned = TURN_LEFT * self.turned + abs(turn)
+        rise = z - sz - self.level.rise_bias * hypot(x - sx, y - sy)
+        height = 0.0
+        if self.turned < LARGEST_SETTLED_TURN or abs(rise) >= LARGEST_LEVEL_HEIGHT:
+            height, _ = self.level.judge((x - sx, y - sy, z - sz), turn, sigma * sigma, self.attitude)
+        self.position = self.stance_position = (x, y, sz + height)
+        if self.continued_motion is not None:  # what was removed stays removed when the stance becomes certain
+            (x, y, end), velocity = self.continued_motion
+            self.continued_motion = ((x, y, end + sz + height - z), velocity)
 
     def _start_motion(self) -> None:
         """Start a motion with the samples in `recent_samples`, in which the foot moved already."""
-        if self.stride_slope != 0.0:
-            self.level_strides = min(self.level_strides + 1, LEARNT_STRIDES)
-            self.level_slope += self.stride_slope / self.level_strides
-            self.stride_slope = 0.0
         self.is_certain = self.continued_motion is None
         self.attitude = tipped(self.attitude, *self.tilt_correction)
         self.tilt_correction = (0.0, 0.0)
@@ -279,12 +226,10 @@ class ShoeSensing(LinearDedrift):
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         self._discard_recent_samples()
-        self.standing = False
-        LinearDedrift.infill(self, dt, attitude, velocity, position)
+        GatedTilt.infill(self, dt, attitude, velocity, position)
 
     def repair(self, yaw: float, position: Vec3) -> None:
-        LinearDedrift.repair(self, yaw, position)
-        self.stance_position = self.previous_position = position
+        GatedTilt.repair(self, yaw, position)
         self._discard_recent_samples()
 
     def _discard_recent_samples(self) -> None:

@@ -3,23 +3,25 @@
 A vector product with gravity gives the tilt, and Runge and Kutta's fourth-order method integrates the quaternion. Q
 turns vectors from the sensor frame to the reference frame, whose gravitational vector is aR = [0, 0, 1]: the direction
 of an accelerometer's reading at rest, upwards. gb is aR turned into the sensor frame, g'R the measured direction there;
-both are unit vectors. e = gb x g'R has the axis of Q's tilt error and, if small, its angle, rad."""
+both are unit vectors. e = gb x g'R has the axis of Q's tilt error and, if small, its angle, rad.
+
+The first attitude is found sample by sample: with each sample at rest Q, which starts as [1, 0, 0, 0] (fig. 6), turns
+as it does in every stance, gyro' = gyro - Kp e. The paper does not describe its P, "the solution process of the
+quaternion", any further."""
 
 from __future__ import annotations
 
 from math import sqrt
 
 from ...types import Quat, Vec3
-from ...types.vector import IDENTITY, from_rotation_vector, levelling, multiply, normalise
+from ...types.vector import from_rotation_vector, multiply, normalise
 
-ITERATIONS = 400
-"""Number of iterations to the first attitude, which "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
-ITERATION_INTERVAL = 0.01
-"""Time step of an iteration, s."""
-GAIN = 2.0
-"""Gain Kp of the iteration, 1/s. The tangent of half the error falls as exp(-Kp t), to 3e-4 in the 4 s of fig. 7."""
-LARGEST_ERROR = 2e-3
-"""Error of the attitude after all iterations above which they have not converged, rad."""
+INITIAL_TIME = 4.0
+"""Time to the first attitude, s: it "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
+INITIAL_GAIN = 2.0
+"""Gain Kp in that time, 1/s. The tangent of half the error falls as exp(-Kp t), to 3e-4 in the 4 s of fig. 7."""
+LEAST_COSINE = 0.1
+"""Cosine of half the tilt below which a sensor is upside down."""
 LARGEST_SQUARED_TURN = 1.0
 """Square of the largest rotation within one sample, rad^2, for which Runge and Kutta's error is at most 1e-3 rad.
 
@@ -41,21 +43,11 @@ def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
     return (by * z - bz * y, bz * x - bx * z, bx * y - by * x)
 
 
-def posture(acc: Vec3) -> Quat:
-    """Return the attitude of a foot at rest, iterated from Q = [1, 0, 0, 0] towards a vector product of zero (fig. 6).
+def is_upside_down(attitude: Quat) -> bool:
+    """Return whether a sensor with this first attitude, which has no heading, is almost upside down.
 
-    `acc` is the mean specific force at rest, in any unit. Each iteration turns Q as the feedback in stance would do if
-    the gyroscope read zero. The paper does not describe its P, "the solution process of the quaternion", any further.
-    For a sensor that is upside down the vector product is zero without giving an axis, so the iteration starts from the
-    closed-form solution, which also replaces a result that has not converged."""
-    closed_form = levelling(acc)
-    q = IDENTITY if abs(closed_form[0]) > 0.1 else closed_form
-    for _ in range(ITERATIONS):
-        ex, ey, ez = gravity_error(q, acc)
-        rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
-        q = turn(q, rate, rate, ITERATION_INTERVAL)
-    ex, ey, ez = gravity_error(q, acc)
-    return q if ex * ex + ey * ey + ez * ez < LARGEST_ERROR * LARGEST_ERROR else closed_form
+    Then the vector product is zero without giving an axis, and no iteration from Q = [1, 0, 0, 0] converges."""
+    return abs(attitude[0]) <= LEAST_COSINE
 
 
 def turn(q: Quat, rate_before: Vec3, rate_after: Vec3, dt: float) -> Quat:

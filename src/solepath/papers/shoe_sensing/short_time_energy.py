@@ -30,7 +30,7 @@ class EnergySettings:
     window: float = 0.15
     """Duration of the paper's N samples, s."""
     shortest_stance: float = 0.025
-    """Duration of the shortest stance, s."""
+    """Duration of the shortest stance, s; from `window` on there is no uncertain stance, as in the paper."""
     sigma: float = 0.01
     """Noise of the zero velocity of a stance, m/s."""
 
@@ -47,6 +47,9 @@ class ShortTimeEnergy(Detector):
     energy of 0.01 to 10 (m/s^2)^2, and many sensors would never be stationary. In g^2 the energy is below 0.1, even
     before the accelerometer's scale is learnt. w is a rectangle. N is a time, `window`. A sample is weighted by its
     duration times the paper's 100 Hz, so the energy of a motion does not depend on the sample rate.
+
+    n is "the position of the center" of the window in the text, and the newest sample of it in the equation. Here it is
+    the newest, as live tracking needs; with the centre all flags would come half a window later.
 
     "N is critical": A window of 0.15 s finds the stances of walkers and little else, but a jogger's foot is flat for
     0.08 s. So energy is summed backwards in time while it is below E_T. If the sum covers the whole `window`, E < E_T,
@@ -112,6 +115,11 @@ class ShortTimeEnergy(Detector):
         if time >= settings.shortest_stance - TIE:
             return Stance(ZERO, settings.sigma * settings.window / time, self.total_energy, None)
         return Stance(ZERO, inf, self.total_energy, None)
+
+
+def printed_energy(window: float = EnergySettings().window) -> ShortTimeEnergy:
+    """Return the detector as printed, with a window of so many s: E < E_T is a stance, and everything else none."""
+    return ShortTimeEnergy(EnergySettings(window=window, shortest_stance=window))
 
 
 @frozen

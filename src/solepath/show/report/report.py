@@ -31,6 +31,7 @@ from .clock import ReportClock
 from .figures.activity import activity_figure
 from .figures.cycle import cycle_figure
 from .figures.pressure import pressure_figures
+from .figures.space import space_figure
 from .figures.stride import stride_figures
 from .figures.track import TimedPosition, height_figure, plan_figure, track_figure
 from .gait_table import gait_tables
@@ -187,6 +188,7 @@ class Report:
         wearer_track: Sequence[TimedPosition] = list(self.wearer_track) or max(footprints.values(), key=len, default=[])
         if not track_figure(figures, wearer_track, footprints, clock):
             add(figures, "p", "There is no track: no foot with a motion sensor took two strides.")
+        space_figure(figures, wearer_track)
         height_figure(figures, {foot: list(heights) for foot, heights in self.heights.items()}, clock)
 
     def _health(self, parent: Element) -> None:
