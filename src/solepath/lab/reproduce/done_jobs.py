@@ -30,7 +30,7 @@ class DoneJobsError(ValueError):
 
 @cache
 def source_checksum() -> int:
-    """Return the CRC-32 of all Python modules of solepath in the order of their paths; it is taken once in a process."""
+    """Return the CRC-32 of all Python modules of solepath in the order of their paths; a process takes it once."""
     root = Path(str(files("solepath")))
     checksum = 0
     for path in sorted(root.rglob("*.py")):
