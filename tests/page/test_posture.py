@@ -9,7 +9,7 @@ from page_events import foot_moved
 from shown import frame, open_page, shown
 
 from solepath import Foot
-from solepath.show.page.posture import Posture
+from solepath.show.page.posture import ShownPosture
 from solepath.show.page.scene.scene import Scene
 
 
@@ -18,7 +18,7 @@ def test_a_session_that_measures_no_shoe_shows_no_posture() -> None:
 
 
 async def test_the_page_shows_pitch_target_and_task_as_they_change(chromium: Browser) -> None:
-    posture = Posture(Foot.LEFT, "Stand flat.")
+    posture = ShownPosture(Foot.LEFT, "Stand flat.")
     scene = shown([foot_moved(1.0)], Scene("A shoe", "", posture=posture))
     async with open_page(chromium, scene) as (view, _):
         await view.until("document.getElementById('posture-task').innerText === 'Stand flat.'")

@@ -106,10 +106,10 @@ def test_the_body_is_seen_from_the_right_whichever_way_the_wearer_faces() -> Non
 
 
 def test_legs_between_touchdowns_are_those_of_the_session_ten_times_a_second() -> None:
-    looked_up: list[float] = []
+    read_at: list[float] = []
 
     def legs() -> Legs | None:
-        looked_up.append(scene.now)
+        read_at.append(scene.now)
         rods = (standing(0.08, 0.1 * scene.now), standing(-0.08, -0.1 * scene.now))
         return (scene.now, rods) if scene.now < 9.0 else None
 
@@ -119,8 +119,8 @@ def test_legs_between_touchdowns_are_those_of_the_session_ten_times_a_second() -
     for k in range(60):
         scene.tick(2.0 + 0.03 * k)
         shown_at.append(frame(scene)["body"]["t"])
-    assert shown_at[0] == 2.0 and 14 <= len(set(shown_at)) == len(looked_up) <= 18
-    assert frame(scene)["body"]["left"][2] == [round(0.1 * looked_up[-1], 3), -0.83]
+    assert shown_at[0] == 2.0 and 14 <= len(set(shown_at)) == len(read_at) <= 18
+    assert frame(scene)["body"]["left"][2] == [round(0.1 * read_at[-1], 3), -0.83]
     scene.tick(9.5)
     assert frame(scene)["body"]["t"] == DOWN.t  # an attitude is not known: the last touchdown
 

@@ -129,7 +129,7 @@ def test_figure_9_is_the_bias_of_each_axis_in_mg_over_minutes() -> None:
 
 
 @pytest.mark.parametrize("number", [3, 4])
-def test_as_in_figure_13_laps_and_a_halt_come_before_half_an_hour_that_ends_where_it_began(number: int) -> None:
+def test_as_in_figure_13_laps_and_a_halt_come_before_half_an_hour_that_ends_where_it_started(number: int) -> None:
     job = ContourJob(1, number, HALF_HOUR, 5, TABLE, ())
     laps, whole = route_of(job)
     assert laps.end.x == pytest.approx(0.0, abs=1e-6) and laps.end.y == pytest.approx(0.0, abs=1e-6)

@@ -19,7 +19,7 @@ from ...link.decoder import Decoder
 from ...papers.kupt_dfpc.shoe.fit import CONSTANT_COLUMNS, LONGEST_SHOE, MeasuredPosture, write_measurements
 from ...papers.kupt_dfpc.shoe.gauge import STILL_TIME, PitchGauge
 from ...recording import printable
-from ...show.page.posture import Posture
+from ...show.page.posture import ShownPosture
 from ...show.page.scene.scene import Scene
 from ...types import Foot, Packet, Sample, Site
 from ..bluetooth.backend import backend_of
@@ -67,7 +67,7 @@ async def measure(options: argparse.Namespace, address: PageAddress | None, stop
             devices = [DeviceConfig(Site.RIGHT_FOOT, found[0].address, found[0].profile)]
         packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         site = devices[0].site or Site.RIGHT_FOOT
-        shoe = LiveShoe(site, Scene("A shoe is measured", "", posture=Posture(site.foot or Foot.RIGHT)))
+        shoe = LiveShoe(site, Scene("A shoe is measured", "", posture=ShownPosture(site.foot or Foot.RIGHT)))
         if address is not None:
             await stack.enter_async_context(serve_page(shoe.scene, address))
         receiving = asyncio.create_task(shoe.receive(packets))
@@ -86,7 +86,7 @@ class LiveShoe:
 
     site: Site
     scene: Scene
-    """Scene for a page, which shows `Posture` and the link."""
+    """Scene for a page, which shows `ShownPosture` and the link."""
     gauge: PitchGauge = field(factory=PitchGauge, init=False)
     now: float = field(default=0.0, init=False)
     """Time of the newest packet, s."""
@@ -119,7 +119,7 @@ class LiveShoe:
         """True while no sample comes."""
         return self.sample_at is None or self.now - self.sample_at > SILENCE
 
-    def ask(self, task: str, target: float | None = None) -> None:
+    def instruct(self, task: str, target: float | None = None) -> None:
         """Show on the page what the person is to do, and the pitch to reach, degrees."""
         posture = self.scene.posture
         if posture is not None:
@@ -167,7 +167,7 @@ class Measuring:
         try:
             while len(self.done) < times * len(PITCHES):
                 if self.shoe.gauge.flat is None:
-                    self._ask("Stand with the shoe flat on level ground: from there the pitch is counted.")
+                    self._instruct("Stand with the shoe flat on level ground: from there the pitch is counted.")
                     await self._take()
                 else:
                     await self._measure(times)
@@ -179,7 +179,7 @@ class Measuring:
     async def _measure(self, times: int) -> None:
         """Measure the next posture, or take the last one back."""
         k, time = divmod(len(self.done), times)
-        self._ask(
+        self._instruct(
             f"Posture {k + 1} of {len(PITCHES)}, time {time + 1} of {times}: forefoot on the ground, heel up by about "
             f"{PITCHES[k]} degrees",
             PITCHES[k],
@@ -199,10 +199,10 @@ class Measuring:
         self.done.append(MeasuredPosture(pitch, to_ruler, to_toe))
         self._write()
 
-    def _ask(self, task: str, target: float | None = None) -> None:
+    def _instruct(self, task: str, target: float | None = None) -> None:
         """Say at the terminal and on the page what to do, with the pitch to reach, degrees."""
         self.talk.print_line(task)
-        self.shoe.ask(task, target)
+        self.shoe.instruct(task, target)
 
     async def _take(self) -> float | None:
         """Return the pitch, rad, of a still second after Enter; None for u. Raise _Ended for q."""
@@ -225,7 +225,7 @@ class Measuring:
 
     async def _length(self, question: str) -> float:
         """Return a length that is typed in mm, m. Raise _Ended for q."""
-        self.shoe.ask(f"Hold the shoe and answer at the terminal: {question}")
+        self.shoe.instruct(f"Hold the shoe and answer at the terminal: {question}")
         while True:
             typed = await self.talk.prompt(question)
             if typed == "q":

@@ -20,19 +20,19 @@ INTERVAL = 0.1
 
 @define
 class LiveBody:
-    """The legs of a session that is shown, looked up when a watcher gets a frame, so that no event is needed for them.
+    """The legs of a session that is shown, read when a watcher gets a frame, so that no event is needed for them.
 
     `legs` returns them (`legs_of`) for the session that is shown now, which a player replaces when it seeks."""
 
     legs: Callable[[], Legs | None]
-    _looked_at: float | None = field(default=None, init=False)
-    """Time of the session at which the legs were looked up last, s."""
+    _updated_at: float | None = field(default=None, init=False)
+    """Time of the session of the newest figure, s."""
     _frame: dict[str, Any] | None = field(default=None, init=False)
 
     def frame(self, now: float) -> dict[str, Any] | None:
         """Return the member "body" of a frame at `now`, s, a new one every INTERVAL at most; None without legs."""
-        if self._looked_at is None or abs(now - self._looked_at) >= INTERVAL:
-            legs, self._looked_at = self.legs(), now
+        if self._updated_at is None or abs(now - self._updated_at) >= INTERVAL:
+            legs, self._updated_at = self.legs(), now
             self._frame = None if legs is None else body_frame(*legs)
         return self._frame
 

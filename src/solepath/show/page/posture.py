@@ -11,7 +11,7 @@ from .messages import rounded
 
 
 @define
-class Posture:
+class ShownPosture:
     """The posture of a shoe, and what the person who holds it is to do; the one who measures writes it."""
 
     foot: Foot

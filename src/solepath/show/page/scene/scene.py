@@ -39,7 +39,7 @@ from ...valid import has_valid_numbers
 from ..body import LiveBody
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
-from ..posture import Posture
+from ..posture import ShownPosture
 from .bending import bend_of
 from .both_feet import both_feet_frame
 from .feet import FootScene
@@ -83,7 +83,7 @@ class Scene:
     source: str = "live"
     plan: FloorPlan | None = field(default=None, metadata=NOT_SAVED)
     playback: Playback | None = field(default=None, metadata=NOT_SAVED)
-    posture: Posture | None = field(default=None, metadata=NOT_SAVED)
+    posture: ShownPosture | None = field(default=None, metadata=NOT_SAVED)
     body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
     observer: Observer = field(factory=Observer)
