@@ -58,6 +58,8 @@ def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: 
         f"{recipe}: {dropped} of {walks} dropped; from the second turn on {median(distances):.2f} m in the median walk,"
     )
     print(f"{sum(distances) / len(distances):.2f} m on average, at most 1 m in {near}")
+    nearest = [sum(score.nearest) / len(score.nearest) for score in scores if score.nearest]
+    print(f"the candidate nearest to the truth is {sum(nearest) / len(nearest):.2f} m off on average")
     assert sum(score.strides > 0 for score in scores) == walks
     assert median(distances) <= 1.0 and near >= 0.75 * walks
     assert dropped <= most

@@ -89,6 +89,8 @@ class WalkOutcome:
     """Number of walks that never lose the true candidate after the first place."""
     off: tuple[float, ...] = field(default=(), repr=False)
     """Errors of the place after each scored stride (place.py), m."""
+    nearest: tuple[float, ...] = field(default=(), repr=False)
+    """The same errors of the candidate nearest to the truth, m."""
 
     def __add__(self, other: WalkOutcome) -> WalkOutcome:
         return WalkOutcome(
@@ -97,6 +99,7 @@ class WalkOutcome:
             self.levels_right + other.levels_right,
             self.kept + other.kept,
             self.off + other.off,
+            self.nearest + other.nearest,
         )
 
 
@@ -183,6 +186,7 @@ def _score_place(
         levels_right=int(place is not None and place.level == true_level),
         kept=int(scored.strides > 0 and scored.dropped == 0),
         off=scored.off,
+        nearest=scored.nearest,
     )
 
 
@@ -263,7 +267,9 @@ def main(arguments: Sequence[str] | None = None, tables: Sequence[Sensors] = TAB
 
 def _figures(outcome: WalkOutcome) -> dict[str, object]:
     """Return the figures of a row for JSON."""
-    counts = asdict(outcome, recurse=False, filter=lambda attribute, _: attribute.name not in ("activity", "off"))
+    counts = asdict(
+        outcome, recurse=False, filter=lambda attribute, _: attribute.name not in ("activity", "off", "nearest")
+    )
     down = outcome.activity.reported_for(Activity.STAIRS_DOWN)
     return {
         **(outcome.activity.figures if outcome.activity.samples else {}),
@@ -271,6 +277,7 @@ def _figures(outcome: WalkOutcome) -> dict[str, object]:
         "stairs_down_right": down.get(Activity.STAIRS_DOWN, 0),
         **counts,
         "place_mean": float(np.mean(outcome.off)) if outcome.off else None,
+        "nearest_candidate_mean": float(np.mean(outcome.nearest)) if outcome.nearest else None,
         "place_95": float(np.quantile(outcome.off, 0.95)) if outcome.off else None,
     }
 

@@ -43,6 +43,11 @@ class PlaceScore:
     """Number of scored strides with a single candidate that was not the true one."""
     strides: int
     """Number of scored strides."""
+    nearest: tuple[float, ...] = field(default=(), repr=False)
+    """The same error of the candidate that is nearest to the truth, which nobody knows during the walk, m.
+
+    Where two ends of a building are alike and no heading is known, which of two candidates is heavier is chance, and
+    then this shows how well the walk was followed; the app sees `off`."""
     path: Points = field(default=(), repr=False)
     """True positions of the wearer."""
     track: Points = field(default=(), repr=False)
@@ -58,6 +63,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     heights = {level.id: level.elevation for level in way.building.plan.levels}
     t_second_turn = _second_turn(events)
     off: list[float] = []
+    nearest: list[float] = []
     track: list[tuple[float, float]] = []
     before: list[tuple[float, float]] = []
     decided: int | None = None
@@ -77,11 +83,16 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
         dropped += not any(is_true)
         wrong += is_true == [False]
         if one.t >= t_second_turn:
-            height_error = heights[one.level] - heights[level]
-            off.append(hypot(one.position[0] - x, one.position[1] - y, height_error))
+            candidates = [(candidate.position, candidate.level) for candidate in one.candidates]
+            errors = [
+                hypot(position[0] - x, position[1] - y, heights[on] - heights[level])
+                for position, on in [(one.position, one.level), *candidates]
+            ]
+            off.append(errors[0])
+            nearest.append(min(errors))
     dropped += sum([is_on_floor(truth, t) for t in lost])
     path = tuple((x, y) for _, x, y in places)
-    return PlaceScore(tuple(off), decided, dropped, wrong, strides, path, tuple(track), tuple(before))
+    return PlaceScore(tuple(off), decided, dropped, wrong, strides, tuple(nearest), path, tuple(track), tuple(before))
 
 
 def is_near(candidate: Candidate, level: str, x: float, y: float) -> bool:

@@ -58,9 +58,7 @@ class SnakeGame(Placing):
         return extended if len(extended) <= max_rows else self.thin(extended, max_rows)
 
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
-        if self.settings.drops_at_walls:
-            return (0.0, 0.0, 0.0, 0.0)
-        return (0.0, 0.0, (2.0 * k + 1.0) / count - 1.0, float(k % 3 - 1))
+        return (0.0, 0.0, 0.0, 0.0 if self.settings.drops_at_walls else float(k % 3 - 1))
 
     def thin(self, rows: list[Row], count: int) -> list[Row]:
         """Return about `count` rows: merge those that are nearly equal, then draw by weight, perhaps repeatedly."""

@@ -6,17 +6,19 @@ one place keep the ratio of their weights; only stairs, lifts and walls that dif
 
 from __future__ import annotations
 
-from math import fsum, hypot
+from math import fsum
 
 from ....events import Placed
 from ....floorplan.index import IndexedPlan
 from ....floorplan.plan import Point
-from .rows import MIN_CANDIDATE_WEIGHT, Row
+from .rows import MIN_CANDIDATE_WEIGHT, Row, resample_rows
 
 PLACE_RADIUS = 6.0
-"""Largest distance of rows that are at one place, m: twice that of the rows of a candidate, as they move apart."""
-EVERY = 3
+"""Largest distance on each axis of rows that are at one place, m: twice that of a candidate, as they move apart."""
+EVERY = 5
 """One row of this number is moved on both levels to see whether their walls are alike (saves time)."""
+TWINS = 30
+"""Number of rows that an alike level gets when it has none left: as many as are kept for a light candidate."""
 
 
 def hold_alike_levels(plan: IndexedPlan, before: list[Row], after: list[Row], move: Point, placed: Placed) -> list[Row]:
@@ -24,33 +26,28 @@ def hold_alike_levels(plan: IndexedPlan, before: list[Row], after: list[Row], mo
 
     The place is that which was reported before the move, and its level the one to which others are compared. If an
     alike level has no row left there, it gets those of this level."""
-    x, y, level = (
-        placed.position[0] - plan.plan.origin[0],
-        placed.position[1] - plan.plan.origin[1],
-        plan.number(placed.level),
-    )
-    old = _near(before, x, y)
-    if len(old) < 2 or level not in old:
+    first = before[0][5]
+    if all([row[5] == first for row in before]):
         return after
-    new = _near(after, x, y)
-    if level not in new:
+    level, (x0, y0) = plan.number(placed.level), plan.plan.origin
+    x, y = placed.position[0] - x0, placed.position[1] - y0
+    old, new = _near(before, x, y), _near(after, x, y)
+    if len(old) < 2 or level not in old or level not in new:
         return after
     factors: dict[int, float] = {}
     twins: list[Row] = []
     old_weight, new_weight = _weight(old[level]), _weight(new[level])
     for other, rows in old.items():
         share = _weight(rows) / old_weight
-        if (
-            other == level
-            or share < MIN_CANDIDATE_WEIGHT
-            or not _are_alike(plan, old[level] + rows, move, level, other)
-        ):
+        if other == level or share < MIN_CANDIDATE_WEIGHT or not _are_alike(plan, old, move, level, other):
             continue
         left = new.get(other)
         if left:
             factors[other] = share * new_weight / _weight(left)
         else:
-            twins += [(*row[:4], share * row[4], other, *row[6:]) for row in new[level]]
+            drawn = resample_rows(new[level], TWINS, 0.5)
+            k = share * new_weight / _weight(drawn)
+            twins += [(*row[:4], k * row[4], other, *row[6:]) for row in drawn]
     if factors:
         after = [
             (*row[:4], factors[row[5]] * row[4], *row[5:]) if row[5] in factors and _is_near(row, x, y) else row
@@ -69,17 +66,17 @@ def _near(rows: list[Row], x: float, y: float) -> dict[int, list[Row]]:
 
 
 def _is_near(row: Row, x: float, y: float) -> bool:
-    return not row[7] and hypot(row[0] - x, row[1] - y) < PLACE_RADIUS
+    return not row[7] and -PLACE_RADIUS < row[0] - x < PLACE_RADIUS and -PLACE_RADIUS < row[1] - y < PLACE_RADIUS
 
 
 def _weight(rows: list[Row]) -> float:
     return fsum([row[4] for row in rows])
 
 
-def _are_alike(plan: IndexedPlan, rows: list[Row], move: Point, level: int, other: int) -> bool:
-    """Return whether the walls of two levels allow and stop the same moves of these rows."""
+def _are_alike(plan: IndexedPlan, near: dict[int, list[Row]], move: Point, level: int, other: int) -> bool:
+    """Return whether the walls of two levels allow and stop the same moves of the rows on both."""
     (dx, dy), (x0, y0) = move, plan.plan.origin
-    for x, y, a, b, _, _, _, _ in rows[::EVERY]:
+    for x, y, a, b, _, _, _, _ in (near[level] + near[other])[::EVERY]:
         x, y = x0 + x, y0 + y
         end = (x + a * dx - b * dy, y + b * dx + a * dy)
         if plan.crosses(level, x, y, *end) is not plan.crosses(other, x, y, *end):
