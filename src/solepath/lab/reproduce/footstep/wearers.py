@@ -21,7 +21,7 @@ from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
 from ....papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
 from ....papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
 from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
-from ....papers.footstep_tracker.snake import SnakeGame, SnakeSettings
+from ....papers.footstep_tracker.snake import PrintedSnake
 from ....papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from ....types import SITE_OF_FOOT, Packet
 
@@ -84,7 +84,7 @@ ONE_METRE_RULE = FOOTSTEP_TRACKER.exchanged(Footsteps, Footsteps(FootstepsSettin
 """Ours with the one-metre rule as printed."""
 PRINTED_TURN = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False)))
 """Ours with (7) as printed, from liftoff to landing."""
-DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=SnakeGame(SnakeSettings(drops_at_walls=True)))
+DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=PrintedSnake())
 """Ours with the Snake game as printed."""
 BAROMETERS = ("cc2541/barometer", "cc2650/barometer")
 """Channels of air pressure."""
