@@ -45,7 +45,7 @@ async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
             writer = PacketWriter(options.file, start_keys(), replace=options.force)
         except RecordingError as error:
             raise Failure(str(error)) from None
-        walk = LiveWalk(writer)
+        walk = GuidedWalk(writer)
         receiving = asyncio.create_task(walk.receive(packets))
         try:
             await walk.lead(Dialogue(), receiving)
@@ -60,7 +60,7 @@ async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
 
 
 @define
-class LiveWalk:
+class GuidedWalk:
     """A walk that is recorded and measured as its packets come."""
 
     writer: PacketWriter

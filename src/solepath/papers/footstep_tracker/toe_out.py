@@ -85,9 +85,8 @@ def _new_session() -> Session:
 
 @define
 class ToeOutWalk:
-    """A straight walk whose toe-out is measured while it goes on; `distance` is its length, m, None when not known."""
+    """A straight walk whose toe-out is measured while it goes on."""
 
-    distance: float | None = None
     session: Session = field(factory=_new_session, init=False)
 
     def feed(self, item: Packet | Sample) -> None:
@@ -100,10 +99,12 @@ class ToeOutWalk:
         corrector = None if tracker is None else tracker.corrector
         return corrector.strides if isinstance(corrector, MeasuredStrides) else []
 
-    def feet(self) -> list[ToeOut]:
-        """Return the toe-out so far of each foot with `FEWEST_STRIDES`; raise CalibrationError as `toe_out` does."""
+    def feet(self, distance: float | None = None) -> list[ToeOut]:
+        """Return the toe-out so far of each foot with `FEWEST_STRIDES`; raise CalibrationError as `toe_out` does.
+
+        `distance` is the length of the walk, m; None when it is not known."""
         of_feet = [(foot, self.strides(foot)) for foot in Foot]
-        return [_of_foot(foot, of, self.distance) for foot, of in of_feet if len(of) >= FEWEST_STRIDES]
+        return [_of_foot(foot, of, distance) for foot, of in of_feet if len(of) >= FEWEST_STRIDES]
 
 
 def toe_out(items: Iterable[Packet | Sample], distance: float | None = None) -> list[ToeOut]:
@@ -113,11 +114,11 @@ def toe_out(items: Iterable[Packet | Sample], distance: float | None = None) -> 
     is too large for a foot; ValueError when the distance is not positive and finite."""
     if distance is not None and not (isfinite(distance) and distance > 0.0):
         raise ValueError(f"distance is {distance}")
-    walk = ToeOutWalk(distance)
+    walk = ToeOutWalk()
     for item in items:
         walk.feed(item)
     walk.session.finish()
-    toe_outs = walk.feet()
+    toe_outs = walk.feet(distance)
     if not toe_outs:
         stride_count = max([len(walk.strides(foot)) for foot in Foot])
         raise CalibrationError(f"{stride_count} strides of a foot in this recording; {FEWEST_STRIDES} are needed")
