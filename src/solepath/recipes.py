@@ -188,6 +188,7 @@ PARTS: dict[str, str] = {
     "Footsteps": _TRACKER + "footsteps",
     "TwoSecondWindows": _TRACKER + "activity.two_second_windows",
     "SnakeGame": _TRACKER + "snake",
+    "PrintedSnake": _TRACKER + "snake",
     "ShortTimeEnergy": _SHOE + "short_time_energy",
     "AccelerationMagnitude": _SHOE + "short_time_energy",
     "GatedTilt": _SHOE + "printed",

@@ -12,7 +12,7 @@ import re
 import numpy as np
 import pytest
 
-from solepath.lab.reproduce import kupt_dfpc, pressure_contour, walking_modes
+from solepath.lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour, walking_modes
 from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.tables import Reproduction
 
@@ -67,3 +67,16 @@ def test_a_wearers_own_compensation_brings_three_corners_nearer_and_the_closed_w
     for row in found.rows:
         if row.name.startswith("modes by turn"):
             assert np.mean(row.values) >= 95.0
+
+
+def test_footsteps_hold_with_our_additions_and_not_as_printed() -> None:
+    found = footstep_tracker.reproduce(10, 301, Runner(processes=2))
+    assert values(found, "corridor, two feet %").mean() <= 4.0 < 30.0 < values(found, "corridor, printed %").mean()
+    assert values(found, "activities %").mean() >= 96.0 and values(found, "STAIRS_DOWN %").mean() >= 90.0
+    assert values(found, "turn classes %").mean() >= 98.0
+    for title in ("asymmetric", "half turn"):
+        assert np.median(values(found, f"place, {title}, first heading m")) <= 1.0
+        kept = {
+            name: values(found, f"true one kept, {title}, {name} %").mean() for name in ("weights", "dropped at walls")
+        }
+        assert kept["weights"] > kept["dropped at walls"]

@@ -20,7 +20,7 @@ from solepath.papers.footstep_tracker.footsteps import Footsteps, FootstepsSetti
 from solepath.papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
 from solepath.papers.footstep_tracker.segment import FootAxes, StrideSegment
-from solepath.papers.footstep_tracker.snake import SnakeGame, SnakeSettings, moved_rows
+from solepath.papers.footstep_tracker.snake import PrintedSnake, SnakeGame, moved_rows
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from solepath.papers.footstep_tracker.stride_length import closed_stride_across, closed_stride_length
 from solepath.types import Foot, Phase, Sample, Vec3
@@ -130,7 +130,7 @@ def test_as_printed_a_wall_drops_a_candidate_and_changes_no_weight() -> None:
     across: PlaceRow = (10.0, 6.2, 0.0, 1.0, 0.75, 0, 0, 0)
     kept = moved_rows(OFFICE, [along, across], (2.0, 0.0))
     assert kept == [(12.0, 6.2, 1.0, 0.0, 0.25, 0, 0, 0)]
-    game = SnakeGame(SnakeSettings(drops_at_walls=True))
+    game = PrintedSnake()
     assert game.extend(OFFICE, [along, across], (2.0, 0.0), 1.0, 0.0) == kept
     assert game.thin([along, across], 1) == [along, across]
     assert len(SnakeGame().extend(OFFICE, [along], (2.0, 0.0), 1.0, pi)) == 1
@@ -141,7 +141,7 @@ def test_the_recipes_stand_side_by_side() -> None:
     assert isinstance(printed.corrector, Projection) and printed.corrector.settings == PRINTED
     assert isinstance(ours.corrector, Projection) and ours.corrector.settings == ProjectionSettings()
     assert isinstance(printed.detector, StaticZones) and not printed.detector.settings.has_loose_rule
-    assert isinstance(printed.place, SnakeGame) and printed.place.settings.drops_at_walls
+    assert isinstance(printed.place, PrintedSnake) and isinstance(ours.place, SnakeGame)
 
 
 LOW_PASSED = TriadErrors(density=1e-6, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=10.0)

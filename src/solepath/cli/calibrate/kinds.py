@@ -10,10 +10,11 @@ from typing import Any
 from ...calibration import Calibration, InsoleCalibration
 from ...show.tables.table import number, table
 from ...types import Foot
-from ..common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
+from ..common.failure import Failure, parse_count, parse_degrees, parse_share, recipe_named
 from ..common.inputs import add_foot, check_pressure, foot_of, source_of
 from .limbs import add_limbs
 from .shoe import add_shoe
+from .toe_out import add_toe_out
 
 LearntCalibration = tuple[Calibration, list[str]]
 """A calibration that was learnt, and the lines that report it."""
@@ -106,45 +107,6 @@ def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibratio
         f"{drift.foot} foot: {drift.visits} visits of {drift.marks} marks, drift {1000.0 * x:.2f}, "
         f"{1000.0 * y:.2f} mm/s within {1000.0 * drift.scatter:.2f}: {verdict}"
     ]
-
-
-def _add_toe_out(kinds: Any) -> None:
-    command: argparse.ArgumentParser = kinds.add_parser(
-        "toe-out",
-        help="how far feet point beside their way, from a straight walk",
-        description="From a straight walk: how far each foot points outwards of its way, which the recipe "
-        "footstep-tracker takes into account. With the length of the walk, the paper's angle is shown too.",
-        epilog="example: solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
-    )
-    command.set_defaults(learn=_toe_out)
-    _add_recording(command)
-    command.add_argument("--distance", metavar="M", type=parse_positive, help="length of the walk, m")
-
-
-def _toe_out(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
-    from ...papers.footstep_tracker.toe_out import ERRORS, ToeOut, printed_angle, toe_out, toe_out_calibration
-
-    feet, distance = toe_out(source_of(options.file, foot_of(options)), options.distance), options.distance
-
-    def by_length(one: ToeOut) -> str:
-        printed = printed_angle(one.along, distance)
-        return "none" if printed is None else " +- ".join([number(degrees(angle)) for angle in printed])
-
-    header = ["foot", "strides", "along the foot m", "toe-out degrees"] + ["by the length"] * (distance is not None)
-    rows = []
-    for one in feet:
-        angle = f"{number(degrees(one.angle))} +- {number(degrees(one.sigma))}"
-        row = [one.foot.value, str(one.strides), number(one.along, 2), angle]
-        rows.append(row if distance is None else [*row, by_length(one)])
-    lines = [table(header, rows)]
-    unknown = [one.foot.value for one in feet if not one.is_known]
-    if unknown:
-        lines.append(
-            f"{' and '.join(unknown)}: the angle is less than {ERRORS:g} of its errors: nothing is learnt of it"
-        )
-    if len(unknown) == len(feet):
-        raise Failure("\n".join([*lines, "nothing is learnt"]))
-    return toe_out_calibration(feet), lines
 
 
 def _add_newton(kinds: Any) -> None:
@@ -271,5 +233,5 @@ def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     return rest_calibration(fits), lines
 
 
-KINDS = (_add_noise, add_shoe, _add_square, _add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest)
+KINDS = (_add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest)
 """Functions that add the kinds to the parser, in the order of the help text."""

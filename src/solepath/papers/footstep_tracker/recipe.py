@@ -8,7 +8,7 @@ from .activity.two_second_windows import TwoSecondWindows
 from .critical_cues import CriticalCues
 from .footsteps import Footsteps, FootstepsSettings
 from .projection import PRINTED, Projection
-from .snake import SnakeGame, SnakeSettings
+from .snake import PrintedSnake, SnakeGame
 from .static_zones import StaticZones, StaticZonesSettings
 
 FOOTSTEP_TRACKER = Recipe(
@@ -30,7 +30,7 @@ FOOTSTEP_TRACKER_PRINTED = Recipe(
     Projection(PRINTED),
     CriticalCues(),
     parts=usual_parts(Footsteps(FootstepsSettings(as_printed=True)), TwoSecondWindows()),
-    place=SnakeGame(SnakeSettings(drops_at_walls=True)),
+    place=PrintedSnake(),
 )
 """The same with the equations and rules as they are printed.
 

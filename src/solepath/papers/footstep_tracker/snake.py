@@ -4,7 +4,7 @@ The paper has traces of the wearer's path, which are rows here (body/place/rows.
 elevators of the plan, in evenly spaced headings. Each row moves with every stride of the track, and those that run into
 a wall are dropped. The last one left is the wearer's.
 
-The paper has no more detail. As printed (`drops_at_walls`) each row moves as the track does, and a row that meets a
+The paper has no more detail. As printed (`PrintedSnake`) each row moves as the track does, and a row that meets a
 wall is dropped. A track errs by some per cent in length and by some degrees in each turn, so even the right row would
 run into a wall before long. Therefore the heading and stretch of each row vary a little at random from
 stride to stride (sway.py). A row that meets a wall is replaced by two that pass the wall on either side. They have less
@@ -16,14 +16,13 @@ from __future__ import annotations
 
 from math import atan2
 
-from ...body.place.place_hypotheses import PlaceSettings
 from ...body.place.placing import Placing
 from ...body.place.rows.noise import next_random
 from ...body.place.rows.rows import Row, resample_rows
 from ...body.place.rows.sway import sway_rows
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
-from ...types.attrs import define, frozen
+from ...types.attrs import define
 
 CELL_SIZE = 0.25
 """Edge length of the square cells of one level, m: rows in one cell may be merged."""
@@ -35,37 +34,38 @@ MERGED_SHARE = 0.8
 """Least share of the requested number of rows that must be left for the merged rows to be kept as they are."""
 
 
-@frozen
-class SnakeSettings(PlaceSettings):
-    """Settings of `SnakeGame`."""
-
-    drops_at_walls: bool = False
-    """Flag: a row that meets a wall is dropped, as printed."""
-
-
 @define
 class SnakeGame(Placing):
     """Keeps rows from all stairs and elevators, and drops those that find no way past a wall until one is left."""
 
-    settings: SnakeSettings = SnakeSettings()
-
     def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float) -> list[Row]:
-        if self.settings.drops_at_walls:
-            return moved_rows(plan, rows, move)
         self.random = next_random(self.random)
         extended = sway_rows(plan, rows, move, error_factor, turned, self.random, both_sides=True)
         max_rows = self.settings.max_rows
         return extended if len(extended) <= max_rows else self.thin(extended, max_rows)
 
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
-        return (0.0, 0.0, 0.0, 0.0 if self.settings.drops_at_walls else float(k % 3 - 1))
+        return (0.0, 0.0, 0.0, float(k % 3 - 1))
 
     def thin(self, rows: list[Row], count: int) -> list[Row]:
         """Return about `count` rows: merge those that are nearly equal, then draw by weight, perhaps repeatedly."""
-        if self.settings.drops_at_walls and len(rows) <= self.settings.max_rows:
-            return rows
         merged = merge_rows(rows) if len(rows) > count else rows
         return merged if MERGED_SHARE * count < len(merged) <= count else resample_rows(merged, count, 0.5)
+
+
+@define
+class PrintedSnake(Placing):
+    """Keeps rows from all stairs and elevators, and drops those that meet a wall, as printed."""
+
+    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, error_factor: float, turned: float) -> list[Row]:
+        return moved_rows(plan, rows, move)
+
+    def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
+        return (0.0, 0.0, 0.0, 0.0)
+
+    def thin(self, rows: list[Row], count: int) -> list[Row]:
+        """Return all rows; only those beyond the largest number are drawn by weight."""
+        return rows if len(rows) <= self.settings.max_rows else resample_rows(rows, self.settings.max_rows, 0.5)
 
 
 def moved_rows(plan: IndexedPlan, rows: list[Row], move: Point) -> list[Row]:

@@ -79,6 +79,34 @@ class MeasuredStrides(Projection):
         return Projection._stride_end(self, segment, times)
 
 
+def _new_session() -> Session:
+    return Session(evolve(FOOTSTEP_TRACKER, corrector=MeasuredStrides()))
+
+
+@define
+class ToeOutWalk:
+    """A straight walk whose toe-out is measured while it goes on."""
+
+    session: Session = field(factory=_new_session, init=False)
+
+    def feed(self, item: Packet | Sample) -> None:
+        """Add the next packet or sample."""
+        self.session.feed(item)
+
+    def strides(self, foot: Foot) -> list[Vec3]:
+        """Return the strides of a foot so far, as in `MeasuredStrides.strides`."""
+        tracker = self.session.feet.get(foot)
+        corrector = None if tracker is None else tracker.corrector
+        return corrector.strides if isinstance(corrector, MeasuredStrides) else []
+
+    def feet(self, distance: float | None = None) -> list[ToeOut]:
+        """Return the toe-out so far of each foot with `FEWEST_STRIDES`; raise CalibrationError as `toe_out` does.
+
+        `distance` is the length of the walk, m; None when it is not known."""
+        of_feet = [(foot, self.strides(foot)) for foot in Foot]
+        return [_of_foot(foot, of, distance) for foot, of in of_feet if len(of) >= FEWEST_STRIDES]
+
+
 def toe_out(items: Iterable[Packet | Sample], distance: float | None = None) -> list[ToeOut]:
     """Return the toe-out of each foot with `FEWEST_STRIDES`, from a straight walk; `distance` is its length, m.
 
@@ -86,22 +114,15 @@ def toe_out(items: Iterable[Packet | Sample], distance: float | None = None) -> 
     is too large for a foot; ValueError when the distance is not positive and finite."""
     if distance is not None and not (isfinite(distance) and distance > 0.0):
         raise ValueError(f"distance is {distance}")
-    session = Session(evolve(FOOTSTEP_TRACKER, corrector=MeasuredStrides()))
+    walk = ToeOutWalk()
     for item in items:
-        session.feed(item)
-    session.finish()
-    strides = {foot: _strides(session, foot) for foot in Foot}
-    toe_outs = [_of_foot(foot, of, distance) for foot, of in strides.items() if len(of) >= FEWEST_STRIDES]
+        walk.feed(item)
+    walk.session.finish()
+    toe_outs = walk.feet(distance)
     if not toe_outs:
-        stride_count = max([len(of) for of in strides.values()])
+        stride_count = max([len(walk.strides(foot)) for foot in Foot])
         raise CalibrationError(f"{stride_count} strides of a foot in this recording; {FEWEST_STRIDES} are needed")
     return toe_outs
-
-
-def _strides(session: Session, foot: Foot) -> list[Vec3]:
-    tracker = session.feet.get(foot)
-    corrector = None if tracker is None else tracker.corrector
-    return corrector.strides if isinstance(corrector, MeasuredStrides) else []
 
 
 def _of_foot(foot: Foot, strides: list[Vec3], distance: float | None) -> ToeOut:

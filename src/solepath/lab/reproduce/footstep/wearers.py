@@ -21,7 +21,7 @@ from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
 from ....papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
 from ....papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
 from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
-from ....papers.footstep_tracker.snake import SnakeGame, SnakeSettings
+from ....papers.footstep_tracker.snake import PrintedSnake
 from ....papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from ....types import SITE_OF_FOOT, Packet
 
@@ -36,7 +36,7 @@ WEATHER = Air(
 
 
 @frozen(eq=False)
-class Setting:
+class FootstepSetting:
     """The shoe, the sensors and the air of a walk."""
 
     name: str
@@ -51,17 +51,17 @@ class Setting:
     """Flag: activities are scored with this setting too; other settings change only the corridor."""
 
 
-STANDARD = Setting("worn sole, CC2541")
+STANDARD = FootstepSetting("worn sole, CC2541")
 SETTINGS = (
-    Setting("rigid sole", RIGID),
-    Setting("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
-    Setting("flex", evolve(WORN, pivot_shift=-0.02, pivot_variation=0.006, radius_ratio=0.6)),
-    Setting("on the instep", device=CC2541(rate=RATE, mounting=ON_INSTEP)),
-    Setting("CC2650", device=CC2650(rate=RATE, mounting=IN_SOLE), activities=True),
-    Setting("MPU-6050", device=CC2650(rate=RATE, mounting=IN_SOLE, chip=MPU6050), activities=True),
+    FootstepSetting("rigid sole", RIGID),
+    FootstepSetting("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    FootstepSetting("flex", evolve(WORN, pivot_shift=-0.02, pivot_variation=0.006, radius_ratio=0.6)),
+    FootstepSetting("on the instep", device=CC2541(rate=RATE, mounting=ON_INSTEP)),
+    FootstepSetting("CC2650", device=CC2650(rate=RATE, mounting=IN_SOLE), activities=True),
+    FootstepSetting("MPU-6050", device=CC2650(rate=RATE, mounting=IN_SOLE, chip=MPU6050), activities=True),
 )
 """Settings of the sensitivity rows; each differs from STANDARD in one thing."""
-IN_WEATHER = Setting("weather", air=WEATHER, activities=True)
+IN_WEATHER = FootstepSetting("weather", air=WEATHER, activities=True)
 """Air that changes by itself, which touches only activities."""
 
 LENGTH_RECIPES = {
@@ -84,7 +84,7 @@ ONE_METRE_RULE = FOOTSTEP_TRACKER.exchanged(Footsteps, Footsteps(FootstepsSettin
 """Ours with the one-metre rule as printed."""
 PRINTED_TURN = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False)))
 """Ours with (7) as printed, from liftoff to landing."""
-DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=SnakeGame(SnakeSettings(drops_at_walls=True)))
+DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=PrintedSnake())
 """Ours with the Snake game as printed."""
 BAROMETERS = ("cc2541/barometer", "cc2650/barometer")
 """Channels of air pressure."""
@@ -95,7 +95,7 @@ class WearerJob:
     """One wearer in one setting; `key` is another for each other job of an experiment."""
 
     seed: int
-    setting: Setting = STANDARD
+    setting: FootstepSetting = STANDARD
 
     @property
     def key(self) -> str:
@@ -124,7 +124,7 @@ class WearerJob:
         return emulate(route, wearer=wearer, devices=devices, air=self.setting.air, seed=self.seed + more)
 
 
-def in_shoes(wearer: Wearer, setting: Setting) -> Wearer:
+def in_shoes(wearer: Wearer, setting: FootstepSetting) -> Wearer:
     """Return the wearer with the soles of the setting."""
     return evolve(wearer, shoe=evolve(wearer.shoe, contact=setting.contact))
 

@@ -1,0 +1,116 @@
+"""Does the work of `solepath calibrate toe-out --live`: a person walks, and the terminal shows strides and angles.
+
+Numbers were chosen by hand."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+from collections.abc import AsyncIterable
+from contextlib import AsyncExitStack
+from math import degrees
+
+from attrs import define, field
+
+from ...ble import Devices
+from ...ble.record import start_keys
+from ...calibration import CalibrationError
+from ...papers.footstep_tracker.toe_out import ToeOut, ToeOutWalk
+from ...recording import PacketWriter, RecordingError
+from ...types import Foot, Packet
+from ..bluetooth.backend import backend_of
+from ..bluetooth.devices import named_devices
+from ..common.failure import Failure
+from ..common.loop import unless_stopped
+from .terminal import Dialogue
+
+REDRAW_INTERVAL = 0.2
+"""Time between two pictures of the strides, s."""
+STANDING_TIME = 3.0
+"""Time for which the sensors must have sent before the walk, s: what stands still shows their bias."""
+STAND = "Stand still with both shoes on, and press Enter after three seconds (q and Enter end)."
+WALK = "Walk straight ahead at an even pace, 20 m or as far as there is room, stand still, and press Enter."
+
+
+async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
+    """Record until the person has walked; return 0. Raise StoppedEarly at a signal."""
+    devices = named_devices(options)
+    if not devices:
+        raise Failure("say which sensors are in the shoes: --left and --right")
+    async with AsyncExitStack() as stack:
+        await stack.enter_async_context(unless_stopped(stop))
+        backend = await stack.enter_async_context(backend_of(options.via))
+        packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
+        try:
+            writer = PacketWriter(options.file, start_keys(), replace=options.force)
+        except RecordingError as error:
+            raise Failure(str(error)) from None
+        walk = GuidedWalk(writer)
+        receiving = asyncio.create_task(walk.receive(packets))
+        try:
+            await walk.lead(Dialogue(), receiving)
+        except EOFError:
+            writer.discard()
+            raise Failure("nobody walked, so that nothing is learnt") from None
+        finally:
+            receiving.cancel()
+            await asyncio.gather(receiving, return_exceptions=True)
+            writer.close()
+    return 0
+
+
+@define
+class GuidedWalk:
+    """A walk that is recorded and measured as its packets come."""
+
+    writer: PacketWriter
+    walk: ToeOutWalk = field(factory=ToeOutWalk, init=False)
+    first_t: float | None = field(default=None, init=False)
+    """Time of the first packet of a sensor, s; None before it."""
+    t: float = field(default=0.0, init=False)
+    """Time of the newest packet, s."""
+
+    async def receive(self, packets: AsyncIterable[Packet]) -> None:
+        """Take packets until cancelled."""
+        async for packet in packets:
+            self.t = packet.t
+            if self.first_t is None and self.walk.session.feet:
+                self.first_t = packet.t
+            self.writer.write(packet)
+            self.walk.feed(packet)
+
+    async def lead(self, talk: Dialogue, receiving: asyncio.Task[None]) -> None:
+        """Say what to do and wait for it; raise EOFError when the person ends before the walk."""
+        for instruction in (STAND, WALK):
+            talk.print_line(instruction)
+            talk.forget_typed()
+            is_due = False
+            while not (is_due and self._has_stood):
+                if receiving.done():
+                    receiving.result()
+                typed = talk.typed()
+                if typed is not None:
+                    talk.restart_line()
+                    if typed == "q":
+                        raise EOFError
+                    is_due = True
+                talk.show(self.line())
+                await asyncio.sleep(REDRAW_INTERVAL)
+
+    @property
+    def _has_stood(self) -> bool:
+        return self.first_t is not None and self.t - self.first_t >= STANDING_TIME
+
+    def line(self) -> str:
+        """Return the strides and angles so far in words."""
+        if self.first_t is None:
+            return "waiting for the sensors"
+        try:
+            known = {one.foot: one for one in self.walk.feet()}
+        except CalibrationError as error:
+            return str(error)
+        return "; ".join([self._words(foot, known.get(foot)) for foot in Foot if foot in self.walk.session.feet])
+
+    def _words(self, foot: Foot, one: ToeOut | None) -> str:
+        strides = f"{foot.value} {len(self.walk.strides(foot))} strides"
+        return strides if one is None else f"{strides}, {degrees(one.angle):.1f} +- {degrees(one.sigma):.1f} degrees"

@@ -1,0 +1,51 @@
+"""Tests `solepath calibrate toe-out --live`: a person in a terminal, and emulated SensorTags on a straight walk."""
+
+import os
+from math import degrees
+from pathlib import Path
+
+import pytest
+from programs import TAKES, drawn, emulator, run, started
+
+from solepath.calibration.file import read_calibration
+from solepath.emulate.wearers.gait import Wearer
+from solepath.recording import read_packets
+from solepath.types import Foot
+
+
+def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:
+    arguments = ("calibrate", "toe-out", tmp_path / "walk.jsonl", "--live", "--out", tmp_path / "me.json")
+    assert run(*arguments, expect=2).stderr == (
+        "solepath: calibrate toe-out --live shows a person how to walk: it needs a terminal\n"
+    )
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_options_of_the_sensors_without_live_are_rejected(tmp_path: Path) -> None:
+    arguments = ("calibrate", "toe-out", tmp_path / "walk.jsonl", "--left", "x", "--out", tmp_path / "me.json")
+    assert "--left is an option of --live" in run(*arguments, expect=2).stderr
+
+
+def test_a_person_walks_and_the_strides_and_angles_are_shown(tmp_path: Path) -> None:
+    pty = pytest.importorskip("pty")
+    file, out = tmp_path / "walk.jsonl", tmp_path / "me.json"
+    ours, theirs = pty.openpty()
+    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
+    with emulator("--device", "cc2541-20hz", "--distance", 14) as (_, where):
+        names = ("--left", "F0:5E:00:00:00:01", "--right", "F0:5E:00:00:00:02")
+        with started(
+            "calibrate", "toe-out", file, "--live", "--out", out, "--via", where, *names, **terminal
+        ) as process:
+            os.close(theirs)
+            drawn(ours, "Stand still")
+            drawn(ours, "strides")
+            os.write(ours, b"\n")
+            drawn(ours, "Walk straight ahead")
+            drawn(ours, " degrees; right 8 strides")
+            os.write(ours, b"\n")
+            assert "toe-out degrees" in drawn(ours)
+            assert process.wait(TAKES) == 0
+        os.close(ours)
+    assert sum(1 for _ in read_packets(file)) > 500
+    for foot, angle in read_calibration(out).toe_out.items():
+        assert foot in Foot and abs(degrees(angle - Wearer().toe_out)) < 4.0
