@@ -6,8 +6,9 @@ another. Generated code (attrs) and other packages do not count. A generator cou
 frame causes no event; frames of the other kind end a stride. Numbers are medians over a walk.
 
 Then come the modules of solepath that `import solepath; Session(...)` loads: their number, their lines, and the
-processor time beside that of `import attrs, construct`. They are medians over new processes. `--calls` lists the
-functions of one frame of each kind.
+processor time beside that of `import attrs, construct`, of `import solepath` alone, whose names are imported when they
+are first used, and of `solepath --help`. They are medians over new processes. `--calls` lists the functions of a frame
+of each kind.
 """
 
 from __future__ import annotations
@@ -144,6 +145,8 @@ def print_loading() -> None:
     """Print the times of each kind of process, run in rotation so that a slower machine slows down all of them."""
     works = {
         "attrs, construct": "import attrs, construct",
+        "solepath": "import solepath",
+        "help": "from solepath.cli import main\ntry: main(['--help'])\nexcept SystemExit: pass",
         **{name: START_STATEMENT.format(name=name) for name in RECIPES},
     }
     times: dict[str, list[float]] = {name: [] for name in works}
@@ -151,9 +154,11 @@ def print_loading() -> None:
         run_fresh(work)
     for _ in range(RUNS):
         for name, work in works.items():
-            times[name].append(float(run_fresh(TIMED_PROGRAM.format(work=work))))
+            times[name].append(float(run_fresh(TIMED_PROGRAM.format(work=work)).split()[-1]))
     reference_time = median(times["attrs, construct"])
     print(f"import attrs, construct: {reference_time * 1e3:.0f} ms")
+    print(f"import solepath, before any of its names is used: {median(times['solepath']) * 1e3:.0f} ms")
+    print(f"solepath --help: {median(times['help']) * 1e3:.0f} ms")
     for name in RECIPES:
         modules, lines = run_fresh(MODULES_PROGRAM.format(work=works[name])).split()
         seconds = median(times[name])

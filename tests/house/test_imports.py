@@ -127,9 +127,8 @@ def test_the_live_path_names_neither_numpy_nor_bleak_nor_asyncio() -> None:
 
 LISTEN_PROGRAM = """
 import json, sys
-import solepath
-bare = sorted(sys.modules)
 from solepath import Packet, Session, Site, StrideTaken
+bare = sorted(sys.modules)
 session = Session(poses=True)
 steps = 0
 for t, site, channel, data in json.load(open(sys.argv[1])):
@@ -158,6 +157,19 @@ def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(
             loaded = {name.partition(".")[2] for name in live if name.startswith("solepath.")}
             assert {room(name) for name in loaded} <= CORE | {"__init__"}
             assert "link.devices.insole" in loaded and "link.devices.cc2650" not in loaded, "a device loads when heard"
+
+
+def test_names_and_the_help_of_commands_load_what_they_need_and_no_session() -> None:
+    program = "import sys; {}; print(*[name for name in sys.modules if name.partition('.')[0] == 'solepath'])"
+    helped = "from solepath.cli import main\ntry: main(['track', '--help'])\nexcept SystemExit: pass\nfinally: print()"
+    loaded = {}
+    for work in ("import solepath", "from solepath import Foot", f"exec({helped!r})"):
+        done = subprocess.run([sys.executable, "-c", program.format(work)], capture_output=True, text=True, check=True)
+        loaded[work] = set(done.stdout.splitlines()[-1].split())
+    alone, foot, command = loaded.values()
+    assert alone == {"solepath"}
+    assert {room(name.partition(".")[2]) for name in foot - alone} == {"types"}
+    assert "solepath.cli.track" in command and "solepath.session" not in command
 
 
 WALK_PROGRAM = """

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import json
-from binascii import crc_hqx
 from collections.abc import Callable
 from typing import Any
 
 import pytest
-from formats import FORMATS, VECTORS
+from any_packets import FOOT, U8, U16, U32, damaged, frames, packets_of
+from formats import FORMATS
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from solepath.types import Cell, Foot
+from solepath.types import Cell
 from solepath.wire import cells, fragment, insole, insole_control, insole_info, receiver
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
@@ -20,29 +19,7 @@ from solepath.wire.error import WireError
 CODECS = {name: (wire_format.parse, wire_format.build) for name, wire_format in FORMATS.items()}
 
 
-def packets_of(name: str) -> list[bytes]:
-    file = json.loads((VECTORS / f"{name}.json").read_text("utf-8"))
-    return [bytes.fromhex(vector["hex"]) for vector in file["vectors"]]
-
-
 SEEDS = {name: packets_of(name) for name in CODECS}
-
-
-@st.composite
-def damaged(draw: st.DrawFn, seeds: list[bytes], resealed: bool) -> bytes:
-    """Draw a packet with some bytes changed, cut or appended; with `resealed` its CRC fits the damaged bytes."""
-    data = bytearray(draw(st.sampled_from(seeds)))
-    for position, value in draw(st.lists(st.tuples(st.integers(0, 599), st.integers(0, 255)), max_size=4)):
-        if position < len(data):
-            data[position] = value
-    ending = draw(st.sampled_from(["as it is", "cut", "lengthened"]))
-    if ending == "cut":
-        del data[draw(st.integers(0, len(data))) :]
-    elif ending == "lengthened":
-        data += draw(st.binary(max_size=20))
-    if resealed and len(data) >= 2:
-        data[-2:] = crc_hqx(bytes(data[:-2]), 0xFFFF).to_bytes(2, "little")
-    return bytes(data)
 
 
 def check_bytes(name: str, data: bytes) -> None:
@@ -89,39 +66,6 @@ def _rejected(parse: Callable[[bytes], Any], data: bytes) -> bool:
     except WireError:
         return True
     return False
-
-
-I8, I16 = st.integers(-128, 127), st.integers(-32768, 32767)
-U8, U16, U32 = st.integers(0, 255), st.integers(0, 2**16 - 1), st.integers(0, 2**32 - 1)
-BITS = st.tuples(st.booleans(), st.booleans(), st.booleans())
-FOOT = st.sampled_from(Foot)
-
-
-@st.composite
-def frames(draw: st.DrawFn) -> insole.InsoleFrame:
-    count, imu, quat = draw(st.integers(0, 128)), draw(st.booleans()), draw(st.booleans())
-    size = cells.packed_size(count) + 12 * imu + 8 * quat
-    assume(size > 0)
-    sample = st.builds(
-        insole.InsoleSample,
-        cells=st.lists(st.integers(0, 4095), min_size=count, max_size=count).map(tuple),
-        imu=st.tuples(*[I16] * 6) if imu else st.none(),
-        quat=st.tuples(*[I16] * 4) if quat else st.none(),
-    )
-    max_samples = min(255, (512 - 16) // size)
-    samples = draw(st.lists(sample, min_size=1, max_size=min(max_samples, 4)))
-    if draw(st.booleans()):
-        samples = (samples * max_samples)[:max_samples]
-    return insole.InsoleFrame(
-        draw(FOOT),
-        draw(U8),
-        draw(U16),
-        draw(U32),
-        draw(st.integers(1, 65535)),
-        tuple(samples),
-        draw(st.booleans()),
-        draw(st.booleans()),
-    )
 
 
 @given(frames(), st.integers(2, 600), st.integers(0, 6))

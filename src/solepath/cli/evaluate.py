@@ -9,7 +9,6 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..recipes import DEFAULT, NAMES, by_name
 from .common.failure import Failure, note, recipe_named
 from .common.files import SCORES, OutputFile, add_force, check_outputs, check_writable, write_json
 from .common.inputs import add_calibration, calibration_of
@@ -78,6 +77,7 @@ def run(options: argparse.Namespace) -> int:
     from ..lab.evaluate.report import as_json
     from ..lab.tables.markdown import accuracy_table
     from ..lab.tables.scores import ablation_table, comparison_tables, score_table
+    from ..recipes import DEFAULT, NAMES, by_name
     from ..show.tables.progress import progress_bar
 
     emulated_names = [data_set.name for data_set in EMULATED]

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..calibration import Calibration
 from ..recording import RecordingError, Source, printable, read_start_time
-from ..session import Session
 from ..types import Packet, Sample
 from .common.failure import note
 from .common.files import REPORT, OutputFile, add_force, check_outputs, check_writable, files_of_track
@@ -32,6 +31,7 @@ from .common.view import PageAddress, add_speed, add_view, compute_rest, need_pa
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
+    from ..session import Session
     from .common.results import Results
 
 MIN_PROGRESS_SIZE = 4_000_000
@@ -71,6 +71,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the recording; return the exit status."""
+    from ..session import Session
     from .common.loop import stop_signals_raise
     from .common.results import Results
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ..events import ClockReset, PacketsLost, Rejection
 from ..types import Site
-from ..types.attrs import define, frozen
+from ..types.attrs import define
 from ..wire.error import WireError
 from .clock import Clock
 
@@ -26,7 +26,7 @@ def signed_difference(difference: int, modulus: int) -> int:
     return (difference + half) % modulus - half
 
 
-@frozen
+@define
 class PacketPosition:
     """The position of a packet in the counters of its device, relative to the newest accepted packet."""
 
@@ -48,7 +48,7 @@ class PacketPosition:
     """True if the packet itself says that it was sent before."""
 
 
-@frozen
+@define
 class SampleTimes:
     """The times of the samples of a packet, and the losses or the restart before the packet."""
 

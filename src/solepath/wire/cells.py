@@ -65,17 +65,17 @@ class Packed12(Definition):
 
     def __init__(self, count: Callable[[Any], int]) -> None:
         super().__init__()
-        self._count = count
+        self.count = count
 
     def _parse(self, stream: IO[bytes], context: Any, path: str) -> tuple[int, ...]:
-        count = self._count(context)
+        count = self.count(context)
         data = stream.read(packed_size(count))
         if len(data) != packed_size(count):
             raise StreamError(f"{count} values need {packed_size(count)} bytes, has {len(data)}", path=path)
         return unpack12(data, count)
 
     def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
-        if len(obj) != self._count(context):
-            raise FormatFieldError(f"{len(obj)} values where {self._count(context)} belong", path=path)
+        if len(obj) != self.count(context):
+            raise FormatFieldError(f"{len(obj)} values where {self.count(context)} belong", path=path)
         stream.write(pack12(obj))
         return obj

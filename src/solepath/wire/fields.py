@@ -32,10 +32,12 @@ LONGEST_VALUE = 512
 class Fields(Definition):
     """A construct for several numbers in `struct` notation, which parses to a tuple or to `make(*numbers)`.
 
-    It builds bytes from a tuple or, if `make` is an attrs class, from a record of that class."""
+    It builds bytes from a tuple or, if `make` is an attrs class, from a record of that class. `notation` is the layout
+    that it was made with, byte order first."""
 
     def __init__(self, layout: str, make: Callable[..., Any] | None = None) -> None:
         super().__init__()
+        self.notation = layout
         self._struct = struct.Struct(layout)
         self._make = make
 
@@ -47,7 +49,7 @@ class Fields(Definition):
         return values if self._make is None else self._make(*values)
 
     def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
-        values = obj if self._make is None else attrs.astuple(obj, recurse=False)
+        values = obj if self._make is None or isinstance(obj, tuple) else attrs.astuple(obj, recurse=False)
         try:
             stream.write(self._struct.pack(*values))
         except (struct.error, OverflowError) as error:  # OverflowError: a float too large for binary32

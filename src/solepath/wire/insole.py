@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-from struct import Struct
+from functools import lru_cache
+from struct import Struct as Packing
 from struct import error as StructError
-from typing import TYPE_CHECKING, Any
+from typing import Any, NamedTuple
 
-from construct import FormatFieldError
+from construct import Array, If, Int16ul, Sequence, Struct
 
 from ..types import Foot
-from ..types.attrs import frozen
-from .cells import pack12, packed_size, unpack12
+from ..types.attrs import define
+from .cells import Packed12, pack12, unpack12
 from .envelope import CRC_SIZE, FRAME_TYPE, MAGIC, check_end, check_start, seal
-from .fields import Definition, Fields, build_whole, malformed
-
-if TYPE_CHECKING:
-    from typing import IO
+from .fields import Fields, malformed
+from .flat import flat_struct
 
 MAX_CELLS = 128
 """Largest number of pressure cells of an insole."""
 
 _RIGHT_FLAG, _IMU_FLAG, _QUAT_FLAG, _SATURATED_FLAG, _RETRANSMITTED_FLAG = 1, 2, 4, 8, 16
 _RESERVED_FLAGS = 0xE0
+_SENSOR_FLAGS = _IMU_FLAG | _QUAT_FLAG
 
 
-@frozen
+@define
 class InsoleSample:
     """One sample in raw counts, whose scales are in INFO.
 
@@ -36,7 +36,7 @@ class InsoleSample:
     quat: tuple[int, int, int, int] | None = None
 
 
-@frozen
+@define
 class InsoleFrame:
     """One notification of an insole: samples at equal time intervals, with the same cells and sensors in each.
 
@@ -54,65 +54,78 @@ class InsoleFrame:
     retransmitted: bool = False
 
 
-class _Samples(Definition):
-    """A construct for all samples of a frame: cells in each sample, then IMU and quaternion as far as `flags` say so.
+class FrameHeader(NamedTuple):
+    """The header of a frame: `samples` is their number, `cells` the number of cells in each."""
 
-    For parsing, the context has `count` (samples), `cells` (cells in a sample), `cells_size` (their bytes) and `flags`.
-    One construct for all samples is fast enough for 100 frames a second."""
-
-    def _parse(self, stream: IO[bytes], context: Any, path: str) -> tuple[InsoleSample, ...]:
-        cells, cells_size, flags = context.cells, context.cells_size, context.flags
-        samples = []
-        for _ in range(context.count):
-            values = unpack12(stream.read(cells_size), cells)
-            imu = _IMU_COUNTS.unpack(stream.read(_IMU_COUNTS.size)) if flags & _IMU_FLAG else None
-            quat = _QUAT_COUNTS.unpack(stream.read(_QUAT_COUNTS.size)) if flags & _QUAT_FLAG else None
-            samples.append(InsoleSample(values, imu, quat))
-        return tuple(samples)
-
-    def _build(self, obj: Any, stream: IO[bytes], context: Any, path: str) -> Any:
-        for sample in obj:
-            stream.write(pack12(sample.cells))
-            for packing, counts in ((_IMU_COUNTS, sample.imu), (_QUAT_COUNTS, sample.quat)):
-                if counts is not None:
-                    try:
-                        stream.write(packing.pack(*counts))
-                    except StructError as error:
-                        raise FormatFieldError(f"{counts} do not fit: {error}", path=path) from error
-        return obj
+    magic: int
+    kind: int
+    flags: int
+    layout: int
+    sequence: int
+    ticks: int
+    interval: int
+    samples: int
+    cells: int
 
 
-_HEADER = Fields("<BBBBHIHBB")
-"""Header: magic, kind, flags, layout, sequence, ticks, interval, samples, cells."""
+def _cell_count(context: Any) -> int:
+    return int(context._.header.cells)
+
+
+def _has_imu(context: Any) -> bool:
+    return bool(context._.header.flags & _IMU_FLAG)
+
+
+def _has_quat(context: Any) -> bool:
+    return bool(context._.header.flags & _QUAT_FLAG)
+
+
+def _sample_count(context: Any) -> int:
+    return int(context.header.samples)
+
+
+HEADER = Fields("<BBBBHIHBB", FrameHeader)
+SAMPLE = Sequence(Packed12(_cell_count), If(_has_imu, Fields("<6h")), If(_has_quat, Fields("<4h")))
+FRAME = Struct("header" / HEADER, "samples" / Array(_sample_count, SAMPLE), "crc" / Int16ul)
+"""The definition of a frame, from which `flat_struct` generates reader and writer."""
+
 _HEADER_SIZE = 14
-_IMU_COUNTS, _QUAT_COUNTS = Struct("<6h"), Struct("<4h")
-_SAMPLES = _Samples()
-"""Construct of the bytes between the header and the CRC."""
-_PACKED_SIZES = tuple(map(packed_size, range(256)))
-"""Size of packed cells, bytes, by the number of cells."""
+_HEADER_NUMBERS = flat_struct(HEADER)
+
+
+@lru_cache(maxsize=16)
+def _frame_struct(sensors: int, count: int, cells: int) -> Packing:
+    """Return the struct of a whole frame; `sensors` are the flags of IMU and quaternion."""
+    return flat_struct(FRAME, header=FrameHeader(MAGIC, FRAME_TYPE, sensors, 0, 0, 0, 0, count, cells))
 
 
 def parse_frame(data: bytes) -> InsoleFrame:
     """Return the frame in `data`; WireError for any other bytes."""
     data = bytes(data)
     check_start(data, FRAME_TYPE, _HEADER_SIZE)
-    _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER.parse(data)
-    cells_size = _PACKED_SIZES[cells]
-    size = (
-        cells_size + (_IMU_COUNTS.size if flags & _IMU_FLAG else 0) + (_QUAT_COUNTS.size if flags & _QUAT_FLAG else 0)
-    )
-    check_end(data, _HEADER_SIZE + count * size + CRC_SIZE)
+    _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER_NUMBERS.unpack_from(data)
+    whole = _frame_struct(flags & _SENSOR_FLAGS, count, cells)
+    check_end(data, whole.size)
     problem = _find_problem(flags, interval, count, cells)
     if problem:
         raise malformed(problem)
-    samples = _SAMPLES.parse(data[_HEADER_SIZE:-CRC_SIZE], count=count, cells=cells, cells_size=cells_size, flags=flags)
+    numbers, at = whole.unpack(data), len(FrameHeader._fields)
+    samples = []
+    for _ in range(count):
+        packed_cells, imu, quat = numbers[at], None, None
+        at += 1
+        if flags & _IMU_FLAG:
+            imu, at = numbers[at : at + 6], at + 6
+        if flags & _QUAT_FLAG:
+            quat, at = numbers[at : at + 4], at + 4
+        samples.append(InsoleSample(unpack12(packed_cells, cells), imu, quat))
     return InsoleFrame(
         Foot.RIGHT if flags & _RIGHT_FLAG else Foot.LEFT,
         layout,
         sequence,
         ticks,
         interval,
-        samples,
+        tuple(samples),
         bool(flags & _SATURATED_FLAG),
         bool(flags & _RETRANSMITTED_FLAG),
     )
@@ -136,9 +149,24 @@ def build_frame(frame: InsoleFrame) -> bytes:
     problem = _find_problem(flags, frame.interval, len(frame.samples), len(first.cells))
     if problem:
         raise ValueError(problem)
-    header_numbers = (frame.layout, frame.sequence, frame.ticks, frame.interval, len(frame.samples), len(first.cells))
-    header = build_whole(_HEADER, (MAGIC, FRAME_TYPE, flags, *header_numbers))
-    return seal(header + build_whole(_SAMPLES, frame.samples))
+    count, cells = len(frame.samples), len(first.cells)
+    numbers: list[Any] = [
+        MAGIC,
+        FRAME_TYPE,
+        flags,
+        frame.layout,
+        frame.sequence,
+        frame.ticks,
+        frame.interval,
+        count,
+        cells,
+    ]
+    for sample in frame.samples:
+        numbers += [pack12(sample.cells), *(sample.imu or ()), *(sample.quat or ())]
+    try:
+        return seal(_frame_struct(flags & _SENSOR_FLAGS, count, cells).pack(*numbers, 0)[:-CRC_SIZE])
+    except StructError as error:
+        raise ValueError(f"a number does not fit its place in a frame: {error}") from error
 
 
 def _find_problem(flags: int, interval: int, count: int, cells: int) -> str:

@@ -53,7 +53,8 @@ def watch(
     phase = Phase.STATIONARY
     gyro: Vec3 = (0.0, 0.5, 0.0)
     for k, (x, stands) in enumerate(rows):
-        load = Load(0.0 if x is None else 0.5, 0.0, 0.0, 0.0, x is None, CELLS, None if x is None else (x, 0.0))
+        cop = None if x is None or cues.foot_centre is None else (x, 0.0)  # a layout is needed for both
+        load = Load(0.0 if x is None else 0.5, 0.0, 0.0, 0.0, x is None, CELLS, cop)
         stance = STANDS if stands else MOVES
         for one in cues.update(0.01 * k, 0.01, UP, gyro, stands, 0.0 if stands else speed, phase, load, stance):
             seen.append((one, k))
@@ -94,6 +95,16 @@ def test_a_larger_jump_later_in_landing_is_the_heel_strike() -> None:
     # the first contact is at 0.09, hardly off the centre; then the heel: from 0.09 to 0.04
     landing: list[Row] = [(0.09, False), (0.04, False), (0.06, False)]
     assert cues_of(STANCE + PUSH + FLIGHT + landing + STANCE)[2] == (Cue.CONTACT, 18, 20)
+
+
+def test_without_a_layout_a_toe_off_is_the_last_sample_on_the_ground() -> None:
+    # sample 4 is the last with a load; nothing jumps, because no centre of pressure is known
+    cues = CopCues(touch=Touch())
+    cues.touch.trusted, cues.touch.load_unknown = True, False
+    cues.stage = StrideStage.STANDING
+    seen, _ = watch(STANCE + PUSH + FLIGHT + LANDING + STANCE, cues)
+    named = [(one.cue, round(one.t / 0.01), k) for one, k in seen]
+    assert named == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 4, 5), (Cue.CONTACT, 17, 20), (Cue.FLAT, 20, 20)]
 
 
 def test_as_printed_a_heel_strike_is_the_largest_jump_towards_the_heel() -> None:

@@ -8,9 +8,12 @@ import sys
 from collections.abc import Callable
 from importlib.util import find_spec
 from math import isfinite, nan, radians
+from typing import TYPE_CHECKING
 
-from ...recipes import Recipe, by_name
 from ...recording import printable
+
+if TYPE_CHECKING:
+    from ...recipes import Recipe
 
 MAX_LENGTH = 2000
 """Largest number of characters of a sentence that are shown; chosen by hand."""
@@ -114,6 +117,8 @@ def parse_degrees(text: str) -> float:
 
 def recipe_named(name: str) -> Recipe:
     """Return the recipe of this name; raise Failure when there is none."""
+    from ...recipes import by_name
+
     try:
         return by_name(name)
     except ValueError as error:

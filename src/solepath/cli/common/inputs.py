@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from ...calibration import Calibration
 from ...link.decoder import Decoder
-from ...recipes import Recipe
 from ...recording import RecordingError, Source, open_source, printable
 from ...types import Foot, Sample, Site
 from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
@@ -17,6 +16,7 @@ from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
 if TYPE_CHECKING:
     from ...floorplan.index import IndexedPlan
     from ...floorplan.plan import Start
+    from ...recipes import Recipe
 
 
 def add_foot(command: argparse.ArgumentParser) -> None:

@@ -5,9 +5,7 @@ It has its own link class and no Driver, because frames may come in fragments an
 from __future__ import annotations
 
 from hashlib import blake2b
-from itertools import repeat
 from math import radians
-from operator import mul
 from typing import ClassVar
 
 from ...events import LayoutKnown, Limitation, PacketRejected, Rejection
@@ -211,7 +209,7 @@ class InsoleLink(DeviceLink):
                 if g > 0.0:
                     gyro = (gx * g, gy * g, gz * g)
             if raw.cells:
-                pressure = tuple(map(mul, raw.cells, repeat(n))) if n > 0.0 else tuple(map(float, raw.cells))
+                pressure = tuple([count * n for count in raw.cells]) if n > 0.0 else tuple(map(float, raw.cells))
             if raw.quat is not None:
                 quat = unit(raw.quat)
             known_at = arrival if arrival > t else t

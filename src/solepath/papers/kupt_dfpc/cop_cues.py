@@ -195,10 +195,12 @@ class CopCues(Cues):
         return [CellCue.MOVES, CellCue.LINGERS] if lingers else [CellCue.MOVES]
 
     def _update_candidate(self, jump: float, last_t: float | None, t: float) -> None:
-        """Make the sample the best candidate if its jump, m, since `last_t`, s, is the largest of this stage."""
+        """Make the sample the best candidate if its jump, m, since `last_t`, s, is the largest of this stage.
+
+        Without a layout nothing jumps; then toe-off is the last sample on the ground."""
         if jump <= self.largest_jump:
             return
-        if self.stage is StrideStage.LEAVING and last_t is not None:
+        if self.stage is StrideStage.LEAVING and last_t is not None and self.foot_centre is not None:
             self.largest_jump, self.candidate_t, self.mark = jump, last_t, Cue.CLEAR
         elif self.stage is StrideStage.LANDING and not self.contact_reported:
             self.largest_jump, self.candidate_t, self.mark = jump, t, Cue.CONTACT
