@@ -28,6 +28,8 @@ MARKERS = ("o", "s", "^", "D", "v")
 GREY = "0.55"
 PANEL_SIZE = 5.4
 """Side of a panel, inches."""
+LEAST_HALF_HEIGHT = 0.5
+"""Least half of the range of heights that a panel in space shows, m, so that level tracks look level."""
 MOST_COLUMNS = 6
 """Largest number of panels side by side."""
 
@@ -136,6 +138,10 @@ def _draw_space(ax: Any, panel: SpacePanel) -> None:
         colour = "0.3" if is_truth else COLOURS[(k - 1) % len(COLOURS)]
         x, y, z = zip(*track.points, strict=True)
         ax.plot(x, y, z, color=colour, linestyle="--" if is_truth else "-", linewidth=1.0, label=track.name)
+    heights = [z for track in panel.tracks for _, _, z in track.points]
+    middle = 0.5 * (min(heights) + max(heights))
+    half = max(0.5 * (max(heights) - min(heights)), LEAST_HALF_HEIGHT)
+    ax.set_zlim(middle - half, middle + half)
     ax.set_xlabel("x, m")
     ax.set_ylabel("y, m")
     ax.set_zlabel("z, m")
