@@ -64,7 +64,7 @@ def test_evidence_that_is_not_certain_is_no_stance() -> None:
     assert feed(one, [ZERO], STILL) and one.standing
 
 
-def test_a_stance_in_mid_swing_is_believed_however_fast_the_foot_is() -> None:
+def test_a_stance_in_mid_swing_counts_however_fast_the_foot_is() -> None:
     one = standing_corrector()
     feed(one, [(8.0, 0.0, 0.0)] * 40, MOVING)
     assert feed(one, [ZERO], STILL)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from .scores import StrideErrors, relative_error
-from .variants import BEFORE, DEFAULT_ROW, OURS, PRINTED, STATES, Setup
+from .variants import BEFORE, DEFAULT_ROW, OURS, PRINTED, STATES, ShoeSetup
 from .walks import ShoeResults
 
 Results = Mapping[str, Sequence[ShoeResults]]
@@ -121,7 +121,7 @@ def long_notes(walk: ShoeResults) -> list[str]:
     return lines
 
 
-def setup_notes(setups: Sequence[Setup], walks: Sequence[ShoeResults]) -> list[str]:
+def setup_notes(setups: Sequence[ShoeSetup], walks: Sequence[ShoeResults]) -> list[str]:
     """Return a sentence about each setup of the short walk."""
     lines = [
         "Setups, of which all but the first change one thing; by the printed method and ours: steps walking and "

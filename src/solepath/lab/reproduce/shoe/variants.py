@@ -77,7 +77,7 @@ RECIPES: dict[str, Recipe] = {**MAIN, **SHORT}
 
 
 @frozen
-class Setup:
+class ShoeSetup:
     """The shoe and the sensor of a walk."""
 
     name: str
@@ -94,16 +94,16 @@ class Setup:
     """Time for which the wearer stands before the first step, s."""
 
 
-TABLE = Setup("worn sole")
+TABLE = ShoeSetup("worn sole")
 """Setup of the table: a foot that flexes and slips (emulate/wearers/soles/contact.py)."""
 SETUPS = (
     TABLE,
-    *(Setup(f"{rate:g} Hz", rate=rate) for rate in (40.0, 50.0, 60.0, 80.0)),
-    Setup("rigid sole", RIGID),
-    Setup("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
-    Setup("impact 50 ms", evolve(WORN, impact_time=0.05, impact_variation=0.0)),
-    Setup("on the heel", mounting=ON_HEEL),
-    Setup("LSM6DSOX", chip=LSM6DSOX),
-    Setup("two seconds of standing", standing=2.0),
+    *(ShoeSetup(f"{rate:g} Hz", rate=rate) for rate in (40.0, 50.0, 60.0, 80.0)),
+    ShoeSetup("rigid sole", RIGID),
+    ShoeSetup("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    ShoeSetup("impact 50 ms", evolve(WORN, impact_time=0.05, impact_variation=0.0)),
+    ShoeSetup("on the heel", mounting=ON_HEEL),
+    ShoeSetup("LSM6DSOX", chip=LSM6DSOX),
+    ShoeSetup("two seconds of standing", standing=2.0),
 )
 """The setup of the table, and those that differ from it by one thing; the rates are those of section 3.3."""

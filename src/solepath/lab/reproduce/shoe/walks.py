@@ -23,7 +23,7 @@ from ..tables import Curves, DrawStyle, SpaceTrack
 from ..walks import align_track, run_session
 from .figures import extraction_curves, posture_curves, window_curves
 from .scores import LegErrors, StrideErrors, score_legs, score_strides, strides_of
-from .variants import BY_ANGLE, DEFAULT_ROW, FOOT, MAIN, OURS, PRINTED, RECIPES, SHORT, TABLE, Setup
+from .variants import BY_ANGLE, DEFAULT_ROW, FOOT, MAIN, OURS, PRINTED, RECIPES, SHORT, TABLE, ShoeSetup
 
 WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
 """Walking and jogging speed, m/s: assumed, so that strides are about as long as the paper's 1.20 m and 1.60 m."""
@@ -48,11 +48,11 @@ MAX_POINTS = 400
 """Largest number of points of a track in the figure."""
 
 
-def _standing(setup: Setup) -> Route:
+def _standing(setup: ShoeSetup) -> Route:
     return Route().stand(setup.standing)
 
 
-def walking_route(setup: Setup = TABLE, rounds: int | None = None) -> Route:
+def walking_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
     """Return the line there and back, with a turn on the spot at either end."""
     route = _standing(setup)
     for _ in range(2 * (ROUNDS if rounds is None else rounds)):
@@ -60,7 +60,7 @@ def walking_route(setup: Setup = TABLE, rounds: int | None = None) -> Route:
     return route
 
 
-def jogging_route(setup: Setup = TABLE, rounds: int | None = None) -> Route:
+def jogging_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
     """Return the same at a jog."""
     route = _standing(setup)
     for _ in range(2 * (ROUNDS if rounds is None else rounds)):
@@ -68,7 +68,7 @@ def jogging_route(setup: Setup = TABLE, rounds: int | None = None) -> Route:
     return route
 
 
-def stairs_route(setup: Setup = TABLE, rounds: int | None = None) -> Route:
+def stairs_route(setup: ShoeSetup = TABLE, rounds: int | None = None) -> Route:
     """Return a flight up and down, with a few metres and a turn on the spot at either end."""
     route = _standing(setup)
     for _ in range(ROUNDS if rounds is None else rounds):
@@ -77,19 +77,19 @@ def stairs_route(setup: Setup = TABLE, rounds: int | None = None) -> Route:
     return route
 
 
-def long_route(setup: Setup = TABLE) -> Route:
+def long_route(setup: ShoeSetup = TABLE) -> Route:
     """Return the line there and back twenty times."""
     return walking_route(setup, MANY_ROUNDS)
 
 
-def short_route(setup: Setup = TABLE) -> Route:
+def short_route(setup: ShoeSetup = TABLE) -> Route:
     """Return one round of each: walking, jogging, stairs."""
     parts = (walking_route(setup, 1), jogging_route(setup, 1), stairs_route(setup, 1))
     actions = [action for k, part in enumerate(parts) for action in part.actions[1 if k else 0 :]]
     return Route(tuple(actions))
 
 
-def rectangle_route(setup: Setup = TABLE) -> Route:
+def rectangle_route(setup: ShoeSetup = TABLE) -> Route:
     """Return the rectangle of fig. 25b, with a turn on the spot at each corner."""
     route = _standing(setup)
     for side in SIDES * 2:
@@ -97,7 +97,7 @@ def rectangle_route(setup: Setup = TABLE) -> Route:
     return route
 
 
-def ramps_route(setup: Setup = TABLE) -> Route:
+def ramps_route(setup: ShoeSetup = TABLE) -> Route:
     """Return 20 m on the level, ramps up and down of either slope, and a kerb up and down, all straight on."""
     route = _standing(setup).walk(20.0, WALKING_SPEED)
     for slope in SLOPES:
@@ -108,7 +108,7 @@ def ramps_route(setup: Setup = TABLE) -> Route:
     return route.stop(2.0)
 
 
-def tour_route(setup: Setup = TABLE) -> Route:
+def tour_route(setup: ShoeSetup = TABLE) -> Route:
     """Return the route of fig. 35: corridors of two storeys and the stairs between them, for five minutes."""
     route = _standing(setup)
     for up in (True, False):
@@ -148,7 +148,7 @@ class ShoeJob:
     seed: int
     walk: str
     """Name of the walk in ROUTES."""
-    setup: Setup = TABLE
+    setup: ShoeSetup = TABLE
     drawn: bool = False
     """True for the walks of which curves are drawn."""
 
@@ -218,7 +218,7 @@ def walk(job: ShoeJob) -> ShoeResults:
     )
 
 
-def sample_walk(route: Route, seed: int, setup: Setup = TABLE) -> tuple[list[Sample], Truth]:
+def sample_walk(route: Route, seed: int, setup: ShoeSetup = TABLE) -> tuple[list[Sample], Truth]:
     """Return the samples of the sensor on a walk along `route`, and the truth."""
     walker = Walker(route, Wearer(shoe=Shoe(contact=setup.contact)), seed=seed)
     samples = walker.samples(FOOT, setup.rate, setup.chip, mounting=setup.mounting)
