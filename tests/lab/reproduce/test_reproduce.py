@@ -12,10 +12,11 @@ from commands import run, run_failing
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
 from solepath.lab.processes import run_jobs
-from solepath.lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
+from solepath.lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour, shoe_sensing, walking_modes
 from solepath.lab.reproduce.footstep import turning
 from solepath.lab.reproduce.kupt import walks as kupt_walks
 from solepath.lab.reproduce.published import CORNERS, KUPT_DFPC, LOOPS, PRESSURE_CONTOUR, WALKING_MODES, corner_row
+from solepath.lab.reproduce.shoe import walks as shoe_walks
 from solepath.lab.reproduce.tables import (
     BoxPlots,
     DrawStyle,
@@ -144,8 +145,9 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     monkeypatch.setattr(kupt_walks, "CORRIDOR_LENGTH", 30.0)
     monkeypatch.setattr(kupt_dfpc, "CORRIDOR_LENGTH", 30.0)
     monkeypatch.setattr(kupt_dfpc, "SETTINGS", kupt_dfpc.SETTINGS[:1])
-    monkeypatch.setattr(shoe_walks, "STRIDES", 30)
+    monkeypatch.setattr(shoe_sensing, "SETUPS", shoe_sensing.SETUPS[:1])
     monkeypatch.setattr(shoe_walks, "LAPS", 1)
+    monkeypatch.setattr(shoe_walks, "MANY_ROUNDS", 3)
     monkeypatch.setattr(emulated, "REPEATS", 1)
     monkeypatch.setattr(ways, "MIN_CORNERS", 1)
     monkeypatch.setattr(ways, "MAX_CORNERS", 1)
