@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from construct import Array, If, Int16ul, Sequence, Struct
 
 from ..types import Foot
-from ..types.attrs import define
+from ..types.attrs import define, frozen
 from .cells import Packed12, pack12, unpack12
 from .envelope import CRC_SIZE, FRAME_TYPE, MAGIC, check_end, check_start, seal
 from .fields import Fields, malformed
@@ -24,7 +24,7 @@ _RESERVED_FLAGS = 0xE0
 _SENSOR_FLAGS = _IMU_FLAG | _QUAT_FLAG
 
 
-@define
+@frozen
 class InsoleSample:
     """One sample in raw counts, whose scales are in INFO.
 

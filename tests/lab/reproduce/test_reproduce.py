@@ -125,7 +125,7 @@ def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path
     assert (tmp_path / f"figure.{ending}").read_bytes().startswith(magic)
 
 
-LONGEST = ("footstep-tracker", "walking-modes", "pressure-contour")
+LONGEST = ("footstep-tracker", "walking-modes", "pressure-contour", "shoe-sensing")
 
 
 @pytest.mark.parametrize(

@@ -145,7 +145,7 @@ def test_walks_taken_from_the_file_give_the_same_table(tmp_path, monkeypatch):
     monkeypatch.setattr(kupt_walks, "CORRIDOR_LENGTH", 20.0)
     monkeypatch.setattr(kupt_walks, "NOISE_WALK", straight(6.0, kupt_walks.SPEED).stand(4.0))
     monkeypatch.setattr(kupt_dfpc, "SETTINGS", kupt_dfpc.SETTINGS[:1])
-    monkeypatch.setattr(kupt_dfpc, "ABLATIONS", {})
+    monkeypatch.setattr(kupt_dfpc, "ABLATIONS", {name: kupt_dfpc.ABLATIONS[name] for name in ("KUPT (+ bias)",)})
     options = ("reproduce", "kupt-dfpc", "--walks", 1, "--seed", 5, "--seeds", 2, "--processes", 1)
     file, table = tmp_path / "walks.jsonl", tmp_path / "table.json"
     fresh = run(*options, "--json", table)
