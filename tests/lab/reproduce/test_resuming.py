@@ -152,5 +152,5 @@ def test_walks_taken_from_the_file_give_the_same_table(tmp_path, monkeypatch):
     first, second = [run(*options, "--resume", file) for _ in range(2)]
     assert fresh.returncode == first.returncode == second.returncode == 0
     assert fresh.stdout.startswith(first.stdout) and first.stdout == second.stdout
-    assert second.stderr.splitlines() == [f"seed {seed}, 3 of 3 were already done" for seed in (5, 6)]
+    assert second.stderr.splitlines() == [f"seed {seed}, 4 of 4 were already done" for seed in (5, 6)]
     assert list(json.loads(table.read_text())["seeds"]) == ["5", "6"]
