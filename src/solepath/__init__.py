@@ -93,9 +93,17 @@ _MODULES = (
 A module is imported when a name is first used, so that `solepath --help` and tools that need few names load little."""
 
 
+_PACKAGES = ("calibration", "events", "floorplan", "recipes", "session", "types")
+"""Packages and modules that are attributes without an import of their own, as they hold names of `__all__`."""
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
 def __getattr__(name: str) -> object:
-    if name in __all__:
-        value: object = import_module(f"{__name__}.recipes") if name == "recipes" else _find(name)
+    if name in __all__ or name in _PACKAGES:
+        value: object = import_module(f"{__name__}.{name}") if name in _PACKAGES else _find(name)
         globals()[name] = value
         return value
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

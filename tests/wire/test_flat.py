@@ -90,3 +90,5 @@ def test_only_what_has_a_notation_in_struct_is_taken() -> None:
         flat_struct(Struct("text" / Bytes(this.size)), size=3)
     with pytest.raises(ValueError, match="byte orders"):
         flat_struct(Struct("a" / Int16ul, "b" / Int16ub))
+    with pytest.raises(ValueError, match="byte orders"):
+        flat_struct(Struct("a" / Fields("<HB"), "b" / Fields(">HB")))

@@ -56,7 +56,7 @@ def pack12(values: Sequence[int]) -> bytes:
         if not 0 <= value <= MAX_VALUE:
             raise ValueError(f"{value} does not fit in 12 bits")
     low, high = values[0::2], (*values[1::2], 0) if len(values) & 1 else values[1::2]
-    pairs = [first | second << 12 for first, second in zip(low, high, strict=True)]
+    pairs = [int(first) | int(second) << 12 for first, second in zip(low, high, strict=True)]
     words = bytearray(struct.pack(f"<{len(pairs)}I", *pairs))
     del words[3::4]
     return bytes(words[: packed_size(len(values))])

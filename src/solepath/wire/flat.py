@@ -9,7 +9,7 @@ from __future__ import annotations
 from struct import Struct as Packing
 from typing import Any
 
-from construct import Array, Container, FormatField, IfThenElse, Renamed, Sequence, Struct
+from construct import Array, Container, FormatField, IfThenElse, Pass, Renamed, Sequence, Struct
 
 from .cells import Packed12, packed_size
 from .fields import Definition, Fields
@@ -21,7 +21,7 @@ def flat_struct(definition: Definition, **context: Any) -> Packing:
     `context` has what the parts before are to have been parsed to, by their names, as in construct. TypeError for a
     construct without a notation in `struct`; ValueError if its numbers have different byte orders."""
     notations = _notations(definition, Container(context))
-    orders = {notation[0] for notation in notations if notation[-1] not in "bBs"}
+    orders = {notation[0] for notation in notations if notation[1:].strip("0123456789bBs")}
     if len(orders) > 1:
         raise ValueError("numbers of different byte orders have no common notation")
     return Packing("".join([*(orders or "<"), *[notation[1:] for notation in notations]]))
@@ -44,7 +44,8 @@ def _notations(definition: Any, context: Container[Any]) -> list[str]:
     if isinstance(definition, Array):
         return _in_context(definition.count, context) * _notations(definition.subcon, context)
     if isinstance(definition, IfThenElse):
-        return _notations(definition.thensubcon, context) if _in_context(definition.condfunc, context) else []
+        chosen = definition.thensubcon if _in_context(definition.condfunc, context) else definition.elsesubcon
+        return [] if chosen is Pass else _notations(chosen, context)
     if isinstance(definition, (Struct, Sequence)):
         within = Container(context, _=context)
         return [notation for part in definition.subcons for notation in _notations(part, within)]

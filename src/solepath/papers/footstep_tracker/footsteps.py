@@ -28,7 +28,7 @@ from typing import ClassVar
 from ...body.part import PartInput, PartOutput, Position, TrackPart
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
-from ...types import OTHER, Foot, Vec3
+from ...types import OTHER, Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO
 
@@ -129,6 +129,11 @@ class Footsteps(TrackPart):
         if isinstance(event, StrideTaken):
             self.add_stride(event)
         return ()
+
+    def reset(self, site: Site) -> None:
+        if site.foot is not None:  # by another clock or of another device, strides do not say what they replace
+            path = self.paths[site.foot]
+            path.assumed_displacement, path.assumed_turn, path.t = (0.0, 0.0), 0.0, None
 
     def add_stride(self, taken: StrideTaken) -> None:
         """Add one stride of either foot."""

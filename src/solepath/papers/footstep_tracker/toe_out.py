@@ -13,7 +13,7 @@ and the error of the long axis, which is learnt from how the heel rises (`FootAx
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import acos, atan2, cos, fsum, hypot, inf, isfinite, radians, sqrt, tan
+from math import acos, atan2, cos, fsum, hypot, inf, isfinite, pi, radians, sqrt, tan
 
 from ...calibration import Calibration, CalibrationError
 from ...session import Session
@@ -152,7 +152,7 @@ def printed_angle(along: float, distance: float) -> tuple[float, float] | None:
     if not along > distance:
         return None
     angle = acos(distance / along)
-    return angle, LENGTH_ERROR / tan(angle)
+    return angle, min(LENGTH_ERROR / tan(angle), 0.5 * pi)
 
 
 def toe_out_calibration(toe_outs: Iterable[ToeOut]) -> Calibration:

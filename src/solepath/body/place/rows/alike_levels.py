@@ -6,11 +6,12 @@ one place keep the ratio of their weights; only stairs, lifts and walls that dif
 
 from __future__ import annotations
 
-from math import fsum
+from math import fsum, hypot
 
 from ....events import Placed
 from ....floorplan.index import IndexedPlan
 from ....floorplan.plan import Point
+from ..place_hypotheses import MAX_MOVE
 from .rows import MIN_CANDIDATE_WEIGHT, Row, resample_rows
 
 PLACE_RADIUS = 6.0
@@ -25,14 +26,22 @@ def hold_alike_levels(plan: IndexedPlan, before: list[Row], after: list[Row], mo
     """Return the rows `after` a move of the track, m, with the ratios that alike levels at one place had `before`.
 
     The place is that which was reported before the move, and its level the one to which others are compared. If an
-    alike level has no row left there, it gets those of this level."""
-    first = before[0][5]
-    if all([row[5] == first for row in before]):
+    alike level has no row left there, it gets those of this level. A move across a gap of the track passes walls, so it
+    changes nothing here."""
+    first, length = before[0][5], hypot(*move)
+    if length > MAX_MOVE or all([row[5] == first for row in before]):
         return after
     level, (x0, y0) = plan.number(placed.level), plan.plan.origin
     x, y = placed.position[0] - x0, placed.position[1] - y0
-    old, new = _near(before, x, y), _near(after, x, y)
-    if len(old) < 2 or level not in old or level not in new:
+    old = _near(before, x, y)
+    if len(old) < 2 or level not in old:
+        return after
+    # the place moves with its rows, otherwise those at its edge would leave it and seem to be gone
+    total = _weight(old[level])
+    x += fsum([w * (a * move[0] - b * move[1]) for _, _, a, b, w, _, _, _ in old[level]]) / total
+    y += fsum([w * (b * move[0] + a * move[1]) for _, _, a, b, w, _, _, _ in old[level]]) / total
+    new, around = _near(after, x, y), _near(after, x, y, PLACE_RADIUS + length)
+    if level not in new:
         return after
     factors: dict[int, float] = {}
     twins: list[Row] = []
@@ -44,7 +53,7 @@ def hold_alike_levels(plan: IndexedPlan, before: list[Row], after: list[Row], mo
         left = new.get(other)
         if left:
             factors[other] = share * new_weight / _weight(left)
-        else:
+        elif other not in around:
             drawn = resample_rows(new[level], TWINS, 0.5)
             k = share * new_weight / _weight(drawn)
             twins += [(*row[:4], k * row[4], other, *row[6:]) for row in drawn]
@@ -56,17 +65,17 @@ def hold_alike_levels(plan: IndexedPlan, before: list[Row], after: list[Row], mo
     return after + twins
 
 
-def _near(rows: list[Row], x: float, y: float) -> dict[int, list[Row]]:
+def _near(rows: list[Row], x: float, y: float, radius: float = PLACE_RADIUS) -> dict[int, list[Row]]:
     """Return the rows near (x, y) that do not change level, by level."""
     near: dict[int, list[Row]] = {}
     for row in rows:
-        if _is_near(row, x, y):
+        if _is_near(row, x, y, radius):
             near.setdefault(row[5], []).append(row)
     return near
 
 
-def _is_near(row: Row, x: float, y: float) -> bool:
-    return not row[7] and -PLACE_RADIUS < row[0] - x < PLACE_RADIUS and -PLACE_RADIUS < row[1] - y < PLACE_RADIUS
+def _is_near(row: Row, x: float, y: float, radius: float = PLACE_RADIUS) -> bool:
+    return not row[7] and -radius < row[0] - x < radius and -radius < row[1] - y < radius
 
 
 def _weight(rows: list[Row]) -> float:
