@@ -91,10 +91,8 @@ _MODULES = (
 """Modules of the names in `__all__`; those that most apps need come first.
 
 A module is imported when a name is first used, so that `solepath --help` and tools that need few names load little."""
-
-
-_PACKAGES = ("calibration", "events", "floorplan", "recipes", "session", "types")
-"""Packages and modules that are attributes without an import of their own, as they hold names of `__all__`."""
+_SUBMODULES = ("calibration", "events", "floorplan", "recipes", "session", "types")
+"""Modules and packages that are attributes of `solepath` after `import solepath` alone."""
 
 
 def __dir__() -> list[str]:
@@ -102,8 +100,10 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> object:
-    if name in __all__ or name in _PACKAGES:
-        value: object = import_module(f"{__name__}.{name}") if name in _PACKAGES else _find(name)
+    if name in _SUBMODULES:
+        return import_module(f"{__name__}.{name}")  # which sets the attribute
+    if name in __all__:
+        value = _find(name)
         globals()[name] = value
         return value
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -6,8 +6,11 @@ import ast
 import inspect
 import pydoc
 import re
+import subprocess
+import sys
 import types
 from enum import Enum
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +31,21 @@ def test_the_names_are_sorted_and_each_can_be_imported() -> None:
     assert len(set(solepath.__all__)) == len(solepath.__all__)
     for name in solepath.__all__:
         assert getattr(solepath, name) is not None
+
+
+def test_each_name_is_the_one_that_type_checkers_see() -> None:
+    tree = ast.parse(Path(solepath.__file__).read_text("utf-8"))
+    (checked,) = [node for node in tree.body if isinstance(node, ast.If)]
+    seen = {name.name: node.module for node in checked.body if isinstance(node, ast.ImportFrom) for name in node.names}
+    assert seen.keys() == set(solepath.__all__) <= set(dir(solepath))
+    for name, module in seen.items():
+        room = solepath if module is None else import_module(f"solepath.{module}")
+        assert getattr(solepath, name) is getattr(room, name)
+
+
+def test_packages_that_hold_public_names_need_no_import_of_their_own() -> None:
+    program = "import solepath; print(solepath.types.Foot, solepath.session.Session, solepath.events.ToeOff)"
+    subprocess.run([sys.executable, "-c", program], check=True)
 
 
 def test_nothing_else_is_public() -> None:

@@ -107,6 +107,7 @@ def run(options: argparse.Namespace) -> int:
 
     RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
     read, and gets a verdict. Rows and packets that cannot be read are left out and named."""
+    from ..body.checks.axes import SETTLED_STRIDES
     from ..session import Session
     from ..show.observer import Observer
     from ..show.tables.summary import link_health, wear_lines
@@ -156,8 +157,6 @@ def run(options: argparse.Namespace) -> int:
     _print_list("worth knowing", may)
     if not must:
         print("nothing must be mended")
-    from ..body.checks.axes import SETTLED_STRIDES
-
     if min(strides.values(), default=0) < SETTLED_STRIDES:
         needed = f"axes need {SETTLED_STRIDES} strides of a foot, and clocks of the feet a minute of walking"
         print(f"too few strides to check everything: {needed}")

@@ -55,6 +55,7 @@ def pack12(values: Sequence[int]) -> bytes:
     for value in values:
         if not 0 <= value <= MAX_VALUE:
             raise ValueError(f"{value} does not fit in 12 bits")
+    # a pair of values is one number of 24 bits, of which struct writes 32; every fourth byte is zero and left out
     low, high = values[0::2], (*values[1::2], 0) if len(values) & 1 else values[1::2]
     pairs = [int(first) | int(second) << 12 for first, second in zip(low, high, strict=True)]
     words = bytearray(struct.pack(f"<{len(pairs)}I", *pairs))

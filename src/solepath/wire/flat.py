@@ -19,8 +19,10 @@ def flat_struct(definition: Definition, **context: Any) -> Packing:
     """Return the struct of all numbers of `definition`, in order; a block of 12-bit values is one `bytes`.
 
     `context` has what the parts before are to have been parsed to, by their names, as in construct. TypeError for a
-    construct without a notation in `struct`; ValueError if its numbers have different byte orders."""
+    construct without a notation in `struct`; ValueError if its numbers have different byte orders, or none."""
     notations = _notations(definition, Container(context))
+    if any([notation[0] not in "<>" for notation in notations]):
+        raise ValueError("a notation without its byte order")
     orders = {notation[0] for notation in notations if notation[1:].strip("0123456789bBs")}
     if len(orders) > 1:
         raise ValueError("numbers of different byte orders have no common notation")

@@ -84,13 +84,12 @@ def _sample_count(context: Any) -> int:
     return int(context.header.samples)
 
 
-HEADER = Fields("<BBBBHIHBB", FrameHeader)
-SAMPLE = Sequence(Packed12(_cell_count), If(_has_imu, Fields("<6h")), If(_has_quat, Fields("<4h")))
-FRAME = Struct("header" / HEADER, "samples" / Array(_sample_count, SAMPLE), "crc" / Int16ul)
-"""The definition of a frame, from which `flat_struct` generates reader and writer."""
+_HEADER = Fields("<BBBBHIHBB", FrameHeader)
+_SAMPLE = Sequence(Packed12(_cell_count), If(_has_imu, Fields("<6h")), If(_has_quat, Fields("<4h")))
+FRAME = Struct("header" / _HEADER, "samples" / Array(_sample_count, _SAMPLE), "crc" / Int16ul)
+"""The construct of a frame, from which `flat_struct` generates reader and writer."""
 
-_HEADER_SIZE = 14
-_HEADER_NUMBERS = flat_struct(HEADER)
+_HEADER_NUMBERS = flat_struct(_HEADER)
 
 
 @lru_cache(maxsize=16)
@@ -102,7 +101,7 @@ def _frame_struct(sensors: int, count: int, cells: int) -> Packing:
 def parse_frame(data: bytes) -> InsoleFrame:
     """Return the frame in `data`; WireError for any other bytes."""
     data = bytes(data)
-    check_start(data, FRAME_TYPE, _HEADER_SIZE)
+    check_start(data, FRAME_TYPE, _HEADER_NUMBERS.size)
     _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER_NUMBERS.unpack_from(data)
     whole = _frame_struct(flags & _SENSOR_FLAGS, count, cells)
     check_end(data, whole.size)
@@ -146,20 +145,12 @@ def build_frame(frame: InsoleFrame) -> bytes:
         | (_SATURATED_FLAG if frame.saturated else 0)
         | (_RETRANSMITTED_FLAG if frame.retransmitted else 0)
     )
-    problem = _find_problem(flags, frame.interval, len(frame.samples), len(first.cells))
+    count, cells = len(frame.samples), len(first.cells)
+    problem = _find_problem(flags, frame.interval, count, cells)
     if problem:
         raise ValueError(problem)
-    count, cells = len(frame.samples), len(first.cells)
     numbers: list[Any] = [
-        MAGIC,
-        FRAME_TYPE,
-        flags,
-        frame.layout,
-        frame.sequence,
-        frame.ticks,
-        frame.interval,
-        count,
-        cells,
+        *FrameHeader(MAGIC, FRAME_TYPE, flags, frame.layout, frame.sequence, frame.ticks, frame.interval, count, cells)
     ]
     for sample in frame.samples:
         if len(sample.imu or (0,) * 6) != 6 or len(sample.quat or (0,) * 4) != 4:
