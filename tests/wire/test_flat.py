@@ -15,7 +15,7 @@ from solepath.types import Foot
 from solepath.wire.error import WireError
 from solepath.wire.fields import Fields, parse_whole
 from solepath.wire.flat import flat_struct
-from solepath.wire.insole import FRAME, InsoleFrame, InsoleSample, build_frame, parse_frame
+from solepath.wire.insole import FRAME, InsoleFrame, build_frame, parse_frame
 
 
 def parts(frame: InsoleFrame) -> list[list[Any]]:
@@ -61,14 +61,6 @@ def test_a_packet_that_is_too_short_for_the_construct_is_rejected_as_truncated(d
             assert error.reason in (Rejection.MALFORMED, Rejection.OVERSIZED)
         else:
             assert parts(read) == [list(sample) for sample in FRAME.parse(data).samples]
-
-
-@pytest.mark.parametrize(
-    ("imu", "quat"), [((0,) * 5, (0,) * 5), ((0,) * 6, (0,) * 3), ((), None), ((40000, *(0,) * 5), None)]
-)
-def test_a_sample_with_another_number_of_counts_or_one_too_large_is_not_built(imu: Any, quat: Any) -> None:
-    with pytest.raises(ValueError):
-        build_frame(InsoleFrame(Foot.LEFT, 1, 2, 3, 4, (InsoleSample((), imu, quat),)))
 
 
 PARTS = st.sampled_from([Int16ul, Int32ul, Fields("<BbH"), Fields("<6h"), Fields("<2i")])

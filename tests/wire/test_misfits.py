@@ -37,6 +37,10 @@ MISFITS: dict[str, tuple[Callable[[Any], bytes], Any]] = {
     "129 cells": (insole.build_frame, frame_of(insole.InsoleSample((0,) * 129))),
     "samples of different cells": (insole.build_frame, frame_of(SAMPLE, evolve(SAMPLE, cells=(1,)))),
     "samples of different sensors": (insole.build_frame, frame_of(SAMPLE, evolve(SAMPLE, imu=None))),
+    "five numbers of an IMU, five of a quaternion": (
+        insole.build_frame,
+        frame_of(insole.InsoleSample((1,), (0,) * 5, (0,) * 5)),  # type: ignore[arg-type]
+    ),
     "an angular rate over i16": (insole.build_frame, frame_of(evolve(SAMPLE, imu=(0, 0, 0, 0, 0, 32768)))),
     "a frame over 512 bytes": (insole.build_frame, frame_of(*[SAMPLE] * 40)),
     "256 samples": (insole.build_frame, frame_of(*[insole.InsoleSample((1,))] * 256)),
