@@ -25,6 +25,7 @@ from ...types import Foot
 from ..measures.alignment import Floats
 from . import published
 from .contour.runs import sign_test
+from .done_jobs import named_values
 from .kupt.figures import coverage, panels, watch
 from .kupt.walks import (
     ABLATIONS,
@@ -67,10 +68,7 @@ class KuptJob:
     drawn: bool = False
     """True for the walk of figs. 11 and 14."""
 
-    @property
-    def key(self) -> str:
-        """Description that is another for each other job; settings are known by their names."""
-        return f"{self.seed}, {self.corridor}, {self.setting.name}, {self.drawn}"
+    key = property(named_values)
 
 
 @frozen

@@ -24,6 +24,7 @@ from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKE
 from ....papers.footstep_tracker.snake import PrintedSnake
 from ....papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from ....types import SITE_OF_FOOT, Packet
+from ..done_jobs import named_values
 
 RATE = 20.0
 """Sampling rate, Hz."""
@@ -97,10 +98,7 @@ class WearerJob:
     seed: int
     setting: FootstepSetting = STANDARD
 
-    @property
-    def key(self) -> str:
-        """Description by the seed and the name of the setting."""
-        return f"{self.seed}, {self.setting.name}"
+    key = property(named_values)
 
     @property
     def is_standard(self) -> bool:

@@ -19,6 +19,7 @@ from ....emulate.wearers.walker import Walker
 from ....events import Event, FlightClimbed, StrideTaken
 from ....types import Sample
 from ...measures.alignment import Floats
+from ..done_jobs import named_values
 from ..tables import Curves, DrawStyle, SpaceTrack
 from ..walks import align_track, run_session
 from .figures import extraction_curves, posture_curves, window_curves
@@ -152,10 +153,7 @@ class ShoeJob:
     drawn: bool = False
     """True for the walks of which curves are drawn."""
 
-    @property
-    def key(self) -> str:
-        """Description that is another for each other job; setups are known by their names."""
-        return f"{self.seed}, {self.walk}, {self.setup.name}, {self.drawn}"
+    key = property(named_values)
 
 
 @frozen
