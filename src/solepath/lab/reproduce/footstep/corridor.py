@@ -23,7 +23,8 @@ from ....types import SITE_OF_FOOT, Foot, Packet, Quat, Vec3
 from ....types.attrs import define, evolve
 from ....types.attrs import field as state_field
 from ....types.vector import GRAVITY, IDENTITY
-from .wearers import LENGTH_RECIPES, NOTHING_KNOWN, ONE_METRE_RULE, WearerJob
+from ..walks import final_strides
+from .wearers import LENGTH_RECIPES, ONE_METRE_RULE, WearerJob
 
 CALIBRATION_LENGTH = 20.0
 """Length of the walk from which the toe-out angle is calibrated, m (fig. 10)."""
@@ -105,12 +106,12 @@ def score_corridor(job: WearerJob) -> CorridorResults:
     events = session.feed(walk.packets) + session.finish()
     true = {foot: len(walk.truth.strides(foot)) for foot in Foot}
     n_true = true[Foot.LEFT] + true[Foot.RIGHT]
-    strides = _strides(events)
+    strides = final_strides(events)
     sums, found_share = {"ours": _sums(strides)}, {"ours": 100.0 * len(strides) / n_true}
     ends: dict[str, tuple[float, ...]] = {"two feet": (_end(session),)}
     if job.is_standard:
         for name, recipe in LENGTH_RECIPES.items():
-            variant = _strides(_run(recipe, walk.packets)[0])
+            variant = final_strides(_run(recipe, walk.packets)[0])
             sums[name], found_share[name] = _sums(variant), 100.0 * len(variant) / n_true
         alone = [_run(FOOTSTEP_TRACKER, [p for p in walk.packets if p.site is SITE_OF_FOOT[foot]])[1] for foot in Foot]
         ends["one foot"] = tuple([_end(one) for one in alone])
@@ -146,12 +147,8 @@ def _calibrate(job: WearerJob) -> list[ToeOut]:
 
 
 def _run(recipe: Recipe, packets: tuple[Packet, ...] | list[Packet]) -> tuple[list[Event], Session]:
-    session = Session(recipe, calibration=NOTHING_KNOWN)
+    session = Session(recipe)
     return session.feed(packets) + session.finish(), session
-
-
-def _strides(events: list[Event]) -> list[StrideTaken]:
-    return [event for event in events if isinstance(event, StrideTaken) and event.final]
 
 
 def _sums(strides: list[StrideTaken]) -> tuple[float, float]:

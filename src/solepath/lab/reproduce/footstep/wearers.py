@@ -8,7 +8,6 @@ from __future__ import annotations
 import numpy as np
 from attrs import evolve, frozen
 
-from ....calibration import Calibration
 from ....emulate.routes.route import Route
 from ....emulate.sensors.air import STILL_AIR, Air, PressureStep
 from ....emulate.sensors.device import Device
@@ -130,7 +129,3 @@ def in_shoes(wearer: Wearer, setting: FootstepSetting) -> Wearer:
 def without_barometer(packets: tuple[Packet, ...]) -> list[Packet]:
     """Return the packets without air pressure."""
     return [packet for packet in packets if packet.channel not in BAROMETERS]
-
-
-NOTHING_KNOWN = Calibration()
-"""Calibration of a wearer who has not been measured."""

@@ -21,9 +21,9 @@ from ....types import Sample
 from ...measures.alignment import Floats
 from ..done_jobs import named_values
 from ..tables import Curves, DrawStyle, SpaceTrack
-from ..walks import align_track, run_session
+from ..walks import align_track, final_strides, run_session
 from .figures import extraction_curves, posture_curves, window_curves
-from .scores import LegErrors, StrideErrors, score_legs, score_strides, strides_of
+from .scores import LegErrors, StrideErrors, score_legs, score_strides
 from .variants import BY_ANGLE, DEFAULT_ROW, FOOT, MAIN, OURS, PRINTED, RECIPES, SHORT, TABLE, ShoeSetup
 
 WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
@@ -224,7 +224,7 @@ def sample_walk(route: Route, seed: int, setup: ShoeSetup = TABLE) -> tuple[list
 
 
 def _score(job: ShoeJob, events: Sequence[Event], truth: Truth) -> SessionScores:
-    strides = strides_of(events, FOOT)
+    strides = final_strides(events, FOOT)
     turns = job.walk in ("walking", "jogging", "rectangle", "twenty rounds")
     return SessionScores(
         states=score_strides(strides, truth, FOOT),
@@ -283,7 +283,7 @@ def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[Spac
     position = truth.pose(FOOT, t).position
     tracks = [SpaceTrack("true path", _points(position - position[0]), DrawStyle.TRUTH)]
     for name in (OURS, PRINTED):
-        strides = strides_of(sessions[name], FOOT)
+        strides = final_strides(sessions[name], FOOT)
         if len(strides) > 1:
             tracks.append(SpaceTrack(name, _points(_positions(strides, truth)[0][-MAX_POINTS:])))
     return tuple(tracks)
