@@ -53,7 +53,9 @@ class CorridorResults:
     stature: float
     """Error of the length by the wearer's stature, m."""
     ends: dict[str, tuple[float, ...]]
-    """Error of the distance from the first to the last position, m: of each foot alone, of both, by the rule."""
+    """Error of the distance from the first to the last position, m: of each foot alone, of both, by the rule.
+
+    Only that of both is with the toe-out."""
     strides_found: dict[str, float]
     """Number of strides as a share of the true ones, by variant, %."""
     stride_errors: dict[str, tuple[float, ...]] = field(repr=False)
@@ -64,8 +66,6 @@ class CorridorResults:
     """Number of stances with a static zone as printed, and of all stances."""
     toe_outs: tuple[float, ...] = ()
     """Error of each toe-out angle that is known, degrees."""
-    toe_outs_unknown: int = 0
-    """Number of feet whose angle is not twice its error."""
     toe_outs_printed: tuple[float, ...] = ()
     """Error of each angle by the printed formula, degrees."""
     curves: dict[str, Curve] = field(factory=dict, repr=False)
@@ -131,7 +131,6 @@ def score_corridor(job: WearerJob) -> CorridorResults:
         zones=(sum([one.zones - one.strict_zones for one in zones]), sum([one.zones for one in zones])),
         literal=_literal_zones(walk),
         toe_outs=tuple([degrees(one.angle - wearer.toe_out) for one in found if one.is_known]),
-        toe_outs_unknown=sum([not one.is_known for one in found]),
         toe_outs_printed=tuple([degrees(one[0] - wearer.toe_out) for one in printed if one is not None]),
         curves=_curves(walk, strides, job.stature) if job.is_standard else {},
     )

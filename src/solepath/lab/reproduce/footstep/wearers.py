@@ -16,7 +16,7 @@ from ....emulate.sensors.sensortags import CC2541, CC2650
 from ....emulate.walk import EmulatedWalk, emulate
 from ....emulate.wearers.gait import Wearer, random_wearer
 from ....emulate.wearers.shoe import IN_SOLE, ON_INSTEP
-from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
+from ....emulate.wearers.soles.contact import RIGID, SLIPPING, WORN, GroundContact
 from ....papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
 from ....papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
 from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
@@ -54,13 +54,13 @@ class FootstepSetting:
 STANDARD = FootstepSetting("worn sole, CC2541")
 SETTINGS = (
     FootstepSetting("rigid sole", RIGID),
-    FootstepSetting("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    FootstepSetting("slip 2 cm", SLIPPING),
     FootstepSetting("flex", evolve(WORN, pivot_shift=-0.02, pivot_variation=0.006, radius_ratio=0.6)),
     FootstepSetting("on the instep", device=CC2541(rate=RATE, mounting=ON_INSTEP)),
     FootstepSetting("CC2650", device=CC2650(rate=RATE, mounting=IN_SOLE), activities=True),
     FootstepSetting("MPU-6050", device=CC2650(rate=RATE, mounting=IN_SOLE, chip=MPU6050), activities=True),
 )
-"""Settings of the sensitivity rows; each differs from STANDARD in one thing."""
+"""Settings of the sensitivity rows; each differs from STANDARD in one thing, and has no toe-out (score_corridor)."""
 IN_WEATHER = FootstepSetting("weather", air=WEATHER, activities=True)
 """Air that changes by itself, which touches only activities."""
 

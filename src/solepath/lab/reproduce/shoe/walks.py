@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from math import hypot, radians
 
 import numpy as np
-from attrs import field, frozen
+from attrs import frozen
 
 from ....emulate.routes.route import Route
 from ....emulate.wearers.gait import Wearer
@@ -194,7 +194,7 @@ class ShoeResults:
     """Direction of each flight that was climbed: True for up."""
     tracks: tuple[SpaceTrack, ...] = ()
     """True track, and those of ours and the printed recipe; only of a walk that is drawn."""
-    curves: tuple[Curves, ...] = field(default=())
+    curves: tuple[Curves, ...] = ()
     """Curves of figs. 3, 7 and 20; only of the short walk that is drawn."""
 
 
