@@ -26,10 +26,13 @@ FOOT = Foot.RIGHT
 """Foot that wears the sensor ("attached to one of the user's shoes"); the side is assumed."""
 RATE = 100.0
 """Sampling rate of the paper, Hz."""
-STATES = ("walking", "jogging", "upstairs", "downstairs")
+LEVEL, STAIRS = ("walking", "jogging"), ("upstairs", "downstairs")
+STATES = (*LEVEL, *STAIRS)
 """Ways of moving whose strides are scored."""
 
 OURS, PRINTED, DEFAULT_ROW = "ours", "printed", "default"
+METHODS = (PRINTED, OURS)
+"""The two methods that are compared everywhere."""
 MAGNITUDE, GATED_MAGNITUDE = "magnitude", "magnitude, gate of speed"
 BEFORE = {OURS: "ours, heights stay", PRINTED: "printed, heights stay"}
 """Names of the recipes that do not remove the height errors of level strides, by the recipe that does."""
