@@ -15,10 +15,10 @@ from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
 from solepath.lab.reproduce.published import TABLE_2_DIVISOR
 from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.shoe import walks
-from solepath.lab.reproduce.shoe.scores import matched, relative_error, score_legs, score_strides, states_of, strides_of
+from solepath.lab.reproduce.shoe.scores import matched, relative_error, score_legs, score_strides, states_of
 from solepath.lab.reproduce.shoe.variants import FOOT, LESS, OURS, PRINTED, RECIPES, SETUPS, STATES, TABLE
 from solepath.lab.reproduce.shoe.walks import ROUTES, ShoeJob, ramps_route, sample_walk, tour_route, walk
-from solepath.lab.reproduce.walks import run_session
+from solepath.lab.reproduce.walks import final_strides, run_session
 
 
 def stride_of(t: float) -> StrideTaken:
@@ -34,7 +34,7 @@ def walked(name: str, rounds: int = 1) -> tuple[list[StrideTaken], Truth]:
     """Return the strides of ours on a walk, and the truth."""
     route = ROUTES[name](TABLE) if name not in STATES[:2] else ROUTES[name](TABLE, rounds)
     samples, truth = sample_walk(route, 1)
-    return strides_of(run_session(RECIPES[OURS], samples), FOOT), truth
+    return final_strides(run_session(RECIPES[OURS], samples), FOOT), truth
 
 
 def test_steps_are_matched_one_to_one_and_in_order() -> None:

@@ -15,7 +15,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
-from attrs import define, field, make_class
+from attrs import AttrsInstance, define, field, fields_dict, make_class
 
 from ...saving.codec import Json, SnapshotError, load, save
 from ...saving.schema import is_record
@@ -36,6 +36,12 @@ def source_checksum() -> int:
     for path in sorted(root.rglob("*.py")):
         checksum = crc32(path.read_bytes(), crc32(path.relative_to(root).as_posix().encode(), checksum))
     return checksum
+
+
+def named_values(job: AttrsInstance) -> str:
+    """Return the values of a job's fields, for its `key`; a setting counts by its `name`, which no other one has."""
+    values = {one: getattr(job, one) for one in fields_dict(type(job))}
+    return str({one: getattr(value, "name", value) for one, value in values.items()})
 
 
 def describe_job(work: Callable[[Any], Any], job: object) -> str:

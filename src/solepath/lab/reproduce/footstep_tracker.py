@@ -156,7 +156,7 @@ def _notes(
 ) -> tuple[str, ...]:  # fmt: skip
     lines = []
     one_foot, two_feet = _one_foot(corridors, "ours"), _two_feet(corridors, "ours")
-    ratio = (sum([x * x for x in two_feet]) / len(two_feet) / (sum([x * x for x in one_foot]) / len(one_foot))) ** 0.5
+    ratio = _rms(two_feet) / _rms(one_foot)
     signed = [sum(one.one_foot["ours"]) / 2.0 for one in corridors]
     apart = [0.5 * (one.one_foot["ours"][0] - one.one_foot["ours"][1]) for one in corridors]
     lines.append(
@@ -164,11 +164,10 @@ def _notes(
         f"by {sum(signed) / len(signed):+.2f} m on average; half of their difference is {_rms(apart):.2f} m (RMS), "
         f"which is what the mean takes away; {_rms(signed):.2f} m are common to both feet, which it does not."
     )
-    rest = [one.toe_outs_unknown for one in corridors]
     n_angles = sum([len(one.toe_outs) for one in corridors])
     lines.append(
-        f"Toe-out: {n_angles} angles are twice their error or more, {sum(rest)} are not; by the printed formula "
-        f"{sum([len(one.toe_outs_printed) for one in corridors])} feet have an angle at all."
+        f"Toe-out: {n_angles} angles are twice their error or more, {2 * len(corridors) - n_angles} are not; by the "
+        f"printed formula {sum([len(one.toe_outs_printed) for one in corridors])} feet have an angle at all."
     )
     for turn in Turn:
         lines.append(f"Turn {turn.value}: {share_right([one.classes[turn] for one in turns]):.1f} % right.")

@@ -18,13 +18,14 @@ import numpy as np
 from attrs import field, frozen
 
 from ...emulate.wearers.truth import Truth
-from ...events import Event, StrideFused, StrideTaken
+from ...events import Event, StrideFused
 from ...papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
 from ...recipes import Recipe
 from ...types import Foot
 from ..measures.alignment import Floats
 from . import published
 from .contour.runs import sign_test
+from .done_jobs import named_values
 from .kupt.figures import coverage, panels, watch
 from .kupt.walks import (
     ABLATIONS,
@@ -42,7 +43,7 @@ from .kupt.walks import (
 )  # fmt: skip
 from .runner import Runner
 from .tables import BoxPlots, Curves, DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of, statistics
-from .walks import align_track, run_session, thin_out
+from .walks import align_track, final_strides, run_session, thin_out
 
 NAME = KUPT_DFPC.name
 WALKS = 20
@@ -67,10 +68,7 @@ class KuptJob:
     drawn: bool = False
     """True for the walk of figs. 11 and 14."""
 
-    @property
-    def key(self) -> str:
-        """Description that is another for each other job; settings are known by their names."""
-        return f"{self.seed}, {self.corridor}, {self.setting.name}, {self.drawn}"
+    key = property(named_values)
 
 
 @frozen
@@ -231,15 +229,11 @@ def _run(recipe: Recipe, prepared: PreparedWalk) -> list[Event]:
 
 
 def _distance(events: list[Event], foot: Foot) -> float:
-    return sum(stride.length for stride in _final_strides(events, foot))
+    return sum(stride.length for stride in final_strides(events, foot))
 
 
 def _fused_distance(events: list[Event]) -> float:
     return next((event.distance for event in reversed(events) if isinstance(event, StrideFused)), 0.0)
-
-
-def _final_strides(events: list[Event], foot: Foot) -> list[StrideTaken]:
-    return [event for event in events if isinstance(event, StrideTaken) and event.final and event.foot is foot]
 
 
 def _tracks(
@@ -247,7 +241,7 @@ def _tracks(
 ) -> tuple[tuple[PictureTrack, ...], dict[str, float]]:
     """Return tracks of stride ends, aligned with the truth over two metres, and distances from start to end, m."""
     ends = {
-        f"ZUPT-{letter}": [(stride.t_end, foot, stride.position) for stride in _final_strides(zupt, foot)]
+        f"ZUPT-{letter}": [(stride.t_end, foot, stride.position) for stride in final_strides(zupt, foot)]
         for foot, letter in FOOT_LETTERS.items()
     }
     # after each stride the position is the end of the chosen foot's path, which changes only at that foot's strides

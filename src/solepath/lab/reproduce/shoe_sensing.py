@@ -15,9 +15,9 @@ from functools import partial
 from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from . import published
 from .runner import Runner
-from .shoe.notes import DEFINITIONS, PAPER_NOTES, height_notes, length_notes, long_notes, setup_notes, tour_notes
-from .shoe.scores import StrideErrors, relative_error
-from .shoe.variants import BEFORE, BY_ANGLE, DEFAULT_ROW, MAGNITUDE, OURS, PRINTED, SETUPS, SHORT, STATES
+from .shoe.notes import Results, notes, scores_of_state
+from .shoe.scores import relative_error
+from .shoe.variants import BEFORE, BY_ANGLE, DEFAULT_ROW, LEVEL, MAGNITUDE, METHODS, OURS, SETUPS, SHORT, STAIRS, STATES
 from .shoe.walks import SLOPES, SessionScores, ShoeJob, ShoeResults, walk
 from .tables import FigureRow, Panel, Reproduction, SpacePanel, row_of
 
@@ -27,13 +27,8 @@ WALKS = 10
 SHORT_WALKS = 4
 """Number of wearers who go the short walk for all recipes."""
 LONG_WALKS = ("walking", "jogging", "stairs", "rectangle", "ramps", "five minutes", "short")
-METHODS = (PRINTED, OURS)
-LEVEL, STAIRS = STATES[:2], STATES[2:]
 STRIDES = 100
 """Number of strides over which heights are added up (section 4.2.3)."""
-
-Results = dict[str, list[ShoeResults]]
-"""Results of the wearers by walk."""
 
 
 def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
@@ -52,15 +47,7 @@ def reproduce(walks: int | None, seed: int, runner: Runner) -> Reproduction:
         unit="as named",
         rows=tuple([row for part in ROW_FUNCTIONS for row in part(results)]),
         panels=_panels(results),
-        notes=(
-            *DEFINITIONS,
-            *length_notes(results),
-            *height_notes(results),
-            *tour_notes(results),
-            *long_notes(long_walk),
-            *setup_notes(SETUPS, setups),
-            *PAPER_NOTES,
-        ),
+        notes=notes(results, long_walk, SETUPS, setups),
     )
 
 
@@ -93,17 +80,11 @@ def _methods(one: ShoeResults) -> list[tuple[str, SessionScores]]:
 _row = partial(row_of, published.SHOE_SENSING, digits=3)
 
 
-def _of_state(results: Results, state: str, method: str) -> list[StrideErrors]:
-    """Return the scores of all wearers in the long walk of a state."""
-    name = "stairs" if state in STAIRS else state
-    return [one.scores[method].states[state] for one in results[name]]
-
-
 def _extraction(results: Results) -> list[FigureRow]:
     """Return the rows of figs. 21 and 22, with one value for each wearer."""
     rows = []
     for state in STATES:
-        by_method = {method: _of_state(results, state, method) for method in METHODS}
+        by_method = {method: scores_of_state(results, state, method) for method in METHODS}
         by_method[MAGNITUDE] = [one.scores[MAGNITUDE].states[state] for one in results["short"]]
         rows += [
             _row(f"{state}, steps, {method} %", [of.stride_f1 for of in scores], digits=1)
@@ -111,7 +92,11 @@ def _extraction(results: Results) -> list[FigureRow]:
         ]
     for state in STATES:
         rows += [
-            _row(f"{state}, state, {method} %", [of.right_share for of in _of_state(results, state, method)], digits=1)
+            _row(
+                f"{state}, state, {method} %",
+                [of.right_share for of in scores_of_state(results, state, method)],
+                digits=1,
+            )
             for method in METHODS
         ]
     return rows
@@ -122,7 +107,7 @@ def _table_1(results: Results) -> list[FigureRow]:
     rows = []
     for method in METHODS:
         for name, states in (("plane", LEVEL), *((state, (state,)) for state in STAIRS)):
-            scores = [of for state in states for of in _of_state(results, state, BEFORE[method])]
+            scores = [of for state in states for of in scores_of_state(results, state, BEFORE[method])]
             rows.append(_row(f"{name}, {method} deg/m", [angle for of in scores for angle in of.angles]))
     return rows
 
@@ -132,7 +117,7 @@ def _heights(results: Results) -> list[FigureRow]:
     for state in LEVEL:
         for method in METHODS:
             for word, recipe in (("before", BEFORE[method]), ("after", method)):
-                scores = _of_state(results, state, recipe)
+                scores = scores_of_state(results, state, recipe)
                 rows.append(_row(f"{state}, height {word}, {method} m", _sizes(of.heights for of in scores)))
                 sums = [abs(sum([error for error, _ in of.heights[:STRIDES]])) for of in scores]
                 rows.append(_row(f"{state}, height of 100 steps {word}, {method} m", sums))
@@ -143,13 +128,13 @@ def _lengths(results: Results) -> list[FigureRow]:
     rows = []
     for state in STATES:
         for method in METHODS:
-            scores = _of_state(results, state, method)
+            scores = scores_of_state(results, state, method)
             rows.append(_row(f"{state}, length, {method} m", _sizes(of.lengths for of in scores)))
             if state in STAIRS:
                 rows.append(_row(f"{state}, height, {method} m", _sizes(of.heights for of in scores)))
     for state in STATES:
         for method in METHODS:
-            scores = _of_state(results, state, method)
+            scores = scores_of_state(results, state, method)
             errors = [of.heights if state == "upstairs" else of.lengths for of in scores if of.found]
             shares = [100.0 * relative_error(of) / published.TABLE_2_DIVISOR for of in errors]
             rows.append(_row(f"{state}, table 2, {method} %", shares))
@@ -185,7 +170,7 @@ def _slopes(results: Results) -> list[FigureRow]:
     rows = []
     names = (*(f"slope {100.0 * slope:g} %" for slope in SLOPES), "kerb 0.1 m")
     for k, name in enumerate(names):
-        for recipe in (PRINTED, BEFORE[PRINTED], OURS, BEFORE[OURS], BY_ANGLE, DEFAULT_ROW):
+        for recipe in (*[one for method in METHODS for one in (method, BEFORE[method])], BY_ANGLE, DEFAULT_ROW):
             rises = [one.scores[recipe].rises[2 * k :][:2] for one in results["ramps"]]
             rows.append(_row(f"{name}, height off, {recipe} m", _sizes(rises), digits=2))
     return rows

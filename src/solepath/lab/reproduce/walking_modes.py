@@ -22,7 +22,7 @@ from attrs import evolve
 from ...calibration import Calibration
 from ...emulate.routes.laps import ACROSS, ALONG
 from ...emulate.wearers.gait import SUBJECTS, LoadLaw
-from ...emulate.wearers.soles.contact import WORN
+from ...emulate.wearers.soles.contact import SLIPPING, WORN
 from ...papers.walking_modes.calibrate import MODES
 from ...papers.walking_modes.compensation import Compensation
 from ...papers.walking_modes.modes import Modes
@@ -90,7 +90,7 @@ CONDITIONS = {
     "load outward": evolve(USUAL, law=LoadLaw.OUTWARD, variation=0.0),
     "worn sole": evolve(USUAL, contact=WORN),
     "pivot +2 cm": evolve(USUAL, contact=evolve(WORN, pivot_shift=0.02)),
-    "slip 2 cm": evolve(USUAL, contact=evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    "slip 2 cm": evolve(USUAL, contact=SLIPPING),
     "tilt 1 deg": evolve(USUAL, tilt=radians(1.0)),
 }
 """Conditions for which the mean distance over the corners is a row of its own, with one walk over marks in all."""

@@ -12,12 +12,12 @@ from ...emulate.routes.actions import Stand
 from ...emulate.routes.route import Route
 from ...emulate.walk import EmulatedWalk
 from ...emulate.wearers.walker import Walker
-from ...events import Event
+from ...events import Event, StrideTaken
 from ...floorplan.plan import FloorPlan
 from ...recipes import Recipe
 from ...recording.decoded import decode_recording
 from ...session import Session
-from ...types import Packet, Sample
+from ...types import Foot, Packet, Sample
 from ..measures.alignment import Floats, align
 from ..measures.strides import ALIGNMENT_LENGTH
 
@@ -62,6 +62,12 @@ def run_session(
     """Return all events of a session of the recipe."""
     session = Session(recipe, calibration=calibration, floorplan=floorplan)
     return session.feed(items) + session.finish()
+
+
+def final_strides(events: Iterable[Event], foot: Foot | None = None) -> list[StrideTaken]:
+    """Return the final strides of a foot, or of both feet when none is named."""
+    strides = [one for one in events if isinstance(one, StrideTaken) and one.final]
+    return strides if foot is None else [one for one in strides if one.foot is foot]
 
 
 def align_track(track: Floats, truth: Floats, over: float = ALIGNMENT_LENGTH) -> Floats:

@@ -28,18 +28,23 @@ LARGEST_SQUARED_TURN = 1.0
 A larger rotation, which occurs at low sample rates, is computed in closed form."""
 
 
+def gravity_direction(attitude: Quat) -> Vec3:
+    """Return gb, the upward direction in the sensor frame, a unit vector."""
+    q0, q1, q2, q3 = attitude
+    return (2.0 * (q1 * q3 - q0 * q2), 2.0 * (q2 * q3 + q0 * q1), q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3)
+
+
 def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
     """Return the tilt error e = gb x g'R, sensor frame, rad; zero if `acc` is zero.
 
     `acc` is the measured specific force, in any unit."""
-    q0, q1, q2, q3 = attitude
     x, y, z = acc
     length = sqrt(x * x + y * y + z * z)
     if length < 1e-9:
         return (0.0, 0.0, 0.0)
     k = 1.0 / length
     x, y, z = x * k, y * k, z * k
-    bx, by, bz = 2.0 * (q1 * q3 - q0 * q2), 2.0 * (q2 * q3 + q0 * q1), q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3
+    bx, by, bz = gravity_direction(attitude)
     return (by * z - bz * y, bz * x - bx * z, bx * y - by * x)
 
 

@@ -14,7 +14,7 @@ from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO, rotate
-from .posture import INITIAL_GAIN, INITIAL_TIME, gravity_error, is_upside_down, turn
+from .posture import INITIAL_GAIN, INITIAL_TIME, gravity_direction, gravity_error, is_upside_down, turn
 
 HIGHEST_SPEED = 15.0
 """Highest speed of a foot, m/s."""
@@ -67,9 +67,7 @@ class GatedTilt(LinearDedrift):
     """Position where the foot stood before `stance_position`, m."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        # the upward direction in the sensor frame: that of the mean specific force from which `attitude` was computed
-        w, x, y, z = attitude
-        self.last_acc = (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z)
+        self.last_acc = gravity_direction(attitude)  # that of the mean specific force which gave `attitude`
         self.initial_left = self.settings.initial_time
         is_iterated = self.initial_left > 0.0 and not is_upside_down(attitude)
         LinearDedrift.start(self, IDENTITY if is_iterated else attitude, tilt_sigma)

@@ -16,7 +16,7 @@ notice slides of less than 2 to 3 cm (Perkins 1978, ASTM STP 649; Leamon and Li 
 from __future__ import annotations
 
 import numpy as np
-from attrs import frozen
+from attrs import evolve, frozen
 
 from ..curves import Array, Rng
 
@@ -87,6 +87,10 @@ WORN = GroundContact(
 The impact takes 14 to 50 ms, which are two standard deviations, so the heel slides by 3 to 10 mm at 1.3 m/s; the toe
 slides by up to 12 mm. These are microslips in the sense of this module. The sharper bend and the variation of the pivot
 are assumed: a posture that is held by hand bears a part of the body's weight."""
+
+
+SLIPPING = evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)
+"""The worn sole, whose toe slides by 2 cm on average."""
 
 
 def slip_at_toe_off(slip: Array, push_off_time: float) -> tuple[Array, Array, Array]:

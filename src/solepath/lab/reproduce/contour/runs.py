@@ -17,6 +17,7 @@ from ....recipes import Recipe
 from ....session import Session
 from ....types import Foot, Sample
 from ...measures.alignment import Floats
+from ..walks import final_strides
 
 
 @frozen(eq=False)
@@ -45,7 +46,7 @@ def run_foot(recipe: Recipe, foot: Foot, samples: Sequence[Sample], calibration:
         bias = getattr(corrector, "bias", None)
         biases.append((0.0, 0.0, 0.0) if bias is None else bias.bias)
     events += session.finish()
-    strides = tuple([one for one in events if isinstance(one, StrideTaken) and one.final])
+    strides = tuple(final_strides(events))
     t = np.array([sample.t for sample in samples])
     return ContourRun(strides, t, np.array(at_rest), np.array(biases))
 

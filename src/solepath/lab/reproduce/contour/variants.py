@@ -13,7 +13,7 @@ from ....emulate.sensors.insole_device import Insole, boot
 from ....emulate.sensors.parts import INERTIACUBE3, TILTED_INERTIACUBE3, WORN_CAPACITIVE
 from ....emulate.wearers.gait import LoadLaw, Wearer
 from ....emulate.wearers.shoe import Shoe
-from ....emulate.wearers.soles.contact import WORN, GroundContact
+from ....emulate.wearers.soles.contact import SLIPPING, WORN, GroundContact
 from ....emulate.wearers.soles.heel_pad import HeelPad
 from ....papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from ....papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
@@ -127,8 +127,7 @@ SETUPS = (
     Setup("feet that turn twice as far in stance", evolve(TABLE.wearer, rest_pitch=0.02), TABLE.device),
     Setup("a worn sole, which bends and slips", _in_shoe(WORN), TABLE.device),
     Setup("a worn sole, pivot 2 cm ahead", _in_shoe(evolve(WORN, pivot_shift=0.02)), TABLE.device),
-    Setup("a worn sole that slips by 2 cm", _in_shoe(
-        evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)), TABLE.device),
+    Setup("a worn sole that slips by 2 cm", _in_shoe(SLIPPING), TABLE.device),
     Setup("no low pass before sampling", TABLE.wearer, evolve(TABLE.device, bandwidth=inf)),
     Setup("no tilt that stays", TABLE.wearer, evolve(TABLE.device, attitude=INERTIACUBE3)),
     Setup("a tilt of half a degree that stays", TABLE.wearer, _attitude_source(0.5, 30.0)),

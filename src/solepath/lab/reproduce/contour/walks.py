@@ -23,6 +23,7 @@ from ....recipes import Recipe
 from ....types import SITE_OF_FOOT, Layout, Sample
 from ...measures.alignment import Floats
 from .. import published
+from ..done_jobs import named_values
 from ..tables import DrawStyle, PictureTrack
 from ..walks import align_track, find_halt, join_routes, thin_out
 from .figures import bias_curves, stance_curves
@@ -51,11 +52,7 @@ class ContourJob:
     uncalibrated: bool = False
     """True if the track as printed is drawn as well without bias filter and laps: "position" in figs. 14 and 15."""
 
-    @property
-    def key(self) -> str:
-        """Description that is another for each other job: setups and variants are known by their names."""
-        names = ", ".join((self.setup.name, *self.variants, *(("uncalibrated",) if self.uncalibrated else ())))
-        return f"{self.seed}, {self.number}, {self.duration}, {self.laps}, {names}"
+    key = property(named_values)
 
     @property
     def square(self) -> bool:

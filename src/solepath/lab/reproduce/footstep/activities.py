@@ -10,7 +10,7 @@ import numpy as np
 from attrs import frozen
 
 from ....body.height.barometric import height_of
-from ....events import ActivityChanged, Event, StrideTaken
+from ....events import ActivityChanged, Event
 from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
 from ....recording.decoded import decode_recording
 from ....show.timeline import Timeline
@@ -18,7 +18,7 @@ from ....types import Activity, Packet, Site
 from ...evaluate.activity import score_windows
 from ...measures.confusion import ActivityScore
 from ...train.emulated import draw_route
-from ..walks import run_session
+from ..walks import final_strides, run_session
 from .wearers import WearerJob, without_barometer
 
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
@@ -49,7 +49,7 @@ def score_activities(job: WearerJob) -> ActivityResults:
         printed = _timeline(run_session(FOOTSTEP_TRACKER_PRINTED, walk.packets))
         stretches = stair_stretches(printed, until)
         heights = _heights(walk.packets)
-        rises = [(one.t_end, one.height_change) for one in ours if isinstance(one, StrideTaken)]
+        rises = [(one.t_end, one.height_change) for one in final_strides(ours)]
         timelines |= {
             "no barometer": _timeline(run_session(FOOTSTEP_TRACKER, without_barometer(walk.packets))),
             "printed": printed,

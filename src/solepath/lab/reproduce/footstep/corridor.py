@@ -23,7 +23,8 @@ from ....types import SITE_OF_FOOT, Foot, Packet, Quat, Vec3
 from ....types.attrs import define, evolve
 from ....types.attrs import field as state_field
 from ....types.vector import GRAVITY, IDENTITY
-from .wearers import LENGTH_RECIPES, NOTHING_KNOWN, ONE_METRE_RULE, WearerJob
+from ..walks import final_strides
+from .wearers import LENGTH_RECIPES, ONE_METRE_RULE, WearerJob
 
 CALIBRATION_LENGTH = 20.0
 """Length of the walk from which the toe-out angle is calibrated, m (fig. 10)."""
@@ -52,7 +53,9 @@ class CorridorResults:
     stature: float
     """Error of the length by the wearer's stature, m."""
     ends: dict[str, tuple[float, ...]]
-    """Error of the distance from the first to the last position, m: of each foot alone, of both, by the rule."""
+    """Error of the distance from the first to the last position, m: of each foot alone, of both, by the rule.
+
+    Only that of both is with the toe-out."""
     strides_found: dict[str, float]
     """Number of strides as a share of the true ones, by variant, %."""
     stride_errors: dict[str, tuple[float, ...]] = field(repr=False)
@@ -63,8 +66,6 @@ class CorridorResults:
     """Number of stances with a static zone as printed, and of all stances."""
     toe_outs: tuple[float, ...] = ()
     """Error of each toe-out angle that is known, degrees."""
-    toe_outs_unknown: int = 0
-    """Number of feet whose angle is not twice its error."""
     toe_outs_printed: tuple[float, ...] = ()
     """Error of each angle by the printed formula, degrees."""
     curves: dict[str, Curve] = field(factory=dict, repr=False)
@@ -105,12 +106,12 @@ def score_corridor(job: WearerJob) -> CorridorResults:
     events = session.feed(walk.packets) + session.finish()
     true = {foot: len(walk.truth.strides(foot)) for foot in Foot}
     n_true = true[Foot.LEFT] + true[Foot.RIGHT]
-    strides = _strides(events)
+    strides = final_strides(events)
     sums, found_share = {"ours": _sums(strides)}, {"ours": 100.0 * len(strides) / n_true}
     ends: dict[str, tuple[float, ...]] = {"two feet": (_end(session),)}
     if job.is_standard:
         for name, recipe in LENGTH_RECIPES.items():
-            variant = _strides(_run(recipe, walk.packets)[0])
+            variant = final_strides(_run(recipe, walk.packets)[0])
             sums[name], found_share[name] = _sums(variant), 100.0 * len(variant) / n_true
         alone = [_run(FOOTSTEP_TRACKER, [p for p in walk.packets if p.site is SITE_OF_FOOT[foot]])[1] for foot in Foot]
         ends["one foot"] = tuple([_end(one) for one in alone])
@@ -130,7 +131,6 @@ def score_corridor(job: WearerJob) -> CorridorResults:
         zones=(sum([one.zones - one.strict_zones for one in zones]), sum([one.zones for one in zones])),
         literal=_literal_zones(walk),
         toe_outs=tuple([degrees(one.angle - wearer.toe_out) for one in found if one.is_known]),
-        toe_outs_unknown=sum([not one.is_known for one in found]),
         toe_outs_printed=tuple([degrees(one[0] - wearer.toe_out) for one in printed if one is not None]),
         curves=_curves(walk, strides, job.stature) if job.is_standard else {},
     )
@@ -146,12 +146,8 @@ def _calibrate(job: WearerJob) -> list[ToeOut]:
 
 
 def _run(recipe: Recipe, packets: tuple[Packet, ...] | list[Packet]) -> tuple[list[Event], Session]:
-    session = Session(recipe, calibration=NOTHING_KNOWN)
+    session = Session(recipe)
     return session.feed(packets) + session.finish(), session
-
-
-def _strides(events: list[Event]) -> list[StrideTaken]:
-    return [event for event in events if isinstance(event, StrideTaken) and event.final]
 
 
 def _sums(strides: list[StrideTaken]) -> tuple[float, float]:

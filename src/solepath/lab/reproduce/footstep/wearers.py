@@ -8,7 +8,6 @@ from __future__ import annotations
 import numpy as np
 from attrs import evolve, frozen
 
-from ....calibration import Calibration
 from ....emulate.routes.route import Route
 from ....emulate.sensors.air import STILL_AIR, Air, PressureStep
 from ....emulate.sensors.device import Device
@@ -17,13 +16,14 @@ from ....emulate.sensors.sensortags import CC2541, CC2650
 from ....emulate.walk import EmulatedWalk, emulate
 from ....emulate.wearers.gait import Wearer, random_wearer
 from ....emulate.wearers.shoe import IN_SOLE, ON_INSTEP
-from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
+from ....emulate.wearers.soles.contact import RIGID, SLIPPING, WORN, GroundContact
 from ....papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
 from ....papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
 from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
 from ....papers.footstep_tracker.snake import PrintedSnake
 from ....papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
 from ....types import SITE_OF_FOOT, Packet
+from ..done_jobs import named_values
 
 RATE = 20.0
 """Sampling rate, Hz."""
@@ -54,13 +54,13 @@ class FootstepSetting:
 STANDARD = FootstepSetting("worn sole, CC2541")
 SETTINGS = (
     FootstepSetting("rigid sole", RIGID),
-    FootstepSetting("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    FootstepSetting("slip 2 cm", SLIPPING),
     FootstepSetting("flex", evolve(WORN, pivot_shift=-0.02, pivot_variation=0.006, radius_ratio=0.6)),
     FootstepSetting("on the instep", device=CC2541(rate=RATE, mounting=ON_INSTEP)),
     FootstepSetting("CC2650", device=CC2650(rate=RATE, mounting=IN_SOLE), activities=True),
     FootstepSetting("MPU-6050", device=CC2650(rate=RATE, mounting=IN_SOLE, chip=MPU6050), activities=True),
 )
-"""Settings of the sensitivity rows; each differs from STANDARD in one thing."""
+"""Settings of the sensitivity rows; each differs from STANDARD in one thing, and has no toe-out (score_corridor)."""
 IN_WEATHER = FootstepSetting("weather", air=WEATHER, activities=True)
 """Air that changes by itself, which touches only activities."""
 
@@ -97,10 +97,7 @@ class WearerJob:
     seed: int
     setting: FootstepSetting = STANDARD
 
-    @property
-    def key(self) -> str:
-        """Description by the seed and the name of the setting."""
-        return f"{self.seed}, {self.setting.name}"
+    key = property(named_values)
 
     @property
     def is_standard(self) -> bool:
@@ -132,7 +129,3 @@ def in_shoes(wearer: Wearer, setting: FootstepSetting) -> Wearer:
 def without_barometer(packets: tuple[Packet, ...]) -> list[Packet]:
     """Return the packets without air pressure."""
     return [packet for packet in packets if packet.channel not in BAROMETERS]
-
-
-NOTHING_KNOWN = Calibration()
-"""Calibration of a wearer who has not been measured."""

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import frozen
 
 from ....calibration import Calibration
-from ....events import Event, StrideFused, StrideTaken
+from ....events import Event, StrideFused
 from ....foot.stance.stance import Stance
 from ....papers.kupt_dfpc.recipe import KUPT_DFPC_PRINTED
 from ....papers.kupt_dfpc.swing_dedrift import LARGEST_ROLLING_SIGMA, SwingDedrift
@@ -18,6 +18,7 @@ from ....session import Session
 from ....types import Foot, Phase, Sample
 from ....types.attrs import define, evolve, field
 from ..tables import Curves, DrawStyle, PictureTrack
+from ..walks import final_strides
 
 LEAST_MOTION_TIME = 0.3
 """Shortest time between two stances that is a stride, s."""
@@ -153,8 +154,7 @@ def without_drift(seen: Sequence[KnownSample], knows_rolling: bool) -> tuple[tup
 
 def _sums(events: Sequence[Event], foot: Foot) -> tuple[tuple[float, float], ...]:
     total, points = 0.0, []
-    for event in events:
-        if isinstance(event, StrideTaken) and event.final and event.foot is foot:
-            total += event.length
-            points.append((event.t, total))
+    for stride in final_strides(events, foot):
+        total += stride.length
+        points.append((stride.t, total))
     return tuple(points)

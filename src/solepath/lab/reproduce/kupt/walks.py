@@ -16,7 +16,7 @@ from ....emulate.sensors.parts import LSM6DSOX, MPU9250, WORN_RESISTIVE, Imu
 from ....emulate.walk import EmulatedWalk, emulate
 from ....emulate.wearers.gait import LoadLaw, Wearer
 from ....emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
-from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
+from ....emulate.wearers.soles.contact import RIGID, SLIPPING, WORN, GroundContact
 from ....papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
 from ....papers.kupt_dfpc.noise import pressure_noise
 from ....papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC
@@ -69,7 +69,7 @@ SETTINGS = (
     Setting("pivot -1 cm", evolve(WORN, pivot_shift=-0.01)),
     Setting("pivot +1 cm", evolve(WORN, pivot_shift=0.01)),
     Setting("pivot +2 cm", evolve(WORN, pivot_shift=0.02), with_additions=True),
-    Setting("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    Setting("slip 2 cm", SLIPPING),
     Setting("impact 14 ms", evolve(WORN, impact_time=0.014, impact_variation=0.0)),
     Setting("impact 50 ms", evolve(WORN, impact_time=0.05, impact_variation=0.0)),
     Setting("tilt 5 deg", tilt=radians(5.0)),

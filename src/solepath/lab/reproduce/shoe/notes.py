@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from .scores import StrideErrors, relative_error
-from .variants import BEFORE, DEFAULT_ROW, OURS, PRINTED, STATES, ShoeSetup
+from .variants import BEFORE, DEFAULT_ROW, LEVEL, METHODS, STAIRS, STATES, ShoeSetup
 from .walks import ShoeResults
 
 Results = Mapping[str, Sequence[ShoeResults]]
+"""Results of the wearers by walk."""
 
 DEFINITIONS = (
     "Rows: printed is the paper's method without anything of ours, ours is the recipe shoe-sensing. Length and height "
@@ -36,17 +37,32 @@ PAPER_NOTES = (
 )
 
 
-def _scores(results: Results, state: str, method: str) -> list[StrideErrors]:
-    walk = "stairs" if state in STATES[2:] else state
-    return [one.scores[method].states[state] for one in results[walk]]
+def notes(
+    results: Results, long_walk: ShoeResults, setups: Sequence[ShoeSetup], setup_walks: Sequence[ShoeResults]
+) -> tuple[str, ...]:
+    """Return all sentences below the table; `setup_walks` are the short walks of `setups`."""
+    return (
+        *DEFINITIONS,
+        *_length_notes(results),
+        *_height_notes(results),
+        *_tour_notes(results),
+        *_long_notes(long_walk),
+        *_setup_notes(setups, setup_walks),
+        *PAPER_NOTES,
+    )
 
 
-def length_notes(results: Results) -> list[str]:
+def scores_of_state(results: Results, state: str, method: str) -> list[StrideErrors]:
+    """Return the scores of all wearers in the long walk of a state."""
+    return [one.scores[method].states[state] for one in results["stairs" if state in STAIRS else state]]
+
+
+def _length_notes(results: Results) -> list[str]:
     """Return a sentence about the lengths of each state and method."""
     lines = []
     for state in STATES:
-        for method in (PRINTED, OURS):
-            scores = _scores(results, state, method)
+        for method in METHODS:
+            scores = scores_of_state(results, state, method)
             lengths = [pair for of in scores for pair in of.lengths]
             if not lengths:
                 continue
@@ -67,14 +83,14 @@ def length_notes(results: Results) -> list[str]:
     return lines
 
 
-def height_notes(results: Results) -> list[str]:
+def _height_notes(results: Results) -> list[str]:
     """Return a sentence about the heights of level walks, and one about ramps."""
     lines = [
         "Heights on the level after elimination say little: a step that is judged level ends exactly as high as it "
         "began, by construction, on any floor, a ramp too. The rows of slopes and of the kerb show what that costs."
     ]
-    for state in STATES[:2]:
-        for method in (PRINTED, OURS):
+    for state in LEVEL:
+        for method in METHODS:
             after, before = (
                 [abs(one.scores[recipe].track.height_error) for one in results[state]]
                 for recipe in (method, BEFORE[method])
@@ -86,10 +102,10 @@ def height_notes(results: Results) -> list[str]:
     return lines
 
 
-def tour_notes(results: Results) -> list[str]:
+def _tour_notes(results: Results) -> list[str]:
     """Return a sentence about the five minutes by each method."""
     walks, lines = results["five minutes"], []
-    for method in (PRINTED, OURS, DEFAULT_ROW):
+    for method in (*METHODS, DEFAULT_ROW):
         tracks = [one.scores[method].track for one in walks]
         ends, heights = [of.end_error for of in tracks], [abs(of.height_error) for of in tracks]
         n_exact = sum([of.flights == one.true_flights for of, one in zip(tracks, walks, strict=True)])
@@ -104,10 +120,10 @@ def tour_notes(results: Results) -> list[str]:
     return lines
 
 
-def long_notes(walk: ShoeResults) -> list[str]:
+def _long_notes(walk: ShoeResults) -> list[str]:
     """Return a sentence about the walk of twenty rounds by each method."""
     lines = []
-    for method in (PRINTED, OURS):
+    for method in METHODS:
         of = walk.scores[method]
         courses = [abs(course) for leg in of.legs for course in leg.courses]
         ours, true = _mean([sum(leg.length) for leg in of.legs]), _mean([leg.length[1] for leg in of.legs])
@@ -121,7 +137,7 @@ def long_notes(walk: ShoeResults) -> list[str]:
     return lines
 
 
-def setup_notes(setups: Sequence[ShoeSetup], walks: Sequence[ShoeResults]) -> list[str]:
+def _setup_notes(setups: Sequence[ShoeSetup], walks: Sequence[ShoeResults]) -> list[str]:
     """Return a sentence about each setup of the short walk."""
     lines = [
         "Setups, of which all but the first change one thing; by the printed method and ours: steps walking and "
@@ -129,11 +145,11 @@ def setup_notes(setups: Sequence[ShoeSetup], walks: Sequence[ShoeResults]) -> li
     ]
     for setup, one in zip(setups, walks, strict=True):
         parts = []
-        for method in (PRINTED, OURS):
+        for method in METHODS:
             states = one.scores[method].states
-            found = " and ".join(f"{states[state].stride_f1:.1f}" for state in STATES[:2])
+            found = " and ".join(f"{states[state].stride_f1:.1f}" for state in LEVEL)
             lengths = [abs(error) for of in states.values() for error, _ in of.lengths]
-            heights = [abs(error) for state in STATES[2:] for error, _ in states[state].heights]
+            heights = [abs(error) for state in STAIRS for error, _ in states[state].heights]
             right = [right for of in states.values() for right in of.right]
             parts.append(f"{method} {found}; {_mean(lengths):.3f}; {_mean(heights):.3f}; {100.0 * _mean(right):.1f}")
         lines.append(f"With {setup.name}: {', '.join(parts)}.")

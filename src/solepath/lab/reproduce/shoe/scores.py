@@ -13,7 +13,7 @@ from attrs import frozen
 from ....body.activity.steepness import angle_per_metre, steepness
 from ....emulate.routes.styles import StrideKind
 from ....emulate.wearers.truth import TrueStride, Truth
-from ....events import Event, StrideTaken
+from ....events import StrideTaken
 from ....types import Foot
 from ...measures.matching import pairs
 from ...measures.strides import ALIGNMENT_LENGTH
@@ -101,11 +101,6 @@ def matched(found: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tu
     """Return the pairs of a found and a true stride whose ends are at most MATCHING_TIME apart, one to one."""
     ends = [one.t_end for one in true], [stride.t_end for stride in found]
     return [(found[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
-
-
-def strides_of(events: Sequence[Event], foot: Foot) -> list[StrideTaken]:
-    """Return the final strides of a foot."""
-    return [event for event in events if isinstance(event, StrideTaken) and event.final and event.foot is foot]
 
 
 def score_strides(strides: Sequence[StrideTaken], truth: Truth, foot: Foot) -> dict[str, StrideErrors]:

@@ -11,7 +11,7 @@ from attrs import evolve, frozen
 
 from ....emulate.sensors.parts import LSM6DSOX, MPU6050, Imu
 from ....emulate.wearers.shoe import ON_HEEL, ON_INSTEP, Mounting
-from ....emulate.wearers.soles.contact import RIGID, WORN, GroundContact
+from ....emulate.wearers.soles.contact import RIGID, SLIPPING, WORN, GroundContact
 from ....papers.shoe_sensing.gated_tilt import ShoeSensing, ShoeSensingSettings
 from ....papers.shoe_sensing.printed import GatedTilt, GatedTiltSettings
 from ....papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING, SHOE_SENSING_PRINTED
@@ -26,17 +26,20 @@ FOOT = Foot.RIGHT
 """Foot that wears the sensor ("attached to one of the user's shoes"); the side is assumed."""
 RATE = 100.0
 """Sampling rate of the paper, Hz."""
-STATES = ("walking", "jogging", "upstairs", "downstairs")
+LEVEL, STAIRS = ("walking", "jogging"), ("upstairs", "downstairs")
+STATES = (*LEVEL, *STAIRS)
 """Ways of moving whose strides are scored."""
 
 OURS, PRINTED, DEFAULT_ROW = "ours", "printed", "default"
+METHODS = (PRINTED, OURS)
+"""The two methods that are compared everywhere."""
 MAGNITUDE, GATED_MAGNITUDE = "magnitude", "magnitude, gate of speed"
 BEFORE = {OURS: "ours, heights stay", PRINTED: "printed, heights stay"}
 """Names of the recipes that do not remove the height errors of level strides, by the recipe that does."""
 
 
 def _ours(**changes: Any) -> Recipe:
-    return evolve(SHOE_SENSING, corrector=ShoeSensing(evolve(ShoeSensingSettings(), **changes)))
+    return evolve(SHOE_SENSING, corrector=ShoeSensing(ShoeSensingSettings(**changes)))
 
 
 MAIN: dict[str, Recipe] = {
@@ -100,7 +103,7 @@ SETUPS = (
     TABLE,
     *(ShoeSetup(f"{rate:g} Hz", rate=rate) for rate in (40.0, 50.0, 60.0, 80.0)),
     ShoeSetup("rigid sole", RIGID),
-    ShoeSetup("slip 2 cm", evolve(WORN, toe_slip=0.02, toe_slip_variation=0.008)),
+    ShoeSetup("slip 2 cm", SLIPPING),
     ShoeSetup("impact 50 ms", evolve(WORN, impact_time=0.05, impact_variation=0.0)),
     ShoeSetup("on the heel", mounting=ON_HEEL),
     ShoeSetup("LSM6DSOX", chip=LSM6DSOX),

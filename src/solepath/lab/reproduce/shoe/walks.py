@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from math import hypot, radians
 
 import numpy as np
-from attrs import field, frozen
+from attrs import frozen
 
 from ....emulate.routes.route import Route
 from ....emulate.wearers.gait import Wearer
@@ -19,10 +19,11 @@ from ....emulate.wearers.walker import Walker
 from ....events import Event, FlightClimbed, StrideTaken
 from ....types import Sample
 from ...measures.alignment import Floats
+from ..done_jobs import named_values
 from ..tables import Curves, DrawStyle, SpaceTrack
-from ..walks import align_track, run_session
+from ..walks import align_track, final_strides, run_session
 from .figures import extraction_curves, posture_curves, window_curves
-from .scores import LegErrors, StrideErrors, score_legs, score_strides, strides_of
+from .scores import LegErrors, StrideErrors, score_legs, score_strides
 from .variants import BY_ANGLE, DEFAULT_ROW, FOOT, MAIN, OURS, PRINTED, RECIPES, SHORT, TABLE, ShoeSetup
 
 WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
@@ -152,10 +153,7 @@ class ShoeJob:
     drawn: bool = False
     """True for the walks of which curves are drawn."""
 
-    @property
-    def key(self) -> str:
-        """Description that is another for each other job; setups are known by their names."""
-        return f"{self.seed}, {self.walk}, {self.setup.name}, {self.drawn}"
+    key = property(named_values)
 
 
 @frozen
@@ -196,7 +194,7 @@ class ShoeResults:
     """Direction of each flight that was climbed: True for up."""
     tracks: tuple[SpaceTrack, ...] = ()
     """True track, and those of ours and the printed recipe; only of a walk that is drawn."""
-    curves: tuple[Curves, ...] = field(default=())
+    curves: tuple[Curves, ...] = ()
     """Curves of figs. 3, 7 and 20; only of the short walk that is drawn."""
 
 
@@ -226,7 +224,7 @@ def sample_walk(route: Route, seed: int, setup: ShoeSetup = TABLE) -> tuple[list
 
 
 def _score(job: ShoeJob, events: Sequence[Event], truth: Truth) -> SessionScores:
-    strides = strides_of(events, FOOT)
+    strides = final_strides(events, FOOT)
     turns = job.walk in ("walking", "jogging", "rectangle", "twenty rounds")
     return SessionScores(
         states=score_strides(strides, truth, FOOT),
@@ -285,7 +283,7 @@ def _tracks(sessions: Mapping[str, Sequence[Event]], truth: Truth) -> tuple[Spac
     position = truth.pose(FOOT, t).position
     tracks = [SpaceTrack("true path", _points(position - position[0]), DrawStyle.TRUTH)]
     for name in (OURS, PRINTED):
-        strides = strides_of(sessions[name], FOOT)
+        strides = final_strides(sessions[name], FOOT)
         if len(strides) > 1:
             tracks.append(SpaceTrack(name, _points(_positions(strides, truth)[0][-MAX_POINTS:])))
     return tuple(tracks)
