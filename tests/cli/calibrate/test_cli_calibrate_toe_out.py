@@ -6,7 +6,7 @@ from math import degrees
 from pathlib import Path
 
 import pytest
-from programs import TAKES, drawn, emulator, run, started
+from programs import TAKES, drawn, emulator, in_terminal, run
 
 from solepath.calibration.file import read_calibration
 from solepath.cli.calibrate.toe_out_live import STANDING_TIME, GuidedWalk
@@ -58,25 +58,19 @@ async def those(packets: Iterable[Packet]) -> AsyncIterator[Packet]:
 
 
 def test_a_person_walks_and_the_strides_and_angles_are_shown(tmp_path: Path) -> None:
-    pty = pytest.importorskip("pty")
     file, out = tmp_path / "walk.jsonl", tmp_path / "me.json"
-    ours, theirs = pty.openpty()
-    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
     with emulator("--device", "cc2541-20hz", "--distance", 14) as (_, where):
         names = ("--left", "F0:5E:00:00:00:01", "--right", "F0:5E:00:00:00:02")
-        with started(
-            "calibrate", "toe-out", file, "--live", "--out", out, "--via", where, *names, **terminal
-        ) as process:
-            os.close(theirs)
-            drawn(ours, "Stand still")
-            drawn(ours, "strides")
-            os.write(ours, b"\n")
-            drawn(ours, "Walk straight ahead")
-            drawn(ours, " degrees; right 8 strides")
-            os.write(ours, b"\n")
-            assert "toe-out degrees" in drawn(ours)
+        options = ("--live", "--out", out, "--via", where, *names)
+        with in_terminal("calibrate", "toe-out", file, *options) as (terminal, process):
+            drawn(terminal, "Stand still")
+            drawn(terminal, "strides")
+            os.write(terminal, b"\n")
+            drawn(terminal, "Walk straight ahead")
+            drawn(terminal, " degrees; right 8 strides")
+            os.write(terminal, b"\n")
+            assert "toe-out degrees" in drawn(terminal)
             assert process.wait(TAKES) == 0
-        os.close(ours)
     assert sum(1 for _ in read_packets(file)) > 500
     for foot, angle in read_calibration(out).toe_out.items():
         assert foot in Foot and abs(degrees(angle - Wearer().toe_out)) < 4.0

@@ -27,7 +27,7 @@ from ..bluetooth.devices import SCAN_TIME, named_devices
 from ..common.failure import Failure
 from ..common.loop import unless_stopped
 from ..common.view import PageAddress, serve_page
-from .terminal import Dialogue
+from .terminal import Dialogue, meanwhile
 
 PITCHES = (10, 22, 34, 46, 58)
 """Pitches to which the heel is raised, degrees: five postures between flat and toe-off; near them is as good."""
@@ -41,10 +41,6 @@ HELP = (
     "The pitch of the shoe is on the line that changes. Enter takes it as soon as the shoe was still for a second;\n"
     "u and Enter take the last measurement back; q and Enter end."
 )
-
-
-class _Ended(Exception):
-    """The person wants to measure no more."""
 
 
 async def measure(options: argparse.Namespace, address: PageAddress | None, stop: asyncio.Event) -> int:
@@ -70,13 +66,9 @@ async def measure(options: argparse.Namespace, address: PageAddress | None, stop
         shoe = LiveShoe(site, Scene("A shoe is measured", "", posture=ShownPosture(site.foot or Foot.RIGHT)))
         if address is not None:
             await stack.enter_async_context(serve_page(shoe.scene, address))
-        receiving = asyncio.create_task(shoe.receive(packets))
-        try:
-            known = {name: value for name, value in constants.items() if value is not None}
+        known = {name: value for name, value in constants.items() if value is not None}
+        async with meanwhile(shoe.receive(packets)) as receiving:
             await Measuring(shoe, Dialogue(), options.file, known, receiving).run(options.times)
-        finally:
-            receiving.cancel()
-            await asyncio.gather(receiving, return_exceptions=True)
     return 0
 
 
@@ -171,7 +163,7 @@ class Measuring:
                     await self._take()
                 else:
                     await self._measure(times)
-        except (_Ended, EOFError):
+        except EOFError:
             self.talk.print_line()
         if not self.done:
             raise Failure("no posture was measured, so that nothing is learnt")
@@ -205,17 +197,14 @@ class Measuring:
         self.shoe.instruct(task, target)
 
     async def _take(self) -> float | None:
-        """Return the pitch, rad, of a still second after Enter; None for u. Raise _Ended for q."""
+        """Return the pitch, rad, of a still second after Enter, or None for u; raise EOFError when the person ends."""
         self.talk.forget_typed()
         is_due = False
         while True:
             if self.receiving.done():
                 self.receiving.result()
             if not is_due and (typed := self.talk.typed()) is not None:
-                self.talk.restart_line()
-                if typed in ("q", "u"):
-                    if typed == "q":
-                        raise _Ended
+                if typed == "u":
                     return None
                 is_due = True
             if is_due and not self.shoe.is_silent and (pitch := self.shoe.gauge.take()) is not None:
@@ -224,12 +213,10 @@ class Measuring:
             await asyncio.sleep(REDRAW_INTERVAL)
 
     async def _length(self, question: str) -> float:
-        """Return a length that is typed in mm, m. Raise _Ended for q."""
+        """Return a length that is typed in mm, m; raise EOFError when the person ends."""
         self.shoe.instruct(f"Hold the shoe and answer at the terminal: {question}")
         while True:
             typed = await self.talk.prompt(question)
-            if typed == "q":
-                raise _Ended
             try:
                 length = 0.001 * float(typed.replace(",", "."))
             except ValueError:

@@ -22,7 +22,7 @@ from ..bluetooth.backend import backend_of
 from ..bluetooth.devices import named_devices
 from ..common.failure import Failure
 from ..common.loop import unless_stopped
-from .terminal import Dialogue
+from .terminal import Dialogue, meanwhile
 
 REDRAW_INTERVAL = 0.2
 """Time between two pictures of the strides, s."""
@@ -47,15 +47,13 @@ async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
             raise Failure(str(error)) from None
         named = ((Foot.LEFT, options.left), (Foot.RIGHT, options.right))
         walk = GuidedWalk(writer, [foot for foot, device in named if device])
-        receiving = asyncio.create_task(walk.receive(packets))
         try:
-            await walk.lead(Dialogue(), receiving)
+            async with meanwhile(walk.receive(packets)) as receiving:
+                await walk.lead(Dialogue(), receiving)
         except EOFError:
             writer.discard()
             raise Failure("nobody walked, so that nothing is learnt") from None
         finally:
-            receiving.cancel()
-            await asyncio.gather(receiving, return_exceptions=True)
             writer.close()
     return 0
 
@@ -91,12 +89,7 @@ class GuidedWalk:
             while not (is_due and self.has_stood):
                 if receiving.done():
                     receiving.result()
-                typed = talk.typed()
-                if typed is not None:
-                    talk.restart_line()
-                    if typed == "q":
-                        raise EOFError
-                    is_due = True
+                is_due = talk.typed() is not None or is_due
                 talk.show(self.line())
                 await asyncio.sleep(REDRAW_INTERVAL)
 
