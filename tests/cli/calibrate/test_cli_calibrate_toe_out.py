@@ -5,7 +5,6 @@ from collections.abc import AsyncIterator, Iterable
 from math import degrees
 from pathlib import Path
 
-import pytest
 from programs import TAKES, drawn, emulator, in_terminal, run
 
 from solepath.calibration.file import read_calibration

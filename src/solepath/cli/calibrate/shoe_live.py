@@ -63,7 +63,8 @@ async def measure(options: argparse.Namespace, address: PageAddress | None, stop
             devices = [DeviceConfig(Site.RIGHT_FOOT, found[0].address, found[0].profile)]
         packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         site = devices[0].site or Site.RIGHT_FOOT
-        shoe = LiveShoe(site, Scene("A shoe is measured", "", posture=ShownPosture(site.foot or Foot.RIGHT)))
+        posture = ShownPosture(site.foot or Foot.RIGHT)
+        shoe = LiveShoe(site, posture, Scene("A shoe is measured", "", posture=posture))
         if address is not None:
             await stack.enter_async_context(serve_page(shoe.scene, address))
         known = {name: value for name, value in constants.items() if value is not None}
@@ -77,8 +78,9 @@ class LiveShoe:
     """The pitch of a shoe whose sensor sends packets."""
 
     site: Site
+    posture: ShownPosture
     scene: Scene
-    """Scene for a page, which shows `ShownPosture` and the link."""
+    """Scene for a page, which shows this posture and the link."""
     gauge: PitchGauge = field(factory=PitchGauge, init=False)
     now: float = field(default=0.0, init=False)
     """Time of the newest packet, s."""
@@ -113,15 +115,11 @@ class LiveShoe:
 
     def instruct(self, task: str, target: float | None = None) -> None:
         """Show on the page what the person is to do, and the pitch to reach, degrees."""
-        posture = self.scene.posture
-        if posture is not None:
-            posture.task, posture.target = task, None if target is None else radians(target)
+        self.posture.task, self.posture.target = task, None if target is None else radians(target)
 
     def _show(self) -> None:
         """Show the present pitch on the page."""
-        posture, reading = self.scene.posture, None if self.is_silent else self.gauge.read()
-        if posture is None:
-            return
+        posture, reading = self.posture, None if self.is_silent else self.gauge.read()
         posture.is_still, posture.pitch, posture.lean = False, None, None
         if reading is not None:
             posture.is_still = reading.is_still
