@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from commands import no_control_codes, rows_in, run, solepath
-from programs import TAKES, drawn, started
+from programs import TAKES, drawn, in_terminal
 
 
 def test_help_names_every_command_and_loads_nothing_heavy():
@@ -95,15 +95,10 @@ def test_a_demo_with_impossible_options_is_rejected(option, value, complaint):
 
 
 def test_in_a_terminal_the_demo_is_drawn_as_it_goes_and_ends_with_the_same_table():
-    pty = pytest.importorskip("pty")
     pytest.importorskip("rich")
-    ours, theirs = pty.openpty()
-    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
-    terminal["env"] = os.environ | {"TERM": "xterm", "COLUMNS": "100", "LINES": "60"}
-    with started("demo", "--terminal", "--speed", "200", **terminal) as process:
-        os.close(theirs)
-        pictures, table = drawn(ours).split("against the truth")
+    environment = os.environ | {"TERM": "xterm", "COLUMNS": "100", "LINES": "60"}
+    with in_terminal("demo", "--terminal", "--speed", "200", env=environment) as (terminal, process):
+        pictures, table = drawn(terminal).split("against the truth")
         assert process.wait(TAKES) == 0
-    os.close(ours)
     assert pictures.count("200 times real time") > 1 and "\x1b[" in pictures
     assert "strides invented" in table

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from commands import run, run_failing
-from programs import TAKES, drawn, emulator, started
+from programs import TAKES, drawn, emulator, in_terminal, started
 from recordings import into, written
 from shown import frame
 from walks import insoles
@@ -40,7 +40,6 @@ def plain(recording: Path) -> tuple[Path, str]:
 
 
 def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_the_same_table_at_ctrl_c(tmp_path: Path):
-    pty = pytest.importorskip("pty")
     browser, opened = tmp_path / "browser", tmp_path / "opened"
     browser.write_text(f'#!/bin/sh\nprintf %s "$1" > {opened}.new && mv {opened}.new {opened}\n')
     browser.chmod(0o755)
@@ -66,20 +65,16 @@ def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_t
         await page.until(lambda frame: frame["playback"]["state"] == "ended")
         assert page.frame["playback"]["t"] == end
 
-    ours, theirs = pty.openpty()
     environment = os.environ | {"BROWSER": str(browser), "TERM": "xterm"}
-    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs) | {"env": environment}
-    with started("demo", "--distance", 3, code=ALONE, **terminal) as process:
-        os.close(theirs)
-        seen = drawn(ours, until="Ctrl-C ends it")
+    with in_terminal("demo", "--distance", 3, code=ALONE, env=environment) as (terminal, process):
+        seen = drawn(terminal, until="Ctrl-C ends it")
         url = re.search(r"the page: (\S+)", seen)
         assert url is not None and opened.read_text() == url[1]
         watch(url[1], steer)
         assert process.poll() is None
         process.send_signal(signal.SIGINT)
-        seen += drawn(ours)
+        seen += drawn(terminal)
         assert process.wait(TAKES) == 0
-    os.close(ours)
     table = "against the truth"
     assert table in seen and "\x1b[" not in seen
     straight = run("demo", "--distance", 3).stdout

@@ -11,6 +11,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 SOLEPATH = [sys.executable, "-m", "solepath"]
 TAKES = 30.0
 """Time limit for a program to print or do something, s."""
@@ -29,6 +31,17 @@ def started(*arguments: object, code: str = "", **options: Any) -> Iterator[subp
     finally:
         process.kill()
         process.communicate()
+
+
+@contextmanager
+def in_terminal(*arguments: object, **options: Any) -> Iterator[tuple[int, subprocess.Popen[str]]]:
+    """Yield our end of a terminal, and the process of a command that runs in it as `started` does."""
+    pty = pytest.importorskip("pty")
+    ours, theirs = pty.openpty()
+    with started(*arguments, **dict.fromkeys(("stdin", "stdout", "stderr"), theirs), **options) as process:
+        os.close(theirs)
+        yield ours, process
+    os.close(ours)
 
 
 @contextmanager

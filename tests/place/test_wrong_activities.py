@@ -91,7 +91,7 @@ def test_a_wearer_whose_flights_are_reported_up_and_down_may_be_on_either_level(
     assert {candidate.level for candidate in part.place.candidates} == {"0", "1"}
 
 
-@pytest.mark.parametrize("wrong", [-110.0, -75.0, 75.0, 100.0])
+@pytest.mark.parametrize("wrong", [-165.0, -110.0, -75.0, 75.0, 100.0, 165.0])
 def test_an_about_turn_that_the_track_has_wrong_by_any_angle_is_put_right_by_the_walls(
     part: Method, wrong: float
 ) -> None:

@@ -12,7 +12,7 @@ from math import degrees, radians
 from pathlib import Path
 
 import pytest
-from programs import TAKES, drawn, emulator, run, started
+from programs import TAKES, drawn, emulator, in_terminal, run
 from watchers import ANYWHERE, watching
 
 from solepath.calibration.file import read_calibration
@@ -27,17 +27,12 @@ def measuring(folder: Path, hold: float, *options: object) -> Iterator[tuple[int
     """Yield a terminal, the program in it, and what it printed; it shows the pitch of a left shoe and makes two files.
 
     The files are postures.csv and me.json in `folder`. The emulated shoe is held for `hold` s in each posture."""
-    pty = pytest.importorskip("pty")
-    ours, theirs = pty.openpty()
-    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
     files = ("calibrate", "shoe", folder / "postures.csv", "--live", "--out", folder / "me.json")
     with (
         emulator("--postures", hold) as (_, where),
-        started(*files, "--via", where, "--left", "solepath L", *options, **terminal) as process,
+        in_terminal(*files, "--via", where, "--left", "solepath L", *options) as (terminal, process),
     ):
-        os.close(theirs)
-        yield ours, process, drawn(ours, "left foot: steady")
-    os.close(ours)
+        yield terminal, process, drawn(terminal, "left foot: steady")
 
 
 def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:

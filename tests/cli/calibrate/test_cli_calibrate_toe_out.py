@@ -1,16 +1,20 @@
 """Tests `solepath calibrate toe-out --live`: a person in a terminal, and emulated SensorTags on a straight walk."""
 
 import os
+from collections.abc import AsyncIterator, Iterable
 from math import degrees
 from pathlib import Path
 
-import pytest
-from programs import TAKES, drawn, emulator, run, started
+from programs import TAKES, drawn, emulator, in_terminal, run
 
 from solepath.calibration.file import read_calibration
+from solepath.cli.calibrate.toe_out_live import STANDING_TIME, GuidedWalk
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.sensortags import CC2541
+from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.gait import Wearer
-from solepath.recording import read_packets
-from solepath.types import Foot
+from solepath.recording import PacketWriter, read_packets
+from solepath.types import Foot, Packet, Site
 
 
 def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:
@@ -26,26 +30,46 @@ def test_options_of_the_sensors_without_live_are_rejected(tmp_path: Path) -> Non
     assert "--left is an option of --live" in run(*arguments, expect=2).stderr
 
 
+async def test_a_shoe_that_connects_later_stands_for_as_long_as_the_other(tmp_path: Path) -> None:
+    connected = 4.0
+    standing = emulate(Route().stand(12.0), devices={Site.LEFT_FOOT: CC2541(), Site.RIGHT_FOOT: CC2541()}).packets
+    packets = [packet for packet in standing if packet.site is Site.LEFT_FOOT or packet.t >= connected]
+    walk = GuidedWalk(PacketWriter(tmp_path / "walk.jsonl"), (Foot.LEFT, Foot.RIGHT))
+
+    async def receive_from(t: float, end: float) -> None:
+        await walk.receive(those([packet for packet in packets if t <= packet.t < end]))
+
+    assert walk.line() == "waiting for the sensor of the left and right foot"
+    await receive_from(0.0, connected)
+    assert not walk.has_stood
+    assert walk.line() == "waiting for the sensor of the right foot"
+    await receive_from(connected, connected + STANDING_TIME)
+    assert not walk.has_stood
+    assert walk.line() == "left 0 strides; right 0 strides"
+    await receive_from(connected + STANDING_TIME, connected + STANDING_TIME + 1.0)
+    assert walk.has_stood
+    walk.writer.close()
+
+
+async def those(packets: Iterable[Packet]) -> AsyncIterator[Packet]:
+    for packet in packets:
+        yield packet
+
+
 def test_a_person_walks_and_the_strides_and_angles_are_shown(tmp_path: Path) -> None:
-    pty = pytest.importorskip("pty")
     file, out = tmp_path / "walk.jsonl", tmp_path / "me.json"
-    ours, theirs = pty.openpty()
-    terminal = dict.fromkeys(("stdin", "stdout", "stderr"), theirs)
     with emulator("--device", "cc2541-20hz", "--distance", 14) as (_, where):
         names = ("--left", "F0:5E:00:00:00:01", "--right", "F0:5E:00:00:00:02")
-        with started(
-            "calibrate", "toe-out", file, "--live", "--out", out, "--via", where, *names, **terminal
-        ) as process:
-            os.close(theirs)
-            drawn(ours, "Stand still")
-            drawn(ours, "strides")
-            os.write(ours, b"\n")
-            drawn(ours, "Walk straight ahead")
-            drawn(ours, " degrees; right 8 strides")
-            os.write(ours, b"\n")
-            assert "toe-out degrees" in drawn(ours)
+        options = ("--live", "--out", out, "--via", where, *names)
+        with in_terminal("calibrate", "toe-out", file, *options) as (terminal, process):
+            drawn(terminal, "Stand still")
+            drawn(terminal, "strides")
+            os.write(terminal, b"\n")
+            drawn(terminal, "Walk straight ahead")
+            drawn(terminal, " degrees; right 8 strides")
+            os.write(terminal, b"\n")
+            assert "toe-out degrees" in drawn(terminal)
             assert process.wait(TAKES) == 0
-        os.close(ours)
     assert sum(1 for _ in read_packets(file)) > 500
-    for foot, angle in read_calibration(out).toe_out.items():
-        assert foot in Foot and abs(degrees(angle - Wearer().toe_out)) < 4.0
+    angles = read_calibration(out).toe_out.values()
+    assert angles and all(abs(degrees(angle - Wearer().toe_out)) < 4.0 for angle in angles)

@@ -45,8 +45,8 @@ MAX_STUCK_DISTANCE = 5.0
 MIN_CLEAR_WEIGHT, FADE_FACTOR, FADE_RADIUS = 0.9, 0.88, 3.0
 """Least weight of a clear candidate; factor of the weight of rows on other levels; their largest distance from it, m.
 
-When a candidate is clear, each stride reduces the weight of rows at the same place on other levels, because equal
-floors have equal walls, which cannot decide between levels."""
+When a candidate is clear, each stride reduces the weight of rows at the same place on other levels: walls do not remove
+them where floors are equal, and `hold_alike_levels` keeps their share of the weight in each move."""
 
 
 @define

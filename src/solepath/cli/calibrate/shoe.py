@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from functools import partial
 from math import degrees
 from pathlib import Path
 from typing import Any
 
 from ...calibration import Calibration
-from ..bluetooth.devices import add_feet, need_bleak
-from ..common.failure import Failure, parse_count, parse_positive
-from ..common.files import Kind, OutputFile, add_force, check_outputs, check_writable
+from ..bluetooth.devices import add_feet
+from ..common.failure import parse_count, parse_positive
+from ..common.files import Kind, add_force
 from ..common.view import add_view, need_page, page_address_of
+from .live import check_live, reject_live_options, run_live
 
 TIMES = 3
 """Number of measurements of each posture, as in the paper."""
@@ -56,9 +56,7 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> tuple[Calibration,
     if options.live:
         _measure(options)
     else:
-        given = [name.replace("_", "-") for name in OF_LIVE if getattr(options, name) not in (None, False)]
-        if given:
-            raise Failure(f"--{given[0]} is an option of --live: without it nothing is measured now")
+        reject_live_options(options, OF_LIVE)
     fit = fit_shoe(options.file)
     shoe = fit.calibration.shoe
     steepest = "" if shoe is None else f", flat to {degrees(shoe.steepest):.0f} degrees"
@@ -71,16 +69,9 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> tuple[Calibration,
 
 def _measure(options: argparse.Namespace) -> None:
     """Write the file of postures, measured with a person at the terminal; raise SystemExit when that was stopped."""
-    if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        raise Failure("calibrate shoe --live asks a person for what the rulers show: it needs a terminal")
+    check_live(options, MEASUREMENTS, "calibrate shoe --live asks a person for what the rulers show")
     need_page(options, options.view is not None)
     address = page_address_of(options)
-    check_outputs([OutputFile(options.file, MEASUREMENTS)], [options.out], force=options.force)
-    check_writable(options.file)
-    need_bleak()
-    from ..bluetooth.backend import listen_to_end
     from .shoe_live import measure
 
-    status = listen_to_end(partial(measure, options, address))
-    if status != 0:
-        raise SystemExit(status)
+    run_live(partial(measure, options, address))

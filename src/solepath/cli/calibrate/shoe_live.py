@@ -27,7 +27,7 @@ from ..bluetooth.devices import SCAN_TIME, named_devices
 from ..common.failure import Failure
 from ..common.loop import unless_stopped
 from ..common.view import PageAddress, serve_page
-from .terminal import Dialogue
+from .terminal import Dialogue, meanwhile
 
 PITCHES = (10, 22, 34, 46, 58)
 """Pitches to which the heel is raised, degrees: five postures between flat and toe-off; near them is as good."""
@@ -41,10 +41,6 @@ HELP = (
     "The pitch of the shoe is on the line that changes. Enter takes it as soon as the shoe was still for a second;\n"
     "u and Enter take the last measurement back; q and Enter end."
 )
-
-
-class _Ended(Exception):
-    """The person wants to measure no more."""
 
 
 async def measure(options: argparse.Namespace, address: PageAddress | None, stop: asyncio.Event) -> int:
@@ -67,16 +63,13 @@ async def measure(options: argparse.Namespace, address: PageAddress | None, stop
             devices = [DeviceConfig(Site.RIGHT_FOOT, found[0].address, found[0].profile)]
         packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         site = devices[0].site or Site.RIGHT_FOOT
-        shoe = LiveShoe(site, Scene("A shoe is measured", "", posture=ShownPosture(site.foot or Foot.RIGHT)))
+        posture = ShownPosture(site.foot or Foot.RIGHT)
+        shoe = LiveShoe(site, posture, Scene("A shoe is measured", "", posture=posture))
         if address is not None:
             await stack.enter_async_context(serve_page(shoe.scene, address))
-        receiving = asyncio.create_task(shoe.receive(packets))
-        try:
-            known = {name: value for name, value in constants.items() if value is not None}
+        known = {name: value for name, value in constants.items() if value is not None}
+        async with meanwhile(shoe.receive(packets)) as receiving:
             await Measuring(shoe, Dialogue(), options.file, known, receiving).run(options.times)
-        finally:
-            receiving.cancel()
-            await asyncio.gather(receiving, return_exceptions=True)
     return 0
 
 
@@ -85,8 +78,9 @@ class LiveShoe:
     """The pitch of a shoe whose sensor sends packets."""
 
     site: Site
+    posture: ShownPosture
     scene: Scene
-    """Scene for a page, which shows `ShownPosture` and the link."""
+    """Scene for a page, which shows this posture and the link."""
     gauge: PitchGauge = field(factory=PitchGauge, init=False)
     now: float = field(default=0.0, init=False)
     """Time of the newest packet, s."""
@@ -121,15 +115,11 @@ class LiveShoe:
 
     def instruct(self, task: str, target: float | None = None) -> None:
         """Show on the page what the person is to do, and the pitch to reach, degrees."""
-        posture = self.scene.posture
-        if posture is not None:
-            posture.task, posture.target = task, None if target is None else radians(target)
+        self.posture.task, self.posture.target = task, None if target is None else radians(target)
 
     def _show(self) -> None:
         """Show the present pitch on the page."""
-        posture, reading = self.scene.posture, None if self.is_silent else self.gauge.read()
-        if posture is None:
-            return
+        posture, reading = self.posture, None if self.is_silent else self.gauge.read()
         posture.is_still, posture.pitch, posture.lean = False, None, None
         if reading is not None:
             posture.is_still = reading.is_still
@@ -171,7 +161,7 @@ class Measuring:
                     await self._take()
                 else:
                     await self._measure(times)
-        except (_Ended, EOFError):
+        except EOFError:
             self.talk.print_line()
         if not self.done:
             raise Failure("no posture was measured, so that nothing is learnt")
@@ -205,17 +195,14 @@ class Measuring:
         self.shoe.instruct(task, target)
 
     async def _take(self) -> float | None:
-        """Return the pitch, rad, of a still second after Enter; None for u. Raise _Ended for q."""
+        """Return the pitch, rad, of a still second after Enter, or None for u; raise EOFError when the person ends."""
         self.talk.forget_typed()
         is_due = False
         while True:
             if self.receiving.done():
                 self.receiving.result()
             if not is_due and (typed := self.talk.typed()) is not None:
-                self.talk.restart_line()
-                if typed in ("q", "u"):
-                    if typed == "q":
-                        raise _Ended
+                if typed == "u":
                     return None
                 is_due = True
             if is_due and not self.shoe.is_silent and (pitch := self.shoe.gauge.take()) is not None:
@@ -224,12 +211,10 @@ class Measuring:
             await asyncio.sleep(REDRAW_INTERVAL)
 
     async def _length(self, question: str) -> float:
-        """Return a length that is typed in mm, m. Raise _Ended for q."""
+        """Return a length that is typed in mm, m; raise EOFError when the person ends."""
         self.shoe.instruct(f"Hold the shoe and answer at the terminal: {question}")
         while True:
             typed = await self.talk.prompt(question)
-            if typed == "q":
-                raise _Ended
             try:
                 length = 0.001 * float(typed.replace(",", "."))
             except ValueError:

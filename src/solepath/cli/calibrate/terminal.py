@@ -8,7 +8,11 @@ import asyncio
 import os
 import sys
 import threading
+from collections.abc import AsyncIterator, Coroutine
+from contextlib import asynccontextmanager
 
+END = "q"
+"""Line that ends a dialogue, as the end of the input does."""
 MAX_LINE = 4096
 """Largest number of bytes of a typed line that are read; terminals themselves allow no more."""
 WIDTH = 78
@@ -54,11 +58,13 @@ class Dialogue:
                 return
 
     def typed(self) -> str | None:
-        """Return the line that was typed, without spaces around it, or None if none was; raise EOFError at the end."""
+        """Return the line that was typed, without spaces around it, or None if none was.
+
+        What was shown stays above the next line. Raises EOFError for END, and at the end of the input."""
         return None if self._typed.empty() else self._checked(self._typed.get_nowait())
 
     async def prompt(self, question: str) -> str:
-        """Print a question and return the line that is typed; raise EOFError at the end of the input."""
+        """Print a question and return the line that is typed; raise EOFError for END, and at the end of the input."""
         self.forget_typed()
         print(f"{question} ", end="", flush=True)
         return self._checked(await self._typed.get())
@@ -67,7 +73,11 @@ class Dialogue:
         if line is None:
             self._typed.put_nowait(None)
             raise EOFError
-        return line.strip()
+        self._shown = ""  # Enter has moved the terminal to a new line
+        typed = line.strip()
+        if typed == END:
+            raise EOFError
+        return typed
 
     def show(self, line: str) -> None:
         """Show a line in place of the one that was shown last."""
@@ -82,6 +92,13 @@ class Dialogue:
             self._shown = ""
         print(line, flush=True)
 
-    def restart_line(self) -> None:
-        """Note that the person pressed Enter, so that the shown line stays and the next one is below it."""
-        self._shown = ""
+
+@asynccontextmanager
+async def meanwhile(receiving: Coroutine[None, None, None]) -> AsyncIterator[asyncio.Task[None]]:
+    """Yield the task that receives packets during a dialogue, and cancel it at the end of the context."""
+    task = asyncio.create_task(receiving)
+    try:
+        yield task
+    finally:
+        task.cancel()
+        await asyncio.gather(task, return_exceptions=True)

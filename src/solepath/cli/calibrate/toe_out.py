@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from functools import partial
 from math import degrees
 from pathlib import Path
@@ -11,10 +10,11 @@ from typing import Any
 
 from ...calibration import Calibration
 from ...show.tables.table import number, table
-from ..bluetooth.devices import add_feet, need_bleak
+from ..bluetooth.devices import add_feet
 from ..common.failure import Failure, parse_positive
-from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable
+from ..common.files import RECORDING, add_force
 from ..common.inputs import add_foot, foot_of, source_of
+from .live import check_live, reject_live_options, run_live
 
 OF_LIVE = ("via", "left", "right", "profile", "pair")
 """Options that only --live uses."""
@@ -50,9 +50,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> tuple[Calibrati
     if options.live:
         _measure(options)
     else:
-        given = [name for name in OF_LIVE if getattr(options, name)]
-        if given:
-            raise Failure(f"--{given[0]} is an option of --live: without it nothing is measured now")
+        reject_live_options(options, OF_LIVE)
     feet, distance = toe_out(source_of(options.file, foot_of(options)), options.distance), options.distance
 
     def by_length(one: ToeOut) -> str:
@@ -78,14 +76,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> tuple[Calibrati
 
 def _measure(options: argparse.Namespace) -> None:
     """Write the recording, walked by a person at the terminal; raise SystemExit when that was stopped."""
-    if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        raise Failure("calibrate toe-out --live shows a person how to walk: it needs a terminal")
-    check_outputs([OutputFile(options.file, RECORDING)], [options.out], force=options.force)
-    check_writable(options.file)
-    need_bleak()
-    from ..bluetooth.backend import listen_to_end
+    check_live(options, RECORDING, "calibrate toe-out --live shows a person how to walk")
     from .toe_out_live import measure
 
-    status = listen_to_end(partial(measure, options))
-    if status != 0:
-        raise SystemExit(status)
+    run_live(partial(measure, options))

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import argparse
 import asyncio
-from collections.abc import AsyncIterable
+from collections.abc import AsyncIterable, Sequence
 from contextlib import AsyncExitStack
 from math import degrees
 
@@ -22,12 +22,12 @@ from ..bluetooth.backend import backend_of
 from ..bluetooth.devices import named_devices
 from ..common.failure import Failure
 from ..common.loop import unless_stopped
-from .terminal import Dialogue
+from .terminal import Dialogue, meanwhile
 
 REDRAW_INTERVAL = 0.2
 """Time between two pictures of the strides, s."""
 STANDING_TIME = 3.0
-"""Time for which the sensors must have sent before the walk, s: what stands still shows their bias."""
+"""Time for which each sensor must have sent before the walk, s: while the feet stand still, they show its bias."""
 STAND = "Stand still with both shoes on, and press Enter after three seconds (q and Enter end)."
 WALK = "Walk straight ahead at an even pace, 20 m or as far as there is room, stand still, and press Enter."
 
@@ -45,16 +45,15 @@ async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
             writer = PacketWriter(options.file, start_keys(), replace=options.force)
         except RecordingError as error:
             raise Failure(str(error)) from None
-        walk = GuidedWalk(writer)
-        receiving = asyncio.create_task(walk.receive(packets))
+        named = ((Foot.LEFT, options.left), (Foot.RIGHT, options.right))
+        walk = GuidedWalk(writer, [foot for foot, device in named if device])
         try:
-            await walk.lead(Dialogue(), receiving)
+            async with meanwhile(walk.receive(packets)) as receiving:
+                await walk.lead(Dialogue(), receiving)
         except EOFError:
             writer.discard()
             raise Failure("nobody walked, so that nothing is learnt") from None
         finally:
-            receiving.cancel()
-            await asyncio.gather(receiving, return_exceptions=True)
             writer.close()
     return 0
 
@@ -64,9 +63,11 @@ class GuidedWalk:
     """A walk that is recorded and measured as its packets come."""
 
     writer: PacketWriter
+    feet: Sequence[Foot]
+    """Feet whose sensors take part: the walk waits for all of them."""
     walk: ToeOutWalk = field(factory=ToeOutWalk, init=False)
-    first_t: float | None = field(default=None, init=False)
-    """Time of the first packet of a sensor, s; None before it."""
+    first_t: dict[Foot, float] = field(factory=dict, init=False)
+    """Time of the packet that gave the first sample of each foot, s."""
     t: float = field(default=0.0, init=False)
     """Time of the newest packet, s."""
 
@@ -74,10 +75,10 @@ class GuidedWalk:
         """Take packets until cancelled."""
         async for packet in packets:
             self.t = packet.t
-            if self.first_t is None and self.walk.session.feet:
-                self.first_t = packet.t
             self.writer.write(packet)
             self.walk.feed(packet)
+            for foot in self.walk.session.feet:
+                self.first_t.setdefault(foot, packet.t)
 
     async def lead(self, talk: Dialogue, receiving: asyncio.Task[None]) -> None:
         """Say what to do and wait for it; raise EOFError when the person ends before the walk."""
@@ -85,31 +86,28 @@ class GuidedWalk:
             talk.print_line(instruction)
             talk.forget_typed()
             is_due = False
-            while not (is_due and self._has_stood):
+            while not (is_due and self.has_stood):
                 if receiving.done():
                     receiving.result()
-                typed = talk.typed()
-                if typed is not None:
-                    talk.restart_line()
-                    if typed == "q":
-                        raise EOFError
-                    is_due = True
+                is_due = talk.typed() is not None or is_due
                 talk.show(self.line())
                 await asyncio.sleep(REDRAW_INTERVAL)
 
     @property
-    def _has_stood(self) -> bool:
-        return self.first_t is not None and self.t - self.first_t >= STANDING_TIME
+    def has_stood(self) -> bool:
+        """Flag: the sensor of every foot has sent for `STANDING_TIME`."""
+        return all([foot in self.first_t and self.t - self.first_t[foot] >= STANDING_TIME for foot in self.feet])
 
     def line(self) -> str:
-        """Return the strides and angles so far in words."""
-        if self.first_t is None:
-            return "waiting for the sensors"
+        """Return the strides and angles so far in words, or the feet whose sensors do not send yet."""
+        waiting = [foot.value for foot in self.feet if foot not in self.first_t]
+        if waiting:
+            return f"waiting for the sensor of the {' and '.join(waiting)} foot"
         try:
             known = {one.foot: one for one in self.walk.feet()}
         except CalibrationError as error:
             return str(error)
-        return "; ".join([self._words(foot, known.get(foot)) for foot in Foot if foot in self.walk.session.feet])
+        return "; ".join([self._words(foot, known.get(foot)) for foot in self.feet])
 
     def _words(self, foot: Foot, one: ToeOut | None) -> str:
         strides = f"{foot.value} {len(self.walk.strides(foot))} strides"

@@ -2,7 +2,9 @@
 
 Each level has few rows, and which of them bend at a wall or end there is chance. Without a remedy the weights of two
 equal floors walk at random in the course of a walk, until the true one is gone. Therefore the rows of alike levels at
-one place keep the ratio of their weights; only stairs, lifts and walls that differ change it."""
+one place keep the ratio of their weights in each move, unless their walls differ there. Stairs, lifts and reported
+places still change it, and so does the fading of light levels (`FADE_FACTOR` in placing.py): this module keeps an open
+choice open, and fading ends one that is nearly made."""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ from .rows import MIN_CANDIDATE_WEIGHT, Row, resample_rows
 PLACE_RADIUS = 6.0
 """Largest distance on each axis of rows that are at one place, m: twice that of a candidate, as they move apart."""
 EVERY = 5
-"""One row of this number is moved on both levels to see whether their walls are alike (saves time)."""
+"""One of so many rows is moved on both levels to see whether their walls are alike (saves time)."""
 TWINS = 30
 """Number of rows that an alike level gets when it has none left: as many as are kept for a light candidate."""
 
