@@ -255,6 +255,7 @@ def test_the_printed_angle_is_the_arc_cosine_and_mostly_the_error_of_the_length(
     assert sigma == pytest.approx(0.024 / 0.14178, rel=1e-3)  # tan(8.07 degrees) = 0.14178
     assert 2.0 * sigma > angle
     assert printed_angle(19.9, 20.0) is None
+    assert printed_angle(20.0 + 1e-10, 20.0) == pytest.approx((0.0, 0.5 * pi), abs=1e-5), "not more than a right angle"
 
 
 def test_a_walk_of_another_length_or_of_no_steps_is_rejected() -> None:

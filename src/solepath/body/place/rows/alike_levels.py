@@ -14,9 +14,9 @@ from ....events import Placed
 from ....floorplan.index import IndexedPlan
 from ....floorplan.plan import Point
 from ..place_hypotheses import MAX_MOVE
-from .rows import MIN_CANDIDATE_WEIGHT, Row, resample_rows
+from .rows import CANDIDATE_RADIUS, MIN_CANDIDATE_WEIGHT, Row, resample_rows
 
-PLACE_RADIUS = 6.0
+PLACE_RADIUS = 2.0 * CANDIDATE_RADIUS
 """Largest distance on each axis of rows that are at one place, m: twice that of a candidate, as they move apart."""
 EVERY = 5
 """One of so many rows is moved on both levels to see whether their walls are alike (saves time)."""
