@@ -13,7 +13,7 @@ from solepath.emulate.routes import ways
 from solepath.events import Candidate
 from solepath.lab.emulated import evidence, reliability
 from solepath.lab.emulated.evidence import EVERYTHING, NO_AIR_PRESSURE, NO_GYROSCOPE, NO_HEADING, ONE_FOOT, TABLES
-from solepath.lab.emulated.reliability import BINS, WeightBin, join
+from solepath.lab.emulated.reliability import BINS, WeightBin, count, join
 from solepath.lab.train import emulated
 
 SAMPLE = Sample(1.0, Site.RIGHT_FOOT, (0.0, 0.0, 9.8), (0.1, 0.0, 0.0), air_pressure=101325.0)
@@ -66,12 +66,20 @@ def test_candidates_near_a_heavier_one_on_its_level_are_one_place() -> None:
     assert join([first, near, above, far]) == [[first, near], [above], [far]]
 
 
-@pytest.mark.usefixtures("short_ways")
 def test_weights_are_counted_in_bins_and_the_only_place_by_itself() -> None:
-    bins = reliability.reliability("footstep-tracker", [5001])
-    assert bins[BINS].mean_weight == pytest.approx(1.0) and bins[BINS].seeds == {5001}
+    bins = count([(7, [(0.25, False, False), (0.75, False, True)]), (8, [(1.0, True, True), (0.25, False, True)])])
+    assert [k for k, one in enumerate(bins) if one.count] == [2, 7, BINS]
+    assert bins[2] == WeightBin(2, 1, 0.5, {7, 8}) and bins[2].mean_weight == 0.25 and bins[2].share_true == 0.5
+    assert bins[BINS] == WeightBin(1, 1, 1.0, {8})
+
+
+@pytest.mark.usefixtures("short_ways")
+def test_the_weights_of_a_stride_without_a_known_start_add_up_to_one() -> None:
+    bins = count([(5001, reliability.scored_places("footstep-tracker", 5001, apart=False))])
     for k, one in enumerate(bins[:BINS]):
         assert one.mean_weight is None or k / BINS <= one.mean_weight <= (k + 1) / BINS
         assert 0 <= one.true <= one.count
+    strides = sum(one.weight_sum for one in bins)
+    assert strides == pytest.approx(round(strides), abs=1e-6) and strides > 50
     lines = reliability.table({"footstep-tracker": [WeightBin(4, 3, 2.0, {1, 2}) for _ in range(BINS + 1)]})
     assert lines[2] == "| 0.0 to 0.1 | 0.500: 0.750 (4 in 2) |" and lines[-1].startswith("| the only one |")

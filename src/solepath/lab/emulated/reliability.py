@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -91,11 +91,11 @@ def scored_places(recipe: str, seed: int, apart: bool) -> Iterator[tuple[float, 
                 yield weight, len(groups) == 1, any([is_near(candidate, *place) for candidate in group])
 
 
-def reliability(recipe: str, seeds: Sequence[int], apart: bool = False) -> list[WeightBin]:
-    """Return the bins of all walks, with that of only places at the end."""
+def count(walks: Iterable[tuple[int, Iterable[tuple[float, bool, bool]]]]) -> list[WeightBin]:
+    """Return the bins of the scored places of all walks by their seeds, with that of only places at the end."""
     bins = [WeightBin() for _ in range(BINS + 1)]
-    for seed in seeds:
-        for weight, is_only, is_true in scored_places(recipe, seed, apart):
+    for seed, places in walks:
+        for weight, is_only, is_true in places:
             one = bins[BINS if is_only else min(int(weight * BINS), BINS - 1)]
             one.count, one.true, one.weight_sum = one.count + 1, one.true + is_true, one.weight_sum + weight
             one.seeds.add(seed)
@@ -127,7 +127,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the figures too")
     options = parser.parse_args(arguments)
     seeds = range(options.seed, options.seed + options.walks)
-    results = {recipe: reliability(recipe, seeds, options.apart) for recipe in DEVICES}
+    results = {r: count((seed, scored_places(r, seed, options.apart)) for seed in seeds) for r in DEVICES}
     print("\n".join(table(results)))
     if options.json is not None:
         figures = {
