@@ -10,6 +10,8 @@ import argparse
 import os
 import sys
 from collections.abc import Sequence
+from importlib.machinery import ExtensionFileLoader
+from importlib.util import find_spec
 from typing import Any
 
 from ..calibration import CalibrationError
@@ -66,7 +68,7 @@ def parser() -> argparse.ArgumentParser:
     top = _Parser(
         prog="solepath", description="Gait events and indoor tracks from foot-worn sensors: bytes in, strides out."
     )
-    top.add_argument("--version", action="store_true", help="print the version and exit")
+    top.add_argument("--version", action="store_true", help="print the version, compiled or pure, and exit")
     commands = top.add_subparsers(metavar="COMMAND", dest="command")
     for command in COMMANDS:
         command.add_to(commands)
@@ -80,13 +82,19 @@ def run(arguments: Sequence[str] | None) -> int:
     if options.version:
         from importlib.metadata import version
 
-        print(f"solepath {version('solepath')}")
+        print(f"solepath {version('solepath')}, {_form()}")
         return 0
     if options.command is None:
         top.print_help()
         return 0
     status: int = options.run(options)
     return status
+
+
+def _form() -> str:
+    """Return "compiled" if the modules that run per sample are compiled (docs/hot-code.md), otherwise "pure"."""
+    spec = find_spec("solepath.types.vector")
+    return "compiled" if spec is not None and isinstance(spec.loader, ExtensionFileLoader) else "pure"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -255,7 +255,7 @@ def _record_codec(node: RecordNode) -> tuple[_Saver, _Loader]:
             lacks = "no field" if unknown is not None else "not the field"
             which = unknown if unknown is not None else min(names - value.keys())
             raise SnapshotError(f"{cls.__name__} has {lacks} {shorten(which)}")
-        record: Any = object.__new__(cls)
+        record: Any = cls.__new__(cls)
         for name, _, load_field in fields:
             object.__setattr__(record, name, load_field(value[name], classes))
         for name, default in node.defaults.items():

@@ -3,7 +3,7 @@
 A loop over fields would take eight times as long. The generated code is straight-line:
 
     def write(o, F, N, M, B):                          def read_0(t, f, n, m, b, F, C):
-        x0, x1, x2 = o.up                                  o = new(cls_0)
+        x0, x1, x2 = o.up                                  o = new_0(cls_1)
         x3 = o.since                                       o.spread = t.spread
         F += (o.rate, x0, x1, x2)                          o.rate = f()
         if x3 is not None:                                 o.up = (f(), f(), f(), )
@@ -37,7 +37,7 @@ class CodeGenerator:
 
     def __init__(self, functions: dict[str, Callable[..., Any]], open_codec: Callable[[OpenNode], Any]) -> None:
         self.namespace: dict[str, Any] = {
-            "new": object.__new__, "put": object.__setattr__, "deque": deque, "Counter": Counter, **functions
+            "put": object.__setattr__, "deque": deque, "Counter": Counter, **functions
         }  # fmt: skip
         self.open_codec = open_codec
         self.source: list[str] = []
@@ -152,8 +152,9 @@ class CodeGenerator:
         if record in self.read_functions:
             return self.read_functions[record]
         function = self.read_functions[record] = f"read_{len(self.read_functions)}"
+        new, cls = self.name_object("new", record.cls.__new__), self.name_object("cls", record.cls)
         form = "put(o, {!r}, {})" if is_frozen(record.cls) else "o.{} = {}"
-        lines = [f"def {function}(t, f, n, m, b, F, C):", f"o = new({self.name_object('cls', record.cls)})"]
+        lines = [f"def {function}(t, f, n, m, b, F, C):", f"o = {new}({cls})"]
         for name, default in record.defaults.items():
             lines.append(form.format(name, f"t.{name}" if record.made else self.name_object("default", default)))
         lines += [form.format(name, self.read_expression(of, f"t.{name}")) for name, of in record.fields.items()]

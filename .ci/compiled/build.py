@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Compiles the hot modules of solepath: `python .ci/compiled/build.py FOLDER` (needs mypy, setuptools and a C compiler).
+
+FOLDER gets a copy of the package with the compiled modules beside their sources, and can stand on PYTHONPATH.
+`SOLEPATH_COMPILED=1 pip install .` makes and installs a wheel of the same (hook.py). docs/hot-code.md has the reasons."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from rewrite import ModuleRewriter, base_protocols, read_classes
+
+SOURCE = Path(__file__).resolve().parents[2] / "src"
+HOT = (
+    "types/vector.py",
+    "types/plain.py",
+    "foot/*.py",
+    "foot/cues/*.py",
+    "foot/gaps/moment.py",
+    "foot/gaps/template.py",
+    "foot/navigate/[bcelprs]*.py",
+    "foot/pressure/*.py",
+    "foot/stance/s*.py",
+    "foot/stance/cycle.py",
+    "link/clock.py",
+    "link/counters.py",
+    "link/decoder.py",
+    "link/device_link.py",
+    "link/periodic.py",
+    "link/devices/insole.py",
+    "link/devices/reassembly.py",
+    "wire/cells.py",
+    "wire/envelope.py",
+    "wire/insole.py",
+    "session/state.py",
+    "session/wearer.py",
+    "body/part.py",
+    "body/activity/activities.py",
+    "body/activity/chain.py",
+    "body/activity/hypotheses.py",
+    "body/activity/ride.py",
+    "body/activity/elevator_evidence.py",
+    "body/activity/blocks/*.py",
+    "body/checks/sensors.py",
+    "body/fuse/both_feet.py",
+    "body/fuse/position.py",
+    "body/gait/turn_detector.py",
+    "body/gait/turns.py",
+    "body/worn/*.py",
+)
+"""Modules whose code runs for every sample or packet with the default recipe."""
+EXACT = ["-ffp-contract=off", "-w"]
+"""Options of gcc and clang: no fused multiply-add, whose results have other last bits than Python's; no warnings."""
+GROUP = "solepath"
+"""Name of the library that has all compiled modules: solepath__mypyc."""
+
+
+def hot_modules() -> dict[str, Path]:
+    """Return the files that are compiled by the names of their modules."""
+    files = sorted({file for pattern in HOT for file in (SOURCE / "solepath").glob(pattern)})
+    named = {".".join(file.relative_to(SOURCE).with_suffix("").parts): file for file in files}
+    return {module: file for module, file in named.items() if file.name != "__init__.py"}
+
+
+def build(folder: Path, optimisation: str = "2") -> None:
+    """Copy the package into `folder` and compile its hot modules there."""
+    shutil.rmtree(folder / "solepath", ignore_errors=True)
+    shutil.copytree(SOURCE / "solepath", folder / "solepath", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(Path(__file__).with_name("records.py"), folder / "solepath" / "_compiled.py")
+    files = hot_modules()
+    classes = read_classes(files)
+    bases = base_protocols(SOURCE, classes)
+    copies = {module: folder / file.relative_to(SOURCE) for module, file in files.items()}
+    for module, copy in copies.items():
+        copy.write_text(ModuleRewriter(classes, bases).rewrite(files[module].read_text("utf-8")), "utf-8")
+    _compile(folder, [str(copy.relative_to(folder)) for copy in copies.values()], optimisation)
+    for module, copy in copies.items():  # beside the compiled modules stand their sources, for whoever reads them
+        shutil.copy(files[module], copy)
+
+
+def _compile(folder: Path, names: list[str], optimisation: str) -> None:
+    from mypyc.build import mypycify
+    from setuptools import setup
+
+    os.chdir(folder)
+    os.environ["MYPYPATH"] = str(folder)
+    options = ["--follow-imports=silent", "--ignore-missing-imports", "--python-executable", sys.executable]
+    # a file for each module: gcc takes far longer for one of all
+    chosen = {"opt_level": optimisation, "debug_level": "0", "group_name": GROUP, "multi_file": True}
+    extensions = mypycify([*options, *names], **chosen)
+    for extension in extensions:
+        if os.name != "nt":
+            extension.extra_compile_args += EXACT
+    setup(name="solepath", packages=[], ext_modules=extensions, script_args=["-q", "build_ext", "--inplace"])
+    shutil.rmtree(folder / "build")
+
+
+if __name__ == "__main__":
+    target = Path(sys.argv[1]).resolve()
+    target.mkdir(parents=True, exist_ok=True)
+    build(target, *sys.argv[2:])

@@ -1,0 +1,305 @@
+"""Rewrites modules for mypyc: records of attrs become plain classes with annotations and an `__init__`.
+
+mypyc makes native classes of plain classes only. The source keeps its records, and a copy of it is rewritten for each
+build. In a rewritten class, fields have no values and `__init__` sets them, in the order of attrs. What reads records
+at run time (saving, `evolve`, comparison, pickling) finds attrs' own description of the fields, which records.py adds."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass, field
+from pathlib import Path
+
+RUNTIME = "solepath._compiled"
+"""Module of the build that has the functions of records.py."""
+OPTIONS = "serializable=True, allow_interpreted_subclasses=True"
+"""Options of native classes: `__new__` makes one without fields, as restoring a state needs, and apps may derive."""
+RECORD_NAMES = {"define": False, "frozen": True}
+"""Decorators of records, and whether their fields are frozen."""
+
+
+@dataclass
+class Field:
+    """A field of a record."""
+
+    name: str
+    hint: ast.expr
+    default: ast.expr | None = None  # an expression that makes the value; None: `__init__` needs an argument
+    init: bool = True
+    declared: ast.expr | None = None  # the call of field(), or the default
+
+
+@dataclass
+class Record:
+    """A class of a module that is compiled."""
+
+    name: str
+    module: str
+    bases: list[str]
+    is_record: bool = False
+    frozen: bool = False
+    eq: bool = True
+    kw_only: bool = False
+    own: list[Field] = field(default_factory=list)
+    defaults: dict[str, str] = field(default_factory=dict)  # method that makes a field's default, by field
+    properties: set[str] = field(default_factory=set)
+    has_post_init: bool = False
+    is_protocol: bool = False
+
+
+def read_classes(paths: dict[str, Path]) -> dict[str, Record]:
+    """Return the classes of these modules by name."""
+    found: dict[str, Record] = {}
+    for module, path in paths.items():
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ClassDef):
+                found[node.name] = _read_class(node, module)
+    return found
+
+
+def _read_class(node: ast.ClassDef, module: str) -> Record:
+    bases = [ast.unparse(base) for base in node.bases]
+    record = Record(node.name, module, bases, is_protocol="Protocol" in bases)
+    for decorator in node.decorator_list:
+        call = decorator if isinstance(decorator, ast.Call) else None
+        name = ast.unparse(call.func if call else decorator)
+        if name in RECORD_NAMES:
+            record.is_record, record.frozen = True, RECORD_NAMES[name]
+            options = {keyword.arg: ast.literal_eval(keyword.value) for keyword in call.keywords} if call else {}
+            record.eq, record.kw_only = options.pop("eq", True), options.pop("kw_only", False)
+            if options:
+                raise SystemExit(f"{node.name}: options {options} of a record are not known")
+    for one in node.body:
+        if isinstance(one, ast.AnnAssign) and not ast.unparse(one.annotation).startswith("ClassVar"):
+            record.own.append(_read_field(one))
+        if isinstance(one, ast.FunctionDef):
+            record.has_post_init |= one.name == "__attrs_post_init__"
+            for decorator in one.decorator_list:
+                if ast.unparse(decorator) == "property":
+                    record.properties.add(one.name)
+                if isinstance(decorator, ast.Attribute) and decorator.attr == "default":
+                    record.defaults[ast.unparse(decorator.value)] = one.name
+    for one_field in record.own:
+        if one_field.name in record.defaults:
+            one_field.default = ast.parse(f"self.{record.defaults[one_field.name]}()", mode="eval").body
+    return record
+
+
+def _read_field(node: ast.AnnAssign) -> Field:
+    hint = node.annotation
+    if isinstance(hint, ast.Subscript) and ast.unparse(hint.value) == "Final":
+        hint = hint.slice
+    one, value = Field(ast.unparse(node.target), hint, declared=node.value), node.value
+    if isinstance(value, ast.Call) and ast.unparse(value.func) == "field":
+        options = {keyword.arg: keyword.value for keyword in value.keywords}
+        if "init" in options:
+            one.init = ast.literal_eval(options["init"])
+        if "factory" in options:
+            one.default = ast.parse(f"({ast.unparse(options['factory'])})()", mode="eval").body
+            if isinstance(options["factory"], ast.Lambda):
+                one.default = options["factory"].body
+        elif "default" in options:
+            one.default = options["default"]
+    else:
+        one.default = value
+    return one
+
+
+def init_fields(record: Record, classes: dict[str, Record]) -> list[tuple[Record, Field]]:
+    """Return the fields of a record in the order of attrs: those of its bases first, unless it declares them again."""
+    inherited: list[tuple[Record, Field]] = []
+    for base in record.bases:
+        if base in classes and classes[base].is_record:
+            inherited += init_fields(classes[base], classes)
+    own = {one.name for one in record.own}
+    return [(owner, one) for owner, one in inherited if one.name not in own] + [(record, one) for one in record.own]
+
+
+class ModuleRewriter:
+    """Rewrites modules that have these classes."""
+
+    def __init__(self, classes: dict[str, Record], base_protocols: set[str]) -> None:
+        self.classes, self.base_protocols = classes, base_protocols
+
+    def rewrite(self, source: str) -> str:
+        """Return the source of the module in the form that is compiled."""
+        tree = ast.parse(source)
+        body: list[ast.stmt] = []
+        for node in tree.body:
+            if isinstance(node, ast.ClassDef) and self._is_native(node):
+                body += self._rewrite_class(node)
+            elif isinstance(node, ast.ClassDef) and any(ast.unparse(base) == "NamedTuple" for base in node.bases):
+                for one in node.body:  # mypyc looks `object` up in the module
+                    if isinstance(one, ast.AnnAssign) and ast.unparse(one.annotation) == "object":
+                        one.annotation = ast.Name("Any")
+                body.append(node)
+            elif isinstance(node, ast.Assign) and _is_constant(node):
+                target = node.targets[0]
+                body.append(ast.AnnAssign(target, ast.Name("Final"), node.value, simple=1))
+            elif isinstance(node, ast.ImportFrom) and (node.module or "").endswith("types.attrs"):
+                body.append(node)
+            else:
+                body.append(node)
+        head = [
+            "from mypy_extensions import mypyc_attr",
+            "from typing import Any, Final",
+            f"from {RUNTIME} import NOTHING, annotate, astuple, declare, equal, evolve, fields, hashed, hide_slots, made_by, make_record, shown",
+        ]
+        at = next(k for k, node in enumerate(body) if isinstance(node, ast.ImportFrom) and node.module == "__future__")
+        # after all imports of the module, so that evolve, fields and astuple are those of the runtime
+        last = max(k for k, node in enumerate(body) if isinstance(node, ast.Import | ast.ImportFrom))
+        body[last + 1 : last + 1] = ast.parse("\n".join(head[2:])).body
+        body[at + 1 : at + 1] = ast.parse("\n".join(head[:2])).body
+        body = [self._without_attrs(node) for node in body]
+        tree.body = [node for node in body if node is not None]
+        return ast.unparse(ast.fix_missing_locations(tree)) + "\n"
+
+    def _without_attrs(self, node: ast.stmt) -> ast.stmt | None:
+        if isinstance(node, ast.ImportFrom) and (node.module or "").endswith("attrs"):
+            node.names = [name for name in node.names if name.name not in ("evolve", "fields", "astuple")]
+            return node if node.names else None
+        return node
+
+    def _is_native(self, node: ast.ClassDef) -> bool:
+        return self._native_name(node.name)
+
+    def _native_name(self, name: str) -> bool:
+        """Return whether a class becomes native: a record, a protocol that classes derive from, or such a class."""
+        record = self.classes[name]
+        bases = [base for base in record.bases if base in self.classes]
+        return record.is_record or name in self.base_protocols or any([self._native_name(base) for base in bases])
+
+    def _rewrite_class(self, node: ast.ClassDef) -> list[ast.stmt]:
+        record = self.classes[node.name]
+        node.bases = [base for base in node.bases if ast.unparse(base) not in ("Protocol", "ABC")]
+        node.decorator_list = [ast.parse(f"mypyc_attr({OPTIONS})", mode="eval").body]
+        body: list[ast.stmt] = []
+        inherited = self._inherited_names(record)
+        properties = {name for base in record.bases if base in self.classes for name in self.classes[base].properties}
+        methods = {one.name for one in node.body if isinstance(one, ast.FunctionDef)}
+        for one in node.body:
+            if isinstance(one, ast.Assign) and ast.unparse(one.targets[0]) == "__slots__":
+                continue
+            if isinstance(one, ast.AnnAssign) and not ast.unparse(one.annotation).startswith("ClassVar"):
+                own = next(own for own in record.own if own.name == ast.unparse(one.target))
+                if own.name not in inherited:
+                    value = None if record.is_record else one.value
+                    body.append(ast.AnnAssign(ast.Name(own.name), own.hint, value, simple=1))
+                continue
+            if isinstance(one, ast.AnnAssign) and ast.unparse(one.target) in properties:
+                # a class variable in place of a property of the base, which compiled code would call
+                hint, value = ast.unparse(one.annotation.slice), ast.unparse(one.value)
+                lines = f"@property\ndef {ast.unparse(one.target)}(self) -> {hint}:\n    return {value}"
+                body += ast.parse(lines).body
+                continue
+            if isinstance(one, ast.FunctionDef):
+                one.decorator_list = [
+                    decorator
+                    for decorator in one.decorator_list
+                    if not (isinstance(decorator, ast.Attribute) and decorator.attr == "default")
+                    and ast.unparse(decorator) != "abstractmethod"
+                ]
+                if _is_empty(one):
+                    one.body.append(ast.parse("raise NotImplementedError").body[0])
+            body.append(one)
+        if record.is_record:
+            body += self._init(record)
+            if record.eq and "__eq__" not in methods:
+                body += ast.parse("def __eq__(self, other: object) -> Any:\n    return equal(self, other)").body
+                if record.frozen:
+                    body += ast.parse("def __hash__(self) -> int:\n    return hashed(self)").body
+            if "__repr__" not in methods:
+                body += ast.parse("def __repr__(self) -> str:\n    return shown(self)").body
+        node.body = body or [ast.Pass()]
+        bases = [base for base in record.bases if base in self.classes and self._native_name(base)]
+        return [*ast.parse("\n".join([f"hide_slots({base})" for base in bases])).body, node, *self._after(record)]
+
+    def _inherited_names(self, record: Record) -> set[str]:
+        names: set[str] = set()
+        for base in record.bases:
+            if base in self.classes:
+                names |= {one.name for one in self.classes[base].own} | self._inherited_names(self.classes[base])
+        return names
+
+    def _init(self, record: Record) -> list[ast.stmt]:
+        arguments, lines, positional = ["self"], [], True
+        base = next((base for base in record.bases if base in self.classes and self.classes[base].is_record), None)
+        passed = []
+        for owner, one in init_fields(record, self.classes):
+            own = owner is record
+            hint = ast.unparse(one.hint) if own else "Any"
+            if record.kw_only and positional:
+                arguments.append("*")
+                positional = False
+            if not one.init:
+                if own and one.default is not None:
+                    lines.append(f"self.{one.name} = {ast.unparse(one.default)}")
+                continue
+            if one.default is None:
+                arguments.append(f"{one.name}: {hint}")
+                value = one.name
+            elif isinstance(one.default, ast.Constant):
+                arguments.append(f"{one.name}: {hint} = {ast.unparse(one.default)}")
+                value = one.name
+            else:
+                arguments.append(f"{one.name}: Any = NOTHING")
+                value = f"{ast.unparse(one.default)} if {one.name} is NOTHING else {one.name}" if own else one.name
+            if own:
+                lines.append(f"self.{one.name} = {value}")
+            else:
+                passed.append(f"{one.name}={one.name}")
+        if base is not None:
+            if self._base_has_post_init(base):
+                raise SystemExit(f"{record.name}: a base has __attrs_post_init__, which is not handled")
+            lines.insert(0, f"super().__init__({', '.join(passed)})")
+        if record.has_post_init:
+            lines.append("self.__attrs_post_init__()")
+        return ast.parse(f"def __init__({', '.join(arguments)}) -> None:\n    " + "\n    ".join(lines or ["pass"])).body
+
+    def _base_has_post_init(self, name: str) -> bool:
+        record = self.classes[name]
+        return record.has_post_init or any(
+            base in self.classes and self._base_has_post_init(base) for base in record.bases
+        )
+
+    def _after(self, record: Record) -> list[ast.stmt]:
+        hints = {one.name: ast.unparse(one.hint) for one in record.own}
+        lines = [f"annotate({record.name}, {hints!r}, {record.is_protocol})"]
+        if record.is_record:
+            these = []
+            for one in record.own:
+                declared = "declare()" if one.declared is None else ast.unparse(one.declared)
+                if declared.startswith("field("):
+                    declared = declared.replace("field(", "declare(", 1)
+                elif not declared.startswith("declare("):
+                    declared = f"declare(default={declared})"
+                if one.name in record.defaults:
+                    declared = f"declare(default=made_by({record.defaults[one.name]!r}))"
+                these.append(f"{one.name!r}: {declared}")
+            lines.append(f"make_record({record.name}, {{{', '.join(these)}}}, {record.frozen}, {record.kw_only})")
+        return ast.parse("\n".join(lines)).body
+
+
+def _is_empty(function: ast.FunctionDef) -> bool:
+    return all(isinstance(one, ast.Expr) and isinstance(one.value, ast.Constant) for one in function.body)
+
+
+def _is_constant(node: ast.Assign) -> bool:
+    """Return whether an assignment declares a number by numbers and other constants."""
+    if len(node.targets) != 1 or not isinstance(node.targets[0], ast.Name) or not node.targets[0].id.strip("_").isupper():
+        return False
+    kinds = (ast.BinOp, ast.UnaryOp, ast.operator, ast.unaryop, ast.expr_context)
+    parts = list(ast.walk(node.value))
+    return all(
+        isinstance(one, kinds)
+        or (isinstance(one, ast.Constant) and type(one.value) in (int, float))
+        or (isinstance(one, ast.Name) and one.id.isupper())
+        for one in parts
+    ) and any(isinstance(one, ast.Constant) for one in parts)
+
+
+def base_protocols(source: Path, classes: dict[str, Record]) -> set[str]:
+    """Return the names of the compiled protocols that a class derives from; others need no class of their own."""
+    nodes = [node for path in source.rglob("*.py") for node in ast.parse(path.read_text("utf-8")).body]
+    bases = {ast.unparse(base) for node in nodes if isinstance(node, ast.ClassDef) for base in node.bases}
+    return {name for name in bases & classes.keys() if classes[name].is_protocol}
