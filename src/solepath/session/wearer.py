@@ -152,8 +152,10 @@ class WearerParts:
     def unsettle(self, site: Site, until: float | None) -> None:
         """Mark the times of a site's samples up to `until`, s, as not comparable with another site's."""
         self.unsettled[site] = until
+        event = ClockUnsettled(site, until)
         for part in self.parts:
-            part.receive(ClockUnsettled(site, until))
+            if type(part).receive is not Part.receive:
+                part.receive(event)
         self._choose_sampled()
 
     def reset(self, site: Site) -> None:
