@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..body.part import (
     MOVEMENTS,
-    ClockUnsettled,
     HeightShift,
     LayoutReported,
     Part,
@@ -152,11 +151,8 @@ class WearerParts:
     def unsettle(self, site: Site, until: float | None) -> None:
         """Mark the times of a site's samples up to `until`, s, as not comparable with another site's."""
         self.unsettled[site] = until
-        event = ClockUnsettled(site, until)
         for part in self.parts:
-            if type(part).receive is not Part.receive:
-                part.receive(event)
-        self._choose_sampled()
+            part.unsettle(site, until)
 
     def reset(self, site: Site) -> None:
         """Reset the parts and the foot of a site where another device is worn from now on."""
