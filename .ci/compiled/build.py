@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Compiles the hot modules of solepath: `python .ci/compiled/build.py FOLDER` (needs mypy, setuptools and a C compiler).
+"""Compiles the hot modules of solepath: `python .ci/compiled/build.py FOLDER [LEVEL [PATTERN ...]]`.
 
-FOLDER gets a copy of the package with the compiled modules beside their sources, and can stand on PYTHONPATH.
-`SOLEPATH_COMPILED=1 pip install .` makes and installs a wheel of the same (hook.py). docs/hot-code.md has the reasons."""
+It needs mypy, setuptools and a C compiler. FOLDER gets a copy of the package with the compiled modules beside their
+sources, and can stand on PYTHONPATH. LEVEL is the compiler's level of optimisation, 2 if none is given; modules that
+match a pattern are compiled instead of all of HOT.
+`SOLEPATH_COMPILED=1 pip install .` installs the same (hook.py). docs/hot-code.md has the reasons."""
 
 from __future__ import annotations
 
 import os
 import shutil
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from rewrite import ModuleRewriter, base_protocols, read_classes
@@ -16,7 +19,6 @@ from rewrite import ModuleRewriter, base_protocols, read_classes
 SOURCE = Path(__file__).resolve().parents[2] / "src"
 HOT = (
     "types/vector.py",
-    "types/plain.py",
     "foot/*.py",
     "foot/cues/*.py",
     "foot/gaps/moment.py",
@@ -43,7 +45,7 @@ HOT = (
     "body/activity/hypotheses.py",
     "body/activity/ride.py",
     "body/activity/elevator_evidence.py",
-    "body/activity/blocks/*.py",
+    "body/activity/blocks/[fsv]*.py",
     "body/checks/sensors.py",
     "body/fuse/both_feet.py",
     "body/fuse/position.py",
@@ -58,19 +60,19 @@ GROUP = "solepath"
 """Name of the library that has all compiled modules: solepath__mypyc."""
 
 
-def hot_modules() -> dict[str, Path]:
+def hot_modules(patterns: Sequence[str]) -> dict[str, Path]:
     """Return the files that are compiled by the names of their modules."""
-    files = sorted({file for pattern in HOT for file in (SOURCE / "solepath").glob(pattern)})
+    files = sorted({file for pattern in patterns for file in (SOURCE / "solepath").glob(pattern)})
     named = {".".join(file.relative_to(SOURCE).with_suffix("").parts): file for file in files}
     return {module: file for module, file in named.items() if file.name != "__init__.py"}
 
 
-def build(folder: Path, optimisation: str = "2") -> None:
-    """Copy the package into `folder` and compile its hot modules there."""
+def build(folder: Path, optimisation: str = "2", *patterns: str) -> None:
+    """Copy the package into `folder` and compile its hot modules there, or those of the patterns alone."""
     shutil.rmtree(folder / "solepath", ignore_errors=True)
     shutil.copytree(SOURCE / "solepath", folder / "solepath", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(Path(__file__).with_name("records.py"), folder / "solepath" / "_compiled.py")
-    files = hot_modules()
+    files = hot_modules(patterns or HOT)
     classes = read_classes(files)
     bases = base_protocols(SOURCE, classes)
     copies = {module: folder / file.relative_to(SOURCE) for module, file in files.items()}

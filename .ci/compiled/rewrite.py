@@ -2,7 +2,7 @@
 
 mypyc makes native classes of plain classes only. The source keeps its records, and a copy of it is rewritten for each
 build. In a rewritten class, fields have no values and `__init__` sets them, in the order of attrs. What reads records
-at run time (saving, `evolve`, comparison, pickling) finds attrs' own description of the fields, which records.py adds."""
+at run time (saving, `evolve`, comparison) finds attrs' own description of the fields, which records.py adds."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from pathlib import Path
 
 RUNTIME = "solepath._compiled"
 """Module of the build that has the functions of records.py."""
+RUNTIME_NAMES = (
+    "NOTHING, annotate, astuple, declare, equal, evolve, fields, hashed, hide_slots, made_by, make_record, shown"
+)
 OPTIONS = "serializable=True, allow_interpreted_subclasses=True"
 """Options of native classes: `__new__` makes one without fields, as restoring a state needs, and apps may derive."""
 RECORD_NAMES = {"define": False, "frozen": True}
@@ -136,14 +139,12 @@ class ModuleRewriter:
             elif isinstance(node, ast.Assign) and _is_constant(node):
                 target = node.targets[0]
                 body.append(ast.AnnAssign(target, ast.Name("Final"), node.value, simple=1))
-            elif isinstance(node, ast.ImportFrom) and (node.module or "").endswith("types.attrs"):
-                body.append(node)
             else:
                 body.append(node)
         head = [
             "from mypy_extensions import mypyc_attr",
             "from typing import Any, Final",
-            f"from {RUNTIME} import NOTHING, annotate, astuple, declare, equal, evolve, fields, hashed, hide_slots, made_by, make_record, shown",
+            f"from {RUNTIME} import {RUNTIME_NAMES}",
         ]
         at = next(k for k, node in enumerate(body) if isinstance(node, ast.ImportFrom) and node.module == "__future__")
         # after all imports of the module, so that evolve, fields and astuple are those of the runtime
@@ -177,6 +178,8 @@ class ModuleRewriter:
         inherited = self._inherited_names(record)
         properties = {name for base in record.bases if base in self.classes for name in self.classes[base].properties}
         methods = {one.name for one in node.body if isinstance(one, ast.FunctionDef)}
+        if "@cached_property" in ast.unparse(node):
+            raise SystemExit(f"{node.name}: mypyc computes a cached property at every access")
         for one in node.body:
             if isinstance(one, ast.Assign) and ast.unparse(one.targets[0]) == "__slots__":
                 continue
@@ -286,7 +289,8 @@ def _is_empty(function: ast.FunctionDef) -> bool:
 
 def _is_constant(node: ast.Assign) -> bool:
     """Return whether an assignment declares a number by numbers and other constants."""
-    if len(node.targets) != 1 or not isinstance(node.targets[0], ast.Name) or not node.targets[0].id.strip("_").isupper():
+    target = node.targets[0]
+    if len(node.targets) != 1 or not isinstance(target, ast.Name) or not target.id.isupper():
         return False
     kinds = (ast.BinOp, ast.UnaryOp, ast.operator, ast.unaryop, ast.expr_context)
     parts = list(ast.walk(node.value))

@@ -20,6 +20,7 @@ from yardstick import TunedFilter, UsualFilter
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.checks.sensors import SensorChecks
 from solepath.calibration import InsoleCalibration
+from solepath.cli.main import form
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
@@ -84,6 +85,31 @@ def session_with_layout(recipe: Recipe, infos: list[Packet]) -> Session:
 
 def _time_of(sample: Sample) -> float:
     return sample.t
+
+
+def add_parts(
+    add: Callable[[str, float], None],
+    inertial_samples: list[Sample],
+    pressure_samples: list[Sample],
+    session_with_cells: Callable[[], Session],
+) -> None:
+    """Add the rows of single parts."""
+    for name, times in part_times(inertial_samples, Session).items():
+        add(f"of a foot sample, inertial: {name}", times)
+    long_samples = Walker(LONG_ROUTE, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
+    long_times = [part_time(long_samples, Session(), SensorChecks) for _ in range(RUNS)]
+    add("of a foot sample, inertial, five minutes: checks", median(long_times))
+    pressure_times = part_times(pressure_samples, session_with_cells)
+    add("of a foot sample, 96 cells: cells", pressure_times["cells"])
+
+    building_walk = wandering(1)
+    indoor_walker = Walker(building_walk.route, seed=1)
+    indoor_samples = [sample for foot in Foot for sample in indoor_walker.samples(foot, 100.0, LSM6DSOX)]
+    indoor_samples.sort(key=_time_of)
+    for recipe in (recipes.DEFAULT, recipes.by_name("footstep-tracker"), recipes.by_name("shoe-sensing")):
+        times = building_part_times(indoor_samples, recipe, IndexedPlan(BUILDING))
+        for name, what in (("activity", "activities"), ("turns", "turns"), ("place", "place on a floor plan")):
+            add(f"of it {what}, {recipe.name}", times[name])
 
 
 def main() -> None:
@@ -153,22 +179,8 @@ def main() -> None:
     )
     add("insole fragment of 20 bytes: session", time_each(fragments, Session), "us a packet")
 
-    for name, times in part_times(inertial_samples, Session).items():
-        add(f"of a foot sample, inertial: {name}", times)
-    long_samples = Walker(LONG_ROUTE, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
-    long_times = [part_time(long_samples, Session(), SensorChecks) for _ in range(RUNS)]
-    add("of a foot sample, inertial, five minutes: checks", median(long_times))
-    pressure_times = part_times(pressure_samples, session_with_cells)
-    add("of a foot sample, 96 cells: cells", pressure_times["cells"])
-
-    building_walk = wandering(1)
-    indoor_walker = Walker(building_walk.route, seed=1)
-    indoor_samples = [sample for foot in Foot for sample in indoor_walker.samples(foot, 100.0, LSM6DSOX)]
-    indoor_samples.sort(key=_time_of)
-    for recipe in (recipes.DEFAULT, recipes.by_name("footstep-tracker"), recipes.by_name("shoe-sensing")):
-        times = building_part_times(indoor_samples, recipe, IndexedPlan(BUILDING))
-        for name, what in (("activity", "activities"), ("turns", "turns"), ("place", "place on a floor plan")):
-            add(f"of it {what}, {recipe.name}", times[name])
+    if form() == "pure":  # a compiled foot has no place for a wrapper of a part
+        add_parts(add, inertial_samples, pressure_samples, session_with_cells)
 
     duration = walk.packets[-1].t
     real_time = duration / seconds(lambda: feed_session(walk.packets))
@@ -179,7 +191,7 @@ def main() -> None:
     text = json.dumps(saved)
     save, load = seconds(session.snapshot), seconds(lambda: Session.restore(saved))
 
-    print(f"{machine()}, one used; medians of {RUNS}")
+    print(f"{machine()}, one used; {form()} modules; medians of {RUNS}")
     counts = f"{len(inertial_samples)} samples, {len(frames)} frames, {strides} strides of both feet"
     print(f"{counts} in {duration:.0f} s of walking")
     print()

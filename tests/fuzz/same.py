@@ -6,7 +6,8 @@ environment with attrs and construct alone, restores the sessions, feeds the ite
 events and of the snapshots in the middle and at the end. Pythons are those on PATH, and those that pyenv and uv have
 installed. `--pyodide 0.27.7 0.29.4` adds Pyodide, CPython for WebAssembly, of these versions: npm fetches it, and node
 runs it. It has another C library, so its last bits may differ; then the largest difference of a number is printed.
-`--recordings FILE ...` compares sessions with poses on recorded samples (.csv, .npz) instead of emulated walks."""
+`--recordings FILE ...` compares sessions with poses on recorded samples (.csv, .npz) instead of emulated walks.
+`--compiled FOLDER` adds the compiled form that `.ci/compiled/build.py FOLDER` has made, in the running Python."""
 
 from __future__ import annotations
 
@@ -165,6 +166,16 @@ def run_python(program: str, folder: Path, walks: Path, results: Path) -> str:
     return subprocess.run(words, env=given, capture_output=True, text=True, check=False).stderr
 
 
+def run_compiled(package: str, folder: Path, walks: Path, results: Path) -> str:
+    """Run all sessions in the running Python with the package in this folder; return an error, "" for none."""
+    given = {**os.environ, "PYTHONPATH": package, "PYTHONHASHSEED": "random"}
+    form = subprocess.run([sys.executable, "-m", "solepath", "--version"], env=given, capture_output=True, text=True)
+    if not form.stdout.rstrip().endswith(", compiled"):
+        return f"Error: {form.stdout or form.stderr}"
+    words = [sys.executable, __file__, "--run", walks, "--results", results]
+    return subprocess.run(words, env=given, capture_output=True, text=True, check=False).stderr
+
+
 def requirements() -> list[str]:
     """Return the packages that a session needs, in the versions that are installed here."""
     return [f"{package}=={version(package)}" for package in PACKAGES]
@@ -211,6 +222,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Compares the events of sessions on all Pythons of this machine.")
     parser.add_argument("--pyodide", nargs="+", default=[], metavar="RELEASE", help="releases of Pyodide to add")
     parser.add_argument("--recordings", nargs="+", default=[], type=Path, metavar="FILE", help="recorded samples")
+    parser.add_argument("--compiled", type=Path, metavar="FOLDER", help="folder of a compiled form to add")
     parser.add_argument("--run", metavar="WALKS", help=argparse.SUPPRESS)
     parser.add_argument("--results", help=argparse.SUPPRESS)
     chosen = parser.parse_args()
@@ -219,6 +231,9 @@ def main() -> int:
         return 0
     runs: list[tuple[str, str, Callable[..., str], str]] = []
     runs += [(name, "native", run_python, program) for name, program in installed_pythons().items()]
+    if chosen.compiled:
+        package = str(chosen.compiled.resolve())
+        runs.append((f"compiled, {sys.version.split()[0]}", "native", run_compiled, package))
     runs += [(f"Pyodide {release}", "WebAssembly", run_pyodide, release) for release in chosen.pyodide]
     status, first_of, first = 0, dict[str, dict[str, Any]](), None
     with tempfile.TemporaryDirectory() as directory:

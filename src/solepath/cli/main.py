@@ -82,7 +82,7 @@ def run(arguments: Sequence[str] | None) -> int:
     if options.version:
         from importlib.metadata import version
 
-        print(f"solepath {version('solepath')}, {_form()}")
+        print(f"solepath {version('solepath')}, {form()}")
         return 0
     if options.command is None:
         top.print_help()
@@ -91,7 +91,7 @@ def run(arguments: Sequence[str] | None) -> int:
     return status
 
 
-def _form() -> str:
+def form() -> str:
     """Return "compiled" if the modules that run per sample are compiled (docs/hot-code.md), otherwise "pure"."""
     spec = find_spec("solepath.types.vector")
     return "compiled" if spec is not None and isinstance(spec.loader, ExtensionFileLoader) else "pure"

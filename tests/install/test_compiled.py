@@ -1,0 +1,132 @@
+"""Compiled modules give the events of pure ones, bit for bit, and states go from the one form to the other and back.
+
+Only some modules are compiled here, without optimisation, to save time: those of stances, attitude and samples' views,
+and the wearer. `python tests/fuzz/same.py --compiled FOLDER` compares many sessions with all hot modules compiled."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import pytest
+from here import ROOT
+
+from solepath import Packet, Session
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import emulate
+
+MODULES = (
+    "types/vector.py", "foot/settings.py", "foot/phase.py", "foot/view.py", "foot/stance/stance.py",
+    "foot/stance/cycle.py", "foot/stance/s[eh]*.py", "foot/navigate/corrector.py", "foot/navigate/strapdown.py",
+    "session/wearer.py", "body/part.py",
+)  # fmt: skip
+"""Modules of classes that derive from protocols, are frozen, are made at every sample, or hold the state of others."""
+PACKETS = emulate(Route().stand(2.0).walk(15.0, 1.3).stop(2.0), seed=4).packets
+CONTINUE = """
+import json, sys
+from pathlib import Path
+from solepath import Packet, Session, Site
+
+state, rows = json.loads(Path(sys.argv[1]).read_text())
+session = Session.restore(state)
+packets = [Packet(t, Site(site), channel, bytes.fromhex(data)) for t, site, channel, data in rows]
+events = session.feed(packets)
+tracker = next(iter(session.feet.values()))
+forms = [type(one).update.__class__.__name__ for one in (tracker.detector, tracker.corrector.interval)]
+print(json.dumps([[event.to_dict() for event in events], session.snapshot(), forms]))
+"""
+
+
+def lacking() -> str:
+    """Return what a build needs and is not here; "" if nothing is lacking."""
+    compiler = (sysconfig.get_config_var("CC") or "cc").split()[0]
+    header = Path(sysconfig.get_path("include"), "Python.h")
+    needed = {"mypyc": find_spec("mypyc"), "setuptools": find_spec("setuptools"), compiler: shutil.which(compiler)}
+    absent = [name for name, found in needed.items() if found is None]
+    return ", ".join(absent if header.exists() else [*absent, "Python.h"])
+
+
+@pytest.fixture(scope="module")
+def compiled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with the package, some of whose modules are compiled."""
+    if lacking():
+        pytest.skip(f"solepath cannot be compiled here without {lacking()}")
+    folder = tmp_path_factory.mktemp("compiled")
+    command = [sys.executable, ROOT / ".ci/compiled/build.py", folder, "0", *MODULES]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+def run(folder: Path, *arguments: object) -> str:
+    command, environment = [sys.executable, *map(str, arguments)], {**os.environ, "PYTHONPATH": str(folder)}
+    return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
+
+
+def go_on(folder: Path, state: Any, packets: list[Packet], place: Path) -> list[Any]:
+    """Return events, snapshot and kinds of two methods of a session that goes on in a new process."""
+    rows = [(packet.t, packet.site.value, packet.channel, packet.data.hex()) for packet in packets]
+    place.write_text(json.dumps([state, rows]))
+    found: list[Any] = json.loads(run(folder, "-c", CONTINUE, place))
+    return found
+
+
+def test_compiled_modules_give_the_same_events_and_states_bit_for_bit(compiled: Path, tmp_path: Path) -> None:
+    third = len(PACKETS) // 3
+    session = Session()
+    session.feed(PACKETS[:third])
+    state = session.snapshot()
+    later, last = PACKETS[third : 2 * third], PACKETS[2 * third :]
+    events, after, forms = go_on(compiled, state, later, tmp_path / "later")
+    assert forms[0] == "method_descriptor" and forms[1] == "function", "the first is compiled, the second is not"
+    assert events == json.loads(json.dumps([event.to_dict() for event in session.feed(later)]))
+    assert after == json.loads(json.dumps(session.snapshot()))
+    # back: the pure form goes on from the compiled form's state, as the compiled form does itself
+    back = Session.restore(after)
+    events, after, _ = go_on(compiled, after, last, tmp_path / "last")
+    assert any(event["event"] == "StrideTaken" for event in events)
+    assert events == json.loads(json.dumps([event.to_dict() for event in back.feed(last)]))
+    assert after == json.loads(json.dumps(back.snapshot()))
+
+
+def test_the_version_names_the_form_that_runs(compiled: Path) -> None:
+    assert run(compiled, "-m", "solepath", "--version").rstrip().endswith(", compiled")
+    assert run(ROOT / "src", "-m", "solepath", "--version").rstrip().endswith(", pure")
+
+
+APP = """
+
+from solepath.types.attrs import define, evolve, field
+from solepath.foot.navigate.strapdown import Strapdown
+from solepath.foot.stance.stance import Detector, Stance
+import copy, pickle
+
+@define
+class Own(Detector):
+    limit: float = 2.0
+    count: int = field(default=0, init=False)
+    def update(self, t, dt, acc, gyro, load, attitude=(1.0, 0.0, 0.0, 0.0)):
+        self.count += 1
+        return Stance((0.0, 0.0, 0.0), 0.1 if abs(gyro[0]) < self.limit else float("inf"), 0.0, None)
+
+@define
+class Integral(Strapdown):
+    own: int = field(default=3, init=False)
+
+one = Integral()
+one.velocity = (1.0, 2.0, 3.0)
+assert copy.deepcopy(one) == one and pickle.loads(pickle.dumps(one)) == one and evolve(one).velocity == (0.0, 0.0, 0.0)
+assert Own().lacking is None and Own(3.0) == Own(3.0) != Own(4.0)
+print(one)
+"""
+
+
+def test_an_app_derives_from_compiled_classes_as_from_pure_ones(compiled: Path) -> None:
+    assert run(compiled, "-c", APP) == run(ROOT / "src", "-c", APP) != ""
