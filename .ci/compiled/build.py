@@ -46,11 +46,13 @@ HOT = (
     "body/activity/ride.py",
     "body/activity/elevator_evidence.py",
     "body/activity/blocks/[fsv]*.py",
-    "body/checks/sensors.py",
+    "body/checks/**/*.py",
     "body/fuse/both_feet.py",
     "body/fuse/position.py",
-    "body/gait/turn_detector.py",
-    "body/gait/turns.py",
+    "body/gait/cycles.py",
+    "body/gait/footfalls.py",
+    "body/gait/turn*.py",
+    "body/height/altitude.py",
     "body/worn/*.py",
 )
 """Modules whose code runs for every sample or packet with the default recipe."""

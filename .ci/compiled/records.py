@@ -55,10 +55,16 @@ def hide_slots(cls: Any) -> None:
             del one.__slots__
 
 
+def _derive(cls: Any, **_: object) -> None:
+    cls._is_protocol = False
+
+
 def annotate(cls: Any, annotations: dict[str, str], is_protocol: bool = False) -> None:
     """Give a native class the annotations of its source, which compilers drop."""
     cls.__annotations__ = annotations
     cls._is_protocol = is_protocol
+    if is_protocol:
+        cls.__init_subclass__ = classmethod(_derive)
     for one in cls.__mro__:  # for attrs, so that an interpreted subclass uses the native fields
         if "__mypyc_attrs__" in vars(one):
             one.__slots__ = tuple([name for name in one.__annotations__ if name in vars(one)])

@@ -11,7 +11,7 @@ from argparse import ArgumentParser
 from contextlib import redirect_stdout
 from functools import partial
 from importlib import import_module
-from typing import Any, get_type_hints
+from typing import Any
 
 import figures
 import pytest
@@ -27,9 +27,7 @@ from solepath.cli.main import parser
 from solepath.emulate import Route, emulate
 from solepath.fleet import NumberedEvent, Sent, event_row, sent_line
 from solepath.foot.pressure.insole import InsoleLoads
-from solepath.foot.settings import CycleSettings
 from solepath.recipes import PARTS, part_class
-from solepath.saving import codec
 from solepath.show.output import STRIDE_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot, Site
 
@@ -152,18 +150,6 @@ def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
         len(json.dumps(event_row(NumberedEvent("w-00017", number, event)))) for number, event in enumerate(events)
     )
     assert f" {len(events) / last:.0f} events/s, {rows / last / 1000:.0f} kB/s as rows" in PAGES["docs/fleet.md"]
-
-
-def test_a_plain_class_of_hot_code_is_saved_and_goes_on(played):
-    _, names = played("docs/hot-code.md")
-    kind = names["Rest"]
-    rest = kind(CycleSettings(threshold_position=0.4))
-    rest.started_at = 2.0
-    rest.span.add((0.0, 0.0, 9.8), (0.1, 0.0, 0.0))
-    again = codec.load(kind, codec.save(rest))
-    assert list(get_type_hints(kind, names)) == ["settings", "span", "started_at", "bias"]
-    for name in get_type_hints(kind, names):
-        assert getattr(again, name) == getattr(rest, name), name
 
 
 def test_the_loop_over_bluetooth_is_a_program(played):

@@ -126,9 +126,11 @@ def add_error(covariance: Covariance, p: Vec3, v: Vec3, turn: Vec3, sigma: float
     k = sigma * sigma
     enlarged: list[float] = []
     i = 0
-    for a, b in ((p, p), (p, v), (p, turn), (v, v), (v, turn), (turn, turn)):
+    for a, b, symmetric in (
+        (p, p, True), (p, v, False), (p, turn, False), (v, v, True), (v, turn, False), (turn, turn, True),
+    ):  # fmt: skip
         for row in (0, 1, 2):
-            for column in range(row, 3) if a is b else (0, 1, 2):
+            for column in range(row if symmetric else 0, 3):
                 enlarged.append(covariance[i] + k * a[row] * b[column])
                 i += 1
     return tuple(enlarged)
