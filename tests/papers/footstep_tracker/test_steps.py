@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.gait.turning_steps import TurningStrideFilter
+from solepath.body.gait.turning_steps import STRAIGHT_TOLERANCE, TurningStrideFilter
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
 from solepath.papers.footstep_tracker.critical_cues import CriticalCues
@@ -281,3 +281,11 @@ def test_the_usual_turn_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:
     assert turning.turn(0.15) == 0.0
     assert turning.turn(1.6) == pytest.approx(1.5, abs=0.02)
     assert turning.straight_turn == pytest.approx(0.1, abs=0.02)
+
+
+def test_a_curve_stays_a_curve_for_a_filter_that_learns_from_straight_steps_only() -> None:
+    """A circle of 24 strides of 15 degrees; with turning strides learnt as well, most of it becomes straight."""
+    stride = radians(15.0)
+    unlearnt, learnt = TurningStrideFilter(), TurningStrideFilter()
+    assert sum(unlearnt.turn(stride, STRAIGHT_TOLERANCE) for _ in range(24)) == pytest.approx(2.0 * pi)
+    assert sum(learnt.turn(stride) for _ in range(24)) < 0.3 * 2.0 * pi

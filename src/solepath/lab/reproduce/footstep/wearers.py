@@ -82,7 +82,9 @@ LENGTH_RECIPES = {
 """Our additions to the stride length, one after the other; the last one has all but the toe-out."""
 ONE_METRE_RULE = FOOTSTEP_TRACKER.exchanged(Footsteps, Footsteps(FootstepsSettings(as_printed=True)), "one-metre rule")
 """Ours with the one-metre rule as printed."""
-PRINTED_TURN = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False)))
+PRINTED_TURN = evolve(
+    FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False, learns_from_turns=True))
+)
 """Ours with (7) as printed, from liftoff to landing."""
 DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=PrintedSnake())
 """Ours with the Snake game as printed."""
