@@ -32,7 +32,9 @@ WEATHER = Air(
     gusts=6.0,
     steps=(PressureStep(60.0, 10.0), PressureStep(150.0, -25.0, lasting=20.0), PressureStep(240.0, 100.0, 120.0)),
 )
-"""A falling barometer, gusts, a door of a clean room, one of a stairwell, and a front (emulate/sensors/air.py)."""
+"""A barometer that falls as fast as "slowly" allows, gusts, a door of a clean room, one of a stairwell, and a front.
+
+emulate/sensors/air.py has the sources of the sizes; when the steps come, and how long they take, is assumed."""
 
 
 @frozen(eq=False)
