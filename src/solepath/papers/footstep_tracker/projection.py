@@ -18,7 +18,7 @@ from enum import Enum
 from math import atan2, cos, fsum, hypot, inf, sin
 
 from ...body.activity.blocks.stride_slope import slope_evidence
-from ...body.gait.turning_steps import MAX_FILTERED_DEVIATION, STRAIGHT_TOLERANCE, TurningStrideFilter
+from ...body.gait.turning_steps import TurningStrideFilter
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.strapdown import Strapdown
@@ -81,14 +81,14 @@ class ProjectionSettings:
     """Flag: angles beyond the range of the gyroscope are estimated."""
     turns_about_vertical: bool = True
     """Flag: the turn is that about the vertical up to rest, with pivots; otherwise (7) as printed."""
-    learns_from_turns: bool = False
-    """Flag: turning strides update the usual turn of a straight stride, too, so that a curve becomes straight."""
+    keeps_corners: bool = True
+    """Flag: a corner and a curve keep their whole angle (turning_steps.py)."""
     has_rise: bool = True
     """Flag: strides have a rise."""
 
 
 PRINTED = ProjectionSettings(
-    interval=Interval.LIFTOFF_TO_LANDING, restores_clipped=False, turns_about_vertical=False, learns_from_turns=True,
+    interval=Interval.LIFTOFF_TO_LANDING, restores_clipped=False, turns_about_vertical=False, keeps_corners=False,
     has_rise=False,
 )  # fmt: skip
 """Settings with which (5) and (7) are used as they are printed."""
@@ -194,7 +194,7 @@ class Projection(Strapdown):
         length = fsum(parts)
         turn = vertical_turn(rows, times, end) if settings.turns_about_vertical else swing_turn(rows, times)
         rise = closed_stride_rise(rows, times, end) if settings.has_rise else 0.0
-        turn = self.turning.turn(turn, MAX_FILTERED_DEVIATION if settings.learns_from_turns else STRAIGHT_TOLERANCE)
+        turn = self.turning.corner_turn(turn) if settings.keeps_corners else self.turning.turn(turn)
         fx, fy, _ = rotate(self.rest_attitude, segment.forward)
         # the direction of walking lies phi to the right of the foot's long axis
         direction = atan2(fy, fx) + 0.5 * turn - phi

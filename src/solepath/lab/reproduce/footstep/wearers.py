@@ -85,7 +85,7 @@ LENGTH_RECIPES = {
 ONE_METRE_RULE = FOOTSTEP_TRACKER.exchanged(Footsteps, Footsteps(FootstepsSettings(as_printed=True)), "one-metre rule")
 """Ours with the one-metre rule as printed."""
 PRINTED_TURN = evolve(
-    FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False, learns_from_turns=True))
+    FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False, keeps_corners=False))
 )
 """Ours with (7) as printed, from liftoff to landing."""
 DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=PrintedSnake())
