@@ -88,6 +88,8 @@ PRINTED_TURN = evolve(
     FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False, keeps_corners=False))
 )
 """Ours with (7) as printed, from liftoff to landing."""
+PRINTED_FILTER = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(keeps_corners=False)))
+"""Ours with the low-pass filter of turns alone, without `TurningStrideFilter.corner_turn`."""
 DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=PrintedSnake())
 """Ours with the Snake game as printed."""
 BAROMETERS = ("cc2541/barometer", "cc2650/barometer")
