@@ -98,12 +98,15 @@ WEATHER = {
     "falling": Air(trend=-VERY_RAPIDLY),
     "rising": Air(trend=VERY_RAPIDLY),
     "gusts": Air(gusts=6.0, seed=3),
-    "a storm": Air(trend=-VERY_RAPIDLY, gusts=6.0, seed=4),
+    "a storm": Air(trend=-VERY_RAPIDLY, gusts=6.0, seed=4),  # falling and gusts at once
     "a front": Air(steps=(PressureStep(10.0, 100.0, duration=120.0),)),
 }
 
 
-@pytest.mark.parametrize("weather", WEATHER)
+@pytest.mark.parametrize(
+    "weather",
+    ["rising", "a storm", "a front", *(pytest.param(one, marks=pytest.mark.soak) for one in ("falling", "gusts"))],
+)
 @pytest.mark.parametrize("seed", SEEDS[:2])
 def test_weather_makes_neither_stairs_nor_lifts_of_level_ways_and_standing(seed: int, weather: str) -> None:
     found = outcome(LEVEL, "SensorTags", seed, WEATHER[weather])
