@@ -95,7 +95,8 @@ class Leg:
 
     def bend(self) -> Array:
         """Return the angle by which the knee is bent, rad, (N)."""
-        return np.arccos(np.clip(np.sum(self.thigh[:, :, 2] * self.shank[:, :, 2], axis=1), -1.0, 1.0))
+        cosine = np.sum(self.thigh[:, :, 2] * self.shank[:, :, 2], axis=1)
+        return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
 @frozen(eq=False)
