@@ -117,7 +117,8 @@ class FootMotion:
         ahead = np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], axis=1)
         radius = self.radius[row]
         centre, centre_v, centre_a = (
-            np.ascontiguousarray(found[:3].T) - (radius * found[PITCH])[:, None] * ahead for found in (value, first, second)
+            np.ascontiguousarray(found[:3].T) - (radius * found[PITCH])[:, None] * ahead
+            for found in (value, first, second)
         )
 
         # With the angular rate w and the arm r from the reference point c to the sensor, both in the foot frame:
