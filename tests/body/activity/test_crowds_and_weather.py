@@ -150,7 +150,10 @@ def test_who_stands_on_an_escalator_stands(height: float, seed: int, kit: str) -
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize(("height", "acceleration"), [(3.4, 0.8), (-6.8, 0.8), (6.8, 0.3), (-3.4, 0.3)])
+@pytest.mark.parametrize(
+    ("height", "acceleration"),
+    [(-6.8, 0.8), (6.8, 0.3), *(pytest.param(*one, marks=pytest.mark.soak) for one in ((3.4, 0.8), (-3.4, 0.3)))],
+)
 def test_a_slow_elevator_is_no_escalator(height: float, acceleration: float, seed: int) -> None:
     lift = Route().stand(3.0).walk(6.0, 1.3).turn(pi).lift(height, speed=0.4, acceleration=acceleration, jerk=0.6)
     found = outcome(lift.walk(6.0).stand(4.0), "insoles", seed)
