@@ -229,7 +229,9 @@ def samples_of(
 ) -> list[Sample]:
     """Return the samples at times `t`, s, with the rows of the measured values."""
     # a zip of columns makes the tuples of the rows without a list of each
-    vectors = [repeat(None) if one is None else zip(*one.T.tolist()) for one in (acc, gyro, pressure, quat, mag)]
+    vectors = [
+        repeat(None) if one is None else zip(*one.T.tolist(), strict=True) for one in (acc, gyro, pressure, quat, mag)
+    ]
     flags = repeat(False) if saturated is None else saturated.tolist()
     return [
         Sample(time, site, a, g, p, q, m, saturated=flag)

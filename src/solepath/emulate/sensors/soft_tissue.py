@@ -20,7 +20,7 @@ from attrs import fields, frozen
 
 from ...types import Foot, Site, Vec3
 from ..wearers.curves import Array
-from ..wearers.limbs import FOOT_OF_SITE, Body
+from ..wearers.limbs import FOOT_OF_SITE, Body, Leg
 from ..wearers.turning import from_rotation_vectors, matrices
 
 NEW_SHARE = 0.45
@@ -93,10 +93,16 @@ class SkinBody(Body):
         else:
             # by how much more than at time 0 the knee is bent
             leg, first = self.leg(foot, t), self.leg(foot, np.zeros(1))
-            (origin, turn), knee = leg.segment(site), leg.bend()[:, None] - first.bend()
+            (origin, turn), knee = leg.segment(site), _bend(leg)[:, None] - _bend(first)
         angles = knee * constants.knee_turn + load * constants.load_turn
         shift = knee * constants.knee_shift + load * constants.load_shift
         return origin + np.einsum("nij,nj->ni", turn, shift), turn @ matrices(from_rotation_vectors(angles))
+
+
+def _bend(leg: Leg) -> Array:
+    """Return the angle by which the knee is bent, rad, (N)."""
+    cosine = np.sum(leg.thigh[:, :, 2] * leg.shank[:, :, 2], axis=1)
+    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
 def with_soft_tissue(body: Body, load_shares: dict[Foot, Array], constants: dict[Site, TissueConstants]) -> Body:

@@ -93,11 +93,6 @@ class Leg:
         """Return origin and attitude of the segment of a site on the thigh or the shank."""
         return (self.hip, self.thigh) if site in _THIGHS else (self.knee, self.shank)
 
-    def bend(self) -> Array:
-        """Return the angle by which the knee is bent, rad, (N)."""
-        cosine = np.sum(self.thigh[:, :, 2] * self.shank[:, :, 2], axis=1)
-        return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
-
 
 @frozen(eq=False)
 class Body:
