@@ -61,7 +61,7 @@ def test_the_walk_explains_most_of_what_its_legs_are_apart() -> None:
 def test_on_another_day_the_heading_drifts_by_a_part_of_what_it_did() -> None:
     """Arcs to both sides, which show no drift by themselves."""
     route = Route().stand(3.0)
-    for side in (1.0, -1.0) * 3:
+    for side in (1.0, -1.0) * 2:
         route = route.turn(side * pi, 12.0, 1.3)
     walk = sampled(route.stop(3.0), wearer=wearer_of(SEED), insoles=insoles_of(SEED), seed=SEED)
     drifts = {}
