@@ -58,7 +58,7 @@ def receive(
     [
         pytest.param(247, ONE_MINUTE_ROUTE, marks=pytest.mark.soak, id="247, a minute"),
         pytest.param(247, MEDIUM_ROUTE, id="247"),
-        pytest.param(185, SHORT_ROUTE, id="185"),
+        pytest.param(185, SHORT_ROUTE, marks=pytest.mark.soak, id="185"),  # a frame is whole, as with 247
         pytest.param(23, SHORT_ROUTE, id="23"),
     ],
 )
