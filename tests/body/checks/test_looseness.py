@@ -32,7 +32,7 @@ def found(samples: tuple[Sample, ...], session: Session | None = None) -> tuple[
 
 
 @cache
-def _begun(seed: int) -> bytes:
+def packed_before(seed: int) -> bytes:
     """Return the session of a walk before a sensor comes loose, packed."""
     session = Session()
     assert found(tuple(sample for sample in walk(seed).samples if sample.t < CAME_LOOSE), session)[0] == []
@@ -41,7 +41,7 @@ def _begun(seed: int) -> bytes:
 
 def continued(seed: int, samples: tuple[Sample, ...]) -> tuple[list[DefectFound], list[Event]]:
     """Return what is found in these samples of a walk from the time on at which a sensor comes loose."""
-    return found(tuple(sample for sample in samples if sample.t >= CAME_LOOSE), Session.unpack(_begun(seed)))
+    return found(tuple(sample for sample in samples if sample.t >= CAME_LOOSE), Session.unpack(packed_before(seed)))
 
 
 def test_a_sensor_that_swings_is_noticed_and_its_strides_are_degraded() -> None:
