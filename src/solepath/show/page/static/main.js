@@ -101,6 +101,7 @@ function later(panel, news) {
 
 function heading() {
   write(element("title"), state.title);
+  document.body.classList.toggle("has-plan", state.plan !== null);
   document.title = state.title ? `${state.title} – solepath` : "solepath";
   for (const name of ["source", "recipe"]) {
     write(element(name), state[name]);
