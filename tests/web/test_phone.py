@@ -1,4 +1,4 @@
-"""What the user of footstep-tracker has: a phone in the pocket that shows the place on the plan, with its candidates."""
+"""What the user of footstep-tracker has: a phone in the pocket that shows place and candidates on the plan."""
 
 from __future__ import annotations
 

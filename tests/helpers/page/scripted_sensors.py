@@ -55,14 +55,14 @@ WALK_AT_ONCE = """([until, streams]) => {
     const values = [];
     for (; next < sent.length && sent[next].t <= until; next += 1)
         values.push([start + sent[next].t, sent[next].site, sent[next].channel, sent[next].data]);
-    for (let from = 0; from < values.length; from += 100) send({ type: 'values', values: values.slice(from, from + 100) });
+    for (let k = 0; k < values.length; k += 100) send({ type: 'values', values: values.slice(k, k + 100) });
     return values.length;
 }"""
 """Lets both sensors send their values up to the time `until` of the recording, s, as if that time had passed."""
 
 
 async def connect(view: Window | PlainTab, packets: Iterable[Packet] = (), profile: Profile = PROFILE) -> None:
-    """Start a walk of two sensors, which send nothing yet; without `packets` they are the insoles of the demonstration."""
+    """Start a walk of two sensors that send nothing yet; without `packets` they are insoles with the demonstration."""
     characteristics = [[one.service, one.characteristic, one.access is Access.NOTIFY] for one in profile.channels]
     rows = [{"t": one.t, "site": one.site.value, "channel": one.channel, "data": one.data.hex()} for one in packets]
     name = profile.name if rows else None

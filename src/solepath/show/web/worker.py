@@ -98,7 +98,7 @@ class Worker:
         return words_of_json({"recipes": NAMES, "profiles": tuple(BY_NAME)})
 
     def choose_recipe(self, name: str) -> None:
-        """Use this recipe for the next walk, and for the recording that is played; SnapshotError for an unknown name."""
+        """Use this recipe for the next walk and for what is played; raise SnapshotError for an unknown name."""
         try:
             self.recipe = by_name(name)
         except ValueError as error:
@@ -106,7 +106,7 @@ class Worker:
         self._use_choices()
 
     def start_walk(self, title: str) -> None:
-        """Start a walk with what was opened and chosen: calibration, floor plan, recipe; any other walk is forgotten."""
+        """Start a walk with what was opened and chosen (calibration, plan, recipe); any other walk is forgotten."""
         self.player = self.recording = None
         self.walk = LiveWalk(self._session(), self._scene(title, "live"), self.plan)
 
