@@ -20,6 +20,7 @@ import { PosturePanel, ToeOutPanel } from "./guides.js";
 import { Ribbon } from "./ribbon.js";
 import { Seeking } from "./seeking.js";
 import { Soles } from "./soles.js";
+import { Space } from "./space.js";
 import { State } from "./state.js";
 import { startTheme } from "./theme.js";
 import { Track } from "./track.js";
@@ -55,6 +56,7 @@ const panels = [
   ribbon,
   track,
   new Height(redraw),
+  new Space(redraw),
   new ActivityPanel(),
   new BodyFigure(),
   new PosturePanel(),
