@@ -89,7 +89,7 @@ async def test_the_page_shows_the_walk_that_calibrates_toe_out_step_by_step(chro
     walk.writer.close()
 
 
-async def test_a_walk_that_bends_says_why_nothing_is_learnt(chromium: Browser) -> None:
+async def test_a_walk_that_bends_shows_why_nothing_is_learnt(chromium: Browser) -> None:
     foot = ShownFoot(Foot.LEFT, 9, 11.0, why="the left foot turns by 1.2 rad: is the walk straight?")
     scene = Scene("A walk", "", guide=ShownToeOut("Walk.", None, (foot,)))
     async with open_page(chromium, scene) as (view, _):

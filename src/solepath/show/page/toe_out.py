@@ -58,7 +58,7 @@ class ShownToeOut:
 
 
 Guide = ShownPosture | ShownToeOut
-"""What a person is guided through, step by step."""
+"""Guide of a person, step by step, through the postures of a shoe or a walk that calibrates toe-out."""
 
 
 def guide_frame(guide: Guide | None) -> dict[str, Any]:
