@@ -39,6 +39,8 @@ function uncover() {
   element("cover").close();
   if (document.fullscreenElement) document.exitFullscreen().catch(() => {});
   computer.setCovered(false);
+  // who takes the phone out wants to see the place
+  if (document.body.classList.contains("has-plan")) element("track-section").scrollIntoView();
 }
 
 // A cancelled dialog, as by the gesture "back", stays: only the button opens it.
