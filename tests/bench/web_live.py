@@ -21,7 +21,7 @@ from pathlib import Path
 sys.path[:0] = [str(Path(__file__).parents[1] / "helpers" / folder) for folder in ("", "page")]
 
 from browsers import Browser, Window  # noqa: E402
-from scripted_insoles import STREAM, WALK, connect  # noqa: E402
+from scripted_sensors import STREAM, WALK, connect  # noqa: E402
 from web_pages import measure_site, open_site  # noqa: E402
 
 from solepath.emulate import Route, emulate  # noqa: E402

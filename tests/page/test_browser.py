@@ -191,7 +191,7 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
             scene.take(None, [place(t, 5.0 + walked, ground, 25.0 + walked)])
         await view.until(f"{seen}.view === 'plan' && {seen}.points === '4' && {seen}.since === '0'")
         name = BUILDING.levels[0].name or ground
-        await view.until(f"{note} === '2 possible places; the likeliest, on {name}, has 60 %.'")
+        await view.until(f"{note} === '2 possible places; the likeliest ({name}) has 60 %.'")
         spoken = await words(view, "track")
         assert spoken is not None and "The wearer is" not in spoken
         scene.take(None, [place(5.0, 27.4, ground)])

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from browsers import Browser, Window, window
 from here import PROTOCOL
-from scripted_insoles import STREAM, WALK, connect
+from scripted_sensors import STREAM, WALK, connect
 from web_pages import PATIENCE, READY, WORDS, open_site, ready
 
 from solepath.recording import read_packets

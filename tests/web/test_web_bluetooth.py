@@ -7,14 +7,14 @@ import json
 from collections import Counter
 from pathlib import Path
 
-from browsers import Browser, Window
+from browsers import MAX_WAIT, Browser, Window
 from web_bluetooth import web_bluetooth
 from web_pages import PATIENCE, READY, WORDS, open_site, ready
 
 from solepath import Connected, Packet, PacketRejected, PacketsLost, SampleGap, Session, StrideTaken
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.sensortags import CC2650
+from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.recording import read_packets
 from solepath.show.web.serve import serving
 from solepath.types import Foot, Site
@@ -125,6 +125,31 @@ async def test_a_sensortag_is_worn_at_the_chosen_site(chromium: Browser, site: P
             await view.until(f"{LOG}.includes('pelvis: connected to {tag.name}')")
             await view.tab.get_by_role("button", name=f"Disconnect {tag.name}").click()
             await view.until(f"{rows} === ''")
+
+
+async def test_a_cc2541_whose_kind_is_chosen_is_set_to_20_hz(chromium: Browser, site: Path) -> None:
+    bench = Bench(ROUTE, devices={Site.RIGHT_FOOT: CC2541(rate=20.0)}, seed=3)
+    bench.prepare()
+    [tag] = bench.peripherals
+
+    def periods() -> set[bytes | None]:
+        return {tag.read(f"cc2541/{sensor}-period", 0.0) for sensor in ("accelerometer", "gyroscope")}
+
+    with serving(site) as url:
+        async with open_site(chromium, url) as view, web_bluetooth(view, bench.peripherals) as radio:
+            bench.walk_from(asyncio.get_running_loop().time())
+            await view.tab.locator("#worn").select_option("right_foot")
+            await view.tab.locator(".choices summary").click()
+            await view.tab.locator("#choose-kind").select_option("cc2541-20hz")
+            assert periods() != {b"\x05"}  # 50 ms
+            await radio.choose(tag.address)
+            await view.until(f"{LOG}.includes('right foot: connected to {tag.name}')")
+            async with asyncio.timeout(MAX_WAIT):
+                while tag.read("cc2541/barometer-config", 0.0) != b"\x01":  # the last write
+                    await asyncio.sleep(0.05)
+            assert periods() == {b"\x05"}
+            await view.tab.get_by_role("button", name=f"Disconnect {tag.name}").click()
+            await view.until("document.getElementById('sensors').innerText === ''")
 
 
 async def check_another_tab(view: Window, url: str) -> None:

@@ -166,3 +166,30 @@ def test_a_floor_plan_and_a_calibration_are_used_for_what_is_played(worker: Work
     assert call(worker, "open", "plan.geojson")["kind"] == "plan"
     assert call(worker, "open", "feet.json") == {"kind": "calibration", "notes": []}
     assert shown(worker)["plan"]["levels"]
+
+
+def test_a_recipe_that_is_chosen_is_used_for_the_next_walk_after_a_restart_and_for_what_is_played(
+    worker: Worker,
+) -> None:
+    recorded(Path("walk.jsonl"), PACKETS)
+    assert call(worker, "choose_recipe", "footstep-tracker") is None
+    assert shown(worker)["recipe"] == "footstep-tracker"
+    worker.start_walk("a walk")
+    walk(worker, PACKETS)
+    assert call(worker, "choose_recipe", "zupt") is None
+    assert shown(worker)["recipe"] == "footstep-tracker"
+    other = Worker()
+    call(other, "resume_walk", "a walk", worker.save(), "", PACKETS[-1].t)
+    assert shown(other)["recipe"] == "footstep-tracker"
+    worker.finish_walk()
+    call(worker, "open", "walk.jsonl")
+    assert shown(worker)["recipe"] == "zupt"
+    call(worker, "choose_recipe", "default")
+    assert shown(worker)["recipe"] == "default"
+    assert "there is no recipe 'none'" in call(worker, "choose_recipe", "none")
+
+
+def test_a_plan_is_shown_before_the_walk(worker: Worker) -> None:
+    Path("plan.geojson").write_bytes((PROTOCOL / "floorplans" / "house.geojson").read_bytes())
+    call(worker, "open", "plan.geojson")
+    assert shown(worker)["plan"]["levels"] and shown(worker)["source"] == "live"

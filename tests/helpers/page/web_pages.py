@@ -11,6 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from browsers import MAX_TEST_TIME, Browser, Window, browsing, why_not, window
+from plain_tabs import PlainTab
 
 from solepath import Packet, Session
 from solepath.recording import read_packets
@@ -35,7 +36,7 @@ async def open_site(
         assert not foreign, foreign
 
 
-async def ready(view: Window) -> None:
+async def ready(view: Window | PlainTab) -> None:
     """Wait until Python runs in the page; the module computer.js is then the page's variable `computer`."""
     await view.tab.evaluate("import('./computer.js').then((m) => { globalThis.computer = m.computer; })")
     await view.until(READY, patience=PATIENCE)

@@ -64,7 +64,7 @@ async def measure(options: argparse.Namespace, address: PageAddress | None, stop
         packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         site = devices[0].site or Site.RIGHT_FOOT
         posture = ShownPosture(site.foot or Foot.RIGHT)
-        shoe = LiveShoe(site, posture, Scene("A shoe is measured", "", posture=posture))
+        shoe = LiveShoe(site, posture, Scene("A shoe is measured", "", guide=posture))
         if address is not None:
             await stack.enter_async_context(serve_page(shoe.scene, address))
         known = {name: value for name, value in constants.items() if value is not None}

@@ -14,9 +14,10 @@ from ..bluetooth.devices import add_feet
 from ..common.failure import Failure, parse_positive
 from ..common.files import RECORDING, add_force
 from ..common.inputs import add_foot, foot_of, source_of
+from ..common.view import add_view, need_page, page_address_of
 from .live import check_live, reject_live_options, run_live
 
-OF_LIVE = ("via", "left", "right", "profile", "pair")
+OF_LIVE = ("via", "left", "right", "profile", "pair", "view", "no_browser")
 """Options that only --live uses."""
 
 
@@ -41,6 +42,7 @@ def add_toe_out(kinds: Any) -> None:
     command.add_argument("--distance", metavar="M", type=parse_positive, help="length of the walk, m")
     command.add_argument("--live", action="store_true", help="walk now, with the sensors in the shoes")
     add_feet(command)
+    add_view(command, command, "with --live: show what to do, strides and angles")
     add_force(command)
 
 
@@ -77,6 +79,8 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> tuple[Calibrati
 def _measure(options: argparse.Namespace) -> None:
     """Write the recording, walked by a person at the terminal; raise SystemExit when that was stopped."""
     check_live(options, RECORDING, "calibrate toe-out --live shows a person how to walk")
+    need_page(options, options.view is not None)
+    address = page_address_of(options)
     from .toe_out_live import measure
 
-    run_live(partial(measure, options))
+    run_live(partial(measure, options, address))

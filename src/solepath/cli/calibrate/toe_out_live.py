@@ -1,4 +1,4 @@
-"""Does the work of `solepath calibrate toe-out --live`: a person walks, and the terminal shows strides and angles.
+"""Does the work of `solepath calibrate toe-out --live`: a person walks, and terminal and page show strides and angles.
 
 Numbers were chosen by hand."""
 
@@ -8,20 +8,23 @@ import argparse
 import asyncio
 from collections.abc import AsyncIterable, Sequence
 from contextlib import AsyncExitStack
-from math import degrees
+from math import degrees, fsum
 
-from attrs import define, field
+from attrs import define, evolve, field
 
 from ...ble import Devices
 from ...ble.record import start_keys
 from ...calibration import CalibrationError
-from ...papers.footstep_tracker.toe_out import ToeOut, ToeOutWalk
+from ...papers.footstep_tracker.toe_out import ERRORS, FEWEST_STRIDES, ToeOutWalk
 from ...recording import PacketWriter, RecordingError
+from ...show.page.scene.scene import Scene
+from ...show.page.toe_out import ShownFoot, ShownToeOut
 from ...types import Foot, Packet
 from ..bluetooth.backend import backend_of
 from ..bluetooth.devices import named_devices
 from ..common.failure import Failure
 from ..common.loop import unless_stopped
+from ..common.view import PageAddress, serve_page
 from .terminal import Dialogue, meanwhile
 
 REDRAW_INTERVAL = 0.2
@@ -29,11 +32,14 @@ REDRAW_INTERVAL = 0.2
 STANDING_TIME = 3.0
 """Time for which each sensor must have sent before the walk, s: while the feet stand still, they show its bias."""
 STAND = "Stand still with both shoes on, and press Enter after three seconds (q and Enter end)."
-WALK = "Walk straight ahead at an even pace, 20 m or as far as there is room, stand still, and press Enter."
+WALK = "Walk straight ahead at an even pace, {length}, stand still, and press Enter."
+UNKNOWN_LENGTH = "20 m or as far as there is room"
 
 
-async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
-    """Record until the person has walked; return 0. Raise StoppedEarly at a signal."""
+async def measure(options: argparse.Namespace, address: PageAddress | None, stop: asyncio.Event) -> int:
+    """Record until the person has walked; return 0. Raise StoppedEarly at a signal.
+
+    With an `address`, a page there shows tasks, strides and angles as well."""
     devices = named_devices(options)
     if not devices:
         raise Failure("say which sensors are in the shoes: --left and --right")
@@ -46,8 +52,10 @@ async def measure(options: argparse.Namespace, stop: asyncio.Event) -> int:
         except RecordingError as error:
             raise Failure(str(error)) from None
         named = ((Foot.LEFT, options.left), (Foot.RIGHT, options.right))
-        walk = GuidedWalk(writer, [foot for foot, device in named if device])
+        walk = GuidedWalk(writer, [foot for foot, device in named if device], ShownToeOut(distance=options.distance))
         try:
+            if address is not None:
+                await stack.enter_async_context(serve_page(walk.scene, address))
             async with meanwhile(walk.receive(packets)) as receiving:
                 await walk.lead(Dialogue(), receiving)
         except EOFError:
@@ -65,26 +73,36 @@ class GuidedWalk:
     writer: PacketWriter
     feet: Sequence[Foot]
     """Feet whose sensors take part: the walk waits for all of them."""
+    shown: ShownToeOut = field(factory=ShownToeOut)
+    """Tasks and feet, for a page."""
     walk: ToeOutWalk = field(factory=ToeOutWalk, init=False)
+    scene: Scene = field(init=False)
+    """Scene for a page, which shows `shown` and the links."""
     first_t: dict[Foot, float] = field(factory=dict, init=False)
     """Time of the packet that gave the first sample of each foot, s."""
     t: float = field(default=0.0, init=False)
     """Time of the newest packet, s."""
+
+    def __attrs_post_init__(self) -> None:
+        self.scene = Scene("A walk that calibrates toe-out", self.walk.session.recipe.name, guide=self.shown)
 
     async def receive(self, packets: AsyncIterable[Packet]) -> None:
         """Take packets until cancelled."""
         async for packet in packets:
             self.t = packet.t
             self.writer.write(packet)
-            self.walk.feed(packet)
+            self.scene.take(packet, self.walk.feed(packet))
             for foot in self.walk.session.feet:
                 self.first_t.setdefault(foot, packet.t)
 
     async def lead(self, talk: Dialogue, receiving: asyncio.Task[None]) -> None:
         """Say what to do and wait for it; raise EOFError when the person ends before the walk."""
-        for instruction in (STAND, WALK):
+        distance = self.shown.distance
+        length = UNKNOWN_LENGTH if distance is None else f"exactly {distance:g} m"
+        for instruction in (STAND, WALK.format(length=length)):
             talk.print_line(instruction)
             talk.forget_typed()
+            self.shown.task = instruction
             is_due = False
             while not (is_due and self.has_stood):
                 if receiving.done():
@@ -99,16 +117,30 @@ class GuidedWalk:
         return all([foot in self.first_t and self.t - self.first_t[foot] >= STANDING_TIME for foot in self.feet])
 
     def line(self) -> str:
-        """Return the strides and angles so far in words, or the feet whose sensors do not send yet."""
+        """Return the strides and angles so far in words, or the feet whose sensors do not send yet; update `shown`."""
+        self.shown.feet = tuple([self._foot(foot) for foot in self.feet])
         waiting = [foot.value for foot in self.feet if foot not in self.first_t]
         if waiting:
             return f"waiting for the sensor of the {' and '.join(waiting)} foot"
-        try:
-            known = {one.foot: one for one in self.walk.feet()}
-        except CalibrationError as error:
-            return str(error)
-        return "; ".join([self._words(foot, known.get(foot)) for foot in self.feet])
+        return "; ".join([_words(foot) for foot in self.shown.feet])
 
-    def _words(self, foot: Foot, one: ToeOut | None) -> str:
-        strides = f"{foot.value} {len(self.walk.strides(foot))} strides"
-        return strides if one is None else f"{strides}, {degrees(one.angle):.1f} +- {degrees(one.sigma):.1f} degrees"
+    def _foot(self, foot: Foot) -> ShownFoot:
+        strides = self.walk.strides(foot)
+        shown = ShownFoot(foot, len(strides), fsum([along for along, _, _ in strides]))
+        if foot not in self.first_t:
+            return evolve(shown, why="its sensor does not send yet")
+        try:
+            of = self.walk.foot(foot)
+        except CalibrationError as error:
+            return evolve(shown, why=str(error))
+        if of is None:
+            return evolve(shown, why=f"{FEWEST_STRIDES} strides are needed")
+        why = "" if of.is_known else f"the angle is less than {ERRORS:g} of its errors"
+        return evolve(shown, angle=of.angle, sigma=of.sigma, learnt=of.is_known, why=why)
+
+
+def _words(foot: ShownFoot) -> str:
+    strides = f"{foot.foot.value} {foot.strides} strides"
+    if foot.angle is not None and foot.sigma is not None:
+        return f"{strides}, {degrees(foot.angle):.1f} +- {degrees(foot.sigma):.1f} degrees"
+    return strides if foot.strides < FEWEST_STRIDES else f"{strides}: {foot.why}"

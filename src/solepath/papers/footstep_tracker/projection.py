@@ -82,13 +82,16 @@ class ProjectionSettings:
     """Flag: angles beyond the range of the gyroscope are estimated."""
     turns_about_vertical: bool = True
     """Flag: the turn is that about the vertical up to rest, with pivots; otherwise (7) as printed."""
+    keeps_corners: bool = True
+    """Flag: a corner and a curve keep their whole angle (turning_steps.py)."""
     has_rise: bool = True
     """Flag: strides have a rise."""
 
 
 PRINTED = ProjectionSettings(
-    interval=Interval.LIFTOFF_TO_LANDING, restores_clipped=False, turns_about_vertical=False, has_rise=False
-)
+    interval=Interval.LIFTOFF_TO_LANDING, restores_clipped=False, turns_about_vertical=False, keeps_corners=False,
+    has_rise=False,
+)  # fmt: skip
 """Settings with which (5) and (7) are used as they are printed."""
 
 
@@ -192,7 +195,7 @@ class Projection(Strapdown):
                 length = fsum(closed.length(phi))
         turn = vertical_turn(rows, times, closed, end) if settings.turns_about_vertical else swing_turn(rows, times)
         rise = closed.rise() if settings.has_rise else 0.0
-        turn = self.turning.turn(turn)
+        turn = self.turning.corner_turn(turn) if settings.keeps_corners else self.turning.turn(turn)
         fx, fy, _ = rotate(self.rest_attitude, segment.forward)
         # the direction of walking lies phi to the right of the foot's long axis
         direction = atan2(fy, fx) + 0.5 * turn - phi

@@ -16,6 +16,7 @@ from collections.abc import Iterable
 from math import acos, atan2, cos, fsum, hypot, inf, isfinite, pi, radians, sqrt, tan
 
 from ...calibration import Calibration, CalibrationError
+from ...events import Event
 from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
 from ...types.attrs import define, evolve, field, frozen
@@ -89,9 +90,9 @@ class ToeOutWalk:
 
     session: Session = field(factory=_new_session, init=False)
 
-    def feed(self, item: Packet | Sample) -> None:
-        """Add the next packet or sample."""
-        self.session.feed(item)
+    def feed(self, item: Packet | Sample) -> list[Event]:
+        """Add the next packet or sample, and return the events of the session."""
+        return self.session.feed(item)
 
     def strides(self, foot: Foot) -> list[Vec3]:
         """Return the strides of a foot so far, as in `MeasuredStrides.strides`."""
@@ -103,8 +104,12 @@ class ToeOutWalk:
         """Return the toe-out so far of each foot with `FEWEST_STRIDES`; raise CalibrationError as `toe_out` does.
 
         `distance` is the length of the walk, m; None when it is not known."""
-        of_feet = [(foot, self.strides(foot)) for foot in Foot]
-        return [_of_foot(foot, of, distance) for foot, of in of_feet if len(of) >= FEWEST_STRIDES]
+        return [of for foot in Foot if (of := self.foot(foot, distance)) is not None]
+
+    def foot(self, foot: Foot, distance: float | None = None) -> ToeOut | None:
+        """Return the toe-out so far of a foot, None with fewer strides than `FEWEST_STRIDES`; raise as `feet` does."""
+        strides = self.strides(foot)
+        return _of_foot(foot, strides, distance) if len(strides) >= FEWEST_STRIDES else None
 
 
 def toe_out(items: Iterable[Packet | Sample], distance: float | None = None) -> list[ToeOut]:

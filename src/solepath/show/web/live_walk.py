@@ -6,7 +6,6 @@ import json
 
 from attrs import define, field
 
-from ...calibration import Calibration
 from ...events import Event
 from ...floorplan.index import IndexedPlan
 from ...recording.packet_writer import format_packet
@@ -17,7 +16,6 @@ from ...session.json_host import JsonHost
 from ...types import Packet, Site
 from ...wire.receiver import PositionFrame, build_position
 from ..page.scene.saved_scene import restore_scene, save_scene
-from ..page.scene.scales import newtons_of
 from ..page.scene.scene import Scene
 
 CLOCK_TOLERANCE = 1.0
@@ -41,14 +39,6 @@ class LiveWalk:
 
     def __attrs_post_init__(self) -> None:
         self.host = JsonHost(self.session, observe=self._observe)
-
-    @classmethod
-    def start(cls, title: str, calibration: Calibration | None, plan: IndexedPlan | None) -> LiveWalk:
-        """Return a walk of which nothing was received yet."""
-        session = Session(poses=True, pressures=True, calibration=calibration, floorplan=plan)
-        drawn = None if plan is None else plan.plan
-        scene = Scene(title, session.recipe.name, "live", plan=drawn, newtons=newtons_of(calibration))
-        return cls(session, scene, plan)
 
     @classmethod
     def restore(cls, text: str, plan: IndexedPlan | None) -> LiveWalk:

@@ -14,7 +14,7 @@ from pkgutil import walk_packages
 from types import ModuleType
 from typing import Any
 
-from ... import body, calibration, events, floorplan, foot, link, saving, session, types, wire
+from ... import body, calibration, events, floorplan, foot, link, recipes, saving, session, types, wire
 from ...link.devices.insole import PROFILE as INSOLE
 from ...link.profile import Access
 from ...recording import PacketWriter, read_packets
@@ -36,6 +36,8 @@ def rehearse(demo: str, _: Any = None) -> list[str]:
     """Use the worker with the first packets of a recording; return the files of the modules that are loaded then."""
     for room in ROOMS:
         _import_all(room)
+    for name in recipes.NAMES:
+        recipes.by_name(name)
     for name in ENCODINGS:
         import_module(f"encodings.{name}")
     os.makedirs("/files", exist_ok=True)
@@ -47,6 +49,7 @@ def rehearse(demo: str, _: Any = None) -> list[str]:
     worker = Worker("0")
     worker.start_walk("a walk")
     worker.sensor_filters()
+    worker.choices()
     connect(worker, packets)
     send_frames(worker, packets[:700])
     _send(worker, type="time", t=packets[-1].t + 3.0)

@@ -134,7 +134,8 @@ def _library(build: Path, package: Mapping[str, bytes]) -> bytes:
     if done.returncode != 0:
         raise BuildError(f"Pyodide in node failed: {(done.stderr or done.stdout).strip()[-MAX_ERROR:]}")
     modules = _files_below(build / "compiled", "**/*.pyc")
-    return _archive(modules | _files_below(build / "source", "solepath/body/**/*.json"))
+    models = [_files_below(build / "source", f"solepath/{room}/**/*.json") for room in ("body", "papers")]
+    return _archive(modules | models[0] | models[1])
 
 
 def _files_below(folder: Path, pattern: str) -> dict[str, bytes]:

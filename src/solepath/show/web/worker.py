@@ -16,7 +16,9 @@ from attrs import define, field
 
 from ...calibration import Calibration, CalibrationError
 from ...floorplan.index import IndexedPlan
-from ...floorplan.plan import FloorPlanError
+from ...floorplan.plan import FloorPlan, FloorPlanError
+from ...link.catalogue import BY_NAME
+from ...recipes import DEFAULT, NAMES, Recipe, by_name
 from ...recording import RecordingError, read_packets
 from ...saving.codec import SnapshotError
 from ...session import Session
@@ -55,7 +57,8 @@ class Worker:
     recording: OpenedRecording | None = field(default=None, init=False)
     calibration: Calibration | None = field(default=None, init=False)
     plan: IndexedPlan | None = field(default=None, init=False)
-    _idle_scene: Scene = field(factory=lambda: Scene("", "default", "live"), init=False)
+    recipe: Recipe = field(default=DEFAULT, init=False)
+    _idle_scene: Scene = field(factory=lambda: Scene("", DEFAULT.name, "live"), init=False)
     _sent_scene: Scene | None = field(default=None, init=False)
     _cursor: Cursor | None = field(default=None, init=False)
     _task: Task | None = field(default=None, init=False)
@@ -90,10 +93,22 @@ class Worker:
 
     # --- a walk that is measured now
 
+    def choices(self) -> str:
+        """Return the names of all recipes and of all kinds of devices, as JSON."""
+        return words_of_json({"recipes": NAMES, "profiles": tuple(BY_NAME)})
+
+    def choose_recipe(self, name: str) -> None:
+        """Use this recipe for the next walk and for what is played; raise SnapshotError for an unknown name."""
+        try:
+            self.recipe = by_name(name)
+        except ValueError as error:
+            raise SnapshotError(str(error)) from None
+        self._use_choices()
+
     def start_walk(self, title: str) -> None:
-        """Start a walk, with the calibration and the floor plan that were opened; any other is forgotten."""
+        """Start a walk with what was opened and chosen (calibration, plan, recipe); any other walk is forgotten."""
         self.player = self.recording = None
-        self.walk = LiveWalk.start(title, self.calibration, self.plan)
+        self.walk = LiveWalk(self._session(), self._scene(title, "live"), self.plan)
 
     def receive(self, text: str) -> str:
         """Return the answers to messages of the page on sensors (protocol/host.md); without a walk there are none."""
@@ -118,7 +133,7 @@ class Worker:
         is no walk."""
         self.player = self.recording = self.walk = None
         if saved is None:
-            walk = LiveWalk.start(title, self.calibration, self.plan)
+            walk = LiveWalk(self._session(), self._scene(title, "live"), self.plan)
         else:
             walk = LiveWalk.restore(saved, self.plan)
         for packet in read_packets(tail, report=lambda _: None) if tail else ():
@@ -153,8 +168,7 @@ class Worker:
             self._check_idle()
             self.recording = yield from open_recording(path)
             self.walk, notes = None, self.recording.notes
-        if self.recording is not None and self.walk is None:
-            self._play(self.recording, "recording")
+        self._use_choices()
         return {"kind": kind, "notes": list(notes)}
 
     def open_demo(self, name: str, title: str) -> Task:
@@ -168,11 +182,26 @@ class Worker:
         if self.walk is not None and not self.walk.finished:
             raise WalkRunning("a walk is measured now: end it first")
 
+    def _use_choices(self) -> None:
+        """Show the plan before a walk, and play a recording again with what was opened or chosen."""
+        if self.recording is not None and self.walk is None:
+            self._play(self.recording, "recording")
+        self._idle_scene = self._scene("", "live")
+
+    def _session(self) -> Session:
+        """Return a new session with what was opened and chosen."""
+        return Session(self.recipe, poses=True, pressures=True, calibration=self.calibration, floorplan=self.plan)
+
+    def _scene(self, title: str, source: str) -> Scene:
+        """Return a new scene for `_session`."""
+        return Scene(title, self.recipe.name, source, plan=self._drawn_plan, newtons=newtons_of(self.calibration))
+
+    @property
+    def _drawn_plan(self) -> FloorPlan | None:
+        return None if self.plan is None else self.plan.plan
+
     def _play(self, recording: OpenedRecording, source: str) -> None:
-        session = Session(poses=True, pressures=True, calibration=self.calibration, floorplan=self.plan)
-        plan = None if self.plan is None else self.plan.plan
-        scene = Scene(recording.title, session.recipe.name, source, plan=plan, newtons=newtons_of(self.calibration))
-        self.player = Player(recording.items, session, scene, self.plan)
+        self.player = Player(recording.items, self._session(), self._scene(recording.title, source), self.plan)
 
     def command(self, text: str) -> None:
         """Execute a command of the page (protocol/page.md), if it is one for what is played or measured by now."""
@@ -197,14 +226,8 @@ class Worker:
             recording = yield from open_recording(Path(name))
         if recording is None:
             raise RecordingError("report", "there is no walk to report on")
-        session = Session(poses=True, pressures=True, calibration=self.calibration, floorplan=self.plan)
-        report = Report(
-            title,
-            plan=None if self.plan is None else self.plan.plan,
-            recipe=session.recipe.name,
-            when=recording.when,
-            version=self.version,
-        )
+        session, version = self._session(), self.version
+        report = Report(title, plan=self._drawn_plan, recipe=self.recipe.name, when=recording.when, version=version)
         items = recording.items
         for number in range(len(items)):
             item = items[number]
@@ -246,6 +269,6 @@ class Worker:
 
 
 CALLS = (
-    "start_walk", "save", "resume_walk", "finish_walk", "open", "open_demo", "report",
+    "start_walk", "save", "resume_walk", "finish_walk", "open", "open_demo", "choose_recipe", "report",
 )  # fmt: skip
 """Methods that `start` may run."""

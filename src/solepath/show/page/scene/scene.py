@@ -39,7 +39,7 @@ from ...valid import has_valid_numbers
 from ..body import LiveBody
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
-from ..posture import ShownPosture
+from ..toe_out import Guide, guide_frame
 from .bending import bend_of
 from .both_feet import both_feet_frame
 from .feet import FootScene
@@ -73,7 +73,7 @@ class Scene:
 
     Times are in s on the session's clock; positions in m, in the world frame, places on `plan` in the plan frame.
     `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. A player
-    writes `playback`, who measures a shoe `posture`. The scene feeds `observer` and shows its counts.
+    writes `playback`, who measures a shoe or a walk `guide`. The scene feeds `observer` and shows its counts.
 
     `take` is cheap: it is called for every packet. `message_since` takes some 0.1 ms and is for at most 30 calls a
     second. Memory is bounded. Two threads must not use a scene at once."""
@@ -83,7 +83,7 @@ class Scene:
     source: str = "live"
     plan: FloorPlan | None = field(default=None, metadata=NOT_SAVED)
     playback: Playback | None = field(default=None, metadata=NOT_SAVED)
-    posture: ShownPosture | None = field(default=None, metadata=NOT_SAVED)
+    guide: Guide | None = field(default=None, metadata=NOT_SAVED)
     body: LiveBody | None = field(default=None, metadata=NOT_SAVED)
     newtons: tuple[Foot, ...] = ()
     observer: Observer = field(factory=Observer)
@@ -271,7 +271,7 @@ class Scene:
             "gait": self.gait_means.frame(observer.recent_gait),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
-            "posture": None if self.posture is None else self.posture.frame(),
+            **guide_frame(self.guide),
         }
 
 

@@ -16,10 +16,11 @@ import { Log } from "./log.js";
 import { Looking } from "./looking.js";
 import { Pace } from "./pace.js";
 import { Playback } from "./playback.js";
-import { PosturePanel } from "./posture.js";
+import { PosturePanel, ToeOutPanel } from "./guides.js";
 import { Ribbon } from "./ribbon.js";
 import { Seeking } from "./seeking.js";
 import { Soles } from "./soles.js";
+import { Space } from "./space.js";
 import { State } from "./state.js";
 import { startTheme } from "./theme.js";
 import { Track } from "./track.js";
@@ -30,7 +31,7 @@ const state = new State();
 const seen = { frames: 0, messages: 0, state };
 window.solepath = seen;
 
-const WHILE_MEASURING = [PosturePanel, Links, Log]; // what is shown while a shoe is measured
+const WHILE_GUIDING = [PosturePanel, ToeOutPanel, Links, Log]; // what is shown while a shoe or a walk is measured
 
 let changed = new Set();
 let frameRequested = false;
@@ -55,9 +56,11 @@ const panels = [
   ribbon,
   track,
   new Height(redraw),
+  new Space(redraw),
   new ActivityPanel(),
   new BodyFigure(),
   new PosturePanel(),
+  new ToeOutPanel(),
   new Gait(),
   new Links(),
   new Log(),
@@ -80,7 +83,7 @@ function draw(now) {
   const t = pace.at(state, now);
   let drew = false;
   for (const panel of panels) {
-    if (state.posture !== null && !WHILE_MEASURING.some((kind) => panel instanceof kind)) continue; // it is hidden
+    if (isGuided(state) && !WHILE_GUIDING.some((kind) => panel instanceof kind)) continue; // it is hidden
     const due = uses(panel, news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
     if (!due) continue;
     if (panel.draw(state, now, news, t) === "done") drew = true;
@@ -92,6 +95,8 @@ function draw(now) {
   if (pace.moving || track.moving || changed.size > 0) mark();
 }
 
+const isGuided = ({ posture, toe_out }) => posture !== null || toe_out !== null;
+
 const uses = (panel, news) => panel.uses.some((name) => news.has(name));
 
 // Marks the changes that a panel did not draw yet, for a later frame.
@@ -101,6 +106,8 @@ function later(panel, news) {
 
 function heading() {
   write(element("title"), state.title);
+  document.body.classList.toggle("measuring", isGuided(state));
+  document.body.classList.toggle("has-plan", state.plan !== null);
   document.title = state.title ? `${state.title} – solepath` : "solepath";
   for (const name of ["source", "recipe"]) {
     write(element(name), state[name]);

@@ -3,10 +3,11 @@
 import { round } from "./canvas.js";
 import { label } from "./plan.js";
 import { theme } from "./theme.js";
-import { fixed } from "./words.js";
+import { fixed, percent } from "./words.js";
 
 const CONFIDENCE_FACTOR = Math.sqrt(5.991); // 95 % quantile of chi squared with 2 degrees of freedom
 const MAX_RADIUS = 4000; // px; a larger circle goes beyond every screen
+const MIN_SHOWN_WEIGHT = 0.05; // share from which a candidate has its weight beside it
 
 // Half axis of the 95 % ellipse for a variance, m.
 export const sure = (variance) => CONFIDENCE_FACTOR * Math.sqrt(Math.max(0, variance));
@@ -128,15 +129,38 @@ export function drawSpread(context, [x, y], radius) {
   veil(context);
 }
 
-// A candidate's mark is larger the likelier it is; on other levels it is faint.
+// A candidate's mark is larger the likelier it is; on other levels it is faint. The likeliest, which comes first, has a
+// ring, and those that matter have their weights.
 export function drawCandidates(context, candidates, level, px) {
   context.fillStyle = theme.colours.candidate;
   for (const { level: of, x, y, weight } of candidates) {
     context.globalAlpha = of === level ? 0.8 : 0.2;
-    circle(context, ...px([x, y]), 2.5 + 9 * Math.sqrt(Math.min(1, Math.max(0, weight))));
+    circle(context, ...px([x, y]), radiusOf(weight));
     context.fill();
   }
   context.globalAlpha = 1;
+  const here = candidates.filter((one) => one.level === level);
+  if (here.length > 0 && here[0] === candidates[0]) {
+    circle(context, ...px([here[0].x, here[0].y]), radiusOf(here[0].weight) + 3.5);
+    context.lineWidth = 2;
+    context.strokeStyle = theme.colours.ink;
+    context.stroke();
+  }
+  drawWeights(context, here, px);
+}
+
+const radiusOf = (weight) => 2.5 + 9 * Math.sqrt(Math.min(1, Math.max(0, weight)));
+
+// Where marks are close together only the likelier one has its weight.
+function drawWeights(context, candidates, px) {
+  const labelled = [];
+  context.textAlign = "left";
+  for (const { x, y, weight } of candidates) {
+    const [a, b] = px([x, y]);
+    if (weight < MIN_SHOWN_WEIGHT || labelled.some(([c, d]) => Math.abs(a - c) < 42 && Math.abs(b - d) < 14)) continue;
+    labelled.push([a, b]);
+    label(context, percent(weight), a + radiusOf(weight) + 6, b + 4, theme.colours.ink);
+  }
 }
 
 export function stroke(context, path, width, colour) {

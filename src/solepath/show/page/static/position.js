@@ -27,10 +27,9 @@ export function noteAlone({ place, places, plan }) {
   return plan && !place && places.length === 0 ? "Where on the plan is not known yet; this is the track by itself." : "";
 }
 
-function possible({ candidates, level }, plan) {
-  const best = Math.max(0, ...candidates.map((one) => one.weight));
-  const where = plan.levels.length > 1 ? `, on ${nameOf(plan, level)},` : "";
-  return `${candidates.length} possible places; the likeliest${where} has ${percent(best)}.`;
+function possible(place, plan) {
+  const best = Math.max(0, ...place.candidates.map((one) => one.weight));
+  return `${place.candidates.length} possible places; the likeliest (${whereOf(plan, place)}) has ${percent(best)}.`;
 }
 
 export function spokenOnPlan(state, level) {

@@ -51,6 +51,7 @@ export class State {
     this.gait = null;
     this.links = {};
     this.playback = null;
+    this.toe_out = null; // {task, distance: m or null, feet: [{foot, strides, along, angle, sigma, learnt, why}]}: a walk that calibrates
     this.posture = null; // {foot, task, target, pitch, lean: rad or null, still}: a shoe that is measured
     this.pace = null;
     this.scales = {};
@@ -186,6 +187,23 @@ const fused = (value) => {
   return { foot, chosen, length, distance, similarity: number(similarity), errorIndex: number(errorIndex), share: number(share) };
 };
 
+const toeOutOfFoot = ({ foot, strides, along, angle, sigma, learnt, why }) => ({
+  foot,
+  strides: number(strides) ?? 0,
+  along: number(along) ?? 0,
+  angle: number(angle),
+  sigma: number(sigma),
+  learnt: learnt === true,
+  why: text(why),
+});
+
+const toe_out = (value) => {
+  const { task, distance, feet } = record(value);
+  if (!Array.isArray(feet)) return null;
+  const known = feet.map(record).filter(({ foot }) => FEET.includes(foot)).slice(0, FEET.length);
+  return { task: text(task), distance: number(distance), feet: known.map(toeOutOfFoot) };
+};
+
 const posture = (value) => {
   const { foot, task, target, pitch, lean, still } = record(value);
   if (!FEET.includes(foot)) return null;
@@ -193,7 +211,7 @@ const posture = (value) => {
 };
 
 // Members that a frame sends whole, with the function that checks each.
-const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, playback, posture };
+const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, playback, posture, toe_out };
 
 // Sorted by time: a phase may become known after one that started later.
 function insert(phases, one) {

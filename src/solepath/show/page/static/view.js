@@ -50,6 +50,7 @@ export class View {
   // Returns the view at the moment `now`: {x, y, scale}; `settled` once it has reached its goal.
   at(now) {
     if (this.#now === null) return { x: 0, y: 0, scale: 30 };
+    if (this.#goal === null) return this.#now; // hidden since its size changed
     const passed = Math.min(100, now - this.#last);
     this.#last = now;
     const share = this.settled ? 0 : 1 - Math.exp(-passed / EASING_TIME);
@@ -61,7 +62,7 @@ export class View {
   }
 
   get settled() {
-    return this.#now === null || ["x", "y", "scale"].every((key) => this.#now[key] === this.#goal[key]);
+    return this.#now === null || this.#goal === null || ["x", "y", "scale"].every((key) => this.#now[key] === this.#goal[key]);
   }
 
   all() {

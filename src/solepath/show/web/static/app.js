@@ -5,6 +5,7 @@ import { addSensor, sensors } from "./bluetooth.js";
 import { computer } from "./computer.js";
 import { running } from "./live.js"; // loaded first: it hears of a walk that goes on before anybody connects a sensor
 import { offer } from "./sharing.js";
+import "./pocket.js";
 import { keepAwake } from "./wake.js";
 import { child, show, write } from "./words.js";
 
@@ -18,21 +19,22 @@ let shown = ""; // name of what is played
 let walks = []; // {name, size} of the recordings on this device
 let measured; // name of the one that is written now
 
+const CONTROLS = "button, #choose-recipe";
 async function act(what) {
   words("");
-  for (const button of element("site").querySelectorAll("button")) button.disabled = true;
+  for (const button of element("site").querySelectorAll(CONTROLS)) button.disabled = true;
   try {
     await what();
   } catch (error) {
     words(error.message);
   } finally {
-    for (const button of element("site").querySelectorAll("button")) button.disabled = false;
+    for (const button of element("site").querySelectorAll(CONTROLS)) button.disabled = false;
   }
 }
 
 const on = (id, what) => element(id).addEventListener("click", () => act(what));
 
-on("connect", () => addSensor(element("worn").value || null));
+on("connect", () => addSensor(element("worn").value || null, element("choose-kind").value || null));
 on("demo", async () => {
   await computer.call("demo", "A demonstration: an emulated walk");
   played("demonstration");
@@ -45,8 +47,7 @@ element("file").addEventListener("change", () =>
       const { kind, notes } = await computer.call("open", file);
       if (kind === "recording") played(file.name);
       else {
-        const since = running() ? "by the next walk" : "from now on";
-        sentences.push(`${file.name}: this ${kind === "plan" ? "floor plan" : "calibration"} is used ${since}.`);
+        sentences.push(`${file.name}: this ${kind === "plan" ? "floor plan" : "calibration"} is used ${since()}.`);
       }
       sentences.push(...notes);
     }
@@ -59,6 +60,23 @@ on("end", async () => {
   words(name ? "The walk is on this device." : "");
 });
 on("report", () => report("", shown));
+element("choose-recipe").addEventListener("change", () =>
+  act(async () => {
+    const { value } = element("choose-recipe");
+    await computer.call("choose", value);
+    words(`The recipe ${value} is used ${since()}.`);
+  }),
+);
+const since = () => (running() ? "by the next walk" : "from now on");
+
+// Fills the lists with what the worker knows.
+function offerChoices({ recipes, profiles, recipe }) {
+  for (const [id, names] of [["choose-recipe", recipes], ["choose-kind", profiles]]) {
+    const known = new Set([...element(id).options].map((one) => one.value));
+    for (const name of names) if (!known.has(name)) element(id).add(new Option(name));
+  }
+  element("choose-recipe").value = recipe;
+}
 
 function played(name) {
   shown = name;
@@ -79,7 +97,7 @@ async function report(name, title) {
 computer.on("walk", (walk) => {
   measured = walk?.name;
   listWalks();
-  show(element("end"), walk !== null);
+  for (const id of ["end", "demo"]) show(element(id), (walk === null) === (id === "demo"));
   if (walk?.resumed && sensors.size === 0) addWords("The walk goes on: connect the sensors again.");
   keepAwake("walk", walk !== null);
   if (walk !== null) show(element("report"), false);
@@ -95,8 +113,11 @@ computer.on("progress", (share) => {
 });
 computer.on("state", (state) => {
   if (state === "loading") words("");
-  if (state === "ready") element("site").dataset.ready = "true";
-  for (const button of element("site").querySelectorAll("button")) button.disabled = state !== "ready";
+  if (state === "ready") {
+    offerChoices(computer.choices);
+    element("site").dataset.ready = "true";
+  }
+  for (const button of element("site").querySelectorAll(CONTROLS)) button.disabled = state !== "ready";
 });
 
 computer.on("sensors", (sensors) => {

@@ -19,8 +19,9 @@ computer.on("walk", (walk) => {
   }
 });
 
-// Lets the person choose a sensor, and connects it; site is null for an insole, which knows its foot.
-export async function addSensor(site) {
+// Lets the person choose a sensor, and connects it; site is null for an insole, which knows its foot, and profile for a
+// sensor that shows its kind.
+export async function addSensor(site, profile) {
   const { filters, services } = computer.filters;
   const options = { filters: filters.map(filterOf), optionalServices: services };
   let device;
@@ -31,7 +32,7 @@ export async function addSensor(site) {
   }
   await startWalk();
   await sensors.get(device.id)?.end();
-  sensors.set(device.id, new Sensor(device, site));
+  sensors.set(device.id, new Sensor(device, site, profile));
   computer.emit("sensors", sensors);
 }
 
@@ -53,6 +54,7 @@ function chooserWords(error) {
 class Sensor {
   #device;
   #site;
+  #profile;
   #characteristics = new Map(); // by "service characteristic"
   #ended = false;
   #connected = false; // the worker knows of a connection
@@ -61,9 +63,10 @@ class Sensor {
   #stopPause = () => {};
   #run;
 
-  constructor(device, site) {
+  constructor(device, site, profile) {
     this.#device = device;
     this.#site = site;
+    this.#profile = profile;
     this.#run = this.#stayConnected();
   }
 
@@ -132,7 +135,7 @@ class Sensor {
 
   // Adding twice does nothing.
   #add() {
-    if (running()) send({ type: "add", device: this.#device.id, site: this.#site, address: "" });
+    if (running()) send({ type: "add", device: this.#device.id, site: this.#site, profile: this.#profile, address: "" });
   }
 
   async #use() {

@@ -7,11 +7,13 @@ const SOURCE = `import ${JSON.stringify(new URL("worker.js", import.meta.url).hr
 class Computer {
   state = "none"; // "loading" | "ready" | "dead"
   filters = null; // message "filters" of protocol/host.md
+  choices = null; // {recipes, profiles: their names, recipe: the name of the one in use}
   #worker = null;
   #listeners = [];
   #calls = new Map();
   #next = 0;
   #silence = 0;
+  #covered = false;
 
   constructor() {
     document.addEventListener("visibilitychange", () => this.#tellSeen());
@@ -57,7 +59,7 @@ class Computer {
       if ("problem" in value) reject(new Error(value.problem));
       else resolve(value.result);
     } else if (kind === "ready") {
-      this.filters = value;
+      Object.assign(this, value);
       this.#set("ready");
     }
     else if (kind === "failed") this.#die(value);
@@ -78,17 +80,27 @@ class Computer {
     this.emit("state", state);
   }
 
+  // Whether anybody sees what is drawn.
+  get seen() {
+    return !document.hidden && !this.#covered;
+  }
+
+  setCovered(covered) {
+    this.#covered = covered;
+    this.#tellSeen();
+  }
+
   emit(kind, value) {
     for (const one of this.#listeners) if (one.kind === kind) one.listener(value);
   }
 
   #tellSeen() {
     this.#silence = 0;
-    this.post({ seen: !document.hidden });
+    this.post({ seen: this.seen });
   }
 
   #watch() {
-    if (this.state !== "ready" || document.hidden) return;
+    if (this.state !== "ready" || !this.seen) return;
     this.#silence += 1;
     if (this.#silence > (this.#calls.size > 0 ? BUSY_LIMIT : SILENCE_LIMIT)) this.#die("the worker does not answer");
   }

@@ -10,7 +10,7 @@ const MAX_SIZE = 400_000_000; // bytes of a file that is opened; an hour of two 
 export class Files {
   #python;
   #post;
-  #used = {}; // floor plan and calibration in use: {plan: {name, bytes}, calibration: {name, bytes}}
+  #used = { recipe: "default" }; // with floor plan and calibration in use: {recipe, plan: {name, bytes}, calibration: the same}
 
   constructor(python, post) {
     this.#python = python;
@@ -53,9 +53,16 @@ export class Files {
     }
   }
 
-  // Uses the floor plan and the calibration of a saved walk again.
-  async reopen(files) {
-    for (const { name, bytes } of Object.values(files ?? {})) await this.open(new File([bytes], name));
+  // Uses this recipe from now on.
+  async choose(recipe) {
+    await this.#run("choose_recipe", [recipe]);
+    this.#used = { ...this.#used, recipe };
+  }
+
+  // Uses recipe, floor plan and calibration of a saved walk again.
+  async reopen({ recipe, ...files } = {}) {
+    if (recipe) await this.choose(recipe);
+    for (const { name, bytes } of Object.values(files)) await this.open(new File([bytes], name));
   }
 
   // Returns the report, as HTML, of a walk on this device, or of what is played.

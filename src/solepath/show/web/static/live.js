@@ -59,7 +59,7 @@ export const bytes = (text) => Uint8Array.from(text.match(/../g) ?? [], (two) =>
 
 function flush() {
   // not by the timer alone: in a page that is hidden it runs once a second
-  const time = document.hidden ? HIDDEN_BATCH_TIME : BATCH_TIME;
+  const time = computer.seen ? BATCH_TIME : HIDDEN_BATCH_TIME;
   if (performance.now() - sentAt >= time) post();
   else timer ||= setTimeout(post, time);
 }

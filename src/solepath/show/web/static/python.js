@@ -27,7 +27,7 @@ export class Python {
 
   constructor(runtime, worker) {
     this.runtime = runtime;
-    for (const name of ["message", "heartbeat", "receive", "command", "play", "start", "step", "save", "sensor_filters"])
+    for (const name of ["message", "heartbeat", "receive", "command", "play", "start", "step", "save", "sensor_filters", "choices"])
       this[name] = worker[name];
     this.lines = worker.take_lines;
   }

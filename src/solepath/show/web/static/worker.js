@@ -24,7 +24,8 @@ const ready = (async () => {
   await walk.resume();
   draw = () => guarded(() => frame(python));
   drawRegularly();
-  postMessage({ ready: JSON.parse(python.sensor_filters()) });
+  const choices = { ...JSON.parse(python.choices()), recipe: files.used.recipe };
+  postMessage({ ready: { filters: JSON.parse(python.sensor_filters()), choices } });
   await files.list();
   return { python, walk, files };
 })();
@@ -63,7 +64,7 @@ async function answer({ walk, files }, { call, values, id }) {
 // After an error that Python did not expect what it holds is not to be trusted; a browser's own refusals end nothing.
 const isOfPython = (error) => error.constructor.name === "PythonError" || error instanceof WebAssembly.RuntimeError;
 
-const FILE_CALLS = { demo: 1, open: 1, report: 1, get: 1, remove: 1 };
+const FILE_CALLS = { demo: 1, open: 1, choose: 1, report: 1, get: 1, remove: 1 };
 
 // A page that nobody sees needs no pictures, and each look for changes wakes a phone's processor.
 function drawRegularly() {

@@ -1,0 +1,193 @@
+"""What the user of footstep-tracker has: a phone in the pocket that shows place and candidates on the plan."""
+
+from __future__ import annotations
+
+import asyncio
+from functools import cache
+from math import hypot
+from pathlib import Path
+from typing import Any
+
+from browsers import MAX_WAIT, Browser, Window
+from plain_tabs import OPEN_FILE, plain_tab
+from scripted_sensors import WALK_AT_ONCE, connect
+from web_bluetooth import web_bluetooth
+from web_pages import PATIENCE, WORDS, open_site, ready
+
+from solepath.emulate.devices.bench import Bench
+from solepath.emulate.routes.route import Route
+from solepath.emulate.routes.ways import BuildingWalk, case_study
+from solepath.emulate.walk import EmulatedWalk
+from solepath.floorplan.importers.geojson import write_floorplan
+from solepath.lab.reproduce.footstep.wearers import WearerJob
+from solepath.link.devices.cc2541 import PROFILE_20HZ
+from solepath.show.web.serve import serving
+
+RECIPE = "footstep-tracker"
+CHANNELS = [channel.name for channel in PROFILE_20HZ.channels if channel.name.count("-") == 0][:-1]
+"""Channels that a tag sends by itself."""
+LOST, NARROWED, DECIDED, LATE = 17.0, 26.0, 45.0, 60.0
+"""Times of the walk, s: in front of the lift, on the corridors, after the walls have decided, and later."""
+STATE = "({ recipe: solepath.state.recipe, place: solepath.state.place })"
+NOTE = "solepath.track.note.innerText"
+DARKEST = """([x, y, from, to]) => {
+    const { x: mx, y: my, scale, middle } = solepath.track.shownPart, { ratio, context } = solepath.track.surface;
+    const [a, b] = [middle[0] + (x - mx) * scale, middle[1] - (y - my) * scale].map((px) => Math.round(px * ratio));
+    const below = context.getImageData(a, b + from * ratio, 1, Math.round((to - from) * ratio)).data;
+    const lights = Array.from({ length: below.length / 4 }, (_, k) => Math.max(...below.slice(4 * k, 4 * k + 3)));
+    return Math.min(...lights.map((light, k) => 255 - (below[4 * k + 3] / 255) * (255 - light)));
+}"""
+"""Lightness, 0 to 255, of the darkest pixel between two distances below a place, px."""
+RECORDED = """computer.call('get', document.querySelector('#walks .row-name').textContent.split(',')[0] + '.jsonl')
+    .then((file) => file.text())"""
+
+
+@cache
+def walk() -> tuple[BuildingWalk, EmulatedWalk]:
+    """Return the walk of the paper's case study, with a CC2541 at 20 Hz in each worn shoe."""
+    way = case_study()
+    return way, WearerJob(901).walk(way.route)
+
+
+def sent(until: float) -> int:
+    """Return the number of packets of the walk up to a time, s, that the tags send by themselves."""
+    return sum(one.channel in CHANNELS and one.t <= until for one in walk()[1].packets)
+
+
+def recorded(text: str) -> int:
+    """Return the number of such packets in a recording."""
+    return sum(f'"{one}"' in row for row in text.splitlines() for one in CHANNELS)
+
+
+def written_plan(folder: Path) -> Path:
+    path = folder / "building.geojson"
+    write_floorplan(path, walk()[0].building.plan)
+    return path
+
+
+async def go_on(view: Any, until: float) -> None:
+    """Walk on to a time, s, which passes at once."""
+    await view.evaluate(WALK_AT_ONCE, [until, CHANNELS])
+
+
+async def shown(view: Window, t: float) -> Any:
+    """Return what the page shows once it shows this time, s."""
+    await view.until(f"solepath.state.t >= {t - 0.5}", patience=PATIENCE)
+    return await view.tab.evaluate(STATE)
+
+
+async def test_a_phone_shows_the_candidates_with_their_weights_until_one_is_left(
+    chromium: Browser, site: Path, tmp_path: Path
+) -> None:
+    way, emulated = walk()
+    with serving(site) as url:
+        async with open_site(chromium, url) as view:
+            await view.tab.set_viewport_size({"width": 360, "height": 740})
+            await view.tab.locator("#file").set_input_files([written_plan(tmp_path)])
+            await view.until(f"{WORDS}.includes('floor plan is used from now on') && solepath.state.plan !== null")
+            await view.tab.locator(".choices summary").click()
+            await view.tab.locator("#choose-recipe").select_option(RECIPE)
+            await view.until(f"{WORDS}.includes('{RECIPE} is used from now on')")
+            await connect(view, emulated.packets, PROFILE_20HZ)
+            await go_on(view.tab, LOST)
+            before = await shown(view, LOST)
+            assert before["recipe"] == RECIPE and not before["place"]["decided"]
+            assert {one["level"] for one in before["place"]["candidates"]} == {way.level}
+            await go_on(view.tab, NARROWED)
+            narrowed = await shown(view, NARROWED)
+            first, second, *_ = candidates = narrowed["place"]["candidates"]
+            assert 2 <= len(candidates) < len(before["place"]["candidates"])
+            assert first["weight"] > second["weight"] and abs(sum(one["weight"] for one in candidates) - 1.0) < 0.01
+            room, weight = narrowed["place"]["room"], round(100.0 * first["weight"])
+            words = f"{len(candidates)} possible places; the likeliest (ground floor, {room}) has {weight} %."
+            await view.until(f"{NOTE} === '{words}'")
+            rings = []
+            for one in (first, second):
+                radius = 2.5 + 9.0 * one["weight"] ** 0.5  # of its mark
+                rings.append(await view.tab.evaluate(DARKEST, [one["x"], one["y"], radius + 2.0, radius + 5.0]))
+            assert rings[0] < 60.0 < 120.0 < rings[1], "the likeliest has a dark ring, and no other"
+            await check_pocket(view)
+            decided = await shown(view, DECIDED)
+            assert decided["place"]["decided"]
+            await view.until(f"{NOTE}.startsWith('The wearer is in corridor')")
+            [(level, x, y)] = way.places(emulated.walker, DECIDED)
+            assert decided["place"]["level"] == level
+            assert hypot(decided["place"]["position"][0] - x, decided["place"]["position"][1] - y) < 2.0
+            await view.tab.locator("#end").click()
+            await view.until("document.querySelectorAll('#walks li').length === 1")
+            assert recorded(await view.tab.evaluate(RECORDED)) == sent(DECIDED)
+
+
+async def check_pocket(view: Window) -> None:
+    """In the pocket nothing is drawn, touches do nothing, and the walk goes on; who holds the button sees it."""
+    await view.tab.locator("#pocket").click()
+    assert await view.tab.locator("#cover").is_visible()
+    frames = await view.tab.evaluate("solepath.messages")
+    await go_on(view.tab, DECIDED)
+    await view.tab.mouse.click(180, 300)
+    await view.tab.keyboard.press("Escape")
+    await view.tab.locator("#uncover").click()  # too short
+    await view.tab.evaluate("computer.call('save')")  # until all of that is computed
+    assert await view.tab.evaluate("solepath.messages") == frames
+    box = await view.tab.locator("#uncover").bounding_box()
+    assert box is not None
+    await view.tab.mouse.move(box["x"] + 20, box["y"] + 20)
+    await view.tab.mouse.down()
+    await view.until("!document.getElementById('cover').open")
+    await view.tab.mouse.up()
+    plan = await view.tab.evaluate("document.getElementById('track').getBoundingClientRect().toJSON()")
+    assert 0.0 <= plan["top"] < plan["bottom"] <= 740.0, "the plan is on the screen"
+
+
+async def test_a_walk_goes_on_while_the_page_is_hidden_and_after_it_was_frozen(
+    chromium: Browser, site: Path, tmp_path: Path
+) -> None:
+    text = written_plan(tmp_path).read_text()
+    with serving(site) as url:
+        async with plain_tab(chromium, url) as view:
+            await ready(view)
+            await view.evaluate(OPEN_FILE, ["building.geojson", text])
+            await view.until("solepath.state.plan !== null")
+            await view.evaluate(f"computer.call('choose', '{RECIPE}')")
+            await connect(view, walk()[1].packets, PROFILE_20HZ)
+            await go_on(view, LOST)
+            await view.until(f"solepath.state.t >= {LOST - 0.5}", patience=PATIENCE)
+            await view.hide()
+            drawn = await view.evaluate("solepath.messages")
+            await go_on(view, NARROWED)
+            await view.evaluate("computer.call('save')")  # the worker answers, so it computes
+            assert await view.evaluate("solepath.messages") - drawn <= 1
+            await view.show()
+            await view.until(f"solepath.state.t >= {NARROWED - 0.5} && solepath.state.place.candidates.length > 1")
+            await view.hide()
+            await view.freeze()
+            await go_on(view, LATE)
+            await asyncio.sleep(1.0)
+            assert await view.evaluate("solepath.state.t") < NARROWED + 1.0
+            await view.show()
+            await view.until(f"solepath.state.t >= {LATE - 0.5} && solepath.state.place.decided", patience=PATIENCE)
+            await view.evaluate("document.getElementById('end').click()")
+            await view.until("document.querySelectorAll('#walks li').length === 1")
+            assert recorded(await view.evaluate(RECORDED)) == sent(LATE)
+
+
+async def test_sensors_stay_connected_and_are_measured_while_the_page_is_hidden(chromium: Browser, site: Path) -> None:
+    bench = Bench(Route().stand(4.0).walk(100.0), seed=3)
+    bench.prepare()
+    strides = "['left', 'right'].map((foot) => solepath.state.feet[foot]?.strides ?? 0)"
+    with serving(site) as url:
+        async with plain_tab(chromium, url) as view, web_bluetooth(view, bench.peripherals) as radio:
+            await ready(view)
+            bench.walk_from(asyncio.get_running_loop().time())
+            for device in bench.peripherals:
+                await view.choose(device.address)
+            await view.until(f"{strides}.every((count) => count >= 1)")
+            await view.hide()
+            before, frames = await view.evaluate(strides), radio.frames_read
+            async with asyncio.timeout(MAX_WAIT):
+                while radio.frames_read < frames + 1000:  # 5 s of both feet
+                    await asyncio.sleep(0.1)
+            await radio.stop_reading()  # nothing comes after the page is seen again
+            await view.show()
+            await view.until(f"{strides}.every((count, foot) => count >= [{before[0]}, {before[1]}][foot] + 3)")
+            assert await view.evaluate("solepath.state.log.every(([, , words]) => !words.includes('lost'))")
