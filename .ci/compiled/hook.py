@@ -18,8 +18,8 @@ NEEDED = ["attrs>=23.2", "construct>=2.10.70", "mypy[mypyc]>=2.4,<3", "setuptool
 """What the build needs: mypyc and what it calls, and packages whose types it reads."""
 
 
-def is_wanted() -> bool:
-    """Return whether compiled modules are wanted."""
+def is_chosen() -> bool:
+    """Return whether compiled modules are chosen."""
     return os.environ.get("SOLEPATH_COMPILED", "") not in ("", "0")
 
 
@@ -27,10 +27,10 @@ class CompiledBuildHook(BuildHookInterface[Any]):
     """Adds the compiled modules to a wheel."""
 
     def dependencies(self) -> list[str]:
-        return NEEDED if is_wanted() and self.target_name == "wheel" else []
+        return NEEDED if is_chosen() and self.target_name == "wheel" else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        if not is_wanted() or self.target_name != "wheel" or version == "editable":
+        if not is_chosen() or self.target_name != "wheel" or version == "editable":
             return
         self.folder = tempfile.mkdtemp()
         subprocess.run([sys.executable, Path(__file__).with_name("build.py"), self.folder], check=True)
