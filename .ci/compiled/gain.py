@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Prints the gain of compiled modules: `python .ci/compiled/gain.py FOLDER`, with the folder that build.py has made.
+
+Processes with the pure and the compiled form take turns, three times; each value is the least processor time of five
+runs in each, so that other work of the machine matters little. The yardstick is that of tests/bench."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from time import process_time
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[2]
+TURNS, RUNS = 3, 5
+
+
+def measure() -> dict[str, float]:
+    """Return the microseconds of the yardstick and of each row with the solepath that is imported."""
+    sys.path.insert(0, str(ROOT / "tests" / "bench"))
+    from measure import no_garbage_collection
+    from yardstick import UsualFilter
+
+    from solepath import Foot, Session, Site
+    from solepath.emulate.radio import CLEAN
+    from solepath.emulate.routes.route import Route
+    from solepath.emulate.sensors.insoles import layout
+    from solepath.emulate.sensors.parts import LSM6DSOX
+    from solepath.emulate.walk import emulate
+    from solepath.emulate.wearers.walker import Walker
+    from solepath.link.decoder import Decoder
+
+    route = Route().stand(2.0).walk(20.0, 1.3).stop(2.0)
+    walker = Walker(route, seed=1)
+    samples = walker.samples(Foot.LEFT, 100.0, LSM6DSOX)
+    pressure_samples = walker.samples(Foot.LEFT, 100.0, LSM6DSOX, layout=layout(96, Foot.LEFT))
+    packets = [one for one in emulate(route, radio=CLEAN, seed=1).packets if one.site is Site.LEFT_FOOT]
+    info = [one for one in packets if one.channel == "insole/info"]
+    frames = [one for one in packets if one.channel == "insole/frame"]
+
+    def least(items: list[Any], make: Any, before: list[Any]) -> float:
+        times = []
+        for _ in range(RUNS):
+            one = make()
+            for item in before:
+                one.feed(item)
+            with no_garbage_collection():
+                started_at = process_time()
+                for item in items:
+                    one.feed(item)
+                times.append((process_time() - started_at) / len(items) * 1e6)
+        return min(times)
+
+    return {
+        "yardstick": least(samples, UsualFilter, []),
+        "foot sample, inertial": least(samples, Session, []),
+        "foot sample, 96 cells": least(pressure_samples, Session, info),
+        "insole frame, 96 cells: decode": least(frames, lambda: Decoder(Site.LEFT_FOOT), info),
+        "insole frame, 96 cells: session": least(frames, Session, info),
+    }
+
+
+def main() -> None:
+    """Run the command."""
+    forms = {"pure": str(ROOT / "src"), "compiled": str(Path(sys.argv[1]).resolve())}
+    found: dict[str, list[dict[str, float]]] = {form: [] for form in forms}
+    for _ in range(TURNS):
+        for form, folder in forms.items():
+            command = [sys.executable, __file__]
+            done = subprocess.run(command, env={**os.environ, "PYTHONPATH": folder}, stdout=subprocess.PIPE, check=True)
+            found[form].append(json.loads(done.stdout))
+    best = {form: {row: min([one[row] for one in runs]) for row in runs[0]} for form, runs in found.items()}
+    print(f"{'':34}{'pure':>10}{'compiled':>12}   of the yardstick: pure, compiled")
+    for row in best["pure"]:
+        pure, compiled = (best[form][row] for form in forms)
+        shares = [best[form][row] / best[form]["yardstick"] for form in forms]
+        print(f"{row:34}{pure:7.1f} us{compiled:9.1f} us{shares[0]:22.3f}{shares[1]:10.3f}")
+
+
+if __name__ == "__main__":
+    main() if sys.argv[1:] else print(json.dumps(measure()))
