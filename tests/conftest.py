@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from solepath.lab.evaluate.report import Result
 
 
+TESTS = Path(__file__).resolve().parent
+WAITING = {TESTS / name for name in ("ble", "cli", "life", "page", "web")}
+"""Folders with tests that wait for seconds, for programs, radios and browsers."""
+
 # Each worker has a processor at most: threads that share the small products of the emulator would wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when numpy is imported; programs that tests start inherit it
 
@@ -40,7 +44,7 @@ if hasattr(signal, "SIGHUP"):
 def data_dir() -> Path:
     """Return the folder of recorded data, SOLEPATH_DATA or beside the checkout; skip the test without it."""
     configured = os.environ.get("SOLEPATH_DATA")
-    folder = Path(configured) if configured else Path(__file__).resolve().parents[2] / "shared" / "data"
+    folder = Path(configured) if configured else TESTS.parents[1] / "shared" / "data"
     if not folder.is_dir():
         pytest.skip(f"no recorded data at {folder}; SOLEPATH_DATA says where they are")
     return folder
@@ -80,19 +84,24 @@ def chromium(browser: Browsing) -> Browser:
 def pytest_configure(config: pytest.Config) -> None:
     """Begin each worker of xdist with other folders, so that it finds compiled what another one has collected."""
     number = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-    here = Path(__file__).resolve().parent
-    if number and [Path(given).resolve() for given in config.args] == [here]:
-        folders = sorted(str(path) for path in here.iterdir() if path.is_dir())
+    if number and [Path(given).resolve() for given in config.args] == [TESTS]:
+        folders = sorted(str(path) for path in TESTS.iterdir() if path.is_dir())
         first = len(folders) * number // int(os.environ["PYTEST_XDIST_WORKER_COUNT"])
         config.args[:] = folders[first:] + folders[:first]
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Spread the files of each folder over the run: while some tests wait for a radio or a browser, others compute."""
+    """Spread the files of each folder over the run: while some tests wait for a radio or a browser, others compute.
+
+    Folders whose tests wait come to an end before the others, so that at the end every worker has something to do."""
     folders: dict[Path, list[Path]] = {}
     for path in dict.fromkeys(item.path for item in items):
         folders.setdefault(path.parent, []).append(path)
-    place = {path: (k / len(files), path) for files in folders.values() for k, path in enumerate(files)}
+    place = {
+        path: (k / len(files) * (0.7 if WAITING & {folder, *folder.parents} else 1.0), path)
+        for folder, files in folders.items()
+        for k, path in enumerate(files)
+    }
     items.sort(key=lambda item: place[item.path])
 
 

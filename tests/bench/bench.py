@@ -1,6 +1,6 @@
 """Measures processing times: `python tests/bench/bench.py`. Prints a table; asserts nothing.
 
-Times are medians of five runs in one process on one core, with the garbage collector off, as in timeit. The last column
+Times are processor times, medians of five runs, with the garbage collector off, as in timeit. The last column
 is the time as a multiple of that of the yardstick (yardstick.py), which depends less on the machine.
 """
 
@@ -10,18 +10,15 @@ import json
 from collections.abc import Callable, Iterable
 from functools import partial
 from statistics import median
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 from measure import RUNS, machine, measure_memory, no_garbage_collection, seconds
+from parts import building_part_times, part_time, part_times
 from yardstick import TunedFilter, UsualFilter
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.checks.sensors import SensorChecks
-from solepath.body.gait.turns import Turns
-from solepath.body.part import ActivityPart, Part, TrackPart
-from solepath.body.place.place_hypotheses import PlaceHypotheses
-from solepath.body.worn.wear import Wear
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.building import BUILDING
@@ -30,8 +27,10 @@ from solepath.emulate.routes.ways import wandering
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.index import IndexedPlan
 from solepath.foot.navigate.dedrift import LinearDedrift
@@ -54,10 +53,10 @@ def time_each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] 
             one.feed(item)
         feed = one.feed
         with no_garbage_collection():
-            started_at = perf_counter()
+            started_at = process_time()
             for item in items:
                 feed(item)
-            times.append((perf_counter() - started_at) / len(items) * 1e6)
+            times.append((process_time() - started_at) / len(items) * 1e6)
     return median(times)
 
 
@@ -69,123 +68,18 @@ def feed_session(items: Iterable[Any]) -> Session:
     return session
 
 
+def decode(packets: Iterable[Packet]) -> list[Sample]:
+    """Return the samples of the packets of several sites."""
+    decoders = {site: Decoder(site) for site in Site}
+    items = [item for packet in packets for item in decoders[packet.site].feed(packet)]
+    return [item for item in items if isinstance(item, Sample)]
+
+
 def session_with_layout(recipe: Recipe, infos: list[Packet]) -> Session:
     """Return a session that has received the positions of the cells."""
     session = Session(recipe)
     session.feed(infos)
     return session
-
-
-class TimedPart:
-    """A wrapper of a part that sums the time of its calls.
-
-    Other fields are the part's own, and `isinstance` takes the wrapper for an instance of the part's class.
-    """
-
-    def __init__(self, part: Any) -> None:
-        self.part = part
-        self.total_time = 0.0
-        self.calls = 0
-
-    @property  # type: ignore[misc]
-    def __class__(self) -> Any:
-        return type(self.part)
-
-    def receive(self, event: Any) -> Any:
-        """Forward an event. It is a method of the class because a wearer looks for it there."""
-        return self.__getattr__("receive")(event)
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name in ("part", "total_time", "calls"):
-            object.__setattr__(self, name, value)
-        else:
-            setattr(self.part, name, value)
-
-    def __getattr__(self, name: str) -> Any:
-        what = getattr(self.part, name)
-        if not callable(what):
-            return what
-
-        def timed(*arguments: Any) -> Any:
-            started_at = perf_counter()
-            try:
-                return what(*arguments)
-            finally:
-                self.total_time += perf_counter() - started_at
-                self.calls += 1
-
-        return timed
-
-
-SAMPLE_PARTS: dict[str, str | type[Part]] = {
-    "rest": "rest",
-    "detector": "detector",
-    "filter": "corrector",
-    "cues": "cues",
-    "cells": "sole",
-    "activities": ActivityPart,
-    "turns": Turns,
-    "checks": SensorChecks,
-    "how it is worn": Wear,
-    "body": TrackPart,
-}
-"""Parts whose share of a sample's time the table shows, by row: a field of the foot, or a class of parts."""
-
-
-def part_times(items: list[Sample], make: Callable[[], Session]) -> dict[str, float]:
-    """Return the microseconds a sample that each part takes, by row, without the time of the clock itself."""
-    return {name: median([_part_time(items, make(), what) for _ in range(RUNS)]) for name, what in SAMPLE_PARTS.items()}
-
-
-def _part_time(items: list[Sample], session: Session, what: str | type[Part]) -> float:
-    """Return the microseconds a sample of one part; only one is timed, because a timed part slows down its readers."""
-    session.feed(items[0])
-    part = _time_part(session, what)
-    with no_garbage_collection():
-        for item in items[1:]:
-            session.feed(item)
-    return (part.total_time - part.calls * overhead()) / len(items) * 1e6
-
-
-def _time_part(session: Session, what: str | type[Part]) -> TimedPart:
-    wearer = session._state.wearer
-    if isinstance(what, str):
-        foot = next(iter(wearer.feet.values()))
-        part = TimedPart(getattr(foot, what))
-        setattr(foot, what, part)
-    else:
-        place = next(k for k, one in enumerate(wearer.parts) if isinstance(one, what))
-        part = wearer.parts[place] = TimedPart(wearer.parts[place])
-        wearer._choose_sampled()
-    return part
-
-
-def overhead() -> float:
-    """Return the time, s, that `TimedPart` measures for a call that does nothing."""
-
-    class Idle:
-        def call(self, one: int, other: int) -> None:
-            pass
-
-    idle = TimedPart(Idle())
-    for _ in range(20_000):
-        idle.call(1, 2)
-    return idle.total_time / idle.calls
-
-
-def building_part_times(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
-    """Return the microseconds a sample of activities, turns and place on a plan, in a walk through a building."""
-    kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": PlaceHypotheses}
-    times: dict[str, list[float]] = {name: [] for name in kinds}
-    for _ in range(RUNS):
-        session = Session(recipe, floorplan=plan)
-        timed_parts = {name: _time_part(session, kind) for name, kind in kinds.items()}
-        with no_garbage_collection():
-            for item in items:
-                session.feed(item)
-        for name, part in timed_parts.items():
-            times[name].append(part.total_time / len(items) * 1e6)
-    return {name: median(total_time) for name, total_time in times.items()}
 
 
 def _time_of(sample: Sample) -> float:
@@ -238,6 +132,12 @@ def main() -> None:
     two_feet.sort(key=_time_of)
     for recipe in map(recipes.by_name, recipes.NAMES):
         add(f"both feet, 96 cells, {recipe.name}", time_each(two_feet, partial(session_with_layout, recipe, infos)))
+    papers = {name: recipes.by_name(name) for name in ("footstep-tracker", "shoe-sensing")}
+    for name, recipe in papers.items():
+        add(f"foot sample, inertial, {name}", time_each(inertial_samples, partial(Session, recipe)))
+    tags = {site: CC2541(rate=20.0, mounting=IN_SOLE) for site in SITE_OF_FOOT.values()}
+    tag_samples = decode(emulate(ROUTE, devices=tags, seed=1).packets)
+    add("CC2541 at 20 Hz, footstep-tracker", time_each(tag_samples, partial(Session, papers["footstep-tracker"])))
     layouts = {site: layout(99, foot) for foot, site in SITE_OF_FOOT.items()}
     suit = limb_samples(walker, 50.0, seed=1, layouts=layouts)
     insoles = sum(sample.pressure is not None for sample in suit)
@@ -256,7 +156,7 @@ def main() -> None:
     for name, times in part_times(inertial_samples, Session).items():
         add(f"of a foot sample, inertial: {name}", times)
     long_samples = Walker(LONG_ROUTE, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
-    long_times = [_part_time(long_samples, Session(), SensorChecks) for _ in range(RUNS)]
+    long_times = [part_time(long_samples, Session(), SensorChecks) for _ in range(RUNS)]
     add("of a foot sample, inertial, five minutes: checks", median(long_times))
     pressure_times = part_times(pressure_samples, session_with_cells)
     add("of a foot sample, 96 cells: cells", pressure_times["cells"])
@@ -289,6 +189,7 @@ def main() -> None:
         print(f"{what:{width}}  {value:8.1f} {unit:<19} {value / yardstick_time:16.2f}")
     print()
     print(f"real-time factor, both feet with 96 cells at 100 Hz: {real_time:.0f}")
+    print(f"an hour of two insoles with 96 cells at 100 Hz: {3600.0 / real_time:.0f} s of processor time")
     print(f"snapshot {save * 1e3:.1f} ms, restore {load * 1e3:.1f} ms, {len(text) / 1000:.1f} kB as JSON")
     memory = measure_memory(lambda: feed_session(inertial_samples))
     print(f"memory of a session: {memory / 1000:.0f} kB one foot, inertial; ", end="")

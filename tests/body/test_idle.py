@@ -9,9 +9,10 @@ import pytest
 from attrs import define, evolve, field
 
 from solepath import Foot, Sample, Session, Site, recipes
-from solepath.body.part import ClockUnsettled, Part, PartInput, PartOutput
+from solepath.body.part import Part, PartInput, PartOutput
 from solepath.body.worn.wear import Wear
 from solepath.emulate import Route, Walker
+from solepath.events import PositionReported
 from solepath.foot.view import FootView
 
 Waker = Callable[[Session], None]
@@ -20,14 +21,14 @@ WALK_SAMPLES = [*Walker(Route().stand(2.0).walk(6.0, 1.3).stop(1.0)).samples(Foo
 
 @define
 class WakingPart(Part):
-    """A part that is idle until a clock is unsettled or restarts; then it counts samples without events."""
+    """A part that is idle until a position is reported or a clock restarts; then it counts samples without events."""
 
     needs_samples: ClassVar[bool] = True
     idle: bool = field(default=True, init=False)
     eventless: int = field(default=0, init=False)
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        if isinstance(event, ClockUnsettled):
+        if isinstance(event, PositionReported):
             self.idle = False
         return ()
 
@@ -73,15 +74,15 @@ def last_part(session: Session) -> Part:
     return session._state.wearer.parts[-1]
 
 
-def unsettle_clock(session: Session) -> None:
-    session._state.wearer.unsettle(Site.LEFT_FOOT, 3.0)
+def report_position(session: Session) -> None:
+    session.here((2.0, 0.0))
 
 
 def bind_device(session: Session) -> None:
     session.bind(Site.LEFT_FOOT, "another")
 
 
-@pytest.mark.parametrize("wake", [unsettle_clock, bind_device])
+@pytest.mark.parametrize("wake", [report_position, bind_device])
 def test_a_part_that_is_idle_no_longer_is_fed_from_then_on_in_a_restored_session_too(wake: Waker) -> None:
     session = with_part(WakingPart())
     session.feed(WALK_SAMPLES[:400])

@@ -12,7 +12,9 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
+import commands
 import pytest
+from commands import one_line
 from programs import TAKES, emulator, run, started, wait_for
 from walks import of, run_session
 
@@ -43,9 +45,8 @@ def wait_for_sockets(process: subprocess.Popen[str]) -> None:
 
 
 def complaint(*arguments: object) -> str:
-    result = run(*arguments, expect=2)
-    assert result.stderr.count("\n") == 1 and result.stderr.startswith("solepath: "), result.stderr
-    return result.stderr.removeprefix("solepath: ").rstrip()
+    """Return the one line with which a command fails in this process."""
+    return one_line(commands.run(*arguments)).removeprefix("solepath: ")
 
 
 @pytest.mark.parametrize("command", ["scan", "live", "record"])
@@ -131,8 +132,8 @@ def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_director
 def test_a_path_that_cannot_be_written_is_rejected_before_the_search(command: str, tmp_path: Path) -> None:
     option = {"live": "--record", "record": "--out"}[command]
     nowhere = tmp_path / "nowhere" / "walk.jsonl"
-    result = run(command, "--via", "tcp:127.0.0.1:1", option, nowhere, expect=2)
-    assert (result.stdout, result.stderr) == ("", f"solepath: {nowhere}: no such file or directory\n")
+    result = commands.run(command, "--via", "tcp:127.0.0.1:1", option, nowhere)
+    assert result.stdout == "" and one_line(result) == f"solepath: {nowhere}: no such file or directory"
 
 
 @pytest.mark.parametrize(
@@ -222,4 +223,4 @@ def test_the_emulator_reports_connections_and_faults(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("command", ["scan", "live", "record", "emulate"])
 def test_help_ends_with_an_example(command: str) -> None:
-    assert f"example: solepath {command}" in " ".join(run(command, "--help").stdout.split())
+    assert f"example: solepath {command}" in " ".join(commands.run(command, "--help").stdout.split())

@@ -12,7 +12,19 @@ import pytest
 from attrs import evolve
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from walks import NAMES, SHORT, Machine, insoles, machine_events, machines, of, pieces, run_machine, samples
+from walks import (
+    NAMES,
+    SHORT,
+    Machine,
+    insoles,
+    machine_events,
+    machines,
+    of,
+    pieces,
+    recipes_soaked,
+    run_machine,
+    samples,
+)
 
 from solepath import (
     ActivityChanged,
@@ -142,20 +154,25 @@ PIECE_SIZES = st.integers(0, 399).map(lambda k: 400 - k)
 """Sizes of pieces; hypothesis tries 400 first, since single items are what other sizes are compared with."""
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
+@pytest.mark.parametrize("name", recipes_soaked(name for name in NAMES if name.startswith("session")))
 @given(st.lists(PIECE_SIZES, min_size=1, max_size=6), st.sampled_from([list, tuple, iter]))
 @FEW_EXAMPLES
 def test_any_chunking_gives_the_same_events_bit_for_bit(name: str, sizes: list[int], container: Any) -> None:
     machine: Machine = machines()[name]
     session = machine.start()
     events = [event for piece in pieces(machine.items, sizes) for event in session.feed(container(piece))]
-    assert exactly(events) == exactly(fed_singly(name))
+    assert exactly(events) == exactly_fed_singly(name)
     assert machine.save(session) == run_machine(name).fed
 
 
 def exactly(machine_events: Any) -> list[str]:
     """Return the texts of the events, which differ for -0.0 and 0.0 and for 1 and 1.0, unlike ==."""
     return [repr(event) for event in machine_events]
+
+
+@cache
+def exactly_fed_singly(name: str) -> list[str]:
+    return exactly(fed_singly(name))
 
 
 def test_packets_and_samples_may_come_mixed() -> None:

@@ -39,6 +39,7 @@ def calibration_of(cells: int = 96) -> Calibration:
     return Calibration({foot: InsoleCalibration(layout(cells, foot)) for foot in Foot})
 
 
+@cache
 def among_loading_cells(cells: int) -> int:
     """Return a cell of the forefoot with loading cells on all its sides."""
     foot_layout = layout(cells, Foot.LEFT)
@@ -92,16 +93,22 @@ def test_working_cells_cause_no_events(cells: int) -> None:
                 assert health.usable(sample.pressure) is sample.pressure
 
 
-@pytest.mark.parametrize("cells", COUNTS)
+FAULTS = (
+    (CellFault.DEAD, fault_with_value(0.0)),
+    (CellFault.STUCK, fault_with_value(60.0)),
+    (CellFault.STUCK, flickering),
+    (CellFault.SATURATED, fault_with_value(FULL_SCALE)),
+    (CellFault.MISSING, fault_with_value(nan)),
+    (CellFault.MISSING, fault_with_value(None)),
+)
+
+
 @pytest.mark.parametrize(
-    ("kind", "fault"),
+    ("kind", "fault", "cells"),
     [
-        (CellFault.DEAD, fault_with_value(0.0)),
-        (CellFault.STUCK, fault_with_value(60.0)),
-        (CellFault.STUCK, flickering),
-        (CellFault.SATURATED, fault_with_value(FULL_SCALE)),
-        (CellFault.MISSING, fault_with_value(nan)),
-        (CellFault.MISSING, fault_with_value(None)),
+        pytest.param(*one, cells, marks=[] if cells == 96 or k % 3 == 0 else [pytest.mark.soak])
+        for k, one in enumerate(FAULTS)
+        for cells in COUNTS
     ],
 )
 def test_a_failed_cell_is_reported_once_and_the_walk_goes_on(cells: int, kind: CellFault, fault: Fault) -> None:

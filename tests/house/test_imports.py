@@ -129,34 +129,35 @@ LISTEN_PROGRAM = """
 import json, sys
 from solepath import Packet, Session, Site, StrideTaken
 bare = sorted(sys.modules)
-session = Session(poses=True)
-steps = 0
-for t, site, channel, data in json.load(open(sys.argv[1])):
-    steps += sum(isinstance(e, StrideTaken) for e in session.feed(Packet(t, Site(site), channel, bytes.fromhex(data))))
-session = Session.restore(json.loads(json.dumps(session.snapshot())))
-session = Session.unpack(session.pack())
-session.finish()
-print(json.dumps([bare, sorted(sys.modules), steps]))
+live = []
+for walk in json.load(open(sys.argv[1])):
+    packets = [Packet(t, Site(site), channel, bytes.fromhex(data)) for t, site, channel, data in walk]
+    session = Session(poses=True)
+    steps = sum(isinstance(event, StrideTaken) for event in session.feed(packets))
+    session = Session.restore(json.loads(json.dumps(session.snapshot())))
+    session = Session.unpack(session.pack())
+    session.finish()
+    live.append([sorted(sys.modules), steps])
+print(json.dumps([bare, live]))
 """
 
 
 def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(tmp_path: Path) -> None:
-    file = tmp_path / "packets.json"
-    for walked in (insoles().packets, *packets().values()):
-        fed = walked if walked is insoles().packets else walked[: len(walked) // 4]
-        file.write_text(json.dumps([[p.t, p.site.value, p.channel, p.data.hex()] for p in fed]))
-        done = subprocess.run(
-            [sys.executable, "-c", LISTEN_PROGRAM, str(file)], capture_output=True, text=True, check=True
-        )
-        bare, live, steps = json.loads(done.stdout)
-        assert "solepath.session" in bare
-        assert not FORBIDDEN & {name.partition(".")[0] for name in live}
-        assert not {"zipfile", "pyexpat"} & set(bare), "what reads floor plan files comes with the first file"
-        if walked is insoles().packets:
-            assert steps > 6
-            loaded = {name.partition(".")[2] for name in live if name.startswith("solepath.")}
-            assert {room(name) for name in loaded} <= CORE | {"__init__"}
-            assert "link.devices.insole" in loaded and "link.devices.cc2650" not in loaded, "a device loads when heard"
+    """Insoles come first, for which alone it is tested what else is loaded."""
+    file, devices = tmp_path / "packets.json", ("two insoles", *packets())
+    walks = (insoles().packets, *(walked[: len(walked) // 4] for walked in packets().values()))
+    file.write_text(json.dumps([[[p.t, p.site.value, p.channel, p.data.hex()] for p in fed] for fed in walks]))
+    done = subprocess.run([sys.executable, "-c", LISTEN_PROGRAM, str(file)], capture_output=True, text=True, check=True)
+    bare, live = json.loads(done.stdout)
+    assert "solepath.session" in bare
+    assert not {"zipfile", "pyexpat"} & set(bare), "what reads floor plan files comes with the first file"
+    for device, (modules, _) in zip(devices, live, strict=True):
+        assert not FORBIDDEN & {name.partition(".")[0] for name in modules}, device
+    modules, steps = live[0]
+    assert steps > 6
+    loaded = {name.partition(".")[2] for name in modules if name.startswith("solepath.")}
+    assert {room(name) for name in loaded} <= CORE | {"__init__"}
+    assert "link.devices.insole" in loaded and "link.devices.cc2650" not in loaded, "a device loads when heard"
 
 
 def test_names_and_the_help_of_commands_load_what_they_need_and_no_session() -> None:

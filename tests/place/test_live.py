@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
+import commands
 from floors import office
 from programs import emulator, run
 
@@ -26,5 +27,5 @@ def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> 
 def test_live_rejects_a_start_outside_of_the_plan_before_it_connects(tmp_path: Path) -> None:
     plan = tmp_path / "office.geojson"
     write_floorplan(plan, office())
-    result = run("live", "--floorplan", plan, "--start", "7,1,1", "--via", "tcp:127.0.0.1:1", expect=2)
-    assert "the plan has no level '7'" in result.stderr
+    result = commands.run("live", "--floorplan", plan, "--start", "7,1,1", "--via", "tcp:127.0.0.1:1")
+    assert result.returncode == 2 and "the plan has no level '7'" in result.stderr

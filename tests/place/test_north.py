@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import atan2, cos, dist, pi, sin
 
 import pytest
 from attrs import evolve
 from floors import OFFICE, FloorEvents, Method, follow, office, placed, tour
 
-from solepath import PlanContradicted, Start
+from solepath import Event, PlanContradicted, Start
 from solepath.body.place.north import DECLINATION, LARGEST_ERROR, HeadingSource, heading_by_north
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, FloorPlan
@@ -30,6 +31,13 @@ def with_north(received: list[FloorEvents], turned: float, sigma: float = 0.1) -
     ]
 
 
+@cache
+def misled(method: type[Method], seed: int) -> tuple[Method, list[Event]]:
+    """Return a part whose compass is wrong by a right angle, after a tour, and its events."""
+    part, pedestrian = method(), tour(seed)
+    return part, follow(part, with_north(pedestrian.received, pedestrian.turned + 0.5 * pi), PLAN)
+
+
 def decided(part: Method, received: list[FloorEvents], plan: IndexedPlan = PLAN) -> int:
     """Return the number of places until one candidate had nine tenths of the weight."""
     places = placed(follow(part, received, plan))
@@ -46,19 +54,16 @@ def test_with_the_compass_fewer_strides_decide_where_the_wearer_is(part: Method)
 
 
 def test_a_north_that_is_wrong_leaves_the_true_place_among_the_candidates(part: Method) -> None:
-    new = type(part)
     for seed in SEEDS:
-        pedestrian = tour(seed)
-        events = placed(follow(new(), with_north(pedestrian.received, pedestrian.turned + 0.5 * pi), PLAN))
-        true = [one.place for one in pedestrian.received if one.place is not None][-1]
+        events = placed(misled(type(part), seed)[1])
+        true = [one.place for one in tour(seed).received if one.place is not None][-1]
         assert any(dist(one.position[:2], true) < 4.0 for one in events[-1].candidates), seed
 
 
 def test_walls_that_contradict_the_compass_are_reported_once_and_it_is_used_no_longer(part: Method) -> None:
-    new, found = type(part), 0
+    found = 0
     for seed in SEEDS:
-        pedestrian, one = tour(seed), new()
-        events = follow(one, with_north(pedestrian.received, pedestrian.turned + 0.5 * pi), PLAN)
+        one, events = misled(type(part), seed)
         contradicted = [event for event in events if isinstance(event, PlanContradicted)]
         assert len(contradicted) <= 1
         if contradicted:

@@ -52,15 +52,6 @@ class Replacement:
 
 
 @frozen
-class ClockUnsettled:
-    """A notice that times of a site cannot be compared with those of other sites."""
-
-    site: Site
-    until: float | None
-    """Time up to which they cannot be compared, s; None when all can."""
-
-
-@frozen
 class LayoutReported:
     """A notice that the device at a site has reported its cell layout, which is that of a left or a right insole.
 
@@ -90,8 +81,8 @@ class Position:
 
 PartOutput = Happening | Shift | HeightShift | Replacement
 """Everything that a part may return: corrections and events, including events of an app."""
-PartInput = Event | ClockUnsettled | LayoutReported
-"""Everything that a part may receive: events, and notices of the links."""
+PartInput = Event | LayoutReported
+"""Everything that a part may receive: events, and reported layouts."""
 MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
 """Events after which the wearer's position is given to the parts that follow (`Part.needs_position`)."""
 
@@ -152,6 +143,12 @@ class Part(Protocol):
     def finish(self, now: float) -> Sequence[PartOutput]:
         """Return the outputs that were held back, because the data ends at `now`, s."""
         return ()
+
+    def unsettle(self, site: Site, until: float | None) -> None:
+        """Take the time up to which times of a site cannot be compared with those of others, s; None when all can.
+
+        Called with each packet as long as the clock of the site's device is not settled (link/clock.py)."""
+        return
 
     def reset(self, site: Site) -> None:
         """Reset what depends on the clock or the device of a site, because one of them has changed."""

@@ -210,17 +210,19 @@ class StrideBuilder:
             return None
         return self.pitch + self.usual_flat_pitch - self.heel_strike_pitch
 
-    def add_load(self, total: float, cop: tuple[float, float] | None) -> None:
-        """Add one sample of a foot on the ground: total load, and centre of pressure, foot frame, m.
+    def add_load(self, total: float) -> bool:
+        """Add the total load of one sample of a foot on the ground; return whether `add_cop` expects its centre."""
+        self.load_sum += total
+        self.load_count += 1
+        self.cop_skipped += 1
+        return self.cop_skipped >= self.cop_interval
+
+    def add_cop(self, cop: tuple[float, float] | None) -> None:
+        """Store the centre of pressure, foot frame, m; with None that of the next sample is expected.
 
         At most MOST_COP_POINTS points are stored, at equal intervals. When there are more, every second one is dropped.
         """
-        self.load_sum += total
-        self.load_count += 1
         if cop is None:
-            return
-        self.cop_skipped += 1
-        if self.cop_skipped < self.cop_interval:
             return
         self.cop_skipped = 0
         x, y = cop

@@ -171,8 +171,7 @@ class FootTracker:
     def feed(self, sample: Sample) -> list[Event]:
         """Return the events of one sample of this foot; one that cannot be used is reported and changes no state."""
         t, acc, gyro = sample.t, sample.acc, sample.gyro
-        has_inertial = acc is not None and gyro is not None
-        t_last = self.moved_at if has_inertial else self.partial_at
+        t_last = self.moved_at if (has_inertial := acc is not None and gyro is not None) else self.partial_at
         rejection = rejection_reason(sample, t_last)
         if rejection is not None:
             return [rejected(sample, rejection, t_last)]
@@ -188,13 +187,15 @@ class FootTracker:
             self.gait.stride.mark_degraded(t)
         sole, load = self.sole, None
         if sample.pressure or sole.had_cells:
-            load = sole.add_sample(sample, known_at, self.gait.phase, self.limitations, events)
+            with_centre = self.cues.uses_centre or self.detector.uses_centre
+            load = sole.add_sample(sample, known_at, self.gait.phase, with_centre, self.limitations, events)
             if sole.layout_changed and sole.insole.layout is not None:
                 self._set_layouts(sole.insole.layout)
         if load is not None:
-            gait = self.gait
-            if gait.phase is not SWING and gait.stride.t_toe_off is None:
-                gait.stride.add_load(sole.insole.sum, load.centre)
+            stride = self.gait.stride
+            if self.gait.phase is not SWING and stride.t_toe_off is None and stride.add_load(sole.insole.sum):
+                known = load.airborne or with_centre
+                stride.add_cop(load.centre if known else sole.insole.centre_of_pressure(load.cells))
         elif self.settings.needs_pressure and not sole.had_cells:
             text = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limitations.report_lacking(text, t, known_at, events)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..body.part import (
     MOVEMENTS,
-    ClockUnsettled,
     HeightShift,
     LayoutReported,
     Part,
@@ -153,8 +152,7 @@ class WearerParts:
         """Mark the times of a site's samples up to `until`, s, as not comparable with another site's."""
         self.unsettled[site] = until
         for part in self.parts:
-            part.receive(ClockUnsettled(site, until))
-        self._choose_sampled()
+            part.unsettle(site, until)
 
     def reset(self, site: Site) -> None:
         """Reset the parts and the foot of a site where another device is worn from now on."""

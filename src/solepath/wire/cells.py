@@ -39,28 +39,36 @@ def unpack12(data: bytes, count: int) -> tuple[int, ...]:
         data += b"\0"
     x, y, z = data[0::3], data[1::3], data[2::3]
     pairs = len(x)
-    second = int.from_bytes(y.translate(_HIGH_NIBBLE), "little") | int.from_bytes(
-        z.translate(_LOW_NIBBLE_RAISED), "little"
-    )
+    second = _union(y.translate(_HIGH_NIBBLE), z.translate(_LOW_NIBBLE_RAISED))
     words = bytearray(4 * pairs)
     words[0::4] = x
     words[1::4] = y.translate(_LOW_NIBBLE)
-    words[2::4] = second.to_bytes(pairs, "little")
+    words[2::4] = second
     words[3::4] = z.translate(_HIGH_NIBBLE)
     return struct.unpack_from(f"<{count}H", words)
 
 
 def pack12(values: Sequence[int]) -> bytes:
     """Return the `packed_size(len(values))` bytes of `values`; ValueError unless each value is 0 to 4095."""
-    for value in values:
-        if not 0 <= value <= MAX_VALUE:
-            raise ValueError(f"{value} does not fit in 12 bits")
-    # a pair of values is one number of 24 bits, of which struct writes 32; every fourth byte is zero and left out
-    low, high = values[0::2], (*values[1::2], 0) if len(values) & 1 else values[1::2]
-    pairs = [int(first) | int(second) << 12 for first, second in zip(low, high, strict=True)]
-    words = bytearray(struct.pack(f"<{len(pairs)}I", *pairs))
-    del words[3::4]
-    return bytes(words[: packed_size(len(values))])
+    count = len(values)
+    try:
+        words = struct.pack(f"<{count}H", *values) + b"\0\0" * (count & 1)
+    except struct.error as error:
+        raise ValueError(f"values that are not whole numbers of 12 bits: {error}") from error
+    if count and max(values) > MAX_VALUE:
+        raise ValueError(f"{max(values)} does not fit in 12 bits")
+    second = words[2::4]
+    packed = bytearray(3 * (len(words) // 4))
+    packed[0::3] = words[0::4]
+    packed[1::3] = _union(words[1::4], second.translate(_LOW_NIBBLE_RAISED))
+    packed[2::3] = _union(second.translate(_HIGH_NIBBLE), words[3::4].translate(_LOW_NIBBLE_RAISED))
+    return bytes(packed[: packed_size(count)])
+
+
+def _union(one: bytes, other: bytes) -> bytes:
+    """Return the bits that are set in either, byte by byte."""
+    bits = int.from_bytes(one, "little") | int.from_bytes(other, "little")
+    return bits.to_bytes(len(one), "little")
 
 
 class Packed12(Definition):

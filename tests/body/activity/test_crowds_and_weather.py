@@ -98,12 +98,15 @@ WEATHER = {
     "falling": Air(trend=-VERY_RAPIDLY),
     "rising": Air(trend=VERY_RAPIDLY),
     "gusts": Air(gusts=6.0, seed=3),
-    "a storm": Air(trend=-VERY_RAPIDLY, gusts=6.0, seed=4),
+    "a storm": Air(trend=-VERY_RAPIDLY, gusts=6.0, seed=4),  # falling and gusts at once
     "a front": Air(steps=(PressureStep(10.0, 100.0, duration=120.0),)),
 }
 
 
-@pytest.mark.parametrize("weather", WEATHER)
+@pytest.mark.parametrize(
+    "weather",
+    ["rising", "a storm", "a front", *(pytest.param(one, marks=pytest.mark.soak) for one in ("falling", "gusts"))],
+)
 @pytest.mark.parametrize("seed", SEEDS[:2])
 def test_weather_makes_neither_stairs_nor_lifts_of_level_ways_and_standing(seed: int, weather: str) -> None:
     found = outcome(LEVEL, "SensorTags", seed, WEATHER[weather])
@@ -147,7 +150,10 @@ def test_who_stands_on_an_escalator_stands(height: float, seed: int, kit: str) -
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize(("height", "acceleration"), [(3.4, 0.8), (-6.8, 0.8), (6.8, 0.3), (-3.4, 0.3)])
+@pytest.mark.parametrize(
+    ("height", "acceleration"),
+    [(-6.8, 0.8), (6.8, 0.3), *(pytest.param(*one, marks=pytest.mark.soak) for one in ((3.4, 0.8), (-3.4, 0.3)))],
+)
 def test_a_slow_elevator_is_no_escalator(height: float, acceleration: float, seed: int) -> None:
     lift = Route().stand(3.0).walk(6.0, 1.3).turn(pi).lift(height, speed=0.4, acceleration=acceleration, jerk=0.6)
     found = outcome(lift.walk(6.0).stand(4.0), "insoles", seed)

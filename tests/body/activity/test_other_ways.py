@@ -38,6 +38,13 @@ ROUTES = {
 }  # fmt: skip
 WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
+SOAK = pytest.mark.soak
+WALKED = [
+    pytest.param(name, seed, marks=[SOAK] if seed > 1 and name != "everything" else [])
+    for name in ROUTES
+    for seed in WEARERS
+]
+"""Routes with their wearers: the default one walks each, the others the one that has everything."""
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
 MAX_STAIRS, MIN_WALKING, MOST_WALKING = 0.02, 0.9, 0.8
 """Largest share of the time reported as stairs, and least share of walking reported as walking, ahead and otherwise."""
@@ -59,16 +66,14 @@ def confusion(name: str, seed: int, is_tag: bool) -> Counter[tuple[Activity, Act
 
 
 @pytest.mark.parametrize("is_tag", [False, True])
-@pytest.mark.parametrize("seed", WEARERS)
-@pytest.mark.parametrize("name", ROUTES)
+@pytest.mark.parametrize(("name", "seed"), WALKED)
 def test_other_ways_of_walking_are_no_stairs(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     assert sum(count for (_, reported), count in found.items() if reported in STAIRS) < MAX_STAIRS * found.total()
 
 
 @pytest.mark.parametrize("is_tag", [False, True])
-@pytest.mark.parametrize("seed", WEARERS)
-@pytest.mark.parametrize("name", ["up", "down"])
+@pytest.mark.parametrize(("name", "seed"), [one for one in WALKED if one.values[0] in ("up", "down")])
 def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     walked = sum(count for (true, _), count in found.items() if true is Activity.WALKING)
@@ -76,15 +81,14 @@ def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
 
 
 @pytest.mark.parametrize("is_tag", [False, True])
-@pytest.mark.parametrize("seed", WEARERS)
-@pytest.mark.parametrize("name", ["backwards", "sideways"])
+@pytest.mark.parametrize(("name", "seed"), [one for one in WALKED if one.values[0] in ("backwards", "sideways")])
 def test_feet_that_turn_little_stride_all_the_same(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     walked = sum(count for (true, _), count in found.items() if true is Activity.WALKING)
     assert found[Activity.WALKING, Activity.WALKING] >= MOST_WALKING * walked
 
 
-@pytest.mark.parametrize("seed", WEARERS)
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=SOAK), pytest.param(3, marks=SOAK)])
 def test_with_insoles_turning_on_the_spot_is_walking_or_standing(seed: int) -> None:
     reported = {reported for _, reported in confusion("on the spot", seed, False)}
     assert reported <= {Activity.UNKNOWN, Activity.STANDING, Activity.WALKING}

@@ -121,7 +121,7 @@ def rms(walks: list[Walked]) -> float:
     return float(np.sqrt(np.mean([walked.degrees**2 for walked in walks])))
 
 
-@pytest.mark.parametrize("disturbance", [20.0, 30.0])
+@pytest.mark.parametrize("disturbance", [20.0, pytest.param(30.0, marks=pytest.mark.soak)])
 def test_a_way_that_turns_keeps_its_heading_by_the_compass_and_the_filter_is_as_uncertain_as_it_is(
     disturbance: float,
 ) -> None:

@@ -98,7 +98,7 @@ def test_it_is_reported_once_for_each_foot_and_no_stride_is_degraded_by_it(route
     assert not any(event.degraded for event in events if isinstance(event, StrideTaken))
 
 
-@pytest.mark.parametrize("late", [0.25, 0.5, 1.0])
+@pytest.mark.parametrize("late", [0.5, *(pytest.param(late, marks=pytest.mark.soak) for late in (0.25, 1.0))])
 def test_it_is_reported_for_both_feet_when_one_foot_sends_later(late: float) -> None:
     assert {event.site for event in defects(session(LEVEL, drifts, late)[1])} == set(FEET)
 

@@ -15,7 +15,6 @@ from walks import LEFT, RIGHT, ROUGH, insoles, of, samples
 from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, Site, ToeOff
 from solepath.body.checks.clocks.foot_clocks import MEMORY, FootClocks
 from solepath.body.checks.clocks.offset import MIN_COMPARISONS
-from solepath.body.part import ClockUnsettled
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -162,9 +161,9 @@ def test_feet_that_move_independently_show_nothing_of_their_clocks() -> None:
 
 def test_times_of_a_clock_that_is_not_settled_are_not_compared() -> None:
     part = FootClocks()
-    part.receive(ClockUnsettled(RIGHT, 100.0))
+    part.unsettle(RIGHT, 100.0)
     assert not of_steps((event for event in steps(80, delay=0.1)), part)
-    part.receive(ClockUnsettled(RIGHT, None))
+    part.unsettle(RIGHT, None)
     assert of_steps(steps(80, delay=0.1), part)
 
 

@@ -52,12 +52,13 @@ UNUSABLE = ("in mg", "raw counts of the accelerometer", "mdeg/s", "ms", "ms sinc
 @pytest.mark.parametrize("name", DAMAGES)
 def test_a_damaged_sensor_is_named_and_the_strides_after_that_are_degraded(name: str) -> None:
     defect, change = DAMAGES[name]
-    found, strides = run([change(sample) for sample in WALK])
+    fed = WALK[:1000] if name in UNUSABLE else WALK
+    found, strides = run([change(sample) for sample in fed])
     (event,) = [event for event in found if event.defect is defect]
     assert event.site is Site.LEFT_FOOT and event.spoils and event.what
     later = [stride for stride in strides if stride.t_start > event.t]
     assert all(stride.degraded for stride in later)
-    assert len(later) >= (2 if name == "in g" else 3) or name in UNUSABLE
+    assert len(later) >= (0 if name in UNUSABLE else 2 if name == "in g" else 3)
 
 
 def without_gravity(samples: list[Sample]) -> list[Sample]:

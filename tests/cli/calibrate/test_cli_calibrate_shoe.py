@@ -11,8 +11,9 @@ from contextlib import contextmanager
 from math import degrees, radians
 from pathlib import Path
 
+import commands
 import pytest
-from programs import TAKES, drawn, emulator, in_terminal, run
+from programs import TAKES, drawn, emulator, in_terminal
 from watchers import ANYWHERE, watching
 
 from solepath.calibration.file import read_calibration
@@ -37,7 +38,7 @@ def measuring(folder: Path, hold: float, *options: object) -> Iterator[tuple[int
 
 def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:
     arguments = ("calibrate", "shoe", tmp_path / "postures.csv", "--live", "--out", tmp_path / "me.json")
-    assert run(*arguments, expect=2).stderr == (
+    assert commands.run(*arguments).stderr == (
         "solepath: calibrate shoe --live asks a person for what the rulers show: it needs a terminal\n"
     )
     assert list(tmp_path.iterdir()) == []
@@ -45,7 +46,7 @@ def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: 
 
 def test_options_of_the_sensor_without_live_are_rejected(tmp_path: Path) -> None:
     arguments = ("calibrate", "shoe", tmp_path / "postures.csv", "--left", "solepath L", "--out", tmp_path / "me.json")
-    assert "--left is an option of --live" in run(*arguments, expect=2).stderr
+    assert "--left is an option of --live" in commands.run(*arguments).stderr
 
 
 def test_a_person_measures_five_postures_while_the_shoe_s_sensor_gives_the_pitch(tmp_path: Path) -> None:
@@ -131,7 +132,7 @@ def test_a_page_shows_the_pitch_and_the_task_beside_the_terminal(tmp_path: Path)
 
 def test_a_measurement_is_taken_back(tmp_path: Path) -> None:
     table = tmp_path / "postures.csv"
-    with measuring(tmp_path, 60, "--times", 1) as (terminal, process, _):
+    with measuring(tmp_path, 30, "--times", 1) as (terminal, process, _):
         for answer, reply in ((b"\n", "Posture 1"), (b"\n", "L_r in mm"), (b"80\n", "L_p2t"), (b"70\n", "Posture 2")):
             os.write(terminal, answer)
             drawn(terminal, reply)

@@ -7,8 +7,9 @@ from collections.abc import AsyncIterator, Iterable
 from math import degrees
 from pathlib import Path
 
+import commands
 import pytest
-from programs import TAKES, drawn, emulator, in_terminal, run
+from programs import TAKES, drawn, emulator, in_terminal
 from watchers import ANYWHERE, watching
 
 from solepath.calibration.file import read_calibration
@@ -23,7 +24,7 @@ from solepath.types import Foot, Packet, Site
 
 def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:
     arguments = ("calibrate", "toe-out", tmp_path / "walk.jsonl", "--live", "--out", tmp_path / "me.json")
-    assert run(*arguments, expect=2).stderr == (
+    assert commands.run(*arguments).stderr == (
         "solepath: calibrate toe-out --live shows a person how to walk: it needs a terminal\n"
     )
     assert list(tmp_path.iterdir()) == []
@@ -31,7 +32,7 @@ def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: 
 
 def test_options_of_the_sensors_without_live_are_rejected(tmp_path: Path) -> None:
     arguments = ("calibrate", "toe-out", tmp_path / "walk.jsonl", "--left", "x", "--out", tmp_path / "me.json")
-    assert "--left is an option of --live" in run(*arguments, expect=2).stderr
+    assert "--left is an option of --live" in commands.run(*arguments).stderr
 
 
 async def test_a_shoe_that_connects_later_stands_for_as_long_as_the_other(tmp_path: Path) -> None:

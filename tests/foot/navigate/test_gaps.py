@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from itertools import pairwise
 from math import hypot, radians
 from random import Random
@@ -12,8 +13,9 @@ from hypothesis import strategies as st
 from one_foot import PHASES, feed_new_session, walked, without
 from walks import of
 
-from solepath import Event, Foot, Session, StrideTaken
+from solepath import Event, Foot, Sample, Session, StrideTaken
 from solepath.emulate.routes.route import Route
+from solepath.emulate.wearers.truth import TrueStride
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.gaps.gap import NoInfill, find_infill
 from solepath.foot.gaps.moment import correction_distance, moments
@@ -183,16 +185,23 @@ def test_infill_limits_the_speed_of_a_foot_and_long_gaps_get_none(duration: floa
             assert hypot(*infill.velocity) < 9.0
 
 
+@cache
+def there_and_back(rate: float) -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
+    """Return exact samples of the left foot over a minute, and its true strides."""
+    walker = Walker(Route().stand(2.0).walk(30.0).turn(radians(178), radius=1.0).walk(30.0).stop(1.0))
+    return tuple(walker.samples(Foot.LEFT, rate)), walker.truth().strides(Foot.LEFT)
+
+
 @pytest.mark.parametrize("rate", [20.0, 100.0])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride_can_be(rate: float, seed: int) -> None:
-    walker = Walker(Route().stand(2.0).walk(30.0).turn(radians(178), radius=1.0).walk(30.0).stop(1.0))
+    samples, strides = there_and_back(rate)
     random, holes, t = Random(seed), list[tuple[float, float]](), 8.0
     while t < 50.0:
         holes.append((t, t + random.choice([0.1, 0.2, 0.4, 0.7, 1.0])))
         t += random.uniform(0.3, 4.0)
-    events, _ = feed_new_session(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
-    longest = max(stride_taken.length for stride_taken in walker.truth().strides(Foot.LEFT))
+    events, _ = feed_new_session(without(samples, *holes))
+    longest = max(stride_taken.length for stride_taken in strides)
     for stride_taken in of(StrideTaken, events):
         if stride_taken.degraded:
             assert stride_taken.length < 2.5 * longest

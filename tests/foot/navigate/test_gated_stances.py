@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import hypot, inf, pi, sin
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from attrs import evolve
 from solepath import Foot, Sample, Session, Site, StrideTaken
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.truth import TrueStride
 from solepath.foot.navigate.stance_rhythm import FIRST_STANCE, StanceRhythm
 
 PULSE_TIME = 0.4
@@ -66,15 +68,21 @@ def test_standing_does_not_count_as_a_stance_of_walking() -> None:
     assert rhythm.usual_stance == FIRST_STANCE
 
 
+@cache
+def forty_metres() -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
+    """Return the samples of the left foot, and its true strides."""
+    walker = Walker(Route().stand(2.0).walk(40.0, 1.3).stop(2.0), seed=4)
+    return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().strides(Foot.LEFT)
+
+
 @pytest.mark.parametrize("scale", [1.0, 1.05])
 @pytest.mark.parametrize("phase", [0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9])
 def test_a_recording_that_starts_in_mid_walk_has_each_stride_after_its_first_stance(phase: float, scale: float) -> None:
-    walker = Walker(Route().stand(2.0).walk(40.0, 1.3).stop(2.0), seed=4)
-    true = walker.truth().strides(Foot.LEFT)
+    walk, true = forty_metres()
     start = true[4].t_start + phase * (true[4].t_end - true[4].t_start)
     samples = [
         evolve(sample, acc=tuple(scale * a for a in sample.acc))
-        for sample in walker.samples(Foot.LEFT, 100.0, LSM6DSOX)
+        for sample in walk
         if sample.t >= start and sample.acc is not None
     ]
     session = Session()

@@ -10,6 +10,7 @@ import numpy as np
 from solepath import Session
 from solepath.emulate import Route, sampled
 from solepath.emulate.walk import SampledWalk
+from solepath.emulate.wearers.curves import Array
 from solepath.lab.emulated.heading_walks import insoles_of
 from solepath.types import Foot
 
@@ -22,16 +23,28 @@ def loop() -> SampledWalk:
 
 
 def fed(walk: SampledWalk, until: float, session: Session | None = None, since: float = 0.0) -> Session:
-    session = Session() if session is None else session
+    """Return the session, or one from the start of the walk, after the samples before `until`."""
+    if session is None:
+        return Session.unpack(_packed(walk, until))
     session.feed([sample for sample in walk.samples if since <= sample.t < until])
     return session
 
 
+@cache
+def _packed(walk: SampledWalk, until: float) -> bytes:
+    return fed(walk, until, Session()).pack()
+
+
 def middle(walk: SampledWalk, t: float) -> tuple[float, float]:
     """Return where the wearer truly is, in the session's world frame."""
-    places = [walk.truth.pose(foot, t).position[0, :2] - walk.truth.pose(foot, 0.0).position[0, :2] for foot in Foot]
-    x, y = 0.5 * (places[0] + places[1])
+    ((x, y),) = middles(walk, np.array([t]))
     return float(x), float(y)
+
+
+def middles(walk: SampledWalk, t: Array) -> Array:
+    """Return where the wearer truly is at these times, in the session's world frame, (N, 2)."""
+    feet = [walk.truth.pose(foot, t).position[:, :2] - walk.truth.pose(foot, 0.0).position[0, :2] for foot in Foot]
+    return np.asarray(0.5 * (feet[0] + feet[1]))
 
 
 def error(walk: SampledWalk, session: Session) -> float:
@@ -44,17 +57,12 @@ def error(walk: SampledWalk, session: Session) -> float:
 def back_time(walk: SampledWalk) -> float:
     """Return when the wearer is closest to the start after the loops, s."""
     times = np.arange(0.6 * walk.truth.duration, walk.truth.duration, 0.1)
-    return float(times[int(np.argmin([hypot(*middle(walk, float(t))) for t in times]))])
-
-
-@cache
-def packed_back() -> bytes:
-    return fed(loop(), back_time(loop())).pack()
+    return float(times[int(np.argmin(np.hypot(*middles(walk, times).T)))])
 
 
 def session_back() -> Session:
     """Return the session of a wearer who is back where the walk started."""
-    return Session.unpack(packed_back())
+    return fed(loop(), back_time(loop()))
 
 
 def off_by(session: Session, x: float, y: float) -> tuple[float, float]:
@@ -66,8 +74,8 @@ def off_by(session: Session, x: float, y: float) -> tuple[float, float]:
 def passing_times() -> tuple[float, float]:
     """Return when the wearer of the loop is 10 m from the start, and when they pass the same place again, s."""
     walk = loop()
-    first = next(t for t in np.arange(0.0, 30.0, 0.05) if middle(walk, float(t))[0] > 10.0)
-    x, y = middle(walk, float(first))
+    times = np.arange(0.0, 30.0, 0.05)
+    first = float(times[int(np.argmax(middles(walk, times)[:, 0] > 10.0))])
     times = np.arange(first + 60.0, walk.truth.duration, 0.05)
-    again = min(times, key=lambda t: hypot(middle(walk, float(t))[0] - x, middle(walk, float(t))[1] - y))
-    return float(first), float(again)
+    again = times[int(np.argmin(np.hypot(*(middles(walk, times) - middle(walk, first)).T)))]
+    return first, float(again)

@@ -148,9 +148,9 @@ def test_walks_taken_from_the_file_give_the_same_table(tmp_path, monkeypatch):
     monkeypatch.setattr(kupt_dfpc, "ABLATIONS", {name: kupt_dfpc.ABLATIONS[name] for name in ("KUPT (+ bias)",)})
     options = ("reproduce", "kupt-dfpc", "--walks", 1, "--seed", 5, "--seeds", 2, "--processes", 1)
     file, table = tmp_path / "walks.jsonl", tmp_path / "table.json"
-    fresh = run(*options, "--json", table)
-    first, second = [run(*options, "--resume", file) for _ in range(2)]
-    assert fresh.returncode == first.returncode == second.returncode == 0
-    assert fresh.stdout.startswith(first.stdout) and first.stdout == second.stdout
+    first = run(*options, "--resume", file, "--json", table)
+    second = run(*options, "--resume", file)
+    assert first.returncode == second.returncode == 0
+    assert first.stdout.startswith(second.stdout) and len(second.stdout) > 1000
     assert second.stderr.splitlines() == [f"seed {seed}, 4 of 4 were already done" for seed in (5, 6)]
     assert list(json.loads(table.read_text())["seeds"]) == ["5", "6"]

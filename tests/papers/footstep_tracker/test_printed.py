@@ -15,6 +15,7 @@ from solepath.emulate.sensors.parts import Imu, TriadErrors
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import StrideTaken
 from solepath.foot.stance.stance import Stance
+from solepath.papers.footstep_tracker.closed_stride import closed_stride
 from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row
 from solepath.papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
 from solepath.papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
@@ -22,7 +23,6 @@ from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_T
 from solepath.papers.footstep_tracker.segment import FootAxes, StrideSegment
 from solepath.papers.footstep_tracker.snake import PrintedSnake, SnakeGame, moved_rows
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
-from solepath.papers.footstep_tracker.stride_length import closed_stride_across, closed_stride_length
 from solepath.types import Foot, Phase, Sample, Vec3
 from solepath.types.attrs import evolve
 from solepath.types.vector import GRAVITY, ZERO
@@ -82,8 +82,8 @@ def test_the_distance_across_the_foot_is_that_along_it_times_the_tangent_of_the_
     drawn = [(0.01 * k, 4.0 if k < 50 else -4.0 if k > 50 else 0.0) for k in range(101)]
     rows: list[Row] = [(t, a * tan(phi), a, -G, 0.0, 0.0, 0.0) for t, a in drawn]
     times = CriticalTimes(0.0, 0.2, 0.9, 1.0)
-    along = sum(closed_stride_length(rows, times))
-    assert atan(closed_stride_across(rows, times) / along) == pytest.approx(phi, abs=1e-6)
+    stride = closed_stride(rows, times)
+    assert atan(stride.across() / sum(stride.length())) == pytest.approx(phi, abs=1e-6)
 
 
 def test_the_axis_of_the_foot_is_read_before_the_shoe_leaves_the_ground() -> None:

@@ -12,12 +12,13 @@ from hypothesis import strategies as st
 from solepath.body.gait.turning_steps import TurningStrideFilter
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
+from solepath.papers.footstep_tracker.closed_stride import closed_stride, vertical_turn
 from solepath.papers.footstep_tracker.critical_cues import CriticalCues
 from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row, critical_times
 from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.segment import StrideSegment
 from solepath.papers.footstep_tracker.static_zones import StaticZones
-from solepath.papers.footstep_tracker.stride_length import closed_stride_length, stride_length, vertical_turn
+from solepath.papers.footstep_tracker.stride_length import stride_length
 from solepath.saving import codec as machine
 from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
@@ -65,7 +66,7 @@ def test_whatever_a_foot_does_its_critical_times_follow_each_other(values: list[
     if times is not None:
         assert times.uplift <= times.liftoff <= times.landing <= times.rest
         stride_length(drawn, times)
-        closed_stride_length(drawn, times)
+        closed_stride(drawn, times).length()
 
 
 def test_gravity_alone_moves_no_step_however_the_foot_is_tilted() -> None:
@@ -77,7 +78,7 @@ def test_gravity_alone_moves_no_step_however_the_foot_is_tilted() -> None:
         drawn.append((t, 0.0, G * sin(theta), -G * cos(theta), -1.0 if t < 1.0 else 1.0 if t > 1.0 else 0.0, 0.0, 0.0))
     times = CriticalTimes(0.0, 0.0, 2.0, 2.0)
     assert sum(stride_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
-    assert sum(closed_stride_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
+    assert sum(closed_stride(drawn, times).length()) == pytest.approx(0.0, abs=1e-3)
 
 
 def test_a_step_of_constant_push_and_brake_is_as_long_as_its_double_integral() -> None:
@@ -87,7 +88,7 @@ def test_a_step_of_constant_push_and_brake_is_as_long_as_its_double_integral() -
     s_x, s_y, s_z = stride_length(drawn, times)
     assert (s_x, s_z) == (0.0, 0.0)
     assert s_y == pytest.approx(1.0, abs=1e-3)
-    assert sum(closed_stride_length(drawn, times)) == pytest.approx(1.0, abs=1e-3)
+    assert sum(closed_stride(drawn, times).length()) == pytest.approx(1.0, abs=1e-3)
 
 
 def test_the_toe_out_angle_turns_the_acceleration_from_the_foot_s_direction_to_the_way() -> None:
@@ -105,7 +106,7 @@ def test_what_is_left_of_velocity_and_tilt_at_rest_is_taken_out() -> None:
     drawn = [(0.01 * k, 0.0, 0.5, -G, 0.1, 0.0, 0.0) for k in range(101)]
     times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
     assert abs(sum(stride_length(drawn, times))) > 0.05
-    assert sum(closed_stride_length(drawn, times)) == pytest.approx(0.0, abs=1e-6)
+    assert sum(closed_stride(drawn, times).length()) == pytest.approx(0.0, abs=1e-6)
 
 
 def clip_rows(drawn: list[Row], most: float) -> list[Row]:
@@ -130,11 +131,11 @@ def swing_rows() -> list[Row]:
 
 def test_the_clipped_angle_is_found_from_tilt_and_velocity_at_rest() -> None:
     drawn, times = swing_rows(), CriticalTimes(0.0, 0.0, 1.0, 1.0)
-    assert sum(closed_stride_length(drawn, times)) == pytest.approx(1.0, abs=0.01)
+    assert sum(closed_stride(drawn, times).length()) == pytest.approx(1.0, abs=0.01)
     seen = clip_rows(drawn, 4.0)  # its toe rises at up to 7.5 rad/s and sinks at up to 4.2
-    off = abs(sum(closed_stride_length(seen, times)) - 1.0)
+    off = abs(sum(closed_stride(seen, times).length()) - 1.0)
     assert off > 0.05
-    assert abs(sum(closed_stride_length(seen, times, end=3.99)) - 1.0) < 0.5 * off
+    assert abs(sum(closed_stride(seen, times, end=3.99).length()) - 1.0) < 0.5 * off
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -143,10 +144,10 @@ def test_a_foot_that_turns_faster_than_its_gyroscope_measures_has_turned_further
     bell = [side * 4.0 * (1.0 - cos(4.0 * pi * 0.02 * k)) if k <= 25 else 0.0 for k in range(41)]
     drawn: list[Row] = [(0.02 * k, 0.0, 0.0, -G, 0.0, 0.0, g) for k, g in enumerate(bell)]
     times = CriticalTimes(0.0, 0.0, 0.8, 0.8)
-    assert vertical_turn(drawn, times) == pytest.approx(side * 2.0, abs=0.01)
+    assert vertical_turn(drawn, times, closed_stride(drawn, times)) == pytest.approx(side * 2.0, abs=0.01)
     seen = clip_rows(drawn, 5.0)
-    measured = abs(vertical_turn(seen, times))
-    known = abs(vertical_turn(seen, times, 4.99))
+    measured = abs(vertical_turn(seen, times, closed_stride(seen, times)))
+    known = abs(vertical_turn(seen, times, closed_stride(seen, times, 4.99), 4.99))
     assert measured < 1.7
     assert 0.5 * (2.0 - measured) < known - measured < 1.1 * (2.0 - measured)
 
@@ -281,3 +282,16 @@ def test_the_usual_turn_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:
     assert turning.turn(0.15) == 0.0
     assert turning.turn(1.6) == pytest.approx(1.5, abs=0.02)
     assert turning.straight_turn == pytest.approx(0.1, abs=0.02)
+
+
+def test_a_curve_stays_a_curve_and_a_corner_keeps_its_first_and_last_turn() -> None:
+    """A circle of 24 strides of 15 degrees, most of which `turn` takes for straight; a corner of 5, 40, 40 and 5."""
+    ours, printed = TurningStrideFilter(), TurningStrideFilter()
+    circle = [radians(15.0)] * 24
+    assert sum([ours.corner_turn(turn) for turn in circle]) == pytest.approx(2.0 * pi)
+    assert sum([printed.turn(turn) for turn in circle]) < 0.3 * 2.0 * pi
+    corner = [radians(turn) for turn in (0.0, 5.0, 40.0, 40.0, 5.0, 0.0)]
+    turns = [ours.corner_turn(turn) for turn in corner]
+    assert turns[:2] == [0.0, 0.0] and turns[5] == 0.0
+    # the usual turn follows the first 5 degrees by a tenth: 5 + 39.5 + 39.5 + 4.5
+    assert sum(turns) == pytest.approx(radians(88.5))

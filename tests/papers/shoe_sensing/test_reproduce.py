@@ -15,9 +15,10 @@ from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
 from solepath.lab.reproduce.published import TABLE_2_DIVISOR
 from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.shoe import walks
+from solepath.lab.reproduce.shoe.figures import extraction_curves, posture_curves, window_curves
 from solepath.lab.reproduce.shoe.scores import matched, relative_error, score_legs, score_strides, states_of
 from solepath.lab.reproduce.shoe.variants import FOOT, LESS, OURS, PRINTED, RECIPES, SETUPS, STATES, TABLE
-from solepath.lab.reproduce.shoe.walks import ROUTES, ShoeJob, ramps_route, sample_walk, tour_route, walk
+from solepath.lab.reproduce.shoe.walks import ROUTES, ramps_route, sample_walk, tour_route
 from solepath.lab.reproduce.walks import final_strides, run_session
 
 
@@ -154,9 +155,10 @@ def test_a_row_stands_for_every_figure_of_the_paper(monkeypatch: pytest.MonkeyPa
         assert claim in notes
 
 
-def test_the_tilt_error_of_figure_7_converges(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(walks, "ROUNDS", 1)
-    curves = {curve.title: curve for curve in walk(ShoeJob(1, "short", drawn=True)).curves}
+def test_the_tilt_error_of_figure_7_converges() -> None:
+    samples, truth = sample_walk(ROUTES["short"](TABLE), 1)
+    drawn = (window_curves(samples, truth), posture_curves(samples), *extraction_curves(samples, truth))
+    curves = {curve.title: curve for curve in drawn}
     points = curves["first attitude (fig. 7)"].curves[0].points
     assert points[-1][0] == pytest.approx(5.0, abs=0.05) and points[-1][1] < 1.0
     energies = curves["energy by window (fig. 3)"].curves

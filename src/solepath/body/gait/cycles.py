@@ -11,7 +11,7 @@ from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, Sample
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..part import ClockUnsettled, Part, PartInput, PartOutput
+from ..part import Part, PartInput, PartOutput
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
 from .measuring import measure_cycle
@@ -100,16 +100,18 @@ class GaitCycles(Part):
         return [*self._measure(Foot.LEFT, now, counts[0]), *self._measure(Foot.RIGHT, now, counts[1])]
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Store that, or up to which time, a foot's clock cannot be compared with the other foot's."""
+        """Store that the clocks of both feet cannot be compared."""
         if isinstance(event, DefectFound) and event.defect is Defect.CLOCKS:
             self.clocks_apart = True
             self.means.separate_feet()
-        elif isinstance(event, ClockUnsettled):
-            if event.site.foot is Foot.LEFT:
-                self.left_unsettled = event.until
-            elif event.site.foot is Foot.RIGHT:
-                self.right_unsettled = event.until
         return ()
+
+    def unsettle(self, site: Site, until: float | None) -> None:
+        """Store up to which time a foot's clock cannot be compared with the other foot's."""
+        if site is Site.LEFT_FOOT:
+            self.left_unsettled = until
+        elif site is Site.RIGHT_FOOT:
+            self.right_unsettled = until
 
     def reset(self, site: Site) -> None:
         """Discard the cycles and the times of a foot whose clock restarts."""

@@ -4,7 +4,12 @@
 gives no filter. A foot's turn in a straight stride is not zero: it is a usual turn of that foot (by the motion of the
 ankle while the foot is off the ground) plus noise. A low-pass filter of the turns estimates the usual turn. A stride
 whose turn differs from it by more than `STRAIGHT_TOLERANCE` is a turning stride, and the path turns by the difference.
-Any other stride is straight."""
+Any other stride is straight.
+
+That loses two things, which `corner_turn` keeps. A filter that learns from turning strides learns a curve: after ten
+strides on a circle of 6 m radius, 15 degrees each, the circle is straight and the way after it bends. So only straight
+strides are learnt from. And a corner starts and ends with strides that turn by less than the tolerance, so it comes out
+too small. So the stride before and the stride after a turning one turn the path as well."""
 
 from __future__ import annotations
 
@@ -29,11 +34,33 @@ class TurningStrideFilter:
     straight_turn: float = field(default=0.0, init=False)
     """Usual turn of a straight stride, rad, counter-clockwise positive."""
 
+    straight_deviation: float | None = field(default=0.0, init=False)
+    """Deviation of the last stride from the usual turn, rad; None when the path has turned with it."""
+
     def turn(self, angle: float) -> float:
         """Add a stride that turned by `angle`, rad, and return the turn of the path, rad; 0 for a straight stride."""
+        deviation = self._learn(angle, MAX_FILTERED_DEVIATION)
+        return deviation if abs(deviation) > STRAIGHT_TOLERANCE else 0.0
+
+    def corner_turn(self, angle: float) -> float:
+        """Add a stride that turned by `angle`, rad, and return the turn of the path since the last one, rad.
+
+        It includes the strides beside a turning stride. A usual turn above `STRAIGHT_TOLERANCE` is not learnt."""
+        deviation, before = self._learn(angle, STRAIGHT_TOLERANCE), self.straight_deviation
+        if abs(deviation) > STRAIGHT_TOLERANCE:
+            self.straight_deviation = None
+            return deviation + (before or 0.0)
+        if before is None:
+            self.straight_deviation = 0.0
+            return deviation
+        self.straight_deviation = deviation
+        return 0.0
+
+    def _learn(self, angle: float, within: float) -> float:
+        """Return the deviation from the usual turn, which it updates if it is below `within`; both in rad."""
         deviation = angle - self.straight_turn
-        if abs(deviation) < MAX_FILTERED_DEVIATION:
+        if abs(deviation) < within:
             self.straight_turn = min(
                 max(self.straight_turn + STRIDE_WEIGHT * deviation, -MAX_STRAIGHT_TURN), MAX_STRAIGHT_TURN
             )
-        return deviation if abs(deviation) > STRAIGHT_TOLERANCE else 0.0
+        return deviation

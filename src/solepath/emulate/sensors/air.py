@@ -2,13 +2,16 @@
 
 They are the same for every barometer of a walk. Weather: the Met Office's marine forecasts call a pressure falling
 slowly that falls by 0.1 to 1.5 hPa in three hours (0.001 to 0.014 Pa/s), and falling very rapidly from 6 hPa on (0.06
-Pa/s). A front or a squall changes it by some hPa within minutes: a PressureStep of a long duration. Gusts: the pressure
+Pa/s). The cold air of a thunderstorm raises it by 3.2 to 4.5 hPa on average (Engerer, Stensrud and Coniglio, Mon. Wea.
+Rev. 136, 2008: 39 storms): a PressureStep of a long duration, some minutes, which is assumed. Gusts: the pressure
 of the wind is 0.5 rho v^2, 38 Pa at 8 m/s; with an intensity of turbulence of 0.3 it varies by 0.6 of that, and about
 a quarter gets inside (coefficients of internal pressure of 0.2 and -0.3: EN 1991-1-4, 7.2.9), which makes 6 Pa.
 
 Doors and ventilation: a door that opens or closes is seen by barometers anywhere in a closed building (Wu, Pathak and
-Tague, UbiComp 2015). Clean rooms differ from their neighbours by 10 Pa or more (EU GMP, annex 1), and a stairwell that
-is kept free of smoke by 50 Pa behind closed doors (EN 12101-6). How long a step takes is assumed.
+Tague, UbiComp 2015). Clean rooms differ from their neighbours by 10 Pa or more (EU GMP, annex 1; FDA, Sterile Drug
+Products Produced by Aseptic Processing, 2004, IV.C: at least 10 to 15 Pa), and a stairwell that is kept free of smoke
+by 50 Pa behind closed doors (EN 12101-6), or by 25 to 87 Pa (International Building Code, 909.20.5). How long a step
+takes is assumed.
 
 What is idealised: a step is everywhere in the building at once, although a pressurised stairwell ends at its door, and
 its time is part of the record, not of the route. The stack effect, by which warm air in a building rises and changes

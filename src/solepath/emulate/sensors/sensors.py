@@ -5,7 +5,7 @@ Frequencies above half of the sampling rate are therefore attenuated, or alias, 
 
 from __future__ import annotations
 
-from itertools import repeat
+from itertools import pairwise, repeat
 from math import ceil, cos, exp, inf, pi, sin, sqrt
 from typing import Any
 
@@ -162,8 +162,10 @@ def read_cells(
         lagged += _contact_loads(true, interval, chip, preload, upward_force, rng)
         true = lagged.copy()
     follow = 1.0 - exp(-interval / chip.lag)
-    for k in range(1, len(lagged)):
-        lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
+    for load, before, after in zip(true[1:], lagged[:-1], lagged[1:], strict=True):
+        np.subtract(load, before, out=after)  # before + follow * (load - before), without intermediate arrays
+        after *= follow
+        after += before
     # In place, because the loads of many cells on a long walk need much memory.
     lagged *= gain
     lagged += preload
@@ -180,8 +182,8 @@ def _contact_loads(
     """Return the load that a foot in swing adds to the preload of each cell, in newtons, (N, cells); 0 in stance."""
     persistence = exp(-interval / chip.contact_correlation_time)
     change = chip.contact_noise * sqrt(1.0 - persistence * persistence) * rng.standard_normal(true.shape)
-    for k in range(1, len(change)):
-        change[k] += persistence * change[k - 1]
+    for before, after in pairwise(change):
+        after += persistence * before
     if upward_force is not None:
         change += chip.relief_per_g * np.outer(1.0 - upward_force / GRAVITY, preload)
     np.maximum(change, -preload, out=change)
@@ -226,7 +228,10 @@ def samples_of(
     mag: NDArray[Any] | None = None,
 ) -> list[Sample]:
     """Return the samples at times `t`, s, with the rows of the measured values."""
-    vectors = [repeat(None) if one is None else map(tuple, one.tolist()) for one in (acc, gyro, pressure, quat, mag)]
+    # a zip of columns makes the tuples of the rows without a list of each
+    vectors = [
+        repeat(None) if one is None else zip(*one.T.tolist(), strict=True) for one in (acc, gyro, pressure, quat, mag)
+    ]
     flags = repeat(False) if saturated is None else saturated.tolist()
     return [
         Sample(time, site, a, g, p, q, m, saturated=flag)

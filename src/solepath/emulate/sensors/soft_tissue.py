@@ -20,7 +20,7 @@ from attrs import fields, frozen
 
 from ...types import Foot, Site, Vec3
 from ..wearers.curves import Array
-from ..wearers.limbs import FOOT_OF_SITE, Body
+from ..wearers.limbs import FOOT_OF_SITE, Body, Leg
 from ..wearers.turning import from_rotation_vectors, matrices
 
 NEW_SHARE = 0.45
@@ -83,22 +83,26 @@ class SkinBody(Body):
 
     def segment(self, site: Site, t: Array) -> tuple[Array, Array]:
         """Return origin (N, 3), world, m, and attitude (N, 3, 3), skin to world, of the skin of a site at `t`, s."""
-        origin, turn = super().segment(site, t)
         constants = self.constants.get(site)
         if constants is None:
-            return origin, turn
+            return super().segment(site, t)
         foot = FOOT_OF_SITE.get(site, Foot.LEFT)
         load = self._interpolate(self.load_shares[foot], t)
-        knee = self._knee(foot, t) if site in FOOT_OF_SITE else np.zeros((len(t), 1))
+        if site is Site.PELVIS:
+            (origin, turn), knee = self.pelvis(t), np.zeros((len(t), 1))
+        else:
+            # by how much more than at time 0 the knee is bent
+            leg, first = self.leg(foot, t), self.leg(foot, np.zeros(1))
+            (origin, turn), knee = leg.segment(site), _bend(leg)[:, None] - _bend(first)
         angles = knee * constants.knee_turn + load * constants.load_turn
         shift = knee * constants.knee_shift + load * constants.load_shift
         return origin + np.einsum("nij,nj->ni", turn, shift), turn @ matrices(from_rotation_vectors(angles))
 
-    def _knee(self, foot: Foot, t: Array) -> Array:
-        """Return by how much more than at time 0 the knee is bent at `t`, s, rad, (N, 1)."""
-        leg = self.leg(foot, np.concatenate(([0.0], t)))
-        angle = np.arccos(np.clip(np.sum(leg.thigh[:, :, 2] * leg.shank[:, :, 2], axis=1), -1.0, 1.0))
-        return np.asarray(angle[1:, None] - angle[0])
+
+def _bend(leg: Leg) -> Array:
+    """Return the angle by which the knee is bent, rad, (N)."""
+    cosine = np.sum(leg.thigh[:, :, 2] * leg.shank[:, :, 2], axis=1)
+    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
 def with_soft_tissue(body: Body, load_shares: dict[Foot, Array], constants: dict[Site, TissueConstants]) -> Body:

@@ -89,6 +89,10 @@ class Leg:
     shank: Array
     """Attitude of the shank as rotation matrices, segment to world, (N, 3, 3)."""
 
+    def segment(self, site: Site) -> tuple[Array, Array]:
+        """Return origin and attitude of the segment of a site on the thigh or the shank."""
+        return (self.hip, self.thigh) if site in _THIGHS else (self.knee, self.shank)
+
 
 @frozen(eq=False)
 class Body:
@@ -116,17 +120,14 @@ class Body:
         """Return the slip of the foot in its shoe along x and y of the foot frame at times `t`, s, m, (N, 2)."""
         return self._interpolate(self.slips[foot], t)
 
-    def ankle(self, foot: Foot, t: Array) -> Array:
-        """Return the position of the ankle joint, with the slip in the shoe, at `t`, s, (N, 3), world frame, m."""
-        shoe = self.motions[foot].at(t, Mounting(ankle_place(self.shoe, self.limbs)))
-        return np.asarray(shoe.position + _slip_vector(matrices(shoe.attitude), self.slip(foot, t)))
-
     def leg(self, foot: Foot, t: Array) -> Leg:
         """Return the joints and segments of a leg at times `t`, s."""
         position, turn = self.pelvis(t)
         hip = position + turn[:, :, 1] * (0.5 * SIDE_SIGNS[foot] * self.limbs.hip_width)
-        ankle = self.ankle(foot, t)
-        forward = _horizontal(turn[:, :, 0]) + _forward(matrices(self.motions[foot].at(t, _NO_MOUNTING).attitude))
+        shoe = self.motions[foot].at(t, Mounting(ankle_place(self.shoe, self.limbs)))
+        sole = matrices(shoe.attitude)
+        ankle = np.asarray(shoe.position + _slip_vector(sole, self.slip(foot, t)))
+        forward = _horizontal(turn[:, :, 0]) + _forward(sole)
         thigh, shank = self.limbs.thigh, self.limbs.shank
         down = ankle - hip
         reach = np.linalg.norm(down, axis=1, keepdims=True)
@@ -146,8 +147,7 @@ class Body:
         if site.foot is not None:
             kinematics = self.motions[foot].at(t, _NO_MOUNTING)
             return kinematics.position, matrices(kinematics.attitude)
-        leg = self.leg(foot, t)
-        return (leg.hip, leg.thigh) if site in _THIGHS else (leg.knee, leg.shank)
+        return self.leg(foot, t).segment(site)
 
     def at(self, site: Site, t: Array, mounting: Mounting) -> Kinematics:
         """Return the motion of a sensor at times `t`, s: exact on a foot, elsewhere from differences over 2 ms."""

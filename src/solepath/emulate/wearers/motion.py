@@ -13,6 +13,8 @@ evaluates them. The attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitc
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from attrs import fields, frozen
 from numpy.typing import NDArray
@@ -84,7 +86,7 @@ class FootMotion:
     def pitch(self, t: Array) -> Array:
         """Return the pitch of the sole, rad, (N); positive when the toe is up."""
         row = self._piece(t)
-        return self._curve(row, (t - self.start[row]) / self.duration[row], PITCH, 0)
+        return _evaluate(self._factors[0][:, PITCH], row, (t - self.start[row]) / self.duration[row])
 
     def contact(self, t: Array) -> Array:
         """Return the x coordinate in the foot frame at which the sole touches the ground, m; nan in swing.
@@ -104,10 +106,9 @@ class FootMotion:
         row = self._piece(t)
         s = (t - self.start[row]) / self.duration[row]
         inverse_duration = 1.0 / self.duration[row]
-        value, first, second = ([self._curve(row, s, index, order) for index in range(6)] for order in range(3))
-        for derivatives, per_second in ((first, inverse_duration), (second, inverse_duration**2)):
-            for one in derivatives:
-                one *= per_second
+        value, first, second = (_evaluate(self._factors[order], row, s) for order in range(3))
+        first *= inverse_duration
+        second *= inverse_duration**2
         pitch, yaw, roll = value[PITCH], value[YAW], value[ROLL]
         turn = _rotation(yaw, -pitch, roll)
         rate, rate_change = _body_rates(value, first, second)
@@ -116,7 +117,8 @@ class FootMotion:
         ahead = np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], axis=1)
         radius = self.radius[row]
         centre, centre_v, centre_a = (
-            np.stack(found[:3], axis=1) - (radius * found[PITCH])[:, None] * ahead for found in (value, first, second)
+            np.ascontiguousarray(found[:3].T) - (radius * found[PITCH])[:, None] * ahead
+            for found in (value, first, second)
         )
 
         # With the angular rate w and the arm r from the reference point c to the sensor, both in the foot frame:
@@ -154,13 +156,20 @@ class FootMotion:
     def _piece(self, t: Array) -> RowIndices:
         return np.clip(np.searchsorted(self.start, t, side="right") - 1, 0, len(self.start) - 1)
 
-    def _curve(self, row: RowIndices, s: Array, index: int, order: int) -> Array:
-        factors = np.ascontiguousarray(np.polynomial.polynomial.polyder(self.curves[:, index, :], order, axis=1).T)
-        total: Array = factors[-1].take(row)
-        for factor in factors[-2::-1]:
-            total *= s
-            total += factor.take(row)
-        return total
+    @cached_property
+    def _factors(self) -> list[Array]:
+        """Coefficients of all curves and of their first and second derivatives by s, constant first, (k, 6, rows)."""
+        derivatives = [np.polynomial.polynomial.polyder(self.curves, order, axis=2) for order in range(3)]
+        return [np.ascontiguousarray(np.moveaxis(one, 2, 0).swapaxes(1, 2)) for one in derivatives]
+
+
+def _evaluate(factors: Array, row: RowIndices, s: Array) -> Array:
+    """Return the polynomials of these rows at `s`, (..., N), for factors (k, ..., rows)."""
+    total: Array = factors[-1].take(row, axis=-1)
+    for factor in factors[-2::-1]:
+        total *= s
+        total += factor.take(row, axis=-1)
+    return total
 
 
 def join_blocks(blocks: list[Kinematics]) -> Kinematics:
@@ -170,7 +179,7 @@ def join_blocks(blocks: list[Kinematics]) -> Kinematics:
     return Kinematics(*(np.concatenate([getattr(b, field.name) for b in blocks]) for field in fields(Kinematics)))
 
 
-def _body_rates(value: list[Array], first: list[Array], second: list[Array]) -> tuple[Array, Array]:
+def _body_rates(value: Array, first: Array, second: Array) -> tuple[Array, Array]:
     """Return angular rate and its derivative in the foot frame for Rz(yaw) Ry(b) Rx(roll), with b = -pitch."""
     b, b1, b2 = -value[PITCH], -first[PITCH], -second[PITCH]
     roll, r1, r2 = value[ROLL], first[ROLL], second[ROLL]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol, Self
+from typing import ClassVar, NamedTuple, Protocol, Self
 
 from ...calibration import Calibration
 from ...types import Foot, Layout, Phase, Vec3
@@ -46,6 +46,8 @@ class Cues(Protocol):
 
     # what follows is optional: the default does nothing
 
+    uses_centre: ClassVar[bool] = False
+    """Flag: `Load` has the centre of pressure in every sample, which costs as much as a fifth of its other figures."""
     sagittal: float = 0.0
     """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s. It is 0 while that axis is
     unknown."""

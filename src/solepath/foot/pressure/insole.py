@@ -128,8 +128,10 @@ class InsoleLoads:
         """End the current spans because times restart; the extremes stay."""
         self.total.span_end = self.heel.span_end = self.forefoot.span_end = None
 
-    def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
-        """Return the load of one sample, as shares of the full load; None while that is unknown."""
+    def update(self, t: float, cells: tuple[float, ...], with_centre: bool = True) -> Load | None:
+        """Return the load of one sample, as shares of the full load; None while that is unknown.
+
+        `with_centre`: the centre of pressure is computed, too."""
         settings = self.settings
         if settings.newtons is not None and not self.in_newtons:
             cells = in_newtons(settings.newtons, cells)
@@ -173,7 +175,7 @@ class InsoleLoads:
                 else None
             )
         highest = largest / self.highest if self.highest > 0.0 else 0.0
-        centre = None if airborne else self.centre_of_pressure(cells)
+        centre = self.centre_of_pressure(cells) if with_centre and not airborne else None
         return Load(share, heel, forefoot, highest, airborne, cells, centre)
 
     def above_tare(self, cells: tuple[float, ...]) -> tuple[float, ...]:

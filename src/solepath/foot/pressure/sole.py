@@ -57,9 +57,12 @@ class Sole:
         self.health.reset()
 
     def add_sample(
-        self, sample: Sample, known_at: float, phase: Phase, limitations: Limitations, events: list[Event]
-    ) -> Load | None:
-        """Return the load of one sample of a foot in this phase; None while it is unknown, or without usable cells."""
+        self, sample: Sample, known_at: float, phase: Phase, with_centre: bool, limitations: Limitations,
+        events: list[Event],
+    ) -> Load | None:  # fmt: skip
+        """Return the load of one sample of a foot in this phase; None while it is unknown, or without usable cells.
+
+        `with_centre`: the centre of pressure is computed, too."""
         t, pressure = sample.t, sample.pressure or ()
         if pressure and not self.count_checked:
             self._check_count(len(pressure), t, known_at, limitations, events)
@@ -76,7 +79,7 @@ class Sole:
         layout = self.insole.layout
         if self.layout_estimated and layout is not None and len(layout.cells) != len(cells):
             self._forget_layout()  # it was estimated for another insole
-        load = self.insole.update(t, cells)
+        load = self.insole.update(t, cells, with_centre)
         if self.settings.needs_pressure and self.insole.layout is None and load is not None:
             self._guess_layout(t, known_at, load, limitations, events)
         return load

@@ -7,7 +7,7 @@ any corrector."""
 from __future__ import annotations
 
 from math import inf, sqrt
-from typing import NamedTuple, Protocol, Self
+from typing import ClassVar, NamedTuple, Protocol, Self
 
 from ...calibration import Calibration
 from ...types import Foot, Layout, Phase, Quat, Vec3
@@ -35,7 +35,9 @@ class Load:
     cells: tuple[float, ...] = ()
     """Value of each cell without noise, in N with a calibration, otherwise in the unit of the samples."""
     centre: tuple[float, float] | None = None
-    """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout."""
+    """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
+
+    It is computed only for detectors and cues that say so (`uses_centre`), otherwise None."""
 
 
 class Stance(NamedTuple):
@@ -82,6 +84,9 @@ class Detector(Protocol):
         navigation frame, predicted for this sample; it has no meaning before the first attitude is known."""
 
     # what follows is optional: the default does nothing
+
+    uses_centre: ClassVar[bool] = False
+    """Flag: `load` has the centre of pressure in every sample."""
 
     @property
     def lacking(self) -> str | None:

@@ -115,6 +115,8 @@ def _turn_rows(turns: list[TurnResults]) -> list[FigureRow]:
     return [
         _row("turn angle deg", [off for one in turns for off in one.errors.values()], 1),
         _row("turn angle, (7) printed deg", [off for one in turns for off in one.printed_errors.values()], 1),
+        _row("curve of 360 deg", [one.curve for one in turns], 1),
+        _row("curve of 360, filter printed deg", [one.printed_curve for one in turns], 1),
         _row("turn classes %", [share_right(list(one.classes.values())) for one in turns]),
     ]
 

@@ -26,9 +26,10 @@ from ...foot.stance.stance import Stance
 from ...types import Foot, Phase, Quat, Vec3
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, normalise, rotate, tipped
+from .closed_stride import closed_stride, vertical_turn
 from .critical_times import CriticalTimes
 from .segment import StrideSegment
-from .stride_length import closed_stride_length, closed_stride_rise, stride_length, swing_turn, vertical_turn
+from .stride_length import stride_length, swing_turn
 
 LONGEST_GAP = 0.12
 """Gap in a stride from which on the integrals do not hold, s: two of the paper's intervals and some tolerance."""
@@ -81,13 +82,16 @@ class ProjectionSettings:
     """Flag: angles beyond the range of the gyroscope are estimated."""
     turns_about_vertical: bool = True
     """Flag: the turn is that about the vertical up to rest, with pivots; otherwise (7) as printed."""
+    keeps_corners: bool = True
+    """Flag: a corner and a curve keep their whole angle (turning_steps.py)."""
     has_rise: bool = True
     """Flag: strides have a rise."""
 
 
 PRINTED = ProjectionSettings(
-    interval=Interval.LIFTOFF_TO_LANDING, restores_clipped=False, turns_about_vertical=False, has_rise=False
-)
+    interval=Interval.LIFTOFF_TO_LANDING, restores_clipped=False, turns_about_vertical=False, keeps_corners=False,
+    has_rise=False,
+)  # fmt: skip
 """Settings with which (5) and (7) are used as they are printed."""
 
 
@@ -181,17 +185,17 @@ class Projection(Strapdown):
         phi = settings.outwards * settings.toe_out
         clips = settings.restores_clipped and self.least_saturated > 0.0
         end = AXIS_SHARE * self.least_saturated if clips else inf
+        closed = closed_stride(rows, times, end)
         match settings.interval:
             case Interval.LIFTOFF_TO_LANDING:
-                parts = stride_length(rows, times, phi)
+                length = fsum(stride_length(rows, times, phi))
             case Interval.UPLIFT_TO_LANDING:
-                parts = stride_length(rows, evolve(times, liftoff=times.uplift), phi)
+                length = fsum(stride_length(rows, evolve(times, liftoff=times.uplift), phi))
             case _:
-                parts = closed_stride_length(rows, times, phi, end)
-        length = fsum(parts)
-        turn = vertical_turn(rows, times, end) if settings.turns_about_vertical else swing_turn(rows, times)
-        rise = closed_stride_rise(rows, times, end) if settings.has_rise else 0.0
-        turn = self.turning.turn(turn)
+                length = fsum(closed.length(phi))
+        turn = vertical_turn(rows, times, closed, end) if settings.turns_about_vertical else swing_turn(rows, times)
+        rise = closed.rise() if settings.has_rise else 0.0
+        turn = self.turning.corner_turn(turn) if settings.keeps_corners else self.turning.turn(turn)
         fx, fy, _ = rotate(self.rest_attitude, segment.forward)
         # the direction of walking lies phi to the right of the foot's long axis
         direction = atan2(fy, fx) + 0.5 * turn - phi

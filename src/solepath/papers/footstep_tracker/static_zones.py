@@ -27,9 +27,10 @@ from math import inf
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
-from ...types.vector import GRAVITY, IDENTITY, ZERO
+from ...types.vector import IDENTITY, ZERO
 from .critical_times import Row, critical_times
 from .segment import FootAxes, StrideSegment, scale_to_offset, to_foot_axes
+from .static_run import StaticRun
 
 LONGEST_GAP = 0.25
 """Gap in the samples, s, that ends a zone because the foot may have moved in it."""
@@ -41,8 +42,6 @@ LONGEST_WALKING_STRIDE = 1.3
 """Longest stride from rest to rest at a usual or fast speed, s. Slow walkers take longer, but rest long enough."""
 RELAXED_SHARE = 0.4
 """Share s of `loose_length` required after `LONGEST_WALKING_STRIDE`; `loose_within` is then multiplied by 2 - s."""
-GRAVITY_TOLERANCE = 2.0
-"""Largest difference of a zone's mean from 1 g, m/s^2: cheap chips err, and an elevator may start."""
 TIME_TOLERANCE = 1e-3
 """Largest deviation of fitted sample times from even spacing, s."""
 LONGEST_SEGMENT = 4.0
@@ -54,38 +53,6 @@ A row is the mean of two samples at 100 Hz and a single sample at 20 Hz. When th
 the older half are averaged."""
 KEPT_ZONE_TIME = 0.25
 """Time at the end of a zone that also belongs to the next segment, s."""
-MOST_AVERAGED = 64
-"""Number of rows of a run from which on its mean is a moving one, in which each row has weight 1/64."""
-
-
-@define
-class StaticRun:
-    """Consecutive rows, each of which is near the mean of the earlier ones."""
-
-    since: float | None = None
-    """Start of the run, s."""
-    count: int = 0
-    """Number of rows, at most `MOST_AVERAGED`."""
-    mean: Vec3 = ZERO
-    """Mean specific force of the run, m/s^2."""
-
-    def add(self, t: float, acc: Vec3, within: float) -> None:
-        """Add one row with specific force `acc`; it starts another run unless all axes are near the mean, m/s^2."""
-        ax, ay, az = acc
-        x, y, z = self.mean
-        if self.since is not None and abs(ax - x) <= within and abs(ay - y) <= within and abs(az - z) <= within:
-            self.count = min(self.count + 1, MOST_AVERAGED)
-            k = 1.0 / self.count
-            self.mean = (x + k * (ax - x), y + k * (ay - y), z + k * (az - z))
-        else:
-            self.since, self.count, self.mean = t, 1, acc
-
-    def duration(self, t: float) -> float:
-        """Return the duration of the run up to `t`, s; 0 with less than three rows or a mean far from 1 g."""
-        if self.since is None or self.count < 3:
-            return 0.0
-        x, y, z = self.mean
-        return t - self.since if abs((x * x + y * y + z * z) ** 0.5 - GRAVITY) < GRAVITY_TOLERANCE else 0.0
 
 
 @frozen
@@ -202,6 +169,12 @@ class StaticZones(Detector):
 
     def _add_to_row(self, t: float, gap: float, acc: Vec3, gyro: Vec3) -> bool:
         if self.count == 0:
+            if gap >= ROW_SPACING:
+                (ax, ay, az), (gx, gy, gz) = acc, gyro
+                self.rows.append(
+                    (t, round(ax, 4), round(ay, 4), round(az, 4), round(gx, 4), round(gy, 4), round(gz, 4))
+                )
+                return True
             self.row_t_start = t
             self.sums = (0.0, *acc, *gyro)
         else:

@@ -20,11 +20,11 @@ from ...events import Event
 from ...session import Session
 from ...types import Foot, Packet, Sample, Vec3
 from ...types.attrs import define, evolve, field, frozen
+from .closed_stride import closed_stride, vertical_turn
 from .critical_times import CriticalTimes
 from .projection import AXIS_SHARE, Projection
 from .recipe import FOOTSTEP_TRACKER
 from .segment import StrideSegment
-from .stride_length import closed_stride_across, closed_stride_length, vertical_turn
 
 FEWEST_STRIDES = 5
 """Fewest strides of a foot that give an angle."""
@@ -74,9 +74,9 @@ class MeasuredStrides(Projection):
 
     def _stride_end(self, segment: StrideSegment, times: CriticalTimes) -> Vec3:
         end = AXIS_SHARE * self.least_saturated if self.least_saturated > 0.0 else inf
-        along = fsum(closed_stride_length(segment.rows, times, 0.0, end))
-        across, turn = closed_stride_across(segment.rows, times), vertical_turn(segment.rows, times, end)
-        self.strides.append((along, across, turn))
+        stride = closed_stride(segment.rows, times, end)
+        turn = vertical_turn(segment.rows, times, stride, end)
+        self.strides.append((fsum(stride.length()), stride.across(), turn))
         return Projection._stride_end(self, segment, times)
 
 

@@ -20,6 +20,7 @@ stages.py gives the next stage for each cue of the cells. Numbers without a sour
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 from ...foot.cues.cues import Cues, TimedCue
 from ...foot.cues.inertial import SHUFFLE_SPEED, InertialCues
@@ -63,6 +64,8 @@ class CopCues(Cues):
 
     Latency: toe-off and heel-off are known one sample later, heel-strike and foot-flat at the first stationary sample,
     as in the paper."""
+
+    uses_centre: ClassVar[bool] = True
 
     settings: CopCuesSettings = CopCuesSettings()
     inertial: InertialCues = field(factory=InertialCues)

@@ -21,7 +21,7 @@ from ....events import Defect, DefectFound, FootFlat, GaitEvent, HeelStrike, Sam
 from ....foot.view import FootView
 from ....types import Foot, Site
 from ....types.attrs import define, field, frozen
-from ...part import ClockUnsettled, Part, PartInput, PartOutput
+from ...part import Part, PartInput, PartOutput
 from .lone_strides import LoneStrides
 from .offset import Comparison, Offset, find_offset
 
@@ -140,12 +140,15 @@ class FootClocks(Part):
             self.lone.add_gap(event)
             if event.duration > MAX_GAP:
                 self._foot(event.site.foot).discard()
-        elif isinstance(event, ClockUnsettled) and event.site.foot is not None:
-            self._foot(event.site.foot).unsettled = event.until
         elif isinstance(event, DefectFound) and event.site.foot is not None and is_spoiling(event):
             self._foot(event.site.foot).spoiled = True
             self._forget()
         return ()
+
+    def unsettle(self, site: Site, until: float | None) -> None:
+        """Store up to which time a foot's clock cannot be compared with the other foot's."""
+        if site.foot is not None:
+            self._foot(site.foot).unsettled = until
 
     def reset(self, site: Site) -> None:
         """Discard everything when the clock or the device of a foot has changed."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import accumulate
 from math import degrees, hypot
 
 from attrs import field, frozen
 
-from ....calibration import CalibrationError
+from ....calibration import Calibration, CalibrationError
 from ....emulate.routes.route import Route
 from ....emulate.routes.ways import corridor
 from ....emulate.walk import EmulatedWalk
@@ -53,9 +54,7 @@ class CorridorResults:
     stature: float
     """Error of the length by the wearer's stature, m."""
     ends: dict[str, tuple[float, ...]]
-    """Error of the distance from the first to the last position, m: of each foot alone, of both, by the rule.
-
-    Only that of both is with the toe-out."""
+    """Error of the distance from first to last position, m: of each foot, of both, by the rule; with toe-out."""
     strides_found: dict[str, float]
     """Number of strides as a share of the true ones, by variant, %."""
     stride_errors: dict[str, tuple[float, ...]] = field(repr=False)
@@ -102,8 +101,7 @@ def score_corridor(job: WearerJob) -> CorridorResults:
     calibration = toe_out_calibration(found)
     walk = job.walk(corridor().route)
     ours = evolve(FOOTSTEP_TRACKER, detector=WatchedZones())
-    session = Session(ours, calibration=calibration)
-    events = session.feed(walk.packets) + session.finish()
+    events, session = _run(ours, walk.packets, calibration)
     true = {foot: len(walk.truth.strides(foot)) for foot in Foot}
     n_true = true[Foot.LEFT] + true[Foot.RIGHT]
     strides = final_strides(events)
@@ -113,9 +111,10 @@ def score_corridor(job: WearerJob) -> CorridorResults:
         for name, recipe in LENGTH_RECIPES.items():
             variant = final_strides(_run(recipe, walk.packets)[0])
             sums[name], found_share[name] = _sums(variant), 100.0 * len(variant) / n_true
-        alone = [_run(FOOTSTEP_TRACKER, [p for p in walk.packets if p.site is SITE_OF_FOOT[foot]])[1] for foot in Foot]
-        ends["one foot"] = tuple([_end(one) for one in alone])
-        ends["one-metre rule"] = (_end(_run(ONE_METRE_RULE, walk.packets)[1]),)
+        for foot in Foot:
+            packets = [packet for packet in walk.packets if packet.site is SITE_OF_FOOT[foot]]
+            ends["one foot"] = (*ends.get("one foot", ()), _end(_run(FOOTSTEP_TRACKER, packets, calibration)[1]))
+        ends["one-metre rule"] = (_end(_run(ONE_METRE_RULE, walk.packets, calibration)[1]),)
     length = corridor().route.length
     off = {name: tuple([one - length for one in of]) for name, of in sums.items()}
     zones = [tracker.detector for tracker in session.feet.values() if isinstance(tracker.detector, WatchedZones)]
@@ -145,8 +144,10 @@ def _calibrate(job: WearerJob) -> list[ToeOut]:
         return []
 
 
-def _run(recipe: Recipe, packets: tuple[Packet, ...] | list[Packet]) -> tuple[list[Event], Session]:
-    session = Session(recipe)
+def _run(
+    recipe: Recipe, packets: Sequence[Packet], calibration: Calibration | None = None
+) -> tuple[list[Event], Session]:
+    session = Session(recipe, calibration=Calibration() if calibration is None else calibration)
     return session.feed(packets) + session.finish(), session
 
 

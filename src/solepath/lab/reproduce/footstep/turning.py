@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees, pi, radians, remainder
+from math import degrees, fsum, pi, radians, remainder
 
 import numpy as np
 from attrs import frozen
@@ -10,9 +10,10 @@ from attrs import frozen
 from ....emulate.routes.route import Route
 from ....events import TurnMade
 from ....papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
+from ....recipes import Recipe
 from ....types import Packet, Turn
-from ..walks import run_session
-from .wearers import PRINTED_TURN, WearerJob
+from ..walks import final_strides, run_session
+from .wearers import PRINTED_FILTER, PRINTED_TURN, WearerJob
 
 TURN_ANGLES = tuple(radians(angle) for angle in range(-180, 181, 30) if angle)
 """Turn angles of fig. 13 (d), rad, positive to the left."""
@@ -24,6 +25,8 @@ TURN_SPREAD = radians(15.0)
 """Standard deviation of the turn angle, rad, because nobody turns by exactly 90 degrees.
 
 The classifier was trained with the same value (lab/train/turns.py)."""
+CURVE_RADIUS = 6.0
+"""Radius of a curve that no corridor of the building has, m: a stride turns by some 12 degrees."""
 
 
 @frozen
@@ -36,6 +39,10 @@ class TurnResults:
     """The same with (7) as printed."""
     classes: dict[Turn, tuple[int, int]]
     """Number of turns classified right and number of all, by class."""
+    curve: float
+    """Error of the sum of the strides' turns on a full circle, degrees; mean of both feet."""
+    printed_curve: float
+    """The same with the low-pass filter of turns alone."""
 
 
 def score_turns(job: WearerJob) -> TurnResults:
@@ -55,7 +62,10 @@ def score_turns(job: WearerJob) -> TurnResults:
             packets = _packets(job, angle, rng, 700 + k)
             n_right += [one.turn for one in _turns(packets) if one.turn is not None] == [turn]
         classes[turn] = (n_right, TURNS_PER_CLASS)
-    return TurnResults(errors, printed_errors, classes)
+    circle = Route(speed=1.2).stand(2.5).walk(6.0).turn(2.0 * pi, CURVE_RADIUS).walk(6.0).stop(3.0)
+    packets = job.walk(circle, 800).packets
+    curve, printed_curve = (_curve_error(recipe, packets) for recipe in (FOOTSTEP_TRACKER, PRINTED_FILTER))
+    return TurnResults(errors, printed_errors, classes, curve, printed_curve)
 
 
 def _packets(job: WearerJob, angle: float, rng: np.random.Generator, more: int) -> tuple[Packet, ...]:
@@ -73,3 +83,9 @@ def _turns(packets: tuple[Packet, ...], printed: bool = False) -> list[TurnMade]
 def _error(turns: list[TurnMade], angle: float) -> float:
     """Return the error of the sum of the turns, degrees; a turn by 180 degrees to the left is one to the right."""
     return abs(degrees(remainder(sum([one.angle for one in turns]) - angle, 2.0 * pi)))
+
+
+def _curve_error(recipe: Recipe, packets: tuple[Packet, ...]) -> float:
+    """Return the error of the mean of both feet's sums of turns on a full circle to the left, degrees."""
+    strides = final_strides(run_session(recipe, packets))
+    return abs(degrees(0.5 * fsum([one.heading_change for one in strides]) - 2.0 * pi))

@@ -32,7 +32,9 @@ WEATHER = Air(
     gusts=6.0,
     steps=(PressureStep(60.0, 10.0), PressureStep(150.0, -25.0, lasting=20.0), PressureStep(240.0, 100.0, 120.0)),
 )
-"""A falling barometer, gusts, a door of a clean room, one of a stairwell, and a front (emulate/sensors/air.py)."""
+"""A barometer that falls as fast as "slowly" allows, gusts, a door of a clean room, one of a stairwell, and a front.
+
+emulate/sensors/air.py has the sources of the sizes; when the steps come, and how long they take, is assumed."""
 
 
 @frozen(eq=False)
@@ -82,8 +84,12 @@ LENGTH_RECIPES = {
 """Our additions to the stride length, one after the other; the last one has all but the toe-out."""
 ONE_METRE_RULE = FOOTSTEP_TRACKER.exchanged(Footsteps, Footsteps(FootstepsSettings(as_printed=True)), "one-metre rule")
 """Ours with the one-metre rule as printed."""
-PRINTED_TURN = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False)))
+PRINTED_TURN = evolve(
+    FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(turns_about_vertical=False, keeps_corners=False))
+)
 """Ours with (7) as printed, from liftoff to landing."""
+PRINTED_FILTER = evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(keeps_corners=False)))
+"""Ours with the low-pass filter of turns alone, without `TurningStrideFilter.corner_turn`."""
 DROPS_AT_WALLS = evolve(FOOTSTEP_TRACKER, place=PrintedSnake())
 """Ours with the Snake game as printed."""
 BAROMETERS = ("cc2541/barometer", "cc2650/barometer")

@@ -1,4 +1,4 @@
-"""Prints which small faults in the core the tests notice: `python tests/bench/mutations.py [--count N] [--file NAME]`.
+"""Prints which small faults in the core the tests notice: `python tests/fuzz/mutations.py [--count N] [--file NAME]`.
 
 In a copy of src it makes one small fault at a time in one of five files: a comparison turned round, + for -, a number
 changed, or a branch left out. The same text always gets the same faults. Then it runs the tests of TESTS_OF_FILE and
