@@ -41,9 +41,10 @@ class PlainTab:
             return
         if message.get("id") in self._answers:
             self._answers.pop(message["id"]).set_result(message)
-        elif message.get("method") == "DeviceAccess.deviceRequestPrompted" and self._chosen is not None:
-            if any(one["id"] == self._chosen for one in message["params"]["devices"]):
-                choice = {"id": message["params"]["id"], "deviceId": self._chosen}
+        elif message.get("method") == "DeviceAccess.deviceRequestPrompted":
+            prompt = message["params"]
+            if self._chosen in [one["id"] for one in prompt["devices"]]:
+                choice = {"id": prompt["id"], "deviceId": self._chosen}
                 self._chosen = None
                 self._choosing = asyncio.create_task(self._send("DeviceAccess.selectPrompt", **choice))
 

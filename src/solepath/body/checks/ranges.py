@@ -92,7 +92,7 @@ class RangeCheck:
         if self.samples - found.first > RECENT_SAMPLES:
             found.samples, found.first = found.samples // 2, (found.first + self.samples) // 2
         text = f"the {kind.name} cuts off peaks at {found.largest:.3g} {kind.unit}, in {100.0 * share:.2g} % of samples"
-        return Finding(Defect.CLIPPED, f"{text}: choose a larger range", spoils=share > SPOILING_SHARE)
+        return Finding(Defect.CLIPPED, f"{text}: choose a larger range, if it has one", spoils=share > SPOILING_SHARE)
 
     def _add_block(self, end: ChannelEnd, channel: list[float]) -> bool:
         """Add a block that reaches the end of the range; return whether it now is seen to cut off peaks."""
