@@ -233,6 +233,7 @@ def _pairs_codec(
 
 def _record_codec(node: RecordNode) -> tuple[_Saver, _Loader]:
     cls = node.cls
+    make: Any = cls.__new__  # object's own makes no compiled classes
     fields = [(name, *_codec(of)) for name, of in node.fields.items()]
     names = set(node.fields)
 
@@ -255,7 +256,7 @@ def _record_codec(node: RecordNode) -> tuple[_Saver, _Loader]:
             lacks = "no field" if unknown is not None else "not the field"
             which = unknown if unknown is not None else min(names - value.keys())
             raise SnapshotError(f"{cls.__name__} has {lacks} {shorten(which)}")
-        record: Any = cls.__new__(cls)
+        record: Any = make(cls)
         for name, _, load_field in fields:
             object.__setattr__(record, name, load_field(value[name], classes))
         for name, default in node.defaults.items():
