@@ -35,13 +35,16 @@ function cover() {
 
 function uncover() {
   clearTimeout(held);
-  if (!element("cover").open) return;
   element("cover").close();
+}
+
+// Also where a browser closes a cover in spite of `closedby` and of what "cancel" prevents: the page is seen again.
+element("cover").addEventListener("close", () => {
   if (document.fullscreenElement) document.exitFullscreen().catch(() => {});
   computer.setCovered(false);
   // who takes the phone out wants to see the place
   if (document.body.classList.contains("has-plan")) element("track-section").scrollIntoView();
-}
+});
 
 // A cancelled dialog, as by the gesture "back", stays: only the button opens it.
 element("cover").addEventListener("cancel", (event) => event.preventDefault());
