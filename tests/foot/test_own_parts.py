@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections import deque
 from math import inf
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 from attrs import define, evolve, field
@@ -14,10 +14,11 @@ from walks import of, samples
 
 from solepath import Foot, HeelStrike, Session, SnapshotError, StrideTaken, recipes
 from solepath.calibration import Calibration, InsoleCalibration
-from solepath.foot.stance.stance import Stance
+from solepath.foot.stance.stance import Load, Stance
 from solepath.saving.codec import load, save
 from solepath.testing.promises import broken
-from solepath.types import Vec3
+from solepath.types import Quat, Vec3
+from solepath.types.vector import IDENTITY
 
 OWN_RECIPE = evolve(recipes.DEFAULT, name="mine", detector=StillDetector(), corrector=Resets(), cues=ByMotion())
 PARTS = [StillDetector, Resets, ByMotion]
@@ -58,6 +59,37 @@ def test_own_cues_get_the_layout_and_work_for_an_insole_alone() -> None:
     events = session.feed([evolve(sample, acc=None, gyro=None) for sample in WALKED])
     assert session.feet[Foot.LEFT].cues.cells == 24
     assert len(of(HeelStrike, events)) >= 3
+
+
+@define
+class SeesCentres(StillDetector):
+    """Beside the centres of pressure that it was given."""
+
+    uses_centre: ClassVar[bool] = True
+
+    centres: int = field(default=0, init=False)
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
+        self.centres += load is not None and load.centre is not None
+        return StillDetector.update(self, t, dt, acc, gyro, load, attitude)
+
+
+@define
+class SeesNone(SeesCentres):
+    """The same without the centres."""
+
+    uses_centre: ClassVar[bool] = False
+
+
+def test_a_detector_gets_the_centre_of_pressure_on_request_and_strides_have_the_same_without() -> None:
+    calibration, found = Calibration(insoles={Foot.LEFT: InsoleCalibration(CELLS)}), []
+    for detector in (SeesCentres(), SeesNone()):
+        session = Session(evolve(OWN_RECIPE, detector=detector), calibration=calibration)
+        found.append([stride.features.cop for stride in of(StrideTaken, session.feed(WALKED))])
+        assert (session.feet[Foot.LEFT].detector.centres > 100) is detector.uses_centre
+    assert found[0] == found[1] and any(found[0])
 
 
 def test_classes_that_are_no_parts_or_share_a_name_are_rejected() -> None:

@@ -23,7 +23,7 @@ from walks import of
 from solepath import Session
 from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection
 from solepath.link.decoder import Decoder
-from solepath.link.devices.insole import InsoleLink
+from solepath.link.devices.insole import _TABLES, MOST_TABLES, InsoleLink
 from solepath.saving import codec
 from solepath.types import Sample, Site
 from solepath.types.vector import GRAVITY
@@ -65,6 +65,14 @@ def test_scales_of_zero_mean_no_such_sensor_and_pressure_in_counts() -> None:
     [known, sample] = feed(decoder, packet(9.0, "insole/info", data), frame_packet(0))
     assert known.layout.scale is None
     assert (sample.acc, sample.gyro, sample.pressure) == (None, None, (100.0, 200.0))
+
+
+def test_insoles_with_more_scales_than_there_are_tables_have_forces_too() -> None:
+    for k in range(2 * MOST_TABLES):
+        decoder, scale = Decoder(site=LEFT), 0.25 + 0.0625 * k
+        [_, sample] = feed(decoder, packet(9.0, "insole/info", info_value(pressure_scale=scale)), frame_packet(0))
+        assert sample.pressure == (100 * scale, 200 * scale)
+    assert len(_TABLES) == MOST_TABLES
 
 
 def test_without_info_the_first_layout_is_the_only_one() -> None:

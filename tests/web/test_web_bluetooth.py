@@ -138,9 +138,12 @@ async def test_a_cc2541_whose_kind_is_chosen_is_set_to_20_hz(chromium: Browser, 
     with serving(site) as url:
         async with open_site(chromium, url) as view, web_bluetooth(view, bench.peripherals) as radio:
             bench.walk_from(asyncio.get_running_loop().time())
-            await view.tab.locator("#worn").select_option("right_foot")
             await view.tab.locator(".choices summary").click()
             await view.tab.locator("#choose-kind").select_option("cc2541-20hz")
+            await radio.choose(tag.address)
+            await view.until(f"{WORDS}.endsWith('name a site. Choose how it is worn before you connect it.')")
+            await view.until("document.getElementById('sensors').innerText === ''")
+            await view.tab.locator("#worn").select_option("right_foot")
             assert periods() != {b"\x05"}  # 50 ms
             await radio.choose(tag.address)
             await view.until(f"{LOG}.includes('right foot: connected to {tag.name}')")

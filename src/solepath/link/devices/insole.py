@@ -4,7 +4,6 @@ It has its own link class and no Driver, because frames may come in fragments an
 
 from __future__ import annotations
 
-from functools import lru_cache
 from hashlib import blake2b
 from math import radians
 from operator import itemgetter
@@ -38,6 +37,13 @@ WHOLE_FRAME_START = bytes([MAGIC])
 """First byte of a frame that is not fragmented."""
 FULL_PRESSURE_COUNTS = 4095.0
 """Counts of a pressure cell at full scale."""
+MOST_TABLES = 16
+"""Largest number of scales whose forces are in a table: 131 kB each, shared by all insoles with this scale.
+
+A table takes as long as 50 samples of 96 cells, and then half as long for each as products, which further scales take.
+"""
+_TABLES: dict[float, tuple[float, ...]] = {}
+"""Force of each count, N, by scale, N per count."""
 
 
 def _uuid(short: int) -> str:
@@ -222,16 +228,13 @@ class InsoleLink(DeviceLink):
 
 def _pressures(counts: tuple[int, ...], scale: float) -> tuple[float, ...]:
     """Return the force of each cell, N, or its count if `scale`, N per count, is 0."""
-    if len(counts) < 2:
-        return tuple([count * (scale or 1.0) for count in counts])
-    # three times as fast as a product for each cell
-    return itemgetter(*counts)(_pressure_of_count(scale or 1.0))  # type: ignore[no-any-return]
-
-
-@lru_cache(maxsize=8)
-def _pressure_of_count(scale: float) -> tuple[float, ...]:
-    """Return the force of each count, N: 131 kB, which all insoles with this scale share."""
-    return tuple([count * scale for count in range(int(FULL_PRESSURE_COUNTS) + 1)])
+    scale = scale or 1.0
+    table = _TABLES.get(scale)
+    if table is None and len(_TABLES) < MOST_TABLES:
+        table = _TABLES[scale] = tuple([count * scale for count in range(int(FULL_PRESSURE_COUNTS) + 1)])
+    if table is None or len(counts) < 2:
+        return tuple([count * scale for count in counts])
+    return itemgetter(*counts)(table)  # type: ignore[no-any-return]
 
 
 def _check_scales(info: InsoleInfo) -> None:

@@ -67,6 +67,7 @@ element("choose-recipe").addEventListener("change", () =>
     words(`The recipe ${value} is used ${since()}.`);
   }),
 );
+computer.on("recipe", (name) => (element("choose-recipe").value = name));
 const since = () => (running() ? "by the next walk" : "from now on");
 
 // Fills the lists with what the worker knows.

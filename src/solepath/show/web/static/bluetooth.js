@@ -101,7 +101,9 @@ class Sensor {
 
   take(order) {
     if (order.type === "error" && order.of === "add") {
-      computer.emit("words", `${this.name} cannot be added: ${order.reason}. Disconnect another one first.`);
+      const isNowhere = this.#site === null && !["insole", null].includes(this.#profile); // a kind that names no foot
+      const help = isNowhere ? "Choose how it is worn before you connect it." : "Disconnect another one first.";
+      computer.emit("words", `${this.name} cannot be added: ${order.reason}. ${help}`);
       this.end();
     } else if (order.connection !== this.#connection) {
       // it was meant for a connection that has ended

@@ -20,7 +20,7 @@ class Computer {
     setInterval(() => this.#watch(), 1000);
   }
 
-  // kinds: "text" of a message for the page, "state", "walk", "walks", "words", "progress", "orders", "sensors"
+  // kinds: "text" of a message for the page, "state", "walk", "walks", "words", "progress", "recipe", "orders", "sensors"
   on(kind, listener) {
     this.#listeners.push({ kind, listener });
   }

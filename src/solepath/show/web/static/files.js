@@ -57,6 +57,7 @@ export class Files {
   async choose(recipe) {
     await this.#run("choose_recipe", [recipe]);
     this.#used = { ...this.#used, recipe };
+    this.#post({ recipe }); // that of a walk that goes on was chosen in another tab
   }
 
   // Uses recipe, floor plan and calibration of a saved walk again.

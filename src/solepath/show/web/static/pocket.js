@@ -9,6 +9,7 @@ const HOLD_TIME = 1000; // ms for which the button is held: longer than what clo
 
 const element = (id) => document.getElementById(id);
 let held = 0; // timer
+let covered = false;
 
 element("pocket").addEventListener("click", cover);
 element("uncover").addEventListener("pointerdown", () => {
@@ -30,12 +31,14 @@ function cover() {
   if (!running()) return;
   element("cover").showModal();
   document.documentElement.requestFullscreen?.().catch(() => {});
+  covered = true;
   computer.setCovered(true);
 }
 
 function uncover() {
   clearTimeout(held);
-  if (!element("cover").open) return;
+  if (!covered) return;
+  covered = false;
   element("cover").close();
   if (document.fullscreenElement) document.exitFullscreen().catch(() => {});
   computer.setCovered(false);
@@ -43,5 +46,7 @@ function uncover() {
   if (document.body.classList.contains("has-plan")) element("track-section").scrollIntoView();
 }
 
+// Also where a browser closes a cover in spite of `closedby` and of what "cancel" prevents: the page is seen again.
+element("cover").addEventListener("close", uncover);
 // A cancelled dialog, as by the gesture "back", stays: only the button opens it.
 element("cover").addEventListener("cancel", (event) => event.preventDefault());
