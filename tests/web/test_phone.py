@@ -193,3 +193,19 @@ async def test_sensors_stay_connected_and_are_measured_while_the_page_is_hidden(
             await view.show()
             await view.until(f"{strides}.every((count, foot) => count >= [{before[0]}, {before[1]}][foot] + 3)")
             assert await view.evaluate("solepath.state.log.every(([, , words]) => !words.includes('lost'))")
+
+
+async def test_the_cover_stays_while_no_sensor_sends_and_comes_off_when_computing_has_stopped(
+    chromium: Browser, site: Path
+) -> None:
+    covered, limit = "document.getElementById('cover').open", 10.0
+    with serving(site) as url:
+        async with open_site(chromium, url) as view:
+            await connect(view, walk()[1].packets, PROFILE_20HZ)
+            await go_on(view.tab, 5.0)
+            await view.tab.locator("#pocket").click()
+            await asyncio.sleep(limit + 2.0)
+            assert await view.tab.evaluate(covered)
+            await view.tab.evaluate("computer.kill()")
+            await view.until(f"!{covered}", patience=limit + 10.0)
+            await view.until("document.getElementById('offline').innerText.includes('has stopped')")

@@ -295,3 +295,12 @@ def test_a_curve_stays_a_curve_and_a_corner_keeps_its_first_and_last_turn() -> N
     assert turns[:2] == [0.0, 0.0] and turns[5] == 0.0
     # the usual turn follows the first 5 degrees by a tenth: 5 + 39.5 + 39.5 + 4.5
     assert sum(turns) == pytest.approx(radians(88.5))
+
+
+def test_a_stride_after_a_gap_does_not_end_the_corner_before_it() -> None:
+    followed, parted = TurningStrideFilter(), TurningStrideFilter()
+    assert followed.corner_turn(0.1) == parted.corner_turn(0.1) == 0.0
+    parted.forget_corner()
+    corner, usual = followed.corner_turn(1.0), 0.01
+    assert corner == pytest.approx(1.0 - usual + 0.1, abs=0.02)
+    assert parted.corner_turn(1.0) == pytest.approx(1.0 - usual, abs=0.02)

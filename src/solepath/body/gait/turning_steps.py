@@ -35,7 +35,7 @@ class TurningStrideFilter:
     """Usual turn of a straight stride, rad, counter-clockwise positive."""
 
     straight_deviation: float | None = field(default=0.0, init=False)
-    """Deviation of the last stride from the usual turn, rad; None when the path has turned with it."""
+    """Deviation of the last stride from the usual turn, rad, or 0; None when the path has turned with it."""
 
     def turn(self, angle: float) -> float:
         """Add a stride that turned by `angle`, rad, and return the turn of the path, rad; 0 for a straight stride."""
@@ -55,6 +55,10 @@ class TurningStrideFilter:
             return deviation
         self.straight_deviation = deviation
         return 0.0
+
+    def forget_corner(self) -> None:
+        """Forget the last stride, which the next one does not follow."""
+        self.straight_deviation = 0.0
 
     def _learn(self, angle: float, within: float) -> float:
         """Return the deviation from the usual turn, which it updates if it is below `within`; both in rad."""

@@ -27,7 +27,7 @@ class DeviceConfig:
         if not self.which and self.profile is None:
             raise ValueError("say which device is requested: its address, its name, or its profile")
         if self.site is None and self.profile is not None and not reports_site(self.profile):
-            raise ValueError(f"a {self.profile.name} does not say where it is worn: name a site")
+            raise ValueError(f"the {self.profile.name} does not say where it is worn: name a site")
 
     @property
     def description(self) -> str:

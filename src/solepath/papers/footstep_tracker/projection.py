@@ -131,6 +131,7 @@ class Projection(Strapdown):
         self.force = self.rate = None
         self.moving_time = self.length = 0.0
         self.stride_count = 0
+        self.turning.forget_corner()
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         before = self.position
@@ -170,6 +171,7 @@ class Projection(Strapdown):
         x, y, z = self.rest_position
         if segment.longest_gap >= LONGEST_GAP:
             x, y, z = self._dedrifted_end()
+            self.turning.forget_corner()
         elif segment.times is not None:
             x, y, z = self._stride_end(segment, segment.times)
         # without critical times the foot turned on the spot or shook, so it stays in place

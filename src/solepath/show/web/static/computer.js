@@ -1,6 +1,7 @@
 // The worker that computes: it is started, called, watched, and started again when somebody asks for it.
 
 const SILENCE_LIMIT = 4; // s without a sign of life of a worker that is ready, while the page is visible
+const COVERED_LIMIT = 10; // s of the same under the cover, where a worker gives a sign every three seconds
 const BUSY_LIMIT = 120; // s of the same while it does what a person asked for: a large floor plan takes its time
 const SOURCE = `import ${JSON.stringify(new URL("worker.js", import.meta.url).href)};`;
 
@@ -96,13 +97,14 @@ class Computer {
 
   #tellSeen() {
     this.#silence = 0;
-    this.post({ seen: this.seen });
+    this.post({ seen: this.seen, covered: this.#covered && !document.hidden });
   }
 
   #watch() {
-    if (this.state !== "ready" || !this.seen) return;
+    if (this.state !== "ready" || document.hidden) return;
     this.#silence += 1;
-    if (this.#silence > (this.#calls.size > 0 ? BUSY_LIMIT : SILENCE_LIMIT)) this.#die("the worker does not answer");
+    const limit = this.#calls.size > 0 ? BUSY_LIMIT : this.#covered ? COVERED_LIMIT : SILENCE_LIMIT;
+    if (this.#silence > limit) this.#die("the worker does not answer");
   }
 
   // For tests: what an operating system does that needs the memory.

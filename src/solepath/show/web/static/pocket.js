@@ -25,6 +25,7 @@ computer.on("walk", (walk) => {
   show(element("pocket"), walk !== null);
   if (walk === null) uncover();
 });
+computer.on("state", (state) => state === "dead" && uncover()); // what has stopped is no longer covered
 
 // The whole screen, where the browser allows that, has no bars to touch by chance.
 function cover() {

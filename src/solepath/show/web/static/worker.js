@@ -7,9 +7,11 @@ import { Walk } from "./walk.js";
 const FRAME_INTERVAL = 33; // ms
 const MIN_FRAME_TIME = 0.03; // s between two frames
 const HEARTBEAT_INTERVAL = 1000; // ms
+const COVERED_INTERVAL = 3000; // ms between two signs of life under the cover
 const BUDGET = 0.03; // s for which a recording is computed at once
 
 let seen = true;
+let covered = false;
 let sentAt = 0; // ms, of the newest message for the page
 let playedAt = performance.now();
 let calls = Promise.resolve();
@@ -36,7 +38,7 @@ onmessage = async ({ data }) => {
   if (data.sensors) guarded(() => receive(parts, data.sensors));
   else if (data.command) guarded(() => parts.python.command(data.command));
   else if ("seen" in data) {
-    seen = data.seen;
+    ({ seen, covered } = data);
     drawRegularly();
     if (!seen) calls = calls.then(() => parts.walk.save()).catch(failed);
   } else if (data.call) calls = calls.then(() => answer(parts, data)).catch(failed);
@@ -69,7 +71,8 @@ const FILE_CALLS = { demo: 1, open: 1, choose: 1, report: 1, get: 1, remove: 1 }
 // A page that nobody sees needs no pictures, and each look for changes wakes a phone's processor.
 function drawRegularly() {
   clearInterval(drawing);
-  drawing = seen ? setInterval(() => draw(), FRAME_INTERVAL) : 0;
+  if (seen) drawing = setInterval(() => draw(), FRAME_INTERVAL);
+  else if (covered) drawing = setInterval(() => postMessage({ alive: true }), COVERED_INTERVAL);
 }
 
 function frame(python) {
