@@ -41,13 +41,8 @@ def score_walk(recipe: str, seed: int, with_heading: bool = False) -> PlaceScore
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize(("recipe", "walks", "most"), [("footstep-tracker", 50, 4), ("default", 25, 0)])
-def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: int, most: int) -> None:
-    """Aim at no true candidate dropped by either recipe.
-
-    Stairs that are taken for the other direction make some of footstep-tracker's walks end on the wrong one of two
-    floors that are alike.
-    """
+@pytest.mark.parametrize(("recipe", "walks"), [("footstep-tracker", 50), ("default", 25)])
+def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: int) -> None:
     scores = [score_walk(recipe, seed) for seed in range(1, walks + 1)]
     distances = [sum(score.off) / len(score.off) for score in scores if score.off]
     for seed, score in enumerate(scores, 1):
@@ -62,7 +57,7 @@ def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: 
     print(f"the candidate nearest to the truth is {sum(nearest) / len(nearest):.2f} m off on average")
     assert sum(score.strides > 0 for score in scores) == walks
     assert median(distances) <= 1.0 and near >= 0.75 * walks
-    assert dropped <= most
+    assert dropped == 0
 
 
 @pytest.mark.soak
