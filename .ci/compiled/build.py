@@ -14,7 +14,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from rewrite import ModuleRewriter, base_protocols, read_classes
+from classes import base_protocols, read_classes
+from rewrite import ModuleRewriter
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
 HOT = (

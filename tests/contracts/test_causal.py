@@ -12,19 +12,7 @@ import pytest
 from attrs import evolve
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from walks import (
-    NAMES,
-    SHORT,
-    Machine,
-    insoles,
-    machine_events,
-    machines,
-    of,
-    pieces,
-    recipes_soaked,
-    run_machine,
-    samples,
-)
+from walks import NAMES, SHORT, Machine, insoles, machine_events, machines, of, pieces, run_machine, samples
 
 from solepath import (
     ActivityChanged,
@@ -154,7 +142,7 @@ PIECE_SIZES = st.integers(0, 399).map(lambda k: 400 - k)
 """Sizes of pieces; hypothesis tries 400 first, since single items are what other sizes are compared with."""
 
 
-@pytest.mark.parametrize("name", recipes_soaked(name for name in NAMES if name.startswith("session")))
+@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
 @given(st.lists(PIECE_SIZES, min_size=1, max_size=6), st.sampled_from([list, tuple, iter]))
 @FEW_EXAMPLES
 def test_any_chunking_gives_the_same_events_bit_for_bit(name: str, sizes: list[int], container: Any) -> None:

@@ -11,7 +11,7 @@ import pytest
 from attrs import evolve
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of, recipes_soaked, samples
+from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
 
 from solepath import FootMoved, Packet, PacketRejected, Rejection, Sample, SampleRejected, Session, Site, StrideTaken
 from solepath.link.catalogue import PROFILES
@@ -49,7 +49,7 @@ def check_times(events: list[Any]) -> None:
 
 @pytest.mark.parametrize("name", PACKET_NAMES)
 @given(st.data())
-@settings(max_examples=8)
+@settings(max_examples=12)
 def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
     k, saved = data.draw(st.sampled_from(cuts(name)))
@@ -102,7 +102,7 @@ SIZES = {"min_size": 8, "max_size": 24}
 KINDS = ("unknown channel", "another device", "no time", "earlier", "site without a sensor", "too long", "nonsense")
 
 
-@pytest.mark.parametrize("name", recipes_soaked(PACKET_NAMES))
+@pytest.mark.parametrize("name", PACKET_NAMES)
 @given(st.lists(st.tuples(st.integers(10, 10_000), st.sampled_from(KINDS), st.integers(0, 99), TIMES), **SIZES))
 @FEW_EXAMPLES
 def test_good_packets_give_the_same_events_whatever_comes_between_them(
@@ -223,7 +223,7 @@ _SAMPLES = st.builds(
 
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
 @given(st.sampled_from(range(SNAPSHOT_COUNT)), st.lists(_SAMPLES, max_size=12))
-@settings(max_examples=10)
+@settings(max_examples=15)
 def test_any_samples_at_all_give_events(name: str, cut: int, fed: list[Sample]) -> None:
     machine = machines()[name]
     k, saved = cuts(name)[cut]

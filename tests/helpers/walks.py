@@ -10,7 +10,6 @@ from typing import Any
 
 import declared
 import numpy as np
-import pytest
 from attrs import evolve, frozen
 
 from solepath import recipes
@@ -278,12 +277,6 @@ SAMPLE_NAMES = tuple(
 )
 NAMES = PACKET_NAMES + SAMPLE_NAMES
 """Names of `machines`, known without an emulation, since collecting tests must not emulate walks."""
-
-
-def recipes_soaked(names: Iterable[str]) -> list[Any]:
-    """Return the names as parameters of a test of what stands before every recipe, which are walked with -m soak."""
-    of_recipes = {f"session, {recipe}" for recipe in RECIPES}
-    return [pytest.param(name, marks=pytest.mark.soak) if name in of_recipes else name for name in names]
 
 
 def of(kind: Any, events: list[Any]) -> list[Any]:

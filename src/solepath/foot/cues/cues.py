@@ -47,7 +47,7 @@ class Cues(Protocol):
     # what follows is optional: the default does nothing
 
     uses_centre: ClassVar[bool] = False
-    """Flag: `Load` has the centre of pressure in every sample, which costs as much as a fifth of its other figures."""
+    """Flag: `load` has the centre of pressure in every sample; it is computed only for those who need it."""
     sagittal: float = 0.0
     """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s. It is 0 while that axis is
     unknown."""

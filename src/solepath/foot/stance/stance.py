@@ -86,7 +86,7 @@ class Detector(Protocol):
     # what follows is optional: the default does nothing
 
     uses_centre: ClassVar[bool] = False
-    """Flag: `load` has the centre of pressure in every sample."""
+    """Flag: `load` has the centre of pressure in every sample; it is computed only for those who need it."""
 
     @property
     def lacking(self) -> str | None:

@@ -127,7 +127,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the figures too")
     options = parser.parse_args(arguments)
     seeds = range(options.seed, options.seed + options.walks)
-    results = {r: count((seed, scored_places(r, seed, options.apart)) for seed in seeds) for r in DEVICES}
+    results = {
+        recipe: count([(seed, scored_places(recipe, seed, options.apart)) for seed in seeds]) for recipe in DEVICES
+    }
     print("\n".join(table(results)))
     if options.json is not None:
         figures = {

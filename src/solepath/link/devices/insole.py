@@ -40,8 +40,8 @@ FULL_PRESSURE_COUNTS = 4095.0
 MOST_TABLES = 16
 """Largest number of scales whose forces are in a table: 131 kB each, shared by all insoles with this scale.
 
-A table takes as long as 50 samples of 96 cells, and then half as long for each as products, which further scales take.
-"""
+To make a table takes as long as 50 samples of 96 cells. A look-up then takes less than a product for each cell, with
+which the forces of further scales are computed."""
 _TABLES: dict[float, tuple[float, ...]] = {}
 """Force of each count, N, by scale, N per count."""
 

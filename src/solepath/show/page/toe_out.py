@@ -8,7 +8,6 @@ from attrs import define, frozen
 
 from ...types import Foot
 from .messages import rounded
-from .posture import ShownPosture
 
 
 @frozen
@@ -55,16 +54,3 @@ class ShownToeOut:
         """Return the member "toe_out" of a frame."""
         feet = [foot.frame() for foot in self.feet]
         return {"task": self.task, "distance": rounded(self.distance), "feet": feet}
-
-
-Guide = ShownPosture | ShownToeOut
-"""Guide of a person, step by step, through the postures of a shoe or a walk that calibrates toe-out."""
-
-
-def guide_frame(guide: Guide | None) -> dict[str, Any]:
-    """Return the members "posture" and "toe_out" of a frame, of which one at most is not None."""
-    frame = None if guide is None else guide.frame()
-    return {
-        "posture": frame if isinstance(guide, ShownPosture) else None,
-        "toe_out": frame if isinstance(guide, ShownToeOut) else None,
-    }

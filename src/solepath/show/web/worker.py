@@ -37,7 +37,11 @@ class WalkRunning(Exception):
     """Error for a recording that is opened while a walk is measured."""
 
 
-PROBLEMS = (RecordingError, CalibrationError, FloorPlanError, SnapshotError, WalkRunning, OSError)
+class UnknownRecipe(Exception):
+    """Error for a recipe that is chosen by a name that no recipe has."""
+
+
+PROBLEMS = (RecordingError, CalibrationError, FloorPlanError, SnapshotError, WalkRunning, UnknownRecipe, OSError)
 """Errors of files, whose texts are sentences for a person."""
 ITEMS_PER_STEP = 64
 """Number of packets that a long task handles before the worker may do something else."""
@@ -98,11 +102,11 @@ class Worker:
         return words_of_json({"recipes": NAMES, "profiles": tuple(BY_NAME)})
 
     def choose_recipe(self, name: str) -> None:
-        """Use this recipe for the next walk and for what is played; raise SnapshotError for an unknown name."""
+        """Use this recipe for the next walk and for what is played; raise UnknownRecipe for another name."""
         try:
             self.recipe = by_name(name)
         except ValueError as error:
-            raise SnapshotError(str(error)) from None
+            raise UnknownRecipe(str(error)) from None
         self._use_choices()
 
     def start_walk(self, title: str) -> None:

@@ -37,9 +37,9 @@ from ....types.attrs import NOT_SAVED
 from ...observer import REJECTIONS, FootCounts, Observer
 from ...valid import has_valid_numbers
 from ..body import LiveBody
+from ..guide import Guide, guide_frame
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
-from ..toe_out import Guide, guide_frame
 from .bending import bend_of
 from .both_feet import both_feet_frame
 from .feet import FootScene
