@@ -1,4 +1,4 @@
-"""A guide leads a person through a calibration, step by step, on the page: the postures of a shoe, or a walk.
+"""A guide leads a person through a calibration, step by step, on the page: the postures of a shoe, or a walk."""
 
 from __future__ import annotations
 
