@@ -48,7 +48,10 @@ def test_a_break_of_three_seconds_is_within_a_bout_and_a_longer_one_ends_it() ->
     # contacts: left 0, 1, 2, 5.5, 6.5, 7.5; right 0.5, 1.5, 2.5, 6, 7, 8
     assert one.steps == 12
     two = walking_bouts([*before, *cycles(L, 5.51, [1.0, 1.0]), *cycles(R, 6.0, [1.0, 1.0])])
-    assert [(bout.number, bout.t_start, bout.t_end, bout.steps) for bout in two] == [(1, 0.0, 2.5, 6), (2, 5.51, 8.0, 6)]
+    assert [(bout.number, bout.t_start, bout.t_end, bout.steps) for bout in two] == [
+        (1, 0.0, 2.5, 6),
+        (2, 5.51, 8.0, 6),
+    ]
 
 
 def test_strides_that_are_too_short_long_or_small_do_not_count() -> None:
@@ -86,7 +89,12 @@ def test_turns_of_45_degrees_count_where_their_middle_is() -> None:
 
 
 def test_events_may_come_in_any_order_and_with_others() -> None:
-    walked: list[Event] = [*cycles(L, 0.0, [1.0] * 9), *cycles(R, 0.5, [1.0] * 9), stride(L, 1.0), turned(3.0, 4.0, 90.0)]
+    walked: list[Event] = [
+        *cycles(L, 0.0, [1.0] * 9),
+        *cycles(R, 0.5, [1.0] * 9),
+        stride(L, 1.0),
+        turned(3.0, 4.0, 90.0),
+    ]
     expected = walking_bouts(walked)
     Random(3).shuffle(walked)
     assert walking_bouts(walked) == expected and len(expected) == 1

@@ -31,12 +31,12 @@ BOUTS = [
 def test_outcomes_are_those_worked_by_hand() -> None:
     outcomes = mobility_outcomes(BOUTS)
     # 8 + 10 + 20 + 30 + 40 + 92 = 200 s; 10 + 14 + 30 + 50 + 70 + 180 = 354; 0 + 1 + 1 + 1 + 2 + 3 = 8
-    assert (outcomes.walkdur_all_sum, outcomes.steps_all_sum, outcomes.turns_all_sum) == (200.0, 354, 8)
+    assert (outcomes.walkdur_all_sum, outcomes.wbsteps_all_sum, outcomes.turns_all_sum) == (200.0, 354, 8)
     # more than 10 s: 20, 30, 40, 92; of them up to 30 s: 20, 30; more than 30 s: 40, 92; more than 60 s: 92
     assert (outcomes.wb_all_sum, outcomes.wb_10_sum, outcomes.wb_1030_sum) == (6, 4, 2)
     assert (outcomes.wb_30_sum, outcomes.wb_60_sum) == (2, 1)
     # the median is (20 + 30) / 2; the 90th percentile is at 0.9 * 5 = 4.5 of 0..5: 40 + 0.5 * (92 - 40) = 66
-    assert (outcomes.wbdur_all_avg, outcomes.wbdur_all_max) == pytest.approx((25.0, 66.0))
+    assert (outcomes.wbdur_all_avg, outcomes.wbdur_all_p90) == pytest.approx((25.0, 66.0))
     # mean 33.3333; squares of deviations: 641.78 + 544.44 + 177.78 + 11.11 + 44.44 + 3441.78 = 4861.33;
     # / 5 = 972.27, whose root is 31.1812; / 33.3333 = 0.935436
     assert outcomes.wbdur_all_var == pytest.approx(0.935436, abs=1e-6)
@@ -48,12 +48,12 @@ def test_outcomes_are_those_worked_by_hand() -> None:
     # 20 and 30 s: (1.0 + 1.1) / 2 and (1.2 + 1.3) / 2
     assert (outcomes.ws_1030_avg, outcomes.strlen_1030_avg) == pytest.approx((1.05, 1.25))
     # speeds 1.0, 1.1, 1.2, 1.3: at 0.9 * 3 = 2.7: 1.2 + 0.7 * 0.1
-    assert outcomes.ws_10_max == pytest.approx(1.27)
+    assert outcomes.ws_10_p90 == pytest.approx(1.27)
     # 40 and 92 s: means; the 90th percentile is at 0.9; the standard deviation of two is their difference / root of 2
-    assert (outcomes.ws_30_avg, outcomes.ws_30_max) == pytest.approx((1.25, 1.29))
+    assert (outcomes.ws_30_avg, outcomes.ws_30_p90) == pytest.approx((1.25, 1.29))
     assert (outcomes.ws_30_var, outcomes.strlen_30_var) == pytest.approx((0.0707107 / 1.25, 0.0707107 / 1.45), abs=1e-6)
     assert (outcomes.strlen_30_avg, outcomes.strdur_30_avg) == pytest.approx((1.45, 1.05))
-    assert (outcomes.cadence_30_avg, outcomes.cadence_30_max) == pytest.approx((115.0, 119.0))
+    assert (outcomes.cadence_30_avg, outcomes.cadence_30_p90) == pytest.approx((115.0, 119.0))
 
 
 def test_a_mean_out_of_its_limits_does_not_count_and_takes_the_speed_with_it() -> None:
@@ -80,14 +80,14 @@ def test_without_bouts_and_without_lengths_there_is_nothing_to_average() -> None
     assert {value for value in asdict(nothing).values()} == {0, None}
     unknown = mobility_outcomes([bout(1, 40.0, None, None)])
     assert (unknown.ws_30_avg, unknown.strlen_30_avg, unknown.cadence_30_avg) == (None, None, 100.0)
-    assert (unknown.wbdur_all_max, unknown.wbdur_all_var) == (40.0, None)
+    assert (unknown.wbdur_all_p90, unknown.wbdur_all_var) == (40.0, None)
 
 
 def test_each_outcome_has_its_unit() -> None:
     units = {name: unit_of(name) for name in asdict(mobility_outcomes([]))}
     assert {name for name, unit in units.items() if not unit} == {
-        "steps_all_sum", "turns_all_sum", "wb_all_sum", "wb_10_sum", "wb_30_sum", "wb_60_sum", "wb_1030_sum",
+        "wbsteps_all_sum", "turns_all_sum", "wb_all_sum", "wb_10_sum", "wb_30_sum", "wb_60_sum", "wb_1030_sum",
         "wbdur_all_var", "cadence_all_var", "strdur_all_var", "ws_30_var", "strlen_30_var",
     }  # fmt: skip
     assert (units["ws_1030_avg"], units["strlen_30_avg"], units["walkdur_all_sum"]) == ("m/s", "m", "s")
-    assert (units["cadence_30_max"], units["wbdur_all_avg"], units["strdur_30_avg"]) == ("1/min", "s", "s")
+    assert (units["cadence_30_p90"], units["wbdur_all_avg"], units["strdur_30_avg"]) == ("1/min", "s", "s")

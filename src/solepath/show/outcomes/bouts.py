@@ -27,6 +27,8 @@ Kluge et al. say two strides of each foot. The written rule of mobgap also accep
 program checks the four alone; so does this one, and a wearer of one sensor needs four strides of that foot."""
 MAX_BREAK = 3.0
 """Longest time from the end of a stride to the start of the next one, of either foot, within a bout, s (mobgap)."""
+ROUNDING = 1e-6
+"""Time by which a duration may be above its limit, s: more than differences of times are rounded by."""
 MIN_TURN = radians(45.0)
 """Least angle of a turn that counts, rad (El-Gohary et al. 2014, Sensors 14; mobgap)."""
 
@@ -70,7 +72,7 @@ class WalkingBout:
 
 def is_selected(cycle: GaitCycleMeasured) -> bool:
     """Return whether a gait cycle is a stride by the stride selection of Mobilise-D, and not a runner's."""
-    if cycle.running or not MIN_STRIDE_TIME < cycle.stride_time <= MAX_STRIDE_TIME:
+    if cycle.running or not MIN_STRIDE_TIME < cycle.stride_time <= MAX_STRIDE_TIME + ROUNDING:
         return False
     return cycle.stride_length is None or cycle.stride_length > MIN_STRIDE_LENGTH
 
@@ -91,7 +93,7 @@ def walking_bouts(events: Iterable[Event]) -> list[WalkingBout]:
     groups: list[list[GaitCycleMeasured]] = []
     last = -inf
     for cycle in cycles:
-        if cycle.t_start - last > MAX_BREAK:
+        if cycle.t_start - last > MAX_BREAK + ROUNDING:
             groups.append([])
         groups[-1].append(cycle)
         last = cycle.t

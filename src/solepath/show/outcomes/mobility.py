@@ -2,7 +2,7 @@
 
 Names, classes of bouts and aggregates are those of `MobilisedAggregator` of mobgap 1.2, which repeats the project's own
 script; limits are its `official_mobilised_dmo_thresholds.csv`. The numbers here are in SI units: mobgap gives
-`walkdur_all_sum` in h and stride lengths in cm. They come from foot-worn sensors, not from the validated pipeline."""
+`walkdur_all_sum` in minutes. They come from foot-worn sensors, not from the validated pipeline."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ DEPENDENT = {"stride_length": ("walking_speed",), "cadence": ("walking_speed",)}
 """Outcomes that are left out with an implausible one (mobgap)."""
 SHORT, MIDDLE, LONG = 10.0, 30.0, 60.0
 """Durations that divide the classes of bouts, s; a bout of exactly that duration is in the class below."""
-MAX_QUANTILE = 0.9
-"""Quantile that stands for a maximum."""
+HIGH_QUANTILE = 0.9
+"""Quantile of the outcomes `p90`."""
 
 
 @frozen(kw_only=True)
@@ -35,13 +35,13 @@ class MobilityOutcomes:
     """The digital mobility outcomes of Mobilise-D, from foot-worn sensors: not the validated lower-back pipeline.
 
     Each outcome is over the bouts of a class of duration: `all`, `1030` (more than 10 and up to 30 s), `10` (more than
-    10 s), `30` (more than 30 s), `60` (more than 60 s). `avg` is the mean over bouts (of durations, the median), `max`
+    10 s), `30` (more than 30 s), `60` (more than 60 s). `avg` is the mean over bouts (of durations, the median), `p90`
     the 90th percentile with linear interpolation, `var` the coefficient of variation with the standard deviation of
     n - 1. An outcome of no bout, or a variation of fewer than two, is None."""
 
     walkdur_all_sum: float
     """Sum of the durations of all bouts, s."""
-    steps_all_sum: int
+    wbsteps_all_sum: int
     """Number of initial contacts in all bouts."""
     turns_all_sum: int
     """Number of turns by 45 degrees or more in all bouts."""
@@ -57,7 +57,7 @@ class MobilityOutcomes:
     """Number of bouts of more than 10 s and up to 30 s."""
     wbdur_all_avg: float | None
     """Median duration of the bouts, s."""
-    wbdur_all_max: float | None
+    wbdur_all_p90: float | None
     """90th percentile of the durations of the bouts, s."""
     wbdur_all_var: float | None
     """Coefficient of variation of the durations of the bouts, as a share."""
@@ -73,11 +73,11 @@ class MobilityOutcomes:
     """Mean walking speed of bouts of more than 10 s and up to 30 s, m/s."""
     strlen_1030_avg: float | None
     """Mean stride length of bouts of more than 10 s and up to 30 s, m."""
-    ws_10_max: float | None
+    ws_10_p90: float | None
     """90th percentile of the walking speeds of bouts of more than 10 s, m/s."""
     ws_30_avg: float | None
     """Mean walking speed of bouts of more than 30 s, m/s."""
-    ws_30_max: float | None
+    ws_30_p90: float | None
     """90th percentile of the walking speeds of bouts of more than 30 s, m/s."""
     ws_30_var: float | None
     """Coefficient of variation of the walking speeds of bouts of more than 30 s, as a share."""
@@ -87,7 +87,7 @@ class MobilityOutcomes:
     """Coefficient of variation of the stride lengths of bouts of more than 30 s, as a share."""
     cadence_30_avg: float | None
     """Mean cadence of bouts of more than 30 s, steps a minute."""
-    cadence_30_max: float | None
+    cadence_30_p90: float | None
     """90th percentile of the cadences of bouts of more than 30 s, steps a minute."""
     strdur_30_avg: float | None
     """Mean stride duration of bouts of more than 30 s, s."""
@@ -124,7 +124,7 @@ def mobility_outcomes(
     durations = values("duration")
     return MobilityOutcomes(
         walkdur_all_sum=fsum(durations),
-        steps_all_sum=sum([bout.steps for bout in bouts]),  # whole numbers
+        wbsteps_all_sum=sum([bout.steps for bout in bouts]),  # whole numbers
         turns_all_sum=sum([bout.turns for bout in bouts]),  # whole numbers
         wb_all_sum=len(durations),
         wb_10_sum=len(values("duration", SHORT)),
@@ -132,7 +132,7 @@ def mobility_outcomes(
         wb_60_sum=len(values("duration", LONG)),
         wb_1030_sum=len(values("duration", SHORT, MIDDLE)),
         wbdur_all_avg=median(durations) if durations else None,
-        wbdur_all_max=high_quantile(durations),
+        wbdur_all_p90=high_quantile(durations),
         wbdur_all_var=variation(durations),
         cadence_all_avg=mean_of(values("cadence")),
         cadence_all_var=variation(values("cadence")),
@@ -140,14 +140,14 @@ def mobility_outcomes(
         strdur_all_var=variation(values("stride_duration")),
         ws_1030_avg=mean_of(values("walking_speed", SHORT, MIDDLE)),
         strlen_1030_avg=mean_of(values("stride_length", SHORT, MIDDLE)),
-        ws_10_max=high_quantile(values("walking_speed", SHORT)),
+        ws_10_p90=high_quantile(values("walking_speed", SHORT)),
         ws_30_avg=mean_of(values("walking_speed", MIDDLE)),
-        ws_30_max=high_quantile(values("walking_speed", MIDDLE)),
+        ws_30_p90=high_quantile(values("walking_speed", MIDDLE)),
         ws_30_var=variation(values("walking_speed", MIDDLE)),
         strlen_30_avg=mean_of(values("stride_length", MIDDLE)),
         strlen_30_var=variation(values("stride_length", MIDDLE)),
         cadence_30_avg=mean_of(values("cadence", MIDDLE)),
-        cadence_30_max=high_quantile(values("cadence", MIDDLE)),
+        cadence_30_p90=high_quantile(values("cadence", MIDDLE)),
         strdur_30_avg=mean_of(values("stride_duration", MIDDLE)),
     )
 
@@ -163,7 +163,7 @@ def high_quantile(values: Sequence[float]) -> float | None:
     if not values:
         return None
     ordered = sorted(values)
-    place = MAX_QUANTILE * (len(ordered) - 1)
+    place = HIGH_QUANTILE * (len(ordered) - 1)
     below = floor(place)
     above = min(below + 1, len(ordered) - 1)
     return ordered[below] + (place - below) * (ordered[above] - ordered[below])
