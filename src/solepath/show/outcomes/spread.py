@@ -132,27 +132,33 @@ def asymmetry(events: Iterable[Event], name: str) -> IntervalEstimate | None:
     return IntervalEstimate(value=index, low=index - half, high=index + half, strides=count, needed=needed)
 
 
-def _samples(events: Iterable[Event], name: str) -> dict[Foot, FootSample]:
-    """Return the moments of a parameter over steady walking strides of each foot that has any.
+def steady_strides(events: Iterable[Event]) -> list[GaitCycleMeasured]:
+    """Return the strides that count: steady ones of walking that the next one of the foot follows.
 
-    A stride counts if it is steady and the next one of its foot follows, as in `Session.gait`."""
+    They are those of the means in `Session.gait`."""
     latest: dict[Foot, GaitCycleMeasured] = {}
-    runs: dict[Foot, list[list[float]]] = {}
-    previous_end: dict[Foot, float] = {}
+    strides = []
     for event in events:
-        if not isinstance(event, GaitCycleMeasured):
-            continue
-        last, latest[event.foot] = latest.get(event.foot), event
-        if last is None or not last.steady or last.running or last.t != event.t_start:
-            continue
-        value = getattr(last, name)
+        if isinstance(event, GaitCycleMeasured):
+            last, latest[event.foot] = latest.get(event.foot), event
+            if last is not None and last.steady and not last.running and last.t == event.t_start:
+                strides.append(last)
+    return strides
+
+
+def _samples(events: Iterable[Event], name: str) -> dict[Foot, FootSample]:
+    """Return the moments of a parameter over the steady strides of each foot that has any."""
+    runs: dict[Foot, list[list[float]]] = {}
+    ends: dict[Foot, float] = {}
+    for stride in steady_strides(events):
+        value = getattr(stride, name)
         if value is None:
             continue
-        foot_runs = runs.setdefault(last.foot, [])
-        if previous_end.get(last.foot) != last.t_start:
+        foot_runs = runs.setdefault(stride.foot, [])
+        if ends.get(stride.foot) != stride.t_start:
             foot_runs.append([])
         foot_runs[-1].append(value)
-        previous_end[last.foot] = last.t
+        ends[stride.foot] = stride.t
     return {foot: _moments(runs[foot]) for foot in Foot if foot in runs}
 
 
