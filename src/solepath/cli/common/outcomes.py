@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from ...show.outcomes.clinic import Clinic
     from ...show.outcomes.references import Person
 
-FIRST_STEP = "first step"
-"""Value of --six-minute-walk without a time."""
 MAX_AGE, HEIGHTS, WEIGHTS = 120.0, (50.0, 250.0), (10.0, 400.0)
 """Oldest age, years, and the heights, cm, and weights, kg, that --reference takes; others are slips of the pen."""
 
@@ -31,7 +29,8 @@ def add_outcomes(command: argparse.ArgumentParser) -> None:
         "--six-minute-walk",
         metavar="START",
         nargs="?",
-        const=FIRST_STEP,
+        type=_start,
+        default=False,
         help="the six-minute walk from this time of the recording's clock, s (default: from the first step)",
     )
     command.add_argument(
@@ -49,27 +48,18 @@ def add_outcomes(command: argparse.ArgumentParser) -> None:
 
 def has_outcomes(options: argparse.Namespace) -> bool:
     """Return whether any outcome was requested, so that there are bouts.csv and outcomes.csv."""
-    return bool(options.outcomes) or options.six_minute_walk is not None or options.timed_up_and_go is not None
+    return bool(options.outcomes) or options.six_minute_walk is not False or options.timed_up_and_go is not None
 
 
 def clinic_of(options: argparse.Namespace) -> Clinic | None:
     """Return what collects the outcomes that the options name; None without any; raise Failure when one is wrong."""
-    six_minutes, up_and_go = options.six_minute_walk, options.timed_up_and_go
     if not has_outcomes(options):
         if options.reference is not None:
             raise Failure("--reference goes with --outcomes, --six-minute-walk or --timed-up-and-go")
         return None
     from ...show.outcomes.clinic import Clinic
 
-    start = None
-    if six_minutes is not None and six_minutes != FIRST_STEP:
-        (start,) = _numbers(six_minutes) if six_minutes.count(",") == 0 else (None,)
-        if start is None:
-            text = printable(six_minutes, 80)
-            raise Failure(
-                f"--six-minute-walk {text} is no time in s, as in 12.5; the recording stands before this option"
-            )
-    marks = None
+    marks, up_and_go = None, options.timed_up_and_go
     if up_and_go is not None:
         first, last = _numbers(up_and_go) if up_and_go.count(",") == 1 else (None, None)
         if first is None or last is None or not first < last:
@@ -77,11 +67,19 @@ def clinic_of(options: argparse.Namespace) -> Clinic | None:
         marks = (first, last)
     return Clinic(
         outcomes=options.outcomes,
-        six_minutes=six_minutes is not None,
-        six_minutes_start=start,
+        six_minutes=options.six_minute_walk is not False,
+        six_minutes_start=None if options.six_minute_walk is False else options.six_minute_walk,
         up_and_go=marks,
         person=None if options.reference is None else _person(options.reference),
     )
+
+
+def _start(text: str) -> float:
+    """Parse the time of --six-minute-walk; argparse gives it whatever follows, which may be the recording."""
+    (start, *others) = _numbers(text)
+    if start is None or others:
+        raise argparse.ArgumentTypeError(f"{text!r} is no time in s; the recording stands before this option")
+    return start
 
 
 def _person(text: str) -> Person:

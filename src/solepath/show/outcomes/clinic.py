@@ -27,6 +27,9 @@ LABEL = (
 NEEDED = (
     "needed: strides for an interval of 20 % of a variability, or of 2 percentage points of an asymmetry, to each side"
 )
+SENSORS = (
+    "the intervals are of the strides: sensors whose scales differ by 1 % make lengths and speeds differ by as much"
+)
 NO_WALK = "No walking bout was found, so that there is no six-minute walk."
 """Sentence for a six-minute walk without a start."""
 UP_AND_GO_NOTE = (
@@ -118,7 +121,7 @@ class Clinic:
             lines += _table("mobility outcomes", results.part(PARTS[2]))
             for part in PARTS[3:]:
                 lines += ["", *_interval_table(f"{part} of steady strides", results.part(part))]
-            lines += [NEEDED, "", LABEL]
+            lines += [NEEDED, SENSORS, "", LABEL]
         return lines + results.sources(*PARTS)
 
 

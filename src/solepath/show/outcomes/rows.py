@@ -26,6 +26,8 @@ CLASSES = {
 AGGREGATES = {"sum": "", "avg": ", mean", "p90": ", 90th percentile", "var": ", CV"}
 DIGITS = {"s": 2, "m": 2, "m/s": 2, "1/min": 1}
 """Digits after the point in tables by unit; a share is shown in percent with one digit."""
+LARGE = 100.0
+"""Size from which one digit is enough."""
 
 
 @frozen(kw_only=True)
@@ -47,9 +49,11 @@ class OutcomeRow:
         """Return a value of this outcome as a table shows it, without the unit."""
         if value is None:
             return "-"
-        if self.unit:
-            return number(value, DIGITS[self.unit])
-        return str(value) if isinstance(value, int) else number(100.0 * value, 1)
+        if not self.unit and isinstance(value, int):
+            return str(value)
+        digits = DIGITS[self.unit] if self.unit and abs(value) < LARGE else 1
+        text = number(value if self.unit else 100.0 * value, digits)
+        return text.removeprefix("-") if float(text) == 0.0 else text
 
     @property
     def shown_unit(self) -> str:
@@ -114,7 +118,7 @@ def mobility_rows(outcomes: MobilityOutcomes) -> list[OutcomeRow]:
     for name, value in asdict(outcomes).items():
         kind, of_bouts, how = name.split("_")
         aggregate = ", median" if (kind, how) == ("wbdur", "avg") else AGGREGATES[how]
-        label = f"{KINDS[kind]}{CLASSES[of_bouts]}{aggregate}"
+        label = f"{KINDS[kind]}{CLASSES[of_bouts]}{aggregate}".replace("bouts, bouts", "bouts")
         rows.append(OutcomeRow(part=PARTS[2], name=name, label=label, unit=unit_of(name), value=value))
     return rows
 

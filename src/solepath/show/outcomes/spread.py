@@ -2,7 +2,8 @@
 
 The intervals are analytic: no random number is drawn. They allow for strides that resemble the one before, by the
 autocorrelation at lag 1 of each foot's strides (of a process of order 1). Slower changes, such as getting tired over
-minutes, they do not cover. tests/outcomes/test_spread.py shows how often they hold the true value."""
+minutes, they do not cover, nor errors of the sensors: where their scales differ by 1 %, so do lengths.
+tests/outcomes/test_spread.py shows how often the intervals hold the true value."""
 
 from __future__ import annotations
 

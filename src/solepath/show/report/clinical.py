@@ -12,6 +12,7 @@ from ..outcomes.clinic import (
     NEEDED,
     NO_STEP,
     NO_WALK,
+    SENSORS,
     UP_AND_GO_NOTE,
     Clinic,
     bout_row,
@@ -40,7 +41,8 @@ def clinical_sections(main: Element, clinic: Clinic) -> None:
         add(parent, "p", NO_WALK if walk is None else six_minute_sentence(walk))
         if walk is not None:
             figures = add(parent, "div", class_="figures")
-            _table(figures, "Six-minute walk", results.part(PARTS[0]))
+            rows = [row for row in results.part(PARTS[0]) if not row.name.startswith("distance_minute")]
+            _table(figures, "Six-minute walk", rows)
             minutes_figure(figures, walk.minutes)
             _notes(parent, [SIX_MINUTE_NOTE, *results.sources(PARTS[0])])
     if results.up_and_go is not None:
@@ -62,8 +64,8 @@ def clinical_sections(main: Element, clinic: Clinic) -> None:
             rows = [interval_row(row) for row in results.part(part)]
             if rows:
                 table(parent, f"{part.capitalize()} of steady strides", (part, *INTERVAL_HEADER), rows)
-        known = results.part(*PARTS[3:])
-        _notes(parent, [NEEDED.capitalize() if known else TOO_FEW, *results.sources(PARTS[2])])
+        notes = [NEEDED.capitalize(), SENSORS.capitalize()] if results.part(*PARTS[3:]) else [TOO_FEW]
+        _notes(parent, [*notes, *results.sources(PARTS[2])])
 
 
 def _table(parent: Element, caption: str, rows: Sequence[OutcomeRow]) -> None:
