@@ -20,7 +20,12 @@ pd: Any = pytest.importorskip("pandas")
 wba: Any = pytest.importorskip("mobgap.wba", reason="mobgap is not installed")
 aggregation: Any = pytest.importorskip("mobgap.aggregation", reason="mobgap is not installed")
 
-COLUMNS = {"stride_duration": "stride_duration_s", "cadence": "cadence_spm", "stride_length": "stride_length_m", "walking_speed": "walking_speed_mps"}  # fmt: skip
+COLUMNS = {
+    "stride_duration": "stride_duration_s",
+    "cadence": "cadence_spm",
+    "stride_length": "stride_length_m",
+    "walking_speed": "walking_speed_mps",
+}
 FACTORS = {"walkdur_all_sum": 1.0 / 60.0}
 """Factors from the units here to those of mobgap: minutes of walking."""
 

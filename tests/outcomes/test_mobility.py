@@ -40,7 +40,7 @@ def test_outcomes_are_those_worked_by_hand() -> None:
     # mean 33.3333; squares of deviations: 641.78 + 544.44 + 177.78 + 11.11 + 44.44 + 3441.78 = 4861.33;
     # / 5 = 972.27, whose root is 31.1812; / 33.3333 = 0.935436
     assert outcomes.wbdur_all_var == pytest.approx(0.935436, abs=1e-6)
-    # (4 * 100 + 110 + 120) / 6 = 105; deviations 5, 5, 5, 5, 5, 15: squares 350 / 5 = 70, root 8.3666; / 105 = 0.0796819
+    # (4 * 100 + 110 + 120) / 6 = 105; deviations 5, 5, 5, 5, 5, 15: 350 / 5 = 70, root 8.3666; / 105 = 0.0796819
     assert outcomes.cadence_all_avg == pytest.approx(105.0)
     assert outcomes.cadence_all_var == pytest.approx(0.0796819, abs=1e-7)
     # (4 * 1.2 + 1.1 + 1.0) / 6 = 1.15; squares: 4 * 0.0025 + 0.0025 + 0.0225 = 0.035; / 5, root 0.0836660; / 1.15

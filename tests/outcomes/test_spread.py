@@ -32,8 +32,8 @@ def test_values_are_those_worked_by_hand() -> None:
     # 2 * (1.2 - 1.0) / 2.2
     index = asymmetry(events, "stride_time")
     assert index is not None and index.value == pytest.approx(0.4 / 2.2)
-    # slope 4 / 2.2^2 = 0.826446; autocorrelations: left -0.04 / 4 / (0.04 / 5) = -1.25, right -0.01 / 4 / 0.004 = -0.625:
-    # both count as 0, so variance = (0.826446 * 1.2)^2 * 0.01 / 5 + (0.826446 * 1.0)^2 * 0.005 / 5
+    # slope 4 / 2.2^2 = 0.826446; autocorrelations: left -0.03 / 4 / (0.04 / 5), right -0.01 / 4 / (0.02 / 5): below zero,
+    # they count as 0; variance = (0.826446 * 1.2)^2 * 0.01 / 5 + (0.826446 * 1.0)^2 * 0.005 / 5
     #   = 0.001967078 + 0.000683013 = 0.002650092, root 0.0514790
     # degrees of freedom (Welch) = 0.002650092^2 / (0.001967078^2 / 4 + 0.000683013^2 / 4) = 6.4785; t = 2.4036
     assert index.high - index.value == pytest.approx(2.4036 * 0.0514790, rel=1e-4)
@@ -87,10 +87,7 @@ def test_intervals_hold_the_truth_19_times_in_20(count: int, correlation: float)
     rng, walks = Random(count), 600
     held = [0, 0]
     for _ in range(walks):
-        events = [
-            *_strides(rng, L, count, correlation, 1.0, 0.03),
-            *_strides(rng, R, count, correlation, 1.04, 0.03),
-        ]
+        events = [*_strides(rng, L, count, correlation, 1.0, 0.03), *_strides(rng, R, count, correlation, 1.04, 0.03)]
         one, index = variability(events, "speed"), asymmetry(events, "speed")
         assert one is not None and index is not None
         held[0] += one.low <= 0.03 / 1.02 <= one.high
@@ -111,8 +108,10 @@ def test_independent_strides_need_50_for_a_variability() -> None:
 
 def test_quantiles_are_those_of_tables() -> None:
     # Abramowitz and Stegun 1964, tables 26.8 and 26.10
-    for degrees, low, high in ((1, 0.00098207, 5.02389), (3, 0.215795, 9.34840), (10, 3.24697, 20.4831), (100, 74.2219, 129.561)):  # fmt: skip
-        assert (chi_squared_quantile(0.025, degrees), chi_squared_quantile(0.975, degrees)) == pytest.approx((low, high), rel=1e-5)  # fmt: skip
+    ends = {1: (0.00098207, 5.02389), 3: (0.215795, 9.34840), 10: (3.24697, 20.4831), 100: (74.2219, 129.561)}
+    for degrees, low_and_high in ends.items():
+        found = tuple([chi_squared_quantile(share, degrees) for share in (0.025, 0.975)])
+        assert found == pytest.approx(low_and_high, rel=1e-5)
     for degrees, t in ((3, 3.182), (4, 2.776), (10, 2.228), (30, 2.042), (120, 1.980)):
         assert student_quantile(degrees) == pytest.approx(t, rel=2e-3)
     assert (lower_gamma(1.0, 1.0), lower_gamma(3.0, 0.0)) == pytest.approx((0.6321205588, 0.0))

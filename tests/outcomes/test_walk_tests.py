@@ -47,7 +47,7 @@ def test_six_minutes_start_with_the_first_toe_off_and_end_within_a_stride() -> N
 
 
 def test_a_stride_counts_with_the_share_of_its_swing() -> None:
-    # from a mark at 10.7 s, half of the first left swing (10.5 to 10.9 s) and all of the first right one are in the test,
+    # from a mark at 10.7 s, half of the first left swing (10.5 to 10.9 s) and all of the first right one are in it;
     # and at its end, 370.7 s, half of the left swing that lifts at 370.5 s
     six = six_minute_walk(walk(10.0, 400), start=10.7)
     assert six is not None

@@ -22,12 +22,12 @@ class Person:
     """The person for whom reference values are looked up; a value that needs what is not known is not given."""
 
     age: float
-    """Age, years."""
+    """Age of the person, years."""
     sex: Sex
     height: float | None = None
-    """Height, m."""
+    """Height of the person, m."""
     weight: float | None = None
-    """Body mass, kg."""
+    """Body mass of the person, kg."""
 
 
 @frozen(kw_only=True)

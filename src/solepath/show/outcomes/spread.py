@@ -60,7 +60,7 @@ class FootSample:
     count: int
     mean: float
     variance: float
-    """Unbiased variance."""
+    """Unbiased variance of the values."""
     correlation: float
     """Autocorrelation at lag 1, of strides that follow each other, corrected for its bias and not below 0."""
 

@@ -61,9 +61,9 @@ def clinical_sections(main: Element, clinic: Clinic) -> None:
             add(parent, "p", f"and {len(results.bouts) - MAX_BOUTS} more bouts", class_="note")
         _table(parent, "Mobility outcomes", results.part(PARTS[2]))
         for part in PARTS[3:]:
-            rows = [interval_row(row) for row in results.part(part)]
-            if rows:
-                table(parent, f"{part.capitalize()} of steady strides", (part, *INTERVAL_HEADER), rows)
+            cells = [interval_row(row) for row in results.part(part)]
+            if cells:
+                table(parent, f"{part.capitalize()} of steady strides", (part, *INTERVAL_HEADER), cells)
         notes = [NEEDED.capitalize(), SENSORS.capitalize()] if results.part(*PARTS[3:]) else [TOO_FEW]
         _notes(parent, [*notes, *results.sources(PARTS[2])])
 
