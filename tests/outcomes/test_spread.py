@@ -32,8 +32,8 @@ def test_values_are_those_worked_by_hand() -> None:
     # 2 * (1.2 - 1.0) / 2.2
     index = asymmetry(events, "stride_time")
     assert index is not None and index.value == pytest.approx(0.4 / 2.2)
-    # slope 4 / 2.2^2 = 0.826446; autocorrelations: left -0.03 / 4 / (0.04 / 5), right -0.01 / 4 / (0.02 / 5): below zero,
-    # they count as 0; variance = (0.826446 * 1.2)^2 * 0.01 / 5 + (0.826446 * 1.0)^2 * 0.005 / 5
+    # autocorrelations: left -0.03 / 4 / (0.04 / 5), right -0.01 / 4 / (0.02 / 5): below zero, they count as 0
+    # slope 4 / 2.2^2 = 0.826446; variance = (0.826446 * 1.2)^2 * 0.01 / 5 + (0.826446 * 1.0)^2 * 0.005 / 5
     #   = 0.001967078 + 0.000683013 = 0.002650092, root 0.0514790
     # degrees of freedom (Welch) = 0.002650092^2 / (0.001967078^2 / 4 + 0.000683013^2 / 4) = 6.4785; t = 2.4036
     assert index.high - index.value == pytest.approx(2.4036 * 0.0514790, rel=1e-4)

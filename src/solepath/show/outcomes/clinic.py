@@ -121,7 +121,7 @@ class Clinic:
             lines += _table("mobility outcomes", results.part(PARTS[2]))
             for part in PARTS[3:]:
                 lines += ["", *_interval_table(f"{part} of steady strides", results.part(part))]
-            lines += [NEEDED, SENSORS, "", LABEL]
+            lines += [*([NEEDED, SENSORS] if results.part(*PARTS[3:]) else []), "", LABEL]
         return lines + results.sources(*PARTS)
 
 
