@@ -1,6 +1,6 @@
 """Bouts and outcomes of random strides are those of mobgap itself, where it is installed (Python 3.10 on).
 
-It is no extra of solepath: `pip install mobgap` beside it, then `pytest tests/outcomes/test_mobgap.py`."""
+It is no extra of solepath: `pip install mobgap numpydoc` beside it, then `pytest tests/outcomes/test_mobgap.py`."""
 
 from __future__ import annotations
 
