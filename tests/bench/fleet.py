@@ -114,7 +114,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--sizes", type=int, nargs="+", default=[100, 1000], help="wearers of the columns")
     parser.add_argument("--seconds", type=float, default=4.0, help="of walking")
-    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--every", type=float, default=10.0, help="s between two snapshots")
     parser.add_argument("--recipe", default="default")
     parser.add_argument("--walks", choices=("96", "demo"), default="96", help="96 cells, or the six of fleet-demo")
