@@ -18,7 +18,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.truth import TrueStride
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.gaps.gap import NoInfill, find_infill
-from solepath.foot.gaps.moment import correction_distance, moments
+from solepath.foot.gaps.moment import MOMENT, correction_distance, unpack_moments
 from solepath.foot.gaps.template import LARGEST_TEMPLATE_AGE, MOST_MOMENTS, StrideTemplate
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
@@ -67,16 +67,16 @@ def test_a_stride_is_stored_exactly_at_any_time_and_position() -> None:
         t = 0.032 * k
         velocity, position = (1.0, 0.1 * k, 0.0), (distance + t, -distance, 0.0)
         template.add_moment(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
-    rows = moments(template.rows)
+    rows = unpack_moments(template.moments)
     assert [one.since for one in rows] == pytest.approx([0.032 * k for k in range(8)], abs=1e-6)
     assert rows[7].velocity == pytest.approx((1.0, 0.7, 0.0))
     assert rows[7].position == pytest.approx((0.224, 0.0, 0.0), abs=1e-7)
     assert rows[7].rate == (0.0, -5.0, 0.25) and rows[7].force == 5.0 and rows[7].attitude == IDENTITY
-    assert correction_distance(template.rows) == pytest.approx(
+    assert correction_distance(template.moments) == pytest.approx(
         0.35 * 0.224, abs=1e-6
     )  # the velocity to the left did not move the foot
     template.add_moment(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (distance, distance, 0.0), (0.0, 3.0, 4.0), ZERO)
-    assert template.rows == [] and template.t_heel_off is None
+    assert template.moments == b"" and template.t_heel_off is None
 
 
 def test_a_toe_off_or_heel_strike_at_a_stored_moment_has_the_time_of_that_moment() -> None:
@@ -89,7 +89,7 @@ def test_a_toe_off_or_heel_strike_at_a_stored_moment_has_the_time_of_that_moment
             template.add_moment(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
         template.end_stride(t_heel_off + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
         assert template.last_stride is not None
-        stored = moments(template.last_stride.rows)
+        stored = unpack_moments(template.last_stride.moments)
         assert (stored[2].since, stored[7].since) == (template.last_stride.toe_off, template.last_stride.heel_strike)
 
 
@@ -119,7 +119,7 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_no_template() -> None:
         stride(template, 4.0 + k, 0.5)
     assert template.last_stride is not stored  # after many turns a turn becomes the template
     stride(template, 40.0, 0.0, duration=3.0)  # too slow to be stored as a whole, and memory is bounded
-    assert len(template.rows) <= MOST_MOMENTS
+    assert len(template.moments) <= MOST_MOMENTS * MOMENT.size
 
 
 def test_a_stride_with_a_large_zero_velocity_correction_is_no_template() -> None:

@@ -26,7 +26,7 @@ from ...types.vector import (
     turned,
 )
 from ..navigate.corrector import LONGEST_BRIDGE, Corrector
-from .moment import RecordedStride, StrideMoment, interpolate_stride, limit_length, moments, vector_length
+from .moment import RecordedStride, StrideMoment, interpolate_stride, limit_length, unpack_moments, vector_length
 from .template import StrideTemplate
 
 SHORTEST_FILLED_GAP = 0.06
@@ -101,7 +101,7 @@ def find_infill(
     stride = template.last_stride
     if stride is None or t_after - t_before > LONGEST_FILLED_GAP:
         return NoInfill.STOOD if template.t_heel_off is None and still < 8.0 else NoInfill.UNKNOWN
-    template_moments = moments(stride.rows)
+    template_moments = unpack_moments(stride.moments)
     template_end = template_moments[-1].since
     if template.t_heel_off is None:
         mismatch = 0.0

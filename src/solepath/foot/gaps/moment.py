@@ -9,14 +9,11 @@ from ...types import Quat, Vec3
 from ...types.attrs import define, frozen
 from ...types.vector import normalise, sub
 
-MomentRow = tuple[
-    float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
-]  # fmt: skip
+MOMENT = Struct("<15f")
 """Stored form of a moment: all numbers of `StrideMoment` in order, rounded to float32.
 
-The relative rounding error is below 1e-6, whereas strides differ by some per cent."""
-FLOAT32_ROW = Struct("<15f")
-"""Binary format that rounds a `MomentRow` to float32."""
+The relative rounding error is below 1e-6, whereas strides differ by some per cent. A stride of 40 moments takes 2.4 kB;
+as tuples of floats it took 20 kB."""
 
 
 @frozen
@@ -41,8 +38,8 @@ class StrideMoment:
 class RecordedStride:
     """A stride without gaps."""
 
-    rows: list[MomentRow]
-    """Moments from heel-off to just before foot-flat, in order; at least one."""
+    moments: bytes
+    """Moments from heel-off to just before foot-flat, in order, as `MOMENT` packs them; at least one."""
     toe_off: float
     """Time from heel-off to toe-off, s."""
     heel_strike: float
@@ -53,14 +50,15 @@ class RecordedStride:
     @property
     def duration(self) -> float:
         """Time from heel-off to the last moment, s."""
-        return self.rows[-1][0]
+        since: float = MOMENT.unpack_from(self.moments, len(self.moments) - MOMENT.size)[0]
+        return since
 
 
-def moments(rows: list[MomentRow]) -> list[StrideMoment]:
-    """Return stored rows as moments, in order."""
+def unpack_moments(packed: bytes) -> list[StrideMoment]:
+    """Return stored moments, in order."""
     return [
         StrideMoment(t, (qw, qx, qy, qz), (vx, vy, vz), (px, py, pz), (rx, ry, rz), force)
-        for t, qw, qx, qy, qz, vx, vy, vz, px, py, pz, rx, ry, rz, force in rows
+        for t, qw, qx, qy, qz, vx, vy, vz, px, py, pz, rx, ry, rz, force in MOMENT.iter_unpack(packed)
     ]
 
 
@@ -84,10 +82,11 @@ def interpolate_stride(moments: list[StrideMoment], since: float) -> StrideMomen
     return before
 
 
-def correction_distance(rows: list[MomentRow]) -> float:
-    """Return the distance by which zero-velocity updates have moved the foot in a stride, m.
+def correction_distance(packed: bytes) -> float:
+    """Return the distance by which zero-velocity updates have moved the foot in a stride of these moments, m.
 
     It is the length of the difference between displacement and integral of the velocity."""
+    rows = list(MOMENT.iter_unpack(packed))
     first, last = rows[0], rows[-1]
     before, ax, ay, az = first[0], *first[5:8]
     x, y, z = sub(last[8:11], first[8:11])

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, single, sub, turned
-from .moment import FLOAT32_ROW, MomentRow, RecordedStride, correction_distance, limit_length
+from .moment import MOMENT, RecordedStride, correction_distance, limit_length
 from .straight import StraightOn, correction_share
 
 
@@ -54,10 +54,10 @@ class StrideTemplate:
     """Last stride without a gap; None before any."""
     age: int = field(default=1000, init=False)
     """Number of strides since `last_stride`."""
-    rows: list[MomentRow] = field(factory=list, init=False)
-    """Moments of the current stride."""
+    moments: bytes = field(default=b"", init=False)
+    """Moments of the current stride, as `MOMENT` packs them."""
     first_position: Vec3 = field(default=ZERO, init=False)
-    """Position at the first of `rows`, navigation frame, m; the positions in `rows` are relative to it."""
+    """Position at the first of `moments`, navigation frame, m; the positions in `moments` are relative to it."""
     stance_duration: float = field(default=0.0, init=False)
     """Time from foot-flat to heel-off of the last stance without a gap, s."""
     t_flat: float | None = field(default=None, init=False)
@@ -81,7 +81,7 @@ class StrideTemplate:
         if self.t_flat is not None and self.infilled == 0.0:
             self.stance_duration = t - self.t_flat
         self.t_heel_off = self.t_next_moment = t
-        self.rows = []
+        self.moments = b""
 
     def add_infill(self, t_heel_off: float, duration: float) -> None:
         """Set the heel-off at `t_heel_off`, s, and add `duration` s of infill."""
@@ -95,7 +95,7 @@ class StrideTemplate:
     def reset(self) -> None:
         """Discard the current stride, because the state of the foot is unknown."""
         self.t_heel_off = self.t_flat = None
-        self.rows = []
+        self.moments = b""
         self.straight_on.footfalls = 0
 
     def add_moment(self, t: float, attitude: Quat, velocity: Vec3, position: Vec3, acc: Vec3, gyro: Vec3) -> None:
@@ -105,21 +105,19 @@ class StrideTemplate:
         self.t_next_moment = t + MOMENT_INTERVAL
         if self.infilled > 0.0:
             return
-        rows = self.rows
-        if not rows:
+        if not self.moments:
             self.first_position = position
-        elif len(rows) >= MOST_MOMENTS:
-            self.rows = []
+        elif len(self.moments) >= MOST_MOMENTS * MOMENT.size:
+            self.moments = b""
             self.t_heel_off = None
             return
         try:
             x, y, z = position
             ox, oy, oz = self.first_position
             values = (t - self.t_heel_off, *attitude, *velocity, x - ox, y - oy, z - oz, *gyro, hypot(*acc))
-            row: MomentRow = FLOAT32_ROW.unpack(FLOAT32_ROW.pack(*values))  # OverflowError beyond 3e38: not a stride
-            rows.append(row)
+            self.moments += MOMENT.pack(*values)  # OverflowError beyond 3e38: not a stride
         except OverflowError:
-            self.rows = []
+            self.moments = b""
             self.t_heel_off = None
 
     def end_stride(
@@ -144,7 +142,7 @@ class StrideTemplate:
         bridged, self.bridged = self.bridged, False
         duration = None if self.t_last_flat is None else t - self.t_last_flat
         self.t_last_flat = t
-        self.rows = []
+        self.moments = b""
         self.t_heel_off = None
         self.t_flat = t
         sparse_interval = interval if interval > LONGEST_DENSE_INTERVAL else 0.0
@@ -184,9 +182,9 @@ class StrideTemplate:
         self.age = min(self.age + 1, 1000)
         if self.t_heel_off is None or toe_off is None or self.infilled > 0.0 or self.bridged:
             return
-        if len(self.rows) < FEWEST_MOMENTS:
+        if len(self.moments) < FEWEST_MOMENTS * MOMENT.size:
             return
-        if correction_distance(self.rows) > LARGEST_CORRECTION:
+        if correction_distance(self.moments) > LARGEST_CORRECTION:
             return
         self.longest_stride = max(0.95 * self.longest_stride, hypot(displacement[0], displacement[1]))
         # a stride round a corner is no template, unless the template is old
@@ -194,6 +192,6 @@ class StrideTemplate:
             t_heel_strike = t if heel_strike is None else heel_strike
             # rounded like the moments, because these times may be equal to that of a moment
             self.last_stride = RecordedStride(
-                self.rows, single(toe_off - self.t_heel_off), single(t_heel_strike - self.t_heel_off), displacement
+                self.moments, single(toe_off - self.t_heel_off), single(t_heel_strike - self.t_heel_off), displacement
             )
             self.age = 0
