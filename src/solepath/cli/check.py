@@ -10,6 +10,7 @@ from typing import Any
 from ..events import DefectFound, Event, SampleGap, StrideTaken
 from ..recording import RecordingError, open_source, printable
 from ..recording.errors import UnusableValues
+from ..recording.source import label_files
 from ..show.tables.table import counted
 from ..types import Foot, Packet, Sample
 from ..types.attrs import define, field
@@ -112,7 +113,7 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.summary import link_health, wear_lines
 
     recipe, calibration = recipe_named(options.recipe), calibration_of(options)
-    name, flaws = printable(", ".join(path.name for path in options.files)), list[str]()
+    name, flaws = printable(label_files(options.files)), list[str]()
     is_one = len(options.files) == 1
     try:
         source = open_source(options.files, feet_of(options), mapping=mapping_of(options), report=flaws.append)
@@ -169,7 +170,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _without_path(error: RecordingError) -> str:
     text = ": ".join([part for part in (error.where, error.what) if part])
-    return f"{text}; {error.repair}" if error.repair else text
+    return f"{text}; repair: {error.repair}" if error.repair else text
 
 
 def _print_list(title: str, sentences: Sequence[str]) -> None:

@@ -17,7 +17,7 @@ class RecordingError(Exception):
     def __init__(self, path: Path | str, what: str, where: str = "", repair: str = "") -> None:
         self.path, self.where, self.what, self.repair = Path(path), where, what, repair
         parts = [printable(str(path)), *(part for part in (where, what) if part)]
-        super().__init__(": ".join(parts) + (f"; {repair}" if repair else ""))
+        super().__init__(": ".join(parts) + (f"; repair: {repair}" if repair else ""))
 
     @property
     def problems(self) -> tuple[RecordingError, ...]:

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 SAMPLE_SUFFIXES = (".npz", ".csv", ".tsv", ".txt", ".xlsx", ".xlsm", ".xls", ".ods", ".parquet")
 """Suffixes of files that hold samples."""
+LONGEST_LABEL = 80
+"""Largest number of characters of the names of several files in a title; chosen by hand."""
 MAX_AHEAD = 20_000
 """Largest number of packets of a pipe that `look_ahead` reads and keeps: some 100 s of two insoles."""
 
@@ -105,6 +107,15 @@ class Source:
             raise RecordingError(self.path, f"holds no packets of the {self.foot.value} foot")
 
 
+def label_files(paths: Sequence[Path]) -> str:
+    """Return a title for one or more files: their names, with those of their folders if the names are the same."""
+    names = [path.name for path in paths]
+    if len(set(names)) < len(names):
+        names = [f"{path.parent.name}/{path.name}" for path in paths]
+    joined = ", ".join(names)
+    return joined if len(names) == 1 or len(joined) <= LONGEST_LABEL else f"{names[0]} and {len(names) - 1} more"
+
+
 def open_source(
     files: Path | str | Sequence[Path | str],
     foot: Foot | Sequence[Foot] | None = None,
@@ -120,13 +131,13 @@ def open_source(
     columns of tables mean, as far as they do not say it themselves. RecordingError, with all problems, when something
     cannot be used."""
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
-    name, path = ", ".join(path.name for path in paths), paths[0]
+    name, path = label_files(paths), paths[0]
     only = foot if isinstance(foot, Foot) else None
     if mapping is not None or len(paths) > 1 or path.suffix.lower() in SAMPLE_SUFFIXES:
         from .samples import load_samples  # imports numpy, which packets do not need
 
         samples = load_samples(paths, foot, mapping=mapping, report=report)
-        header = {} if samples.began is None else {"began": samples.began.isoformat(), "began_t": 0.0}
+        header = {} if samples.start_time is None else {"began": samples.start_time.isoformat(), "began_t": 0.0}
         return Source(
             path, only, report, len(samples), samples=samples, header=header, bad_rows=samples.bad_rows, name=name
         )

@@ -78,8 +78,8 @@ def axes_repair(source: Source, event: DefectFound) -> str:
         if table.foot is event.site.foot and event.axes is not None and len(names) == 3:
             turned = [_turn(names[abs(axis) - 1]) if axis < 0 else names[abs(axis) - 1] for axis in event.axes]
             is_alone = len(tables) == 1 or table.mapping.is_of_one_foot and tables[0].signed == tables[-1].signed
-            line = table.mapping.write_line("gyro" if is_alone else f"gyro_{table.foot.value}", turned)
-            return f"; if the gyroscope is wrong, {line}"
+            key = "gyro" if is_alone else f"gyro_{table.foot.value}"
+            return f"; repair, if the gyroscope is wrong: {table.mapping.write_columns(key, {key: turned})}"
     return ""
 
 

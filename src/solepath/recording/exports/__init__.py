@@ -8,7 +8,7 @@ from .ngimu import NGIMU
 from .own import OWN
 from .physilog import PHYSILOG
 
-EXPORTS = {export.name: export for export in (OWN, MOVELLA_DOT, MBIENTLAB, PHYSILOG, MOTICON, NGIMU)}
+EXPORTS = {export.name: export for export in (MOVELLA_DOT, MBIENTLAB, PHYSILOG, MOTICON, NGIMU, OWN)}
 """Known formats by name (mapping.FORMATS), in the order in which they are tried."""
 
 __all__ = ["EXPORTS", "OWN", "Export", "TableHeader"]

@@ -18,6 +18,9 @@ _COLUMN = re.compile(
 )
 _AXES = {"x": 0, "y": 1, "z": 2}
 
+QUANTITIES = frozenset(["acc", "gyro", "pressure"])
+"""Quantities of which a table with these names has one or more."""
+
 Key = tuple[str, str, int]
 """Quantity, foot ("" for none) and component of a column."""
 
@@ -38,8 +41,10 @@ def _find(header: TableHeader) -> dict[Key, str]:
 
 
 def _is_own(header: TableHeader) -> bool:
-    names = [match[1].lower() for match in map(_COLUMN.fullmatch, header.names) if match]
-    return len(names) > 1 and bool({"acc", "pressure", "gyro"} & set(names))
+    # other programs write Acc_X too, but not beside a column t
+    names = [match[1] for match in map(_COLUMN.fullmatch, header.names) if match]
+    has_time = "t" in map(str.lower, names)
+    return any(name in QUANTITIES or (has_time and name.lower() in QUANTITIES) for name in names)
 
 
 def _mapping(header: TableHeader) -> TableMapping:

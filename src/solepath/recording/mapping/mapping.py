@@ -17,7 +17,7 @@ MEASURED = QUANTITIES[1:]
 """Quantities that sensors measure."""
 KEYS = tuple(quantity + suffix for suffix in ("", "_left", "_right") for quantity in QUANTITIES)
 """Keys of columns: a quantity, alone or with the foot whose it is."""
-FORMATS = ("solepath", "movella-dot", "mbientlab", "physilog", "moticon", "ngimu")
+FORMATS = ("movella-dot", "mbientlab", "physilog", "moticon", "ngimu", "solepath")
 """Names of the known formats, which `solepath.recording.exports` defines."""
 SEPARATORS = {",": ",", ";": ";", "\t": "\t", "|": "|", " ": " ", "tab": "\t"}
 """Texts that may be between the cells of a line; "tab" is another word for a tab."""
@@ -42,7 +42,7 @@ class TableMapping:
     rate: float | None = None
     """Number of samples a second, Hz, of a table without times; None for one with times."""
     wrap: float | None = None
-    """Value at which a counter of time starts again from 0, in the unit of the column; None for one that does not."""
+    """Value at which a counter of time starts again from 0, s or the unit of the column; None if it never does."""
     separator: str | None = None
     """Character between the cells of a line; None: found in the file."""
     decimal: str | None = None
@@ -71,8 +71,6 @@ class TableMapping:
                 found[f"columns.{key}"] = f"{key} has no names of columns"
             elif quantity == "t" and len(names) != 1:
                 found[f"columns.{key}"] = f"{key} is one column, not {len(names)}"
-            elif quantity in ("acc", "gyro") and len(names) not in (1, 3):
-                found[f"columns.{key}"] = f"{key} is three columns x, y, z, not {len(names)}"
         for quantity, unit in self.units.items():
             known = find_unit(unit) if isinstance(unit, str) else None
             if quantity not in UNITS:
@@ -125,21 +123,24 @@ class TableMapping:
         """True when a quantity that a sensor measures is named without a foot."""
         return any(quantity in self.columns for quantity in MEASURED)
 
-    def write_line(self, key: str, names: Iterable[str]) -> str:
-        """Return what sets the columns of a key: an option of a command, or a line of the file of this mapping."""
-        names = list(names)
-        if self.origin:
-            text = ", ".join(f'"{name}"' for name in names)
-            return f"in {self.origin}: {key} = {text}" if len(names) == 1 else f"in {self.origin}: {key} = [{text}]"
-        return f"--columns {shell_word(f'{key}={join_names(names)}')}"
+    def write_columns(self, key: str, changes: Mapping[str, Iterable[str]]) -> str:
+        """Return what makes these changes: the whole --columns, or the line of `key` in the file of this mapping."""
+        if not self.origin:
+            columns = {**self.columns, **changes}
+            return f"--columns {shell_word(','.join(f'{k}={join_names(names)}' for k, names in columns.items()))}"
+        names = list(changes[key])
+        text = ", ".join(f'"{name}"' for name in names)
+        return f"in {self.origin}: {key} = {text}" if len(names) == 1 else f"in {self.origin}: {key} = [{text}]"
+
+    def write_units(self, quantity: str, changes: Mapping[str, str]) -> str:
+        """Return what makes these changes: the whole --units, or the line of a quantity in the file of this mapping."""
+        if not self.origin:
+            return f"--units {','.join({**self.units, **changes}.values())}"
+        return f'in {self.origin}: {quantity} = "{changes[quantity]}" below [units]'
 
     def write_setting(self, key: str, value: str) -> str:
-        """Return the text that sets another value, as `write_line` does for columns."""
+        """Return what sets another value: an option of this name, or a line in the file of this mapping."""
         return f"in {self.origin}: {key} = {value}" if self.origin else f"--{key} {value}"
-
-    def write_unit(self, quantity: str, unit: str) -> str:
-        """Return the text that sets the unit of a quantity, as `write_line` does for columns."""
-        return f'in {self.origin}: {quantity} = "{unit}" below [units]' if self.origin else f"--units {unit}"
 
 
 def join_names(names: Iterable[str]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -15,19 +15,21 @@ from ..exports import EXPORTS, OWN, Export, TableHeader
 from ..mapping.mapping import MEASURED, TableMapping
 from ..mapping.units import UNITS, find_unit, unit_of_name
 from .feet import foot_of_text
-from .layout import Layout
+from .layout import SheetLayout
 
 NEED = {"acc": 3, "gyro": 3, "t": 1}
 """Number of columns of a quantity; an insole may have any number of cells."""
 
 
 @frozen
-class Column:
+class NamedColumn:
     """A column of a table, and the sign with which its numbers count."""
 
     index: int
+    """Number of the column, counted from 0."""
     name: str
     sign: float = 1.0
+    """Factor of its numbers: 1 or -1."""
 
 
 @define
@@ -36,7 +38,7 @@ class FootColumns:
 
     foot: Foot | None
     """Foot whose they are; None in a table of one foot that names none."""
-    columns: dict[str, tuple[Column, ...]]
+    columns: dict[str, tuple[NamedColumn, ...]]
     """Columns of each quantity; without `t` in a table that has a rate instead."""
     names: dict[str, str]
     """Name of each quantity in messages."""
@@ -47,13 +49,20 @@ class FootColumns:
 
 @define
 class TableColumns:
-    """What a mapping finds in a table."""
+    """Columns of a table that a mapping names, with what is wrong with them."""
 
     feet: list[FootColumns]
+    given: TableMapping
+    """Mapping of the user."""
     mapping: TableMapping
+    """Mapping of the user, with what it leaves out."""
     export: Export | None
     header: TableHeader
     problems: list[RecordingError] = field(factory=list)
+    faults: list[tuple[str, str]] = field(factory=list)
+    """Key of a mapping and fault of its columns."""
+    changes: dict[str, list[str]] = field(factory=dict)
+    """Names of columns that would repair them, by key; "NAME" for one that is not known."""
 
     @property
     def time_is_own(self) -> bool:
@@ -61,13 +70,13 @@ class TableColumns:
         return self.mapping.columns.get("t", ("t",))[0].lower() == "t"
 
 
-def find_columns(path: Path, layout: Layout, given: TableMapping, foot: Foot | None) -> TableColumns:
+def find_columns(path: Path, layout: SheetLayout, given: TableMapping, foot: Foot | None) -> TableColumns:
     """Return the columns of a table: those of `given`, and for what it leaves out those of a known format.
 
     `foot` is the foot of a table of one foot, None if that is not known."""
     header = TableHeader(path, layout.names, layout.preamble, layout.units)
     where = f"line {layout.header}" if layout.header else ""
-    found = TableColumns([], given, _find_export(header, given), header)
+    found = TableColumns([], given, given, _find_export(header, given), header)
     tagged = None
     if foot is None and found.export is not None:
         foot = tagged = foot_of_text(found.export.tag(header))
@@ -94,13 +103,18 @@ def find_columns(path: Path, layout: Layout, given: TableMapping, foot: Foot | N
         columns = {}
         for quantity, key in keys.items():
             if names := found.mapping.columns.get(key):
-                columns[quantity] = tuple(_resolve(found, where, key, quantity, names))
-        if "t" not in columns and found.mapping.rate is None:
-            repair = f"{found.mapping.write_line('t', ['NAME'])} or {found.mapping.write_setting('rate', 'HZ')}"
-            found.problems.append(RecordingError(path, f"names no column t ({_list(header)})", where, repair))
+                columns[quantity] = _resolve(found, key, quantity, names)
+        if "t" not in columns and "t" not in found.mapping.columns and found.mapping.rate is None:
+            found.changes["t"] = ["NAME"]
+            found.faults.append(("t", f"names no column t ({_list(header)})"))
         labels = {q: _name_of(q, suffix, columns.get(q, ()), found.export) for q in ("t", *MEASURED)}
         units = _find_units(header, columns, given, base)
         found.feet.append(FootColumns(one, columns, labels, units, bool(suffix) or tagged is not None))
+    for key, what in dict.fromkeys(found.faults):
+        repair = given.write_columns(key, found.changes)
+        if key == "t" and found.changes["t"] == ["NAME"]:
+            repair += f" or {given.write_setting('rate', 'HZ')}"
+        found.problems.append(RecordingError(path, what, where, repair))
     return found
 
 
@@ -109,7 +123,7 @@ def _keys_of(foot: Foot, mapping: TableMapping) -> dict[str, str]:
     return {"t": own_time if own_time in mapping.columns else "t", **{q: f"{q}_{foot.value}" for q in MEASURED}}
 
 
-def _name_of(quantity: str, suffix: str, columns: Sequence[Column], export: Export | None) -> str:
+def _name_of(quantity: str, suffix: str, columns: Sequence[NamedColumn], export: Export | None) -> str:
     """Return the name of a quantity in messages: this project's own, or that of its first column."""
     if export is OWN:
         return quantity + ("" if quantity == "t" and columns and "_" not in columns[0].name else suffix)
@@ -124,39 +138,44 @@ def _find_export(header: TableHeader, given: TableMapping) -> Export | None:
     return next((export for export in EXPORTS.values() if export.is_own(header)), None)
 
 
-def _resolve(found: TableColumns, where: str, key: str, quantity: str, names: Sequence[str]) -> Iterator[Column]:
-    """Yield the columns with these names; faults go to the problems of `found`."""
-    path, mapping = found.header.path, found.mapping
-    columns: list[Column] = []
+def _resolve(found: TableColumns, key: str, quantity: str, names: Sequence[str]) -> tuple[NamedColumn, ...]:
+    """Return the columns with these names; faults go to those of `found`."""
+    all_names = found.header.names
+    columns: list[NamedColumn] = []
     missing: list[str] = []
     corrected: list[str] = []
     for name in names:
-        matches = _match(found.header.names, name)
+        matches = _match(all_names, name)
         if len(matches) > 1 and "*" not in name:
             numbers = " or ".join(f"#{match.index + 1}" for match in matches)
-            repair = mapping.write_line(key, [f"#{matches[0].index + 1}" if n == name else n for n in names])
-            what = f"names the column {printable(name, 40)} twice: it is {numbers}"
-            found.problems.append(RecordingError(path, what, where, repair))
-        columns += matches
-        if not matches:
+            found.faults.append((key, f"names the column {printable(name, 40)} twice: it is {numbers}"))
+            corrected.append(f"#{matches[0].index + 1}")
+        elif matches:
+            corrected.append(name)
+        else:
             missing.append(name)
-        sign = "-" if name.startswith("-") else ""
-        close = [] if matches else get_close_matches(name.lower(), [n.lower() for n in found.header.names], 1, 0.7)
-        corrected += [sign + n for n in found.header.names if [n.lower()] == close][:1] if close else [name]
+            corrected.append(_closest([one for one in all_names if one not in names], name))
+        columns += matches[:1] if "*" not in name else matches
     if missing:
         text = ", ".join(printable(name.lstrip("-"), 40) for name in missing)
-        repair = mapping.write_line(key, corrected if corrected != list(names) else ["NAME"] * len(names))
-        what = f"names no column {text} ({_list(found.header)})"
-        found.problems.append(RecordingError(path, what, where, repair))
+        found.faults.append((key, f"names no column {text} ({_list(found.header)})"))
     elif quantity in NEED and len(columns) != NEED[quantity]:
         listed = ", ".join(printable(column.name, 40) for column in columns)
-        repair = mapping.write_line(key, ["X", "Y", "Z"][: NEED[quantity]])
-        what = f"{key} needs {NEED[quantity]} columns, not {len(columns)} ({listed})"
-        found.problems.append(RecordingError(path, what, where, repair))
-    return iter(columns)
+        found.faults.append((key, f"{key} needs {NEED[quantity]} columns, not {len(columns)} ({listed})"))
+        corrected = ["X", "Y", "Z"][: NEED[quantity]]
+    if corrected != list(names):
+        found.changes[key] = corrected
+    return tuple(columns)
 
 
-def _match(names: Sequence[str], name_given: str) -> list[Column]:
+def _closest(names: Sequence[str], name: str) -> str:
+    """Return the name of a column that is spelt much like another one, with its sign; "NAME" without one."""
+    close = get_close_matches(name.lower().lstrip("-"), [one.lower() for one in names], 1, 0.7)
+    sign = "-" if name.startswith("-") else ""
+    return sign + next((one for one in names if [one.lower()] == close), "NAME")
+
+
+def _match(names: Sequence[str], name_given: str) -> list[NamedColumn]:
     """Return the columns that a name means: as it is or with a sign, as a number, a pattern, and in any case."""
     for name, sign in ((name_given, 1.0), (name_given.removeprefix("-"), -1.0)):
         if sign < 0.0 and not name_given.startswith("-"):
@@ -170,7 +189,7 @@ def _match(names: Sequence[str], name_given: str) -> list[Column]:
         if not exact:
             exact = [k for k, one in enumerate(names) if one.lower() == name.strip().lower()]
         if exact:
-            return [Column(k, names[k], sign) for k in exact]
+            return [NamedColumn(k, names[k], sign) for k in exact]
     return []
 
 
@@ -183,7 +202,7 @@ def _list(header: TableHeader) -> str:
 
 
 def _find_units(
-    header: TableHeader, columns: dict[str, tuple[Column, ...]], given: TableMapping, base: TableMapping
+    header: TableHeader, columns: dict[str, tuple[NamedColumn, ...]], given: TableMapping, base: TableMapping
 ) -> dict[str, str]:
     """Return the unit of each quantity: as it is given, as the header says, as the known format has it, or SI."""
     units = {}

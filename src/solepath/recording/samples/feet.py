@@ -1,4 +1,4 @@
-"""Of which foot a file is, by its name, the name of its folder, or the name that somebody gave the device."""
+"""The foot that a file is of, by its name, that of its folder, or that of the device."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from ..errors import RecordingError, printable
 from ..mapping.mapping import join_names, shell_word
 from ..mapping.units import GRAVITY, UNITS, unit_of_name
 from .columns import TableColumns
-from .layout import Layout, is_number
+from .layout import SheetLayout, is_number
 from .numbers import is_datetime, number_reader
 from .plausible import MAX_GYRO, NEAR, USUAL_INTERVAL
 from .sheet import Row
@@ -32,7 +32,7 @@ FEET = {"left": re.compile(r"left|(?:^|[^a-z])l(?:[^a-z]|$)"), "right": re.compi
 """Patterns of the feet in names of columns."""
 
 
-def guess_mapping(path: Path, layout: Layout, rows: Iterator[Row], found: TableColumns) -> RecordingError:
+def guess_mapping(path: Path, layout: SheetLayout, rows: Iterator[Row], found: TableColumns) -> RecordingError:
     """Return the error for a table of no known format, with the options that may fit it."""
     names = [name for name in layout.names if name]
     holds_numbers = not layout.header or all(map(is_number, names))
@@ -54,7 +54,7 @@ def guess_mapping(path: Path, layout: Layout, rows: Iterator[Row], found: TableC
     return RecordingError(path, f"is of no known format ({what})", where, repair)
 
 
-def _guess_columns(layout: Layout) -> dict[str, list[int]]:
+def _guess_columns(layout: SheetLayout) -> dict[str, list[int]]:
     """Return the columns that the names suggest, by key of a mapping."""
     axes: dict[str, dict[str, int]] = {}
     columns: dict[str, list[int]] = {}
@@ -78,7 +78,7 @@ def _guess_columns(layout: Layout) -> dict[str, list[int]]:
     return {key: columns[key] for key in order if key in columns}
 
 
-def _guess_units(layout: Layout, rows: Iterator[Row], columns: dict[str, list[int]]) -> tuple[list[str], bool]:
+def _guess_units(layout: SheetLayout, rows: Iterator[Row], columns: dict[str, list[int]]) -> tuple[list[str], bool]:
     """Return the units that the numbers suggest where the names say none, and whether the times are sample numbers."""
     number_of = number_reader(layout.decimal)
     indices = sorted({k for numbers in columns.values() for k in numbers})

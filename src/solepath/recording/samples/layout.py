@@ -24,8 +24,8 @@ Cells = list[Any]
 
 
 @frozen
-class Layout:
-    """Layout of a table; its rows of numbers start at line `first`."""
+class SheetLayout:
+    """SheetLayout of a table; its rows of numbers start at line `first`."""
 
     names: tuple[str, ...]
     """Names of the columns, without blanks around them; 1, 2, 3 in a table without a header."""
@@ -75,7 +75,7 @@ def count_numbers(cells: Sequence[Any]) -> int:
     return count if count >= 2 and 2 * count >= len(filled) else 0
 
 
-def find_layout(lines: Sequence[tuple[int, str]], mapping: TableMapping) -> Layout:
+def find_layout(lines: Sequence[tuple[int, str]], mapping: TableMapping) -> SheetLayout:
     """Return the layout of a text file from its first lines, with their numbers; `mapping` may state parts of it.
 
     ValueError when a line that is stated is not there."""
@@ -109,7 +109,7 @@ def find_header(
     mapping: TableMapping,
     separator: str = ",",
     split: Callable[[str], Cells] = str.split,
-) -> Layout:
+) -> SheetLayout:
     """Return the layout of a table from its first rows, with their numbers."""
     filled = [(number, cells) for number, cells in rows if any(_text(cell) for cell in cells)]
     start = next((k for k, (_, cells) in enumerate(filled) if count_numbers(cells)), None)
@@ -139,7 +139,7 @@ def find_header(
     has_commas = separator != "," and any(
         isinstance(cell, str) and COMMA_NUMBER.fullmatch(cell.strip()) for _, cells in numbers for cell in cells
     )
-    return Layout(
+    return SheetLayout(
         names,
         header,
         first,

@@ -63,6 +63,7 @@ def read_npz(path: Path, one_foot: Foot | None, mapping: TableMapping | None = N
         for quantity, unit in mapping.units.items():
             known = find_unit(unit)
             factor = 1.0 if known is None else UNITS[quantity][known[1]]
+            table.units[quantity] = unit if known is None else known[1]
             if quantity == "t":
                 table.t = table.t * factor
                 table.is_own = table.is_own and factor == 1.0
@@ -156,7 +157,7 @@ class _Archive:
         if missing:
             text = f"has no key {printable(', '.join(missing), 80)} (it holds {self.list_keys()})"
             key, names = next((key, names) for key, names in mapping.columns.items() if set(names) & set(missing))
-            raise RecordingError(self._path, text, repair=mapping.write_line(key, ["KEY"] * len(names)))
+            raise RecordingError(self._path, text, repair=mapping.write_columns(key, {key: ["KEY"] * len(names)}))
         for key, names in mapping.columns.items():
             if names != (key,):
                 self._parts[key], self.keys[key] = names, self.keys[names[0].lstrip("-")]

@@ -16,10 +16,10 @@ from ...types import Foot
 from ..bad_rows import BadRows
 from ..errors import RecordingError, printable
 from ..exports import OWN
-from ..mapping.mapping import MEASURED, TableMapping
+from ..mapping.mapping import MEASURED
 from ..mapping.units import DATETIME, UNITS
 from .columns import FootColumns, TableColumns
-from .layout import COMMA_NUMBER, Cells, Layout
+from .layout import COMMA_NUMBER, Cells, SheetLayout
 from .sheet import Row
 from .table import MAX_VALUES, FootTable
 
@@ -28,7 +28,7 @@ SECONDS_OF_DAY = 86400.0
 
 
 def read_rows(
-    path: Path, layout: Layout, rows: Iterator[Row], found: TableColumns, bad_rows: BadRows
+    path: Path, layout: SheetLayout, rows: Iterator[Row], found: TableColumns, bad_rows: BadRows
 ) -> list[FootTable]:
     """Return the tables of the feet, without the rows that are none of numbers, which `bad_rows` gets.
 
@@ -58,7 +58,7 @@ def read_rows(
         if sum(len(foot.values) for foot in feet) > MAX_VALUES:  # whole numbers
             raise RecordingError(path, f"holds more than {MAX_VALUES:,} numbers")
     is_own = found.export is OWN and found.time_is_own
-    return [foot.to_table(path, found.mapping, is_own=is_own) for foot in feet if len(foot.lines)]
+    return [foot.to_table(path, found, is_own=is_own) for foot in feet if len(foot.lines)]
 
 
 def _fit(cells: Cells, count: int, width: int) -> Cells:
@@ -117,15 +117,15 @@ class _FootRows:
             kind = "a time" if self.time_of is read_datetime else "a number"
             raise ValueError(f"{column.name} is {_describe(cells, column.index)}, not {kind}") from None
 
-    def to_table(self, path: Path, mapping: TableMapping, *, is_own: bool) -> FootTable:
+    def to_table(self, path: Path, found: TableColumns, *, is_own: bool) -> FootTable:
         """Return the rows as a table, in SI units; `is_own`: the column of times has this project's name."""
         columns, units = self.columns.columns, self.columns.units
         rows = np.frombuffer(self.values, dtype=np.float64).reshape(len(self.lines), 1 + len(self.order))
         t = rows[:, 0]
         if "t" not in columns:
-            t = t / (mapping.rate or 1.0)
+            t = t / (found.mapping.rate or 1.0)
         else:
-            wrap = SECONDS_OF_DAY if units["t"] == DATETIME and t[0] < SECONDS_OF_DAY else mapping.wrap
+            wrap = SECONDS_OF_DAY if units["t"] == DATETIME and t[0] < SECONDS_OF_DAY else found.mapping.wrap
             if wrap is not None:
                 with np.errstate(invalid="ignore"):
                     t = t + wrap * np.cumsum(np.concatenate([[0.0], np.diff(t) < -0.5 * wrap]))
@@ -149,8 +149,9 @@ class _FootRows:
             np.frombuffer(self.lines, dtype=np.int64),
             is_assumed=self.columns.foot is None,
             is_named=self.columns.is_named,
+            units=dict(units),
             signed=signed,
-            mapping=mapping,
+            mapping=found.given,
             is_own=is_own and units["t"] == "s",
         )
 

@@ -36,10 +36,10 @@ class SampleRecording:
     Iterating gives the samples of all feet in order of time, the left foot first at equal times."""
 
     path: Path
-    """First file."""
+    """Path of the first file."""
     tables: tuple[FootTable, ...]
     bad_rows: BadRows
-    began: datetime | None = None
+    start_time: datetime | None = None
     """Moment of time 0, UTC, if the files have times since 1970 that are counted from the first one."""
 
     def __len__(self) -> int:
@@ -84,14 +84,14 @@ def load_samples(
     _name_feet(tables, problems)
     for table in tables:
         problems += find_wrong_units(table)
-    began = _count_from_start(tables)
+    start_time = _count_from_start(tables)
     if not problems:
         tables = join_files(tables, problems)
     if problems:
         raise RecordingError.of(problems)
     if not any(map(len, tables)):
         raise RecordingError(paths[0], "holds no samples")
-    return SampleRecording(paths[0], tuple(tables), total, began)
+    return SampleRecording(paths[0], tuple(tables), total, start_time)
 
 
 def _read_file(

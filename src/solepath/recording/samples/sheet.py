@@ -18,7 +18,7 @@ from attrs import frozen
 from ..bad_rows import LONGEST_LINE, MAX_SKIPPED, skip_line
 from ..errors import RecordingError, open_file, printable
 from ..mapping.mapping import TableMapping
-from .layout import HEAD_LINES, Cells, Layout, find_header, find_layout, splitter
+from .layout import HEAD_LINES, Cells, SheetLayout, find_header, find_layout, splitter
 
 MAX_LENGTH = 4_000_000_000
 """Largest number of characters of a file: 40 for each of MAX_VALUES. A device without end is read up to it."""
@@ -43,7 +43,7 @@ class Row:
 
 
 @contextmanager
-def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[Layout, Iterator[Row]]]:
+def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[SheetLayout, Iterator[Row]]]:
     """Open a table; the value is its layout, and an iterator over its rows below the header that are not blank.
 
     RecordingError for a file that is empty, too large or no table."""
@@ -63,9 +63,9 @@ def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[Layout, Iter
         yield layout, _cut_rows(chain(head, lines), layout)
 
 
-def _layout_of(path: Path, find: Any, rows: list[Any], mapping: TableMapping) -> Layout:
+def _layout_of(path: Path, find: Any, rows: list[Any], mapping: TableMapping) -> SheetLayout:
     try:
-        layout: Layout = find(rows, mapping)
+        layout: SheetLayout = find(rows, mapping)
     except ValueError as error:
         repair = mapping.write_setting("header", "of the names") if mapping.header else ""
         raise RecordingError(path, str(error), repair=repair) from None
@@ -82,7 +82,7 @@ def _check_head(path: Path, head: list[tuple[int, str]]) -> None:
         raise RecordingError(path, f"is longer than {LONGEST_LINE} characters", f"line {number}")
 
 
-def _cut_rows(lines: Iterable[tuple[int, str]], layout: Layout) -> Iterator[Row]:
+def _cut_rows(lines: Iterable[tuple[int, str]], layout: SheetLayout) -> Iterator[Row]:
     split = splitter(layout.separator)
     for number, line in lines:
         if number >= layout.first and line.strip():

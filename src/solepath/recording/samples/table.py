@@ -47,10 +47,12 @@ class FootTable:
     """Flag: the file itself says of which foot the table is, not its name alone."""
     is_own: bool = True
     """Flag: the times are in the unit s and under the name of this project, so that they stay as they are."""
+    units: dict[str, str] = field(factory=dict)
+    """Unit of each quantity in the file; SI where it says none."""
     signed: dict[str, tuple[str, ...]] = field(factory=dict)
     """Names of the columns of each quantity, with "-" before one whose sign is changed; empty for an archive."""
     mapping: TableMapping = field(factory=TableMapping)
-    """Mapping with which the table was read."""
+    """Mapping that the user gave for the table."""
 
     def __len__(self) -> int:
         return len(self.t)
