@@ -75,7 +75,7 @@ def mbientlab(folder: Path, feet: Sequence[Foot] = tuple(Foot)) -> list[Path]:
     """Write the four files of two MetaMotions: acceleration at 100 Hz, angular rate at 200 Hz, from other moments."""
     paths = []
     for foot in feet:
-        side, mac = foot.value.capitalize(), {"left": "CCA00625B61F", "right": "DFE264DC19EA"}[foot.value]
+        side, mac = foot.value.capitalize(), {"left": "C0FFEE000001", "right": "C0FFEE000002"}[foot.value]
         for sensor, unit, rate, late in (("Accelerometer", "g", 100.0, 0), ("Gyroscope", "deg/s", 200.0, 37)):
             t, acc, gyro = columns(walked(foot, rate))
             axes = ",".join(f"{axis}-axis ({unit})" for axis in "xyz")
@@ -104,7 +104,7 @@ def physilog(folder: Path, feet: Sequence[Foot] = tuple(Foot)) -> list[Path]:
             "[s],[deg/s],[deg/s],[deg/s],[g],[g],[g],[mBar],[degree C],[],[],[],[],",
         ]
         rows = (
-            f"{s:.5f},{texts(w, '%.5f')},{texts(a, '%.5f')},{',' if k % 128 else '1023.130,25.7'},1,0,0,0,"
+            f"{s:.5f},{texts(w, '%.5f')},{texts(a, '%.5f')},{',' if k % 128 else '1013.250,21.5'},1,0,0,0,"
             for k, (s, a, w) in enumerate(zip(t, acc, gyro, strict=True))
         )
         paths.append(write(folder / f"{foot.value[0].upper()}F.csv", [*head, *rows]))
@@ -123,7 +123,7 @@ def moticon(folder: Path) -> list[Path]:
     head = [
         "# Start time: 01.03.2026 09:30:00.086",
         "# Duration: 00:27.000",
-        "# Sensor insoles: Left SN5968, Right SN9171",
+        "# Sensor insoles: Left SN1234, Right SN5678",
         "# Size: 7",
         "# Recording type: normal",
         "\t".join(names),
@@ -149,10 +149,9 @@ def ngimu(folder: Path, feet: Sequence[Foot] = tuple(Foot)) -> list[Path]:
     for foot in feet:
         t, acc, gyro = columns(walked(foot))
         rows = (
-            f"{s:.9f},{texts((*w, *a), '%.7g')},-0.4640059,-19.16631,-40.76735,1027.018"
-            for s, a, w in zip(t, acc, gyro, strict=True)
+            f"{s:.9f},{texts((*w, *a), '%.7g')},-0.5,-19.5,-40.75,1013.25" for s, a, w in zip(t, acc, gyro, strict=True)
         )
-        serial = {"left": "0029D0B4", "right": "0029C1DA"}[foot.value]
+        serial = {"left": "0029AAAA", "right": "0029BBBB"}[foot.value]
         path = folder / "My Session" / f"NGIMU-{foot.value.capitalize()} - {serial}" / "sensors.csv"
         paths.append(write(path, [",".join(["Time (s)", *axes, "Barometer (hPa)"]), *rows]))
     return paths

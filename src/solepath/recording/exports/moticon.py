@@ -1,6 +1,6 @@
 """Text exports of the Moticon OpenGo software: one .txt file for both insoles.
 
-Lines that start with "#" come first ("# Start time:", "# Duration:", "# Sensor insoles: Left SN5968, Right SN9171",
+Lines that start with "#" come first ("# Start time:", "# Duration:", "# Sensor insoles: Left SN..., Right SN...",
 ...), the last of which has the names, with tabs between them: "# time", "left pressure 1[N/cm²]" to 16, "left
 acceleration X[g]", "left angular X[dps]", "left total force[N]", ..., and the same of the right foot. Source:
 text_import.py and the test data of Moticon's own moticon-rego/moticon-opengo. A row in which all cells of a foot are

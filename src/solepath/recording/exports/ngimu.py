@@ -3,7 +3,7 @@
 Header: "Time (s),Gyroscope X (deg/s),...,Accelerometer X (g),...,Magnetometer X (uT),...,Barometer (hPa)". Source: the
 session of xioTechnologies/NGIMU-MATLAB-Import-Logged-Data-Example. All devices of a session count their times from the
 first one of any of them (xioTechnologies/NGIMU-Software-Public, issue 2), so the feet have one clock. The name of the
-folder has that of the device, as in "NGIMU-Left - 0029D0B4". Sensors are right handed, specific force is up at rest."""
+folder has that of the device, as in "NGIMU-Left - 0029AAAA". Sensors are right handed, specific force is up at rest."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ def is_number(cell: Any) -> bool:
 
 def count_numbers(cells: Sequence[Any]) -> int:
     """Return the number of numbers in a row that consists of them, for half of its cells or more; otherwise 0."""
-    filled = [cell for cell in cells if not isinstance(cell, str) or cell.strip()]
+    filled = [cell for cell in cells if _text(cell)]
     count = sum(map(is_number, filled))  # whole numbers
     return count if count >= 2 and 2 * count >= len(filled) else 0
 
@@ -82,8 +82,10 @@ def find_layout(lines: Sequence[tuple[int, str]], mapping: TableMapping) -> Shee
     if mapping.separator is not None:
         separator = SEPARATORS[mapping.separator]
     else:
-        separator = max(SEPARATORS.values(), key=lambda sep: _count_rows(lines, sep))
-        if not _count_rows(lines, separator)[0]:
+        separator = max(",;\t|", key=lambda sep: _count_rows(lines, sep))
+        if not _count_rows(lines, separator)[0] and _count_rows(lines, " ")[0]:
+            separator = " "  # the last resort: texts within cells have blanks, too
+        elif not _count_rows(lines, separator)[0]:
             separator = max(",;\t", key=lambda sep: max((text.count(sep) for _, text in lines), default=0))
     split = splitter(separator)
     rows = [(number, _cut(split, text)) for number, text in lines]

@@ -27,6 +27,8 @@ from .table import FootTable, remove_bad_rows
 
 SINCE_1970 = 1e8
 """Time above which times of another format are counted from 1970, s: no recording lasts three years."""
+EPOCH_DIGITS = 6
+"""Decimal places of times since 1970 that a number in s can hold: 0.24 us is its resolution."""
 
 
 @frozen
@@ -153,7 +155,7 @@ def _count_from_start(tables: list[FootTable]) -> datetime | None:
     if not start > SINCE_1970:
         return None
     for table in filled:
-        table.t = table.t - start
+        table.t = np.round(table.t - start, EPOCH_DIGITS)
     try:
         return datetime.fromtimestamp(start, UTC)
     except (OverflowError, OSError, ValueError):
