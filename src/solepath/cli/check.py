@@ -14,7 +14,7 @@ from ..recording.source import label_files
 from ..show.tables.table import counted
 from ..types import Foot, Packet, Sample
 from ..types.attrs import define, field
-from .common.failure import recipe_named
+from .common.failure import MAX_LENGTH, recipe_named
 from .common.inputs import add_calibration, assumed_foot, calibration_of
 from .common.tables import add_tables, axes_repair, feet_of, mapping_of
 
@@ -175,4 +175,4 @@ def _without_path(error: RecordingError) -> str:
 
 def _print_list(title: str, sentences: Sequence[str]) -> None:
     if sentences:
-        print("\n  ".join([f"{title}:", *map(printable, sentences)]))
+        print("\n  ".join([f"{title}:", *(printable(sentence, MAX_LENGTH) for sentence in sentences)]))

@@ -83,6 +83,8 @@ def load_samples(
         except RecordingError as error:
             problems += error.problems
         total.count, total.good = total.count + bad_rows.count, total.good + bad_rows.good
+    if not tables and not problems and isinstance(foot, Foot):
+        problems.append(RecordingError(paths[0], f"holds nothing of the {foot.value} foot"))
     _name_feet(tables, problems)
     for table in tables:
         problems += find_wrong_units(table)
@@ -112,9 +114,8 @@ def _read_file(
     if not tables:
         bad_rows.finish()
         raise RecordingError(path, "holds no samples")
-    if not used_tables and only is not None:
-        raise RecordingError(path, f"holds nothing of the {only.value} foot")
-    _remove_bad_rows(used_tables, bad_rows)
+    if used_tables:
+        _remove_bad_rows(used_tables, bad_rows)
     return used_tables
 
 
