@@ -117,6 +117,50 @@ def test_what_cannot_be_joined_is_named_with_what_repairs_it(tmp_path: Path) -> 
         read_samples(later)
 
 
+APPS = {
+    "phyphox": (
+        '"Time (s)","X (m/s^2)","Y (m/s^2)","Z (m/s^2)"',
+        '"Time (s)","X (rad/s)","Y (rad/s)","Z (rad/s)"',
+        "t=Time (s),acc=X (m/s^2),Y (m/s^2),Z (m/s^2),gyro=X (rad/s),Y (rad/s),Z (rad/s)",
+    ),
+    "Sensor Logger": (
+        "time,seconds_elapsed,z,y,x",
+        "time,seconds_elapsed,z,y,x",
+        "t=seconds_elapsed,acc=x,y,z,gyro=x,y,z",
+    ),
+}
+
+
+@pytest.mark.parametrize("app", APPS)
+def test_one_mapping_serves_the_files_of_two_sensors(app: str, tmp_path: Path) -> None:
+    acc_names, gyro_names, columns = APPS[app]
+    t = np.arange(50) / 100.0
+    is_logger = acc_names == gyro_names
+    extra = [1e9 * t] if is_logger else []
+    z, x = (9.81, 0.0) if is_logger else (0.0, 9.81)
+    first = [*extra, t] if is_logger else [t]
+    files = [
+        write(tmp_path / "Accelerometer.csv", acc_names, first[0], *first[1:], z, 0.0, x),
+        write(tmp_path / "Gyroscope.csv", gyro_names, first[0], *first[1:], 0.3, 0.2, 0.1),
+    ]
+    samples = list(read_samples(files, mapping=TableMapping.parse(columns)))
+    assert len(samples) == 50 and samples[3].t == pytest.approx(0.03)
+    gyro = (0.1, 0.2, 0.3) if is_logger else (0.3, 0.2, 0.1)
+    assert samples[3].gyro == pytest.approx(gyro) and sorted(samples[3].acc) == pytest.approx([0.0, 0.0, 9.81])
+
+
+def test_columns_that_no_file_has_are_named_once_for_each_file(tmp_path: Path) -> None:
+    t = np.arange(50) / 100.0
+    files = [acc_file(tmp_path / "acc.csv", t), gyro_file(tmp_path / "gyro.csv", t)]
+    with pytest.raises(RecordingError) as caught:
+        read_samples(files, mapping=TableMapping.parse("t=t,acc=acc_x,acc_y,acc_z,gyro=gyr_x,gyr_y,gyr_z"))
+    assert [problem.path.name for problem in caught.value.problems] == ["acc.csv", "gyro.csv"]
+    last = caught.value.problems[-1]
+    assert last.what.startswith("names no column gyr_x, gyr_y, gyr_z") and last.repair.endswith(
+        "gyro=gyro_x,gyro_y,gyro_z"
+    )
+
+
 def test_archives_and_tables_of_two_feet_may_be_mixed(tmp_path: Path) -> None:
     t = np.arange(20) / 100.0
     np.savez(tmp_path / "right.npz", zeit=1e3 * t, A=np.tile([0.0, 0.0, 1.0], (20, 1)), gx=t, gy=t, gz=-t)

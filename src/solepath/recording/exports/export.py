@@ -18,6 +18,8 @@ class TableHeader:
     names: tuple[str, ...]
     preamble: tuple[str, ...] = ()
     units: tuple[str, ...] = ()
+    line: int = 0
+    """Number of the line with the names; 0 for a table without them."""
 
     def starts(self, *texts: str) -> bool:
         """Return whether a line before the names starts with one of these texts."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -58,11 +58,38 @@ class TableColumns:
     """Mapping of the user, with what it leaves out."""
     export: Export | None
     header: TableHeader
-    problems: list[RecordingError] = field(factory=list)
     faults: list[tuple[str, str]] = field(factory=list)
-    """Key of a mapping and fault of its columns."""
+    """Key of a mapping and fault of its columns; the key "" for a fault of the whole table."""
     changes: dict[str, list[str]] = field(factory=dict)
     """Names of columns that would repair them, by key; "NAME" for one that is not known."""
+    elsewhere: set[str] = field(factory=set)
+    """Keys none of whose columns are here, and which another file may hold."""
+
+    @property
+    def is_empty(self) -> bool:
+        """True when no column of a sensor was found."""
+        return not any(one.columns.keys() & set(MEASURED) for one in self.feet)
+
+    @property
+    def found_keys(self) -> set[str]:
+        """Keys of the mapping whose columns are here."""
+        return set(self.mapping.columns) - self.elsewhere - {key for key, _ in self.faults}
+
+    def list_problems(self, found_elsewhere: Set[str] = frozenset()) -> list[RecordingError]:
+        """Return what is wrong, with what repairs it, except for keys that another file holds."""
+        header, changes = self.header, {k: v for k, v in self.changes.items() if k not in found_elsewhere}
+        problems = []
+        for key, what in dict.fromkeys(self.faults):
+            if key in found_elsewhere:
+                continue
+            if not key:
+                repair = self.export.lacking if self.export is not None else ""
+            else:
+                repair = self.given.write_columns(key, changes)
+            if key == "t" and changes["t"] == ["NAME"]:
+                repair += f" or {self.given.write_setting('rate', 'HZ')}"
+            problems.append(RecordingError(header.path, what, f"line {header.line}" if header.line else "", repair))
+        return problems
 
     @property
     def time_is_own(self) -> bool:
@@ -70,12 +97,14 @@ class TableColumns:
         return self.mapping.columns.get("t", ("t",))[0].lower() == "t"
 
 
-def find_columns(path: Path, layout: SheetLayout, given: TableMapping, foot: Foot | None) -> TableColumns:
+def find_columns(
+    path: Path, layout: SheetLayout, given: TableMapping, foot: Foot | None, *, is_alone: bool = True
+) -> TableColumns:
     """Return the columns of a table: those of `given`, and for what it leaves out those of a known format.
 
-    `foot` is the foot of a table of one foot, None if that is not known."""
-    header = TableHeader(path, layout.names, layout.preamble, layout.units)
-    where = f"line {layout.header}" if layout.header else ""
+    `foot` is the foot of a table of one foot, None if that is not known. `is_alone`: no other file may hold what this
+    one does not."""
+    header = TableHeader(path, layout.names, layout.preamble, layout.units, layout.header)
     found = TableColumns([], given, given, _find_export(header, given), header)
     tagged = None
     if foot is None and found.export is not None:
@@ -86,7 +115,7 @@ def find_columns(path: Path, layout: SheetLayout, given: TableMapping, foot: Foo
             base = found.export.mapping(header)
         except ValueError as error:
             if not any(key.startswith(("acc", "pressure")) for key in given.columns):
-                found.problems.append(RecordingError(path, str(error), where, found.export.lacking))
+                found.faults.append(("", str(error)))
                 return found
     found.mapping = given.completed(base)
     if not any(key.startswith(MEASURED) for key in found.mapping.columns):
@@ -104,18 +133,31 @@ def find_columns(path: Path, layout: SheetLayout, given: TableMapping, foot: Foo
         for quantity, key in keys.items():
             if names := found.mapping.columns.get(key):
                 columns[quantity] = _resolve(found, key, quantity, names)
+        if not is_alone:
+            found.elsewhere |= {keys[q] for q in MEASURED if q in columns and not columns[q]}
+        columns = {q: its_columns for q, its_columns in columns.items() if its_columns}
+        _divide_by_file(path, columns, is_alone)
         if "t" not in columns and "t" not in found.mapping.columns and found.mapping.rate is None:
             found.changes["t"] = ["NAME"]
             found.faults.append(("t", f"names no column t ({_list(header)})"))
         labels = {q: _name_of(q, suffix, columns.get(q, ()), found.export) for q in ("t", *MEASURED)}
         units = _find_units(header, columns, given, base)
         found.feet.append(FootColumns(one, columns, labels, units, bool(suffix) or tagged is not None))
-    for key, what in dict.fromkeys(found.faults):
-        repair = given.write_columns(key, found.changes)
-        if key == "t" and found.changes["t"] == ["NAME"]:
-            repair += f" or {given.write_setting('rate', 'HZ')}"
-        found.problems.append(RecordingError(path, what, where, repair))
     return found
+
+
+def _divide_by_file(path: Path, columns: dict[str, tuple[NamedColumn, ...]], is_alone: bool) -> None:
+    """Remove a sensor whose columns have the names of another one's, if the name of the file says which it is of."""
+    if not is_alone and "acc" in columns and columns["acc"] == columns.get("gyro"):
+        sensor = sensor_of_file(path)
+        if sensor is not None:
+            del columns["gyro" if sensor == "acc" else "acc"]
+
+
+def sensor_of_file(path: Path) -> str | None:
+    """Return the quantity that the name of a file of one sensor says; None if it says none."""
+    stem = path.stem.lower()
+    return "gyro" if "gyr" in stem else "acc" if "acc" in stem else None
 
 
 def _keys_of(foot: Foot, mapping: TableMapping) -> dict[str, str]:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
+from attrs import frozen
 
 from ..errors import RecordingError, printable
-from ..mapping.mapping import join_names, shell_word
-from ..mapping.units import GRAVITY, UNITS, unit_of_name
-from .columns import TableColumns
+from ..mapping.mapping import KEYS, join_names, shell_word
+from ..mapping.units import GRAVITY, UNITS, find_unit, unit_of_name
+from .columns import sensor_of_file
 from .layout import SheetLayout, is_number
 from .numbers import is_datetime, number_reader
 from .plausible import MAX_GYRO, NEAR, USUAL_INTERVAL
@@ -32,30 +33,67 @@ FEET = {"left": re.compile(r"left|(?:^|[^a-z])l(?:[^a-z]|$)"), "right": re.compi
 """Patterns of the feet in names of columns."""
 
 
-def guess_mapping(path: Path, layout: SheetLayout, rows: Iterator[Row], found: TableColumns) -> RecordingError:
+class UnknownTable(RecordingError):
+    """Error for a table of no known format, with the options that may fit it."""
+
+    def __init__(self, path: Path, what: str, where: str, guess: Guess | None) -> None:
+        example = "t=1,acc=2,3,4,gyro=5,6,7" if "it holds numbers" in what else "t=NAME,acc=X,Y,Z,gyro=X,Y,Z"
+        needed = f"say which columns hold what, as in --columns {example} --units g,deg/s,ms"
+        super().__init__(path, what, where, needed if guess is None else guess.write())
+        self.guess = guess
+
+
+@frozen
+class Guess:
+    """Options that may fit one or more tables."""
+
+    columns: dict[str, tuple[str, ...]]
+    units: tuple[str, ...]
+    needs_rate: bool
+
+    def write(self) -> str:
+        """Return the options as they are typed."""
+        text = ",".join(f"{key}={join_names(names)}" for key, names in self.columns.items())
+        units = f" --units {','.join(self.units)}" if self.units else ""
+        return f"this may fit: --columns {shell_word(text)}{units}{' --rate HZ' if self.needs_rate else ''}"
+
+
+def guess_mapping(path: Path, layout: SheetLayout, rows: Iterator[Row]) -> UnknownTable:
     """Return the error for a table of no known format, with the options that may fit it."""
     names = [name for name in layout.names if name]
     holds_numbers = not layout.header or all(map(is_number, names))
     what = "it holds numbers: is the line with the names missing?" if holds_numbers else ""
     what = what or f"it names {printable(', '.join(names), 80)}"
     where = f"line {layout.header or 1}"
-    text = f"names no column acc_x or pressure_0 ({what})"
-    columns = {} if holds_numbers else _guess_columns(layout)
-    if not any(key.startswith("acc") for key in columns):
-        needed = "say which columns hold what: --columns t=NAME,acc=X,Y,Z,gyro=X,Y,Z --units g,deg/s,ms"
-        return RecordingError(path, text, where, needed)
-    options = ",".join(f"{key}={join_names(layout.names[k] for k in numbers)}" for key, numbers in columns.items())
-    repair = f"this may fit: --columns {shell_word(options)}"
-    units, rate = _guess_units(layout, rows, columns)
-    if units:
-        repair += f" --units {','.join(units)}"
-    if "t" not in columns or rate:
-        repair += " --rate HZ"
-    return RecordingError(path, f"is of no known format ({what})", where, repair)
+    columns = {} if holds_numbers else _guess_columns(layout, sensor_of_file(path))
+    if not columns.keys() - {"t"}:
+        return UnknownTable(path, f"names no column acc_x or pressure_0 ({what})", where, None)
+    units, is_count = _guess_units(layout, rows, columns)
+    if is_count:
+        del columns["t"]
+    named = {key: tuple(layout.names[k] for k in numbers) for key, numbers in columns.items()}
+    guess = Guess(named, tuple(units), "t" not in columns)
+    return UnknownTable(path, f"is of no known format ({what})", where, guess)
 
 
-def _guess_columns(layout: SheetLayout) -> dict[str, list[int]]:
-    """Return the columns that the names suggest, by key of a mapping."""
+def merge_guesses(problems: Sequence[RecordingError]) -> list[RecordingError]:
+    """Return the problems; those of unknown tables offer the same options, unless those of two files contradict."""
+    guesses = [one.guess for one in problems if isinstance(one, UnknownTable) and one.guess is not None]
+    columns = {key: names for guess in guesses for key, names in guess.columns.items()}
+    units = tuple(dict.fromkeys(unit for guess in guesses for unit in guess.units))
+    quantities = [known[0] for known in map(find_unit, units) if known is not None]
+    fits = all(columns[key] == names for guess in guesses for key, names in guess.columns.items())
+    if not fits or len(set(quantities)) < len(quantities):
+        return list(problems)
+    merged = Guess({key: columns[key] for key in KEYS if key in columns}, units, any(one.needs_rate for one in guesses))
+    return [
+        UnknownTable(one.path, one.what, one.where, merged) if isinstance(one, UnknownTable) and one.guess else one
+        for one in problems
+    ]
+
+
+def _guess_columns(layout: SheetLayout, sensor: str | None) -> dict[str, list[int]]:
+    """Return the columns that the names suggest, by key of a mapping; `sensor`: quantity of axes without a name."""
     axes: dict[str, dict[str, int]] = {}
     columns: dict[str, list[int]] = {}
     for number, name in enumerate(layout.names):
@@ -65,17 +103,15 @@ def _guess_columns(layout: SheetLayout) -> dict[str, list[int]]:
             continue
         unit = next((q for q in UNITS if unit_of_name(name, q)), "")
         axis = AXIS.search(spaced)
-        quantity = (
-            unit if unit in ("acc", "gyro") else "gyro" if GYRO.search(spaced) else "acc" if ACC.search(spaced) else ""
-        )
+        named = "gyro" if GYRO.search(spaced) else "acc" if ACC.search(spaced) else sensor or ""
+        quantity = unit if unit in ("acc", "gyro") else named
         if axis is not None and quantity:
             foot = next((f"_{foot}" for foot, pattern in FEET.items() if pattern.search(spaced)), "")
             axes.setdefault(quantity + foot, {}).setdefault(axis[1] or axis[2], number)
         elif "t" not in columns and (TIME.search(spaced) or unit == "t"):
             columns["t"] = [number]
     columns |= {key: [found[axis] for axis in "xyz"] for key, found in axes.items() if set(found) == set("xyz")}
-    order = ("t", "acc", "gyro", "acc_left", "gyro_left", "acc_right", "gyro_right")
-    return {key: columns[key] for key in order if key in columns}
+    return {key: columns[key] for key in KEYS if key in columns}
 
 
 def _guess_units(layout: SheetLayout, rows: Iterator[Row], columns: dict[str, list[int]]) -> tuple[list[str], bool]:

@@ -15,9 +15,9 @@ from ...types import Foot, Sample
 from ..bad_rows import MAX_NAMED, BadRows
 from ..errors import RecordingError, Report, printable, warn
 from ..mapping.mapping import TableMapping
-from .columns import find_columns
+from .columns import TableColumns, find_columns
 from .feet import feet_of_files
-from .guess import guess_mapping
+from .guess import guess_mapping, merge_guesses
 from .join import join_files
 from .npz import read_npz
 from .numbers import read_rows
@@ -76,13 +76,22 @@ def load_samples(
             raise ValueError(f"there are {len(feet)} feet for {len(paths)} files")
     total = BadRows(paths[0], report, "row")
     tables: list[FootTable] = []
+    headers: list[TableColumns] = []
     for path, its_foot in zip(paths, feet, strict=True):
         bad_rows = BadRows(path, report, "row")
         try:
-            tables += _read_file(path, its_foot, mapping, bad_rows, foot if isinstance(foot, Foot) else None, problems)
+            own = _read_file(path, its_foot, mapping, bad_rows, headers, is_alone=len(paths) == 1)
+            used = own if not isinstance(foot, Foot) else [table for table in own if table.foot is foot]
+            if used:
+                _remove_bad_rows(used, bad_rows)
+            tables += used
         except RecordingError as error:
             problems += error.problems
         total.count, total.good = total.count + bad_rows.count, total.good + bad_rows.good
+    found_keys = {key for found in headers for key in found.found_keys}
+    for found in headers:
+        own_problems = found.list_problems(found.elsewhere & found_keys)
+        problems += own_problems or (found.list_problems() if found.is_empty else [])
     if not tables and not problems and isinstance(foot, Foot):
         problems.append(RecordingError(paths[0], f"holds nothing of the {foot.value} foot"))
     _name_feet(tables, problems)
@@ -92,7 +101,7 @@ def load_samples(
     if not problems:
         tables = join_files(tables, problems)
     if problems:
-        raise RecordingError.of(problems)
+        raise RecordingError.of(merge_guesses(problems))
     if not any(map(len, tables)):
         raise RecordingError(paths[0], "holds no samples")
     return SampleRecording(paths[0], tuple(tables), total, start_time)
@@ -103,29 +112,41 @@ def _read_file(
     foot: Foot | None,
     mapping: TableMapping,
     bad_rows: BadRows,
-    only: Foot | None,
-    problems: list[RecordingError],
+    headers: list[TableColumns],
+    *,
+    is_alone: bool,
 ) -> list[FootTable]:
-    """Return the tables of the feet in one file, without the rows that cannot be used."""
-    tables = (
-        read_npz(path, foot, mapping) if path.suffix.lower() == ".npz" else _read_sheet(path, foot, mapping, bad_rows)
-    )
-    used_tables = [table for table in tables if only in (None, table.foot)]
+    """Return the tables of the feet in one file, of which only the cells were read."""
+    if path.suffix.lower() == ".npz":
+        tables = read_npz(path, foot, mapping)
+    else:
+        found = _read_sheet(path, foot, mapping, bad_rows, headers, is_alone=is_alone)
+        if found is None:
+            return []
+        tables = found
     if not tables:
         bad_rows.finish()
         raise RecordingError(path, "holds no samples")
-    if used_tables:
-        _remove_bad_rows(used_tables, bad_rows)
-    return used_tables
+    return tables
 
 
-def _read_sheet(path: Path, foot: Foot | None, mapping: TableMapping, bad_rows: BadRows) -> list[FootTable]:
+def _read_sheet(
+    path: Path,
+    foot: Foot | None,
+    mapping: TableMapping,
+    bad_rows: BadRows,
+    headers: list[TableColumns],
+    *,
+    is_alone: bool,
+) -> list[FootTable] | None:
+    """Return the tables in a sheet; None for one whose columns have faults, which `headers` then holds."""
     with open_sheet(path, mapping) as (layout, rows):
-        found = find_columns(path, layout, mapping, foot)
-        if not found.feet and not found.problems:
-            raise guess_mapping(path, layout, rows, found)
-        if found.problems:
-            raise RecordingError.of(found.problems)
+        found = find_columns(path, layout, mapping, foot, is_alone=is_alone)
+        if not found.feet and not found.faults:
+            raise guess_mapping(path, layout, rows)
+        headers.append(found)
+        if found.is_empty or found.list_problems(found.elsewhere):
+            return None
         tables = read_rows(path, layout, rows, found, bad_rows)
     if found.export is not None:
         for flaw in found.export.flaws(found.header):
