@@ -72,7 +72,7 @@ def test_opengo_has_both_insoles_in_a_file_and_rows_without_one_of_them() -> Non
     assert samples[0].pressure == (6.5, 5.75) and samples[1].pressure == (7.25, 5.25)
 
 
-def test_an_ngimu_is_read_and_the_name_of_its_folder_says_the_foot(tmp_path: Path) -> None:
+def test_an_ngimu_is_read_and_the_name_of_its_folder_gives_the_foot(tmp_path: Path) -> None:
     paths = []
     for name in ("NGIMU-Right - 0029BBBB", "NGIMU-Left - 0029AAAA"):
         paths.append(tmp_path / name / "sensors.csv")
@@ -102,7 +102,7 @@ def test_tables_of_other_programs_that_look_alike_are_not_taken_for_a_known_form
         read_samples(path)
 
 
-def test_a_part_of_a_known_format_can_be_said_in_another_way() -> None:
+def test_a_part_of_a_known_format_can_be_replaced() -> None:
     turned = TableMapping.parse("gyro=Gyr_X,-Gyr_Z,Gyr_Y")
     with pytest.warns(RecordingWarning):
         first = next(read_samples(FILES / "dot.csv", Foot.RIGHT, mapping=turned))

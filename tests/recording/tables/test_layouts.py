@@ -77,7 +77,7 @@ def test_columns_apart_by_blanks_and_a_line_of_units_are_read(tmp_path: Path) ->
     assert_expected(list(read_samples(tmp_path / "walk.txt", mapping=mapping)))
 
 
-def test_units_in_the_header_need_not_be_said_and_can_be_said_otherwise(tmp_path: Path) -> None:
+def test_units_in_the_header_need_no_option_and_an_option_replaces_them(tmp_path: Path) -> None:
     names = ["Zeit [ms]", *(f"A {axis} (m/s²)" for axis in "xyz"), *(f"G {axis} (rad/s)" for axis in "xyz")]
     (tmp_path / "walk.csv").write_text(table(names=names), encoding="utf-8")
     mapping = TableMapping({"t": "Zeit*", "acc": "A *", "gyro": "G *"})

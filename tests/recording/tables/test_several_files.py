@@ -37,7 +37,7 @@ NAMED = {
 
 
 @pytest.mark.parametrize(("text", "foot"), [(text, foot) for foot, texts in NAMED.items() for text in texts])
-def test_a_name_says_the_foot_if_a_word_of_it_does(text: str, foot: Foot | None) -> None:
+def test_a_name_gives_the_foot_if_a_word_of_it_does(text: str, foot: Foot | None) -> None:
     assert foot_of_text(text) is foot
 
 
@@ -49,7 +49,7 @@ def test_two_files_of_two_feet_are_one_recording(tmp_path: Path) -> None:
     assert {sample.site for sample in read_samples(files, Foot.LEFT)} == {Site.LEFT_FOOT}
 
 
-def test_files_whose_names_say_nothing_need_the_feet_in_their_order(tmp_path: Path) -> None:
+def test_files_whose_names_lack_the_foot_need_the_feet_in_their_order(tmp_path: Path) -> None:
     files = [acc_file(tmp_path / name, np.arange(20) / 100.0) for name in ("one.csv", "two.csv")]
     with pytest.raises(RecordingError) as caught:
         read_samples(files)
@@ -60,7 +60,7 @@ def test_files_whose_names_say_nothing_need_the_feet_in_their_order(tmp_path: Pa
         load_samples(files, [Foot.RIGHT])
 
 
-def test_a_pattern_of_a_mapping_says_the_foot(tmp_path: Path) -> None:
+def test_a_pattern_of_a_mapping_gives_the_foot(tmp_path: Path) -> None:
     files = [acc_file(tmp_path / name, np.arange(20) / 100.0) for name in ("s1_li.csv", "s1_re.csv")]
     mapping = TableMapping(feet={"left": "*_li.csv", "right": "*_re.csv"})
     assert [table.foot for table in load_samples(files, mapping=mapping).tables] == [Foot.LEFT, Foot.RIGHT]

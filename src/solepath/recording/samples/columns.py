@@ -28,8 +28,8 @@ class NamedColumn:
     index: int
     """Number of the column, counted from 0."""
     name: str
-    sign: float = 1.0
-    """Factor of its numbers: 1 or -1."""
+    is_reversed: bool = False
+    """Flag: its numbers count with the opposite sign."""
 
 
 @define
@@ -219,8 +219,8 @@ def _closest(names: Sequence[str], name: str) -> str:
 
 def _match(names: Sequence[str], name_given: str) -> list[NamedColumn]:
     """Return the columns that a name means: as it is or with a sign, as a number, a pattern, and in any case."""
-    for name, sign in ((name_given, 1.0), (name_given.removeprefix("-"), -1.0)):
-        if sign < 0.0 and not name_given.startswith("-"):
+    for name, is_reversed in ((name_given, False), (name_given.removeprefix("-"), True)):
+        if is_reversed and not name_given.startswith("-"):
             break
         exact = [k for k, one in enumerate(names) if one == name]
         if not exact and name.startswith("#") and name[1:].isdecimal() and 0 < int(name[1:]) <= len(names):
@@ -231,7 +231,7 @@ def _match(names: Sequence[str], name_given: str) -> list[NamedColumn]:
         if not exact:
             exact = [k for k, one in enumerate(names) if one.lower() == name.strip().lower()]
         if exact:
-            return [NamedColumn(k, names[k], sign) for k in exact]
+            return [NamedColumn(k, names[k], is_reversed) for k in exact]
     return []
 
 

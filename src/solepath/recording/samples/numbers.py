@@ -87,7 +87,7 @@ class _FootRows:
     @order.default
     def _find_order(self) -> list[tuple[int, str, float]]:
         its = self.columns.columns
-        return [(c.index, c.name, c.sign) for q in MEASURED for c in its.get(q, ())]
+        return [(c.index, c.name, -1.0 if c.is_reversed else 1.0) for q in MEASURED for c in its.get(q, ())]
 
     def parse(self, cells: Cells, count: int, *, is_only: bool) -> list[float] | None:
         """Return the numbers of a row, its time first; None for a foot all of whose cells are blank.
@@ -139,7 +139,7 @@ class _FootRows:
                 quantities[quantity] = part if factor == 1.0 else part * factor
                 start += width
         names = {"t": self.columns.names["t"], **{quantity: self.columns.names[quantity] for quantity in quantities}}
-        signed = {q: tuple(("-" if c.sign < 0.0 else "") + c.name for c in columns[q]) for q in quantities}
+        signed = {q: tuple(("-" if c.is_reversed else "") + c.name for c in columns[q]) for q in quantities}
         return FootTable(
             path,
             self.columns.foot or Foot.RIGHT,
