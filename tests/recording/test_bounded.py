@@ -17,7 +17,7 @@ from recordings import PACKETS, recorded
 from solepath.calibration import Calibration
 from solepath.calibration.file import read_calibration, write_calibration
 from solepath.recording import RecordingError, open_source, read_packets, read_samples
-from solepath.recording.samples import npz, sheet
+from solepath.recording.samples import npz, numbers, sheet
 from solepath.recording.samples.npz import read_arrays
 
 MEMORY = 1_500_000_000
@@ -121,7 +121,7 @@ def test_a_device_without_end_is_rejected_in_one_line(tmp_path: Path, name: str)
 def test_an_endless_table_is_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path, header = tmp_path / "walk.csv", "t,acc_x,acc_y,acc_z\n"
     path.write_text(header + "".join(f"{k / 100},0,0,9.8\n" for k in range(300)))
-    monkeypatch.setattr(sheet, "MAX_VALUES", 1000)
+    monkeypatch.setattr(numbers, "MAX_VALUES", 1000)
     with pytest.raises(RecordingError, match="holds more than 1,000 numbers"):
         list(read_samples(path))
     monkeypatch.setattr(sheet, "MAX_LENGTH", 2000)

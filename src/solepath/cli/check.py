@@ -5,17 +5,18 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from math import inf
-from pathlib import Path
 from typing import Any
 
 from ..events import DefectFound, Event, SampleGap, StrideTaken
 from ..recording import RecordingError, open_source, printable
 from ..recording.errors import UnusableValues
+from ..recording.source import label_files
 from ..show.tables.table import counted
 from ..types import Foot, Packet, Sample
 from ..types.attrs import define, field
-from .common.failure import recipe_named
-from .common.inputs import add_calibration, add_foot, assumed_foot, calibration_of, foot_of
+from .common.failure import MAX_LENGTH, recipe_named
+from .common.inputs import add_calibration, assumed_foot, calibration_of
+from .common.tables import add_tables, axes_repair, feet_of, mapping_of
 
 UNSEEN = (
     "all three axes of an accelerometer reversed, which turns left into right",
@@ -91,14 +92,13 @@ def add_to(commands: Any) -> None:
     command: argparse.ArgumentParser = commands.add_parser(
         "check",
         help="say what is wrong with a recording",
-        description="Say what is wrong with a recording of packets (JSON Lines) or of samples (.npz, .csv), in"
-        " sentences. The exit status is 1 if something must be mended, also if the values are in another unit, and 2 if"
-        " the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
+        description="Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
+        " Parquet, .npz), in sentences. The exit status is 1 if something must be mended, also if the values are in"
+        " another unit, and 2 if the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
     )
-    command.add_argument("file", metavar="FILE", type=Path, help="the recording")
+    add_tables(command)
     command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
     add_calibration(command)
-    add_foot(command)
     command.set_defaults(run=run)
 
 
@@ -113,12 +113,15 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.summary import link_health, wear_lines
 
     recipe, calibration = recipe_named(options.recipe), calibration_of(options)
-    name, flaws = printable(options.file.name), list[str]()
+    name, flaws = printable(label_files(options.files)), list[str]()
+    is_one = len(options.files) == 1
     try:
-        source = open_source(options.file, foot_of(options), report=flaws.append)
-    except UnusableValues as error:
-        print(f"{name}: its values cannot be used")
-        _print_list("must be mended", [_without_path(error)])
+        source = open_source(options.files, feet_of(options), mapping=mapping_of(options), report=flaws.append)
+    except RecordingError as error:
+        if not all(isinstance(problem, UnusableValues) for problem in error.problems):
+            raise
+        print(f"{name}: {'its' if is_one else 'their'} values cannot be used")
+        _print_list("must be mended", [_without_path(one) if is_one else str(one) for one in error.problems])
         print("nothing else was checked: mend this first")
         return 1
     session, observer = Session(recipe, calibration=calibration, poses=True), Observer()
@@ -130,7 +133,8 @@ def run(options: argparse.Namespace) -> int:
         observer.take(item, events)
         for event in events:
             if isinstance(event, DefectFound):
-                (must if event.needs_action else may).append(f"{event.site.words}: {event.what}")
+                repair = axes_repair(source, event)
+                (must if event.needs_action else may).append(f"{event.site.words}: {event.what}{repair}")
             foot = event.site.foot if isinstance(event, DefectFound | SampleGap) else getattr(event, "foot", None)
             if foot is not None:
                 degraded[foot].add(event)
@@ -145,7 +149,7 @@ def run(options: argparse.Namespace) -> int:
     take(None, session.finish())
     bad_rows = source.bad_rows
     has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
-    prefix = f"{printable(str(options.file))}: "
+    prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
     (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
     must += [*wear_lines(observer), *observer.troubles]
     may += [f"{foot} foot: {text}" for foot in Foot if (text := degraded[foot].sentence()) is not None]
@@ -165,9 +169,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _without_path(error: RecordingError) -> str:
-    return ": ".join([part for part in (error.where, error.what) if part])
+    text = ": ".join([part for part in (error.where, error.what) if part])
+    return f"{text}; repair: {error.repair}" if error.repair else text
 
 
 def _print_list(title: str, sentences: Sequence[str]) -> None:
     if sentences:
-        print("\n  ".join([f"{title}:", *map(printable, sentences)]))
+        print("\n  ".join([f"{title}:", *(printable(sentence, MAX_LENGTH) for sentence in sentences)]))

@@ -104,7 +104,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = run(arguments)
         sys.stdout.flush()
         return status
-    except (Failure, RecordingError, CalibrationError) as error:
+    except RecordingError as error:
+        for problem in error.problems:
+            note(str(problem))
+    except (Failure, CalibrationError) as error:
         note(str(error))
     except ModuleNotFoundError as error:
         if error.name != "numpy":

@@ -16,18 +16,17 @@ from .common.inputs import (
     add_calibration,
     add_clocks,
     add_floorplan,
-    add_foot,
     add_recipe,
     assumed_foot,
     calibration_of,
     check_pressure,
     floorplan_of,
-    foot_of,
     recipe_of,
     source_of,
     undo_clocks,
 )
 from .common.outcomes import add_outcomes, clinic_of, has_outcomes
+from .common.tables import add_tables, feet_of, mapping_of
 from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
@@ -46,13 +45,13 @@ def add_to(commands: Any) -> None:
     command: argparse.ArgumentParser = commands.add_parser(
         "track",
         help="run a recording and print a summary",
-        description="Run a recording of packets (JSON Lines) or of samples (.npz, .csv) and print a summary.",
+        description="Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and"
+        " print a summary.",
     )
-    command.add_argument("file", metavar="FILE", type=Path, help="the recording")
+    add_tables(command)
     add_recipe(command)
     add_calibration(command)
     add_floorplan(command)
-    add_foot(command)
     add_clocks(command)
     command.add_argument(
         "--out",
@@ -84,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
     need_page(options, options.view is not None)
     address = page_address_of(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
-    source = source_of(options.file, foot_of(options))
+    source = source_of(options.files, feet_of(options), mapping_of(options))
     undo_clocks(source, options)
     check_pressure(recipe, source)
     plan, start = floorplan_of(options)
@@ -98,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
     )
     recording = _Recording(source)
     results = Results(
-        f"{printable(options.file.name)}, recipe {recipe.name}",
+        f"{printable(source.name)}, recipe {recipe.name}",
         options.out,
         options.report,
         plan=None if plan is None else plan.plan,
@@ -130,7 +129,9 @@ def _check_outputs(options: argparse.Namespace) -> list[OutputFile]:
     outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=has_outcomes(options))
     if options.report is not None:
         outputs.append(OutputFile(options.report, REPORT))
-    check_outputs(outputs, [options.file, options.calibration, options.floorplan], force=options.force)
+    check_outputs(
+        outputs, [*options.files, options.mapping, options.calibration, options.floorplan], force=options.force
+    )
     if options.report is not None:
         check_writable(options.report, made=options.out)
     return outputs
@@ -154,7 +155,7 @@ class _Recording:
 
         source = self.source
         long = source.total > (MIN_PROGRESS_SIZE if source.samples is None else MIN_PROGRESS_SAMPLES)
-        with progress_bar(printable(source.path.name), source.total, enabled=long) as show:
+        with progress_bar(printable(source.name), source.total, enabled=long) as show:
             try:
                 for item in source:
                     yield item
@@ -201,7 +202,7 @@ def _run_on_page(
     if shown or not fault:
         results.open_files()
     scene = Scene(
-        printable(recording.source.path.name),
+        printable(recording.source.name),
         session.recipe.name,
         "recording",
         plan=None if plan is None else plan.plan,

@@ -1,8 +1,18 @@
-"""Recordings: packets are read and written, samples and btsnoop logs are read, MCAP files are written."""
+"""Recordings: packets are read and written, tables of samples and btsnoop logs are read, MCAP files are written."""
 
 from .bad_rows import LONGEST_LINE
 from .clock_offset import shift_clock
-from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
+from .errors import (
+    RecordingError,
+    RecordingProblems,
+    RecordingWarning,
+    Report,
+    open_file,
+    os_error_text,
+    printable,
+    warn,
+)
+from .mapping import TableMapping, read_mapping
 from .packet_writer import PacketWriter
 from .packets import FORMAT, VERSION, read_header, read_packets, read_start_time
 from .source import Source, open_source, read_samples
@@ -13,14 +23,17 @@ __all__ = [
     "VERSION",
     "PacketWriter",
     "RecordingError",
+    "RecordingProblems",
     "RecordingWarning",
     "Report",
     "Source",
+    "TableMapping",
     "open_file",
     "open_source",
     "os_error_text",
     "printable",
     "read_header",
+    "read_mapping",
     "read_packets",
     "read_samples",
     "read_start_time",

@@ -23,7 +23,7 @@ FORMAT = "solepath-packets"
 """Value of the key "format" in the header."""
 VERSION = 1
 """Version of the format that this release reads and writes."""
-SAMPLES_HINT = "samples have names that end in .npz or .csv"
+SAMPLES_HINT = "samples have names that end in .npz, .csv, .tsv, .txt, .xlsx or .parquet"
 
 
 def read_header(path: Path | str) -> dict[str, Any]:

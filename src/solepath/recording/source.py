@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import chain
 from pathlib import Path
@@ -17,10 +17,13 @@ from .errors import RecordingError, Report, printable, warn
 from .packets import OpenRecording, open_packets
 
 if TYPE_CHECKING:
+    from .mapping import TableMapping
     from .samples import SampleRecording
 
-SAMPLE_SUFFIXES = (".npz", ".csv")
+SAMPLE_SUFFIXES = (".npz", ".csv", ".tsv", ".txt", ".xlsx", ".xlsm", ".xls", ".ods", ".parquet")
 """Suffixes of files that hold samples."""
+LONGEST_LABEL = 80
+"""Largest number of characters of the names of several files in a title; chosen by hand."""
 MAX_AHEAD = 20_000
 """Largest number of packets of a pipe that `look_ahead` reads and keeps: some 100 s of two insoles."""
 
@@ -53,6 +56,8 @@ class Source:
     _packets_ahead: list[Packet] = field(factory=list)
     _failure: RecordingError | None = None
     """Error at which `look_ahead` ended."""
+    name: str = ""
+    """Name of the file, or names of the files."""
 
     def __iter__(self) -> Iterator[Packet | Sample]:
         items = self._iterate_packets() if self.samples is None else self._iterate_samples(self.samples)
@@ -102,29 +107,59 @@ class Source:
             raise RecordingError(self.path, f"holds no packets of the {self.foot.value} foot")
 
 
-def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Source:
-    """Return the recording at `path`: samples if the file's name ends in .npz or .csv, else packets.
+def label_files(paths: Sequence[Path]) -> str:
+    """Return a title for one or more files: their names, with those of their folders if the names are the same."""
+    names = [path.name for path in paths]
+    if len(set(names)) < len(names):
+        names = [f"{path.parent.name}/{path.name}" for path in paths]
+    joined = ", ".join(names)
+    return joined if len(names) == 1 or len(joined) <= LONGEST_LABEL else f"{names[0]} and {len(names) - 1} more"
 
-    `foot`: for samples that name no foot, the foot that wore the sensor (None: the right foot); for any other
-    recording, the only foot to read (None: all). RecordingError when nothing can be used."""
-    path = Path(path)
-    if path.suffix.lower() in SAMPLE_SUFFIXES:
+
+def open_source(
+    files: Path | str | Sequence[Path | str],
+    foot: Foot | Sequence[Foot] | None = None,
+    *,
+    mapping: TableMapping | None = None,
+    report: Report = warn,
+) -> Source:
+    """Return a recording: samples if a name ends as those of tables do or there is a mapping, else packets.
+
+    `files`: a file of packets; or one or more files of samples, of both feet or of several sensors. `foot`: for samples
+    that name no foot, the foot that wore the sensor (None: what the name of the file says, else the right foot); for
+    any other recording, the only foot to read (None: all); a sequence has the foot of each file. `mapping`: what the
+    columns of tables mean, as far as they do not say it themselves. RecordingError, with all problems, when something
+    cannot be used."""
+    paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
+    name, path = label_files(paths), paths[0]
+    only = foot if isinstance(foot, Foot) else None
+    if mapping is not None or len(paths) > 1 or path.suffix.lower() in SAMPLE_SUFFIXES:
         from .samples import load_samples  # imports numpy, which packets do not need
 
-        samples = load_samples(path, foot, report=report)
-        return Source(path, foot, report, total=len(samples), samples=samples, bad_rows=samples.bad_rows)
+        samples = load_samples(paths, foot, mapping=mapping, report=report)
+        header = {} if samples.start_time is None else {"began": samples.start_time.isoformat(), "began_t": 0.0}
+        return Source(
+            path, only, report, len(samples), samples=samples, header=header, bad_rows=samples.bad_rows, name=name
+        )
     opened = open_packets(path, report=report)
     if not path.is_file():
-        return Source(path, foot, report, header=opened.header, bad_rows=opened.bad_lines, pipe=opened)
+        return Source(path, only, report, header=opened.header, bad_rows=opened.bad_lines, pipe=opened, name=name)
     opened.close()
-    return Source(path, foot, report, total=path.stat().st_size, header=opened.header)
+    return Source(path, only, report, total=path.stat().st_size, header=opened.header, name=name)
 
 
-def read_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Iterator[Sample]:
-    """Return an iterator over the samples of an .npz or .csv file, with both feet in order of time.
+def read_samples(
+    files: Path | str | Sequence[Path | str],
+    foot: Foot | Sequence[Foot] | None = None,
+    *,
+    mapping: TableMapping | None = None,
+    report: Report = warn,
+) -> Iterator[Sample]:
+    """Return an iterator over the samples of one or more files, with both feet in order of time.
 
-    `foot`: for samples that name no foot, the foot that wore the sensor (None: the right foot); else the only foot to
-    read (None: both). `report` receives a sentence about each of the first rows that are left out."""
+    Files are tables (text, Excel, Parquet) or NumPy archives: of both feet, or one for each foot or sensor. The
+    arguments are those of `open_source`; `report` receives a sentence about each of the first rows that are left
+    out."""
     from .samples import load_samples
 
-    return iter(load_samples(path, foot, report=report))
+    return iter(load_samples(files, foot, mapping=mapping, report=report))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from math import isfinite, nan, radians
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...calibration import Calibration
 from ...link.decoder import Decoder
-from ...recording import RecordingError, Source, open_source, printable
+from ...recording import RecordingError, Source, TableMapping, open_source, printable
 from ...types import Foot, Sample, Site
 from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
 
@@ -91,15 +92,17 @@ def undo_clocks(source: Source, options: argparse.Namespace) -> None:
     note(f"{1000.0 * source.clock_offset:+.0f} ms (+-{1000.0 * sigma:.0f}) are added to the times of the right foot")
 
 
-def source_of(path: Path, foot: Foot | None = None) -> Source:
+def source_of(
+    files: Path | Sequence[Path], foot: Foot | Sequence[Foot] | None = None, mapping: TableMapping | None = None
+) -> Source:
     """Open a recording and print its flaws on stderr; raise RecordingError when it cannot be used."""
-    return open_source(path, foot, report=note)
+    return open_source(files, foot, mapping=mapping, report=note)
 
 
 def assumed_foot(source: Source) -> str | None:
     """Return the sentence on a recording of samples that does not say of which foot it is; None for any other."""
     tables = () if source.samples is None else source.samples.tables
-    if source.foot is not None or len(tables) != 1 or any("_" in name for name in tables[0].names.values()):
+    if source.foot is not None or len(tables) != 1 or tables[0].is_named:
         return None
     return f"the file does not say of which foot it is: taken as the {tables[0].foot} one; --foot says otherwise"
 

@@ -1,4 +1,4 @@
-"""Reading of recorded samples: .npz and .csv files with t, acc, gyro and pressure of one foot or of both feet."""
+"""Reading of recorded samples: text tables, workbooks, Parquet and NumPy archives, of one foot or of both feet."""
 
 from .reader import SampleRecording, load_samples
 

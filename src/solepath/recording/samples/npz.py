@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 
 from ...types import Foot
 from ..errors import RecordingError, open_file, printable
+from ..mapping.mapping import TableMapping
+from ..mapping.units import UNITS, find_unit
 from .table import MAX_VALUES, QUANTITIES, Floats, FootTable, to_floats
 
 MAX_PIPED = 256_000_000
@@ -46,12 +48,28 @@ ARCHIVE_ERRORS = (
 """Exceptions that numpy raises for a damaged archive."""
 
 
-def read_npz(path: Path, one_foot: Foot) -> list[FootTable]:
+def read_npz(path: Path, one_foot: Foot | None, mapping: TableMapping | None = None) -> list[FootTable]:
     """Return the tables of the feet in the file, of which only the shapes are checked.
 
-    `one_foot`: foot of a file whose keys name no foot. RecordingError as for `read_arrays`."""
+    `one_foot`: foot of a file whose keys name no foot, None if it is not known. `mapping`: keys and units, where they
+    are not this project's own; a key holds all components of a quantity, or one of them. RecordingError as for
+    `read_arrays`."""
+    mapping = mapping or TableMapping()
     with _open_archive(path) as archive:
-        return _read_tables(path, archive, one_foot)
+        archive.rename(mapping)
+        tables = _read_tables(path, archive, one_foot)
+    for table in tables:
+        table.mapping = mapping
+        for quantity, unit in mapping.units.items():
+            known = find_unit(unit)
+            factor = 1.0 if known is None else UNITS[quantity][known[1]]
+            table.units[quantity] = unit if known is None else known[1]
+            if quantity == "t":
+                table.t = table.t * factor
+                table.is_own = table.is_own and factor == 1.0
+            elif quantity in table.columns:
+                table.columns[quantity] = table.columns[quantity] * factor
+    return tables
 
 
 def read_arrays(path: Path, is_used: Callable[[str], bool]) -> dict[str, NDArray[Any]]:
@@ -86,7 +104,7 @@ def _open_archive(path: Path) -> Iterator[_Archive]:
         yield archive
 
 
-def _read_tables(path: Path, archive: _Archive, one_foot: Foot) -> list[FootTable]:
+def _read_tables(path: Path, archive: _Archive, one_foot: Foot | None) -> list[FootTable]:
     keys_found = set(archive.keys)
     feet = [foot for foot in Foot if any(f"{q}_{foot.value}" in keys_found for q in QUANTITIES)]
     bare_keys = [q for q in QUANTITIES if q in keys_found]
@@ -98,15 +116,16 @@ def _read_tables(path: Path, archive: _Archive, one_foot: Foot) -> list[FootTabl
         return [_read_table(path, archive, one_foot, "")]
     if feet:
         return [_read_table(path, archive, foot, f"_{foot.value}") for foot in feet]
-    keys = printable(", ".join(sorted(keys_found)) or "nothing", 80)
-    raise RecordingError(path, f"has no key acc or pressure, nor acc_left or acc_right (it holds {keys})")
+    text = f"has no key acc or pressure, nor acc_left or acc_right (it holds {archive.list_keys()})"
+    raise RecordingError(path, text, repair="--columns t=KEY,acc=KEY,gyro=KEY")
 
 
-def _read_table(path: Path, archive: _Archive, foot: Foot, suffix: str) -> FootTable:
+def _read_table(path: Path, archive: _Archive, foot: Foot | None, suffix: str) -> FootTable:
     names = {q: q + suffix for q in QUANTITIES if q + suffix in archive.keys}
     time_key = "t" + suffix if "t" + suffix in archive.keys else "t"
     if time_key not in archive.keys:
-        raise RecordingError(path, f'has no key "t"{suffix and f" and no key {time_key + suffix}"}')
+        text = f'has no key "t"{suffix and f" and no key {time_key + suffix}"} (it holds {archive.list_keys()})'
+        raise RecordingError(path, text, repair="--columns t=KEY")
     if "gyro" in names and "acc" not in names:
         raise RecordingError(path, f"has the key gyro{suffix} but no key acc{suffix}")
     t = to_floats(path, time_key, archive.read(time_key), 0)
@@ -116,7 +135,8 @@ def _read_table(path: Path, archive: _Archive, foot: Foot, suffix: str) -> FootT
         if len(array) != len(t):
             raise RecordingError(path, f"has {len(array)} rows but {time_key} has {len(t)}", name)
         columns[quantity] = array
-    return FootTable(path, foot, {"t": time_key, **names}, t, columns)
+    names = {"t": time_key, **names}
+    return FootTable(path, foot or Foot.RIGHT, names, t, columns, is_assumed=foot is None, is_named=bool(suffix))
 
 
 class _Archive:
@@ -125,9 +145,32 @@ class _Archive:
     def __init__(self, path: Path, zip_file: ZipFile) -> None:
         self._path, self._zip_file, self._values = path, zip_file, 0
         self.keys = {info.filename.removesuffix(".npy"): info for info in zip_file.infolist()}
+        self._parts: dict[str, tuple[str, ...]] = {}
+
+    def list_keys(self) -> str:
+        """Return the keys of the archive as a text."""
+        return printable(", ".join(sorted(self.keys)) or "nothing", 80)
+
+    def rename(self, mapping: TableMapping) -> None:
+        """Let this project's keys stand for those that a mapping names."""
+        missing = [name for names in mapping.columns.values() for name in names if name.lstrip("-") not in self.keys]
+        if missing:
+            text = f"has no key {printable(', '.join(missing), 80)} (it holds {self.list_keys()})"
+            key, names = next((key, names) for key, names in mapping.columns.items() if set(names) & set(missing))
+            raise RecordingError(self._path, text, repair=mapping.write_columns(key, {key: ["KEY"] * len(names)}))
+        for key, names in mapping.columns.items():
+            if names != (key,):
+                self._parts[key], self.keys[key] = names, self.keys[names[0].lstrip("-")]
 
     def read(self, key: str) -> NDArray[Any]:
         """Return an array; raise RecordingError when it is too large, damaged, or of objects."""
+        names = self._parts.get(key, ())
+        if not names:
+            return self._read(key)
+        parts = [(-1.0 if name.startswith("-") else 1.0) * self._read(name.lstrip("-")) for name in names]
+        return parts[0] if len(parts) == 1 else np.stack(parts, axis=-1)
+
+    def _read(self, key: str) -> NDArray[Any]:
         info = self.keys[key]
         try:
             if info.compress_type not in (ZIP_STORED, ZIP_DEFLATED):

@@ -1,10 +1,10 @@
-"""Reading of a file of samples as one stream, with both feet in order of time."""
+"""Reading of files of samples as one stream, with both feet in order of time."""
 
 from __future__ import annotations
 
 import heapq
-import re
 from collections.abc import Iterator, Sequence
+from datetime import UTC, datetime
 from operator import attrgetter
 from pathlib import Path
 
@@ -13,24 +13,36 @@ from attrs import frozen
 
 from ...types import Foot, Sample
 from ..bad_rows import MAX_NAMED, BadRows
-from ..errors import RecordingError, Report, warn
+from ..errors import RecordingError, Report, printable, warn
+from ..mapping.mapping import TableMapping
+from .columns import TableColumns, find_columns
+from .feet import feet_of_files
+from .guess import guess_mapping, merge_guesses
+from .join import join_files
 from .npz import read_npz
-from .sheet import read_csv
-from .table import FootTable, check_units, remove_bad_rows
+from .numbers import read_rows
+from .plausible import find_wrong_units
+from .sheet import open_sheet
+from .table import FootTable, remove_bad_rows
 
-NAMED_LEFT = re.compile(r"^left(?![a-z])|(?<![a-z])left$", re.IGNORECASE)
-"""Pattern of the name of a file of the left foot alone, as left.csv and walk-left.csv."""
+SINCE_1970 = 1e8
+"""Time above which times of another format are counted from 1970, s: no recording lasts three years."""
+EPOCH_DIGITS = 6
+"""Decimal places of times since 1970 that a number in s can hold: 0.24 us is its resolution."""
 
 
 @frozen
 class SampleRecording:
-    """The samples of a file without the rows that cannot be used, which `bad_rows` counts.
+    """The samples of one or more files without the rows that cannot be used, which `bad_rows` counts.
 
     Iterating gives the samples of all feet in order of time, the left foot first at equal times."""
 
     path: Path
+    """Path of the first file."""
     tables: tuple[FootTable, ...]
     bad_rows: BadRows
+    start_time: datetime | None = None
+    """Moment of time 0, UTC, if the files have times since 1970 that are counted from the first one."""
 
     def __len__(self) -> int:
         return sum(map(len, self.tables))
@@ -39,33 +51,137 @@ class SampleRecording:
         return heapq.merge(*(table.make_samples() for table in self.tables), key=attrgetter("t"))
 
 
-def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> SampleRecording:
-    """Return the samples in an .npz or .csv file, all read into memory.
+def load_samples(
+    files: Path | str | Sequence[Path | str],
+    foot: Foot | Sequence[Foot] | None = None,
+    *,
+    mapping: TableMapping | None = None,
+    report: Report = warn,
+) -> SampleRecording:
+    """Return the samples in a file, or in the files of both feet or of several sensors, all read into memory.
 
-    `foot`: for samples that name no foot, the foot that wore the sensor (None: the left foot if the name of the file
-    starts or ends with the word "left", else the right one); else the only foot to read (None: both). `report` receives
-    one sentence about an incomplete last line, and about each of the first rows that are left out. RecordingError when
-    nothing can be used, or if most rows cannot."""
-    path = Path(path)
-    one_foot = foot or (Foot.LEFT if NAMED_LEFT.search(path.stem) else Foot.RIGHT)
-    bad_rows = BadRows(path, report, "row")
-    match path.suffix.lower():
-        case ".npz":
-            tables = read_npz(path, one_foot)
-        case ".csv":
-            tables = read_csv(path, one_foot, bad_rows)
-        case _:
-            raise RecordingError(path, "is neither .npz nor .csv, so it holds no samples")
-    used_tables = [table for table in tables if foot in (None, table.foot)]
+    `foot`: for samples that name no foot, the foot that wore the sensor (None: what the name of the file says, else the
+    right foot); else the only foot to read (None: both). A sequence has the foot of each file. `mapping`: what columns
+    mean, as far as the files do not say it. `report` receives one sentence about an incomplete last line, and about
+    each of the first rows that are left out. RecordingError, with all that is wrong, when something cannot be used."""
+    paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
+    mapping = mapping or TableMapping()
+    problems: list[RecordingError] = []
+    feet: list[Foot | None] = list(feet_of_files(paths, mapping.feet))
+    if isinstance(foot, Foot):
+        feet = [foot] if len(paths) == 1 else feet
+    elif foot is not None:
+        feet = list(foot)
+        if len(feet) != len(paths):
+            raise ValueError(f"there are {len(feet)} feet for {len(paths)} files")
+    total = BadRows(paths[0], report, "row")
+    tables: list[FootTable] = []
+    headers: list[TableColumns] = []
+    for path, its_foot in zip(paths, feet, strict=True):
+        bad_rows = BadRows(path, report, "row")
+        try:
+            own = _read_file(path, its_foot, mapping, bad_rows, headers, is_alone=len(paths) == 1)
+            used = own if not isinstance(foot, Foot) else [table for table in own if table.foot is foot]
+            if used:
+                _remove_bad_rows(used, bad_rows)
+            tables += used
+        except RecordingError as error:
+            problems += error.problems
+        total.count, total.good = total.count + bad_rows.count, total.good + bad_rows.good
+    found_keys = {key for found in headers for key in found.found_keys}
+    for found in headers:
+        own_problems = found.list_problems(found.elsewhere & found_keys)
+        problems += own_problems or (found.list_problems() if found.is_empty else [])
+    if not tables and not problems and isinstance(foot, Foot):
+        problems.append(RecordingError(paths[0], f"holds nothing of the {foot.value} foot"))
+    _name_feet(tables, problems)
+    for table in tables:
+        problems += find_wrong_units(table)
+    start_time = _count_from_start(tables)
+    if not problems:
+        tables = join_files(tables, problems)
+    if problems:
+        raise RecordingError.of(merge_guesses(problems))
+    if not any(map(len, tables)):
+        raise RecordingError(paths[0], "holds no samples")
+    return SampleRecording(paths[0], tuple(tables), total, start_time)
+
+
+def _read_file(
+    path: Path,
+    foot: Foot | None,
+    mapping: TableMapping,
+    bad_rows: BadRows,
+    headers: list[TableColumns],
+    *,
+    is_alone: bool,
+) -> list[FootTable]:
+    """Return the tables of the feet in one file, of which only the cells were read."""
+    if path.suffix.lower() == ".npz":
+        tables = read_npz(path, foot, mapping)
+    else:
+        found = _read_sheet(path, foot, mapping, bad_rows, headers, is_alone=is_alone)
+        if found is None:
+            return []
+        tables = found
     if not tables:
         bad_rows.finish()
         raise RecordingError(path, "holds no samples")
-    if not used_tables and foot is not None:
-        raise RecordingError(path, f"holds nothing of the {foot.value} foot")
-    _remove_bad_rows(used_tables, bad_rows)
-    for table in used_tables:
-        check_units(table)
-    return SampleRecording(path, tuple(used_tables), bad_rows)
+    return tables
+
+
+def _read_sheet(
+    path: Path,
+    foot: Foot | None,
+    mapping: TableMapping,
+    bad_rows: BadRows,
+    headers: list[TableColumns],
+    *,
+    is_alone: bool,
+) -> list[FootTable] | None:
+    """Return the tables in a sheet; None for one whose columns have faults, which `headers` then holds."""
+    with open_sheet(path, mapping) as (layout, rows):
+        found = find_columns(path, layout, mapping, foot, is_alone=is_alone)
+        if not found.feet and not found.faults:
+            raise guess_mapping(path, layout, rows)
+        headers.append(found)
+        if found.is_empty or found.list_problems(found.elsewhere):
+            return None
+        tables = read_rows(path, layout, rows, found, bad_rows)
+    if found.export is not None:
+        for flaw in found.export.flaws(found.header):
+            bad_rows.report(f"{printable(str(path))}: {flaw}")
+    return tables
+
+
+def _name_feet(tables: list[FootTable], problems: list[RecordingError]) -> None:
+    """Add a problem for files of which nothing says whose they are, if they cannot all be of one foot."""
+    unnamed = [table for table in tables if table.is_assumed]
+    paths = list({table.path: None for table in tables})
+    quantities = [quantity for table in unnamed for quantity in table.columns]
+    if unnamed and len(paths) > 1 and (len(unnamed) < len(tables) or len(set(quantities)) < len(quantities)):
+        example = ",".join(("left", "right")[k * 2 // len(paths)] for k in range(len(paths)))
+        for path in {table.path: None for table in unnamed}:
+            what = "nothing says of which foot it is"
+            problems.append(
+                RecordingError(path, what, repair=f"name the feet in the order of the files: --foot {example}")
+            )
+
+
+def _count_from_start(tables: list[FootTable]) -> datetime | None:
+    """Subtract the first time of all from times since 1970, and return that moment; None for any other times."""
+    filled = [table for table in tables if len(table)]
+    if not filled or any(table.is_own for table in filled):
+        return None
+    start = min(float(table.t[0]) for table in filled)
+    if not start > SINCE_1970:
+        return None
+    for table in filled:
+        table.t = np.round(table.t - start, EPOCH_DIGITS)
+    try:
+        return datetime.fromtimestamp(start, UTC)
+    except (OverflowError, OSError, ValueError):
+        return None
 
 
 def _remove_bad_rows(tables: Sequence[FootTable], bad_rows: BadRows) -> None:

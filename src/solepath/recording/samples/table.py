@@ -1,22 +1,23 @@
 """The samples of one foot as columns, and the checks of each column.
 
-There are two kinds of fault. A wrong shape or unit makes a whole column useless, so its error is raised at once. A row
-with a value that is not finite, or whose time is out of order, is left out and reported."""
+A wrong shape makes a whole column useless, so its error is raised at once. A row with a value that is not finite, or
+whose time is out of order, is left out and reported."""
 
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from attrs import define
+from attrs import define, field
 from numpy.typing import NDArray
 
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ..bad_rows import MAX_NAMED
-from ..errors import RecordingError, UnusableValues, printable
+from ..errors import RecordingError, printable
+from ..mapping.mapping import TableMapping
 
 Floats = NDArray[np.float64]
 
@@ -26,15 +27,6 @@ QUANTITIES = ("acc", "gyro", "pressure")
 """Quantities that a table may have."""
 BLOCK_SIZE = 4096
 """Number of rows that are converted to samples at a time, so that never all samples are in memory."""
-
-MEDIAN_ACC_RANGE = (3.0, 30.0)
-"""Allowed range of the median |acc| of a foot, m/s^2; standing, walking and running have 9.4 to 20."""
-MAX_GYRO = 40.0
-"""Largest allowed 99th percentile of |gyro|, rad/s.
-
-Running feet reach 17 rad/s, and most sensors end at 2000 degrees/s, which is 35 rad/s."""
-MAX_INTERVAL, MIN_INTERVAL = 0.5, 2e-4
-"""Allowed range of the median time between samples, s; outside it the unit of time is not s."""
 
 
 @define
@@ -49,6 +41,18 @@ class FootTable:
     columns: dict[str, Floats]
     lines: NDArray[np.int64] | None = None
     """Line number of each row in a text file; None for an archive, whose rows count from 0."""
+    is_assumed: bool = False
+    """Flag: nothing says of which foot the table is."""
+    is_named: bool = True
+    """Flag: the file itself says of which foot the table is, not its name alone."""
+    is_own: bool = True
+    """Flag: the times are in the unit s and under the name of this project, so that they stay as they are."""
+    units: dict[str, str] = field(factory=dict)
+    """Unit of each quantity in the file; SI where it says none."""
+    signed: dict[str, tuple[str, ...]] = field(factory=dict)
+    """Names of the columns of each quantity, with "-" before one whose sign is changed; empty for an archive."""
+    mapping: TableMapping = field(factory=TableMapping)
+    """Mapping that the user gave for the table."""
 
     def __len__(self) -> int:
         return len(self.t)
@@ -156,59 +160,3 @@ def _describe_order(t: Floats, bad: NDArray[np.bool_], row: int) -> str:
     places = [f"after {float(t[before[-1]])!r} s"] if len(before) else []
     places += [f"before {float(t[row + 1 + after[0]])!r} s"] if len(after) else []
     return f"time is out of order: {float(t[row])!r} s {' and '.join(places)}"
-
-
-def check_units(table: FootTable) -> None:
-    """Raise UnusableValues when the numbers are in another unit, or the times are not those of the samples."""
-    for quantity, complaint in _find_wrong_units(table.t, table.columns):
-        raise UnusableValues(table.path, complaint, table.names[quantity])
-
-
-def _find_wrong_units(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str, str]]:
-    """Yield each quantity whose unit is certainly not SI, with a complaint; a wrong unit can give a plausible track."""
-    if len(t) > 2:
-        interval = float(np.median(np.diff(t)))
-        if not MIN_INTERVAL <= interval <= MAX_INTERVAL:
-            yield "t", f"the median time between samples is {interval:.3g} s: {_explain_times(t, interval)}"
-    if "acc" in columns:
-        median = float(np.median(_vector_lengths(columns["acc"])))
-        low, high = MEDIAN_ACC_RANGE
-        if not low <= median <= high:
-            yield (
-                "acc",
-                f"the median of |acc| is {median:.3g} m/s^2, not 9.8: this looks like {_guess_acc_unit(median)}",
-            )
-    if "gyro" in columns:
-        high = float(np.percentile(_vector_lengths(columns["gyro"]), 99.0, method="higher"))
-        if high > MAX_GYRO:
-            unit = "deg/s" if high < 4000.0 else "thousandths of a degree a second, or raw counts"
-            yield "gyro", f"|gyro| reaches {high:.3g} rad/s, faster than a foot turns: this looks like {unit}"
-
-
-def _explain_times(t: Floats, median: float) -> str:
-    """Return what times, s, look like whose intervals have a median that cannot be right, s."""
-    if median > MAX_INTERVAL:
-        return "this looks like milliseconds or sample numbers"
-    starts = np.flatnonzero(np.diff(t) >= MIN_INTERVAL) + 1
-    if len(starts):
-        count, span = int(starts[-1]), float(t[starts[-1]] - t[0])
-        if MIN_INTERVAL <= span / count <= MAX_INTERVAL:
-            return (
-                f"{'times repeat: ' if median == 0.0 else ''}samples come in bursts of about {count / len(starts):.0f},"
-                f" one burst each {span / len(starts):.3g} s, as with the time at which their packet came; give each"
-                f" sample its own time, about {span / count:.3g} s after the one before"
-            )
-    return "times repeat" if median == 0.0 else "these are not seconds"
-
-
-def _guess_acc_unit(median: float) -> str:
-    if median < 0.3:
-        return "no specific force at all (gravity removed?)"
-    if median < 3.0:
-        return "g"
-    return "milli-g" if 700.0 < median < 1500.0 else "raw counts"
-
-
-def _vector_lengths(vectors: Floats) -> Floats:
-    with np.errstate(over="ignore"):  # an infinite length fails the checks as well
-        return np.asarray(np.sqrt(np.sum(vectors * vectors, axis=1)), dtype=np.float64)

@@ -1,0 +1,87 @@
+"""Options that say what the columns of tables of samples mean, for the commands that read them."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ...events import DefectFound
+from ...recording import Source, TableMapping, printable, read_mapping
+from ...types import Foot
+from .failure import Failure, parse_positive
+
+MAPPING_OPTIONS = ("columns", "units", "mapping", "format", "rate")
+"""Options from which a mapping is made."""
+
+
+def add_tables(command: argparse.ArgumentParser) -> None:
+    """Add FILE..., and the options for tables of samples, to a command."""
+    command.add_argument(
+        "files",
+        metavar="FILE",
+        type=Path,
+        nargs="+",
+        help="the recording; of samples, one file or those of both feet or of several sensors (docs/tables.md)",
+    )
+    command.add_argument(
+        "--foot",
+        metavar="FOOT[,FOOT...]",
+        help="left or right: whose the samples of one foot are (default: by the name of the file, else right); of other"
+        " recordings, the foot to use; for several files, that of each in their order",
+    )
+    tables = command.add_argument_group("tables of samples", "what the columns mean, as far as a file does not say it")
+    tables.add_argument(
+        "--columns", metavar="NAMES", help="names of columns, as in t=Time,acc=AX,AY,-AZ,gyro=GX,GY,-GZ; - turns a sign"
+    )
+    tables.add_argument("--units", metavar="UNITS", help="units that are not SI, as in g,deg/s,ms")
+    tables.add_argument("--rate", metavar="HZ", type=parse_positive, help="samples a second, without a column of times")
+    tables.add_argument("--format", metavar="NAME", help="name of a known format that has lost its first lines")
+    tables.add_argument("--mapping", metavar="FILE", type=Path, help="all of this from a TOML file")
+
+
+def feet_of(options: argparse.Namespace) -> Foot | tuple[Foot, ...] | None:
+    """Return the foot of --foot, or those of several files; None without it.
+
+    Failure is raised when it names anything else, or another number of feet than of files."""
+    if options.foot is None:
+        return None
+    words = [word.strip().lower() for word in options.foot.split(",")]
+    if not set(words) <= {"left", "right"}:
+        raise Failure(f"--foot {printable(options.foot, 80)}: each foot is left or right, with commas between them")
+    feet = tuple(map(Foot, words))
+    if len(feet) == 1:
+        return feet[0]
+    if len(feet) != len(options.files):
+        raise Failure(f"--foot {printable(options.foot, 80)}: that is {len(feet)} feet for {len(options.files)} files")
+    return feet
+
+
+def mapping_of(options: argparse.Namespace) -> TableMapping | None:
+    """Return the mapping of --columns, --units, --format, --rate and --mapping; None without any of them.
+
+    What options say goes before what the file says. Failure or RecordingError is raised for a malformed one."""
+    if all(getattr(options, name) is None for name in MAPPING_OPTIONS):
+        return None
+    saved = TableMapping() if options.mapping is None else read_mapping(options.mapping)
+    try:
+        given = TableMapping.parse(options.columns or "", options.units or "", rate=options.rate)
+        return saved.replaced(given, format=options.format or saved.format)
+    except ValueError as error:
+        raise Failure("; ".join(str(error).splitlines())) from None
+
+
+def axes_repair(source: Source, event: DefectFound) -> str:
+    """Return what gives the gyroscope of a table the axes that fit; "" for anything else than wrong axes of a table."""
+    tables = () if source.samples is None or event.axes is None else source.samples.tables
+    for table in tables:
+        names = table.signed.get("gyro", ())
+        if table.foot is event.site.foot and event.axes is not None and len(names) == 3:
+            turned = [_turn(names[abs(axis) - 1]) if axis < 0 else names[abs(axis) - 1] for axis in event.axes]
+            is_alone = len(tables) == 1 or table.mapping.is_of_one_foot and tables[0].signed == tables[-1].signed
+            key = "gyro" if is_alone else f"gyro_{table.foot.value}"
+            return f"; repair, if the gyroscope is wrong: {table.mapping.write_columns(key, {key: turned})}"
+    return ""
+
+
+def _turn(name: str) -> str:
+    return name[1:] if name.startswith("-") else f"-{name}"

@@ -1,0 +1,51 @@
+"""Reading of a mapping from a TOML file."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from ..errors import RecordingError, open_file
+from .mapping import TableMapping
+
+MAX_SIZE = 1_000_000
+"""Largest size of a file with a mapping, bytes."""
+TEXTS, TABLES = ("rate", "wrap", "separator", "decimal", "header", "format"), ("columns", "units", "feet")
+"""Keys of a mapping whose values are single, and whose values are tables of their own."""
+
+
+def read_mapping(path: Path | str) -> TableMapping:
+    """Return the mapping in a TOML file.
+
+    RecordingError, with all its problems and the lines to change, for a file that is no mapping."""
+    path = Path(path)
+    with open_file(path) as file:
+        data = file.read(MAX_SIZE + 1)
+    if len(data) > MAX_SIZE:
+        raise RecordingError(path, f"is larger than {MAX_SIZE // 1_000_000} MB, so it is no mapping")
+    try:
+        values: dict[str, Any] = tomllib.loads(data.decode("utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise RecordingError(path, f"is not TOML ({error})") from None
+    problems = []
+    for key in values.keys() - {*TEXTS, *TABLES}:
+        known = ", ".join((*TEXTS, *TABLES))
+        problems.append(RecordingError(path, f"{key} is no key of a mapping", repair=f"the keys are {known}"))
+    for key in TABLES:
+        if key in values and not isinstance(values[key], dict):
+            problems.append(RecordingError(path, "is a value", key, f"write [{key}] in a line of its own"))
+            del values[key]
+    used = {key: value for key, value in values.items() if key in (*TEXTS, *TABLES)}
+    for key, names in used.get("columns", {}).items():
+        if not isinstance(names, str) and not (isinstance(names, list) and all(isinstance(n, str) for n in names)):
+            used["columns"][key] = ()
+    try:
+        mapping = TableMapping(**used, origin=path.name)
+    except ValueError as error:
+        raise RecordingError.of(
+            [*problems, *(RecordingError(path, line) for line in str(error).splitlines())]
+        ) from None
+    if problems:
+        raise RecordingError.of(problems)
+    return mapping

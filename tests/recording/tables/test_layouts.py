@@ -1,0 +1,219 @@
+"""Text tables are read however they are written: separators, decimal marks, headers, times; and Excel and Parquet."""
+
+from __future__ import annotations
+
+import importlib.util
+from datetime import datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.recording import RecordingError, TableMapping, open_source, read_samples
+from solepath.recording.samples import sheet
+from solepath.types import Sample, Site
+
+MAPPING = TableMapping(
+    {"t": "Zeit", "acc": ["A x", "A y", "A z"], "gyro": ["G x", "G y", "G z"]}, {"t": "ms", "gyro": "rad/s"}
+)
+NAMES = ["Zeit", "A x", "A y", "A z", "G x", "G y", "G z"]
+NUMBERS = [(10.0 * k, 0.5, -0.25, 9.75 + 0.01 * k, 0.125, 0.0, -1.5) for k in range(6)]
+EXPECTED = [Sample(0.01 * k, Site.RIGHT_FOOT, (0.5, -0.25, 9.75 + 0.01 * k), (0.125, 0.0, -1.5)) for k in range(6)]
+
+
+def assert_expected(samples: list[Sample]) -> None:
+    assert len(samples) == len(EXPECTED)
+    for sample, expected in zip(samples, EXPECTED, strict=True):
+        assert (sample.t, *sample.acc, *sample.gyro) == pytest.approx((expected.t, *expected.acc, *expected.gyro))
+
+
+def table(separator: str = ",", decimal: str = ".", head: str = "", names: list[str] | None = None) -> str:
+    rows = [separator.join(f"{v:.3f}".replace(".", decimal) for v in row) for row in NUMBERS]
+    return head + "\n".join([separator.join(NAMES if names is None else names), *rows]) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("separator", "decimal"), [(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ","), ("|", "."), ("|", ",")]
+)
+@pytest.mark.parametrize("head", ["", "Labor 7\n\n", "Proband;S 12\nDatum,1.3.2026\nRate\t100\n# Kommentar\n"])
+def test_separator_decimal_mark_and_lines_before_the_header_are_found(
+    tmp_path: Path, separator: str, decimal: str, head: str
+) -> None:
+    (tmp_path / "walk.csv").write_text(table(separator, decimal, head))
+    assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=MAPPING)))
+
+
+@given(
+    separator=st.sampled_from(",;\t|"),
+    values=st.lists(st.floats(-15.0, 15.0, allow_nan=False).map(lambda v: round(v, 3)), min_size=9, max_size=9),
+    spare=st.lists(st.sampled_from(["", "x", "1.5", "S 12"]), min_size=1, max_size=3),
+)
+def test_what_is_written_is_read(
+    tmp_path_factory: pytest.TempPathFactory, separator: str, values: list[float], spare: list[str]
+) -> None:
+    decimal = "." if separator == "," else ","
+    names = ["t", "note", "acc_x", "acc_y", "acc_z"]
+    rows = [
+        [f"{0.01 * k:.2f}", spare[k % len(spare)], *(f"{v:.3f}" for v in values[3 * k :][:2]), "9.810"]
+        for k in range(3)
+    ]
+    lines = [separator.join(names)]
+    lines += [separator.join(c if c in spare else c.replace(".", decimal) for c in row) for row in rows]
+    path = tmp_path_factory.mktemp("any") / "walk.csv"
+    path.write_text("\n".join(lines) + "\n")
+    samples = list(read_samples(path, mapping=TableMapping(decimal=decimal)))
+    assert [sample.acc for sample in samples] == [(float(row[2]), float(row[3]), 9.81) for row in rows]
+
+
+def test_columns_apart_by_blanks_and_a_line_of_units_are_read(tmp_path: Path) -> None:
+    names = [name.replace(" ", "_") for name in NAMES]
+    rows = "\n".join("  ".join(f"{v:9.3f}" for v in row) for row in NUMBERS)
+    (tmp_path / "walk.txt").write_text(
+        f"{'  '.join(names)}\n[ms] [m/s^2] [m/s^2] [m/s^2] [rad/s] [rad/s] [rad/s]\n{rows}\n"
+    )
+    mapping = TableMapping({"t": "zeit", "acc": "A_*", "gyro": ["G_x", "G_y", "G_z"]})
+    assert_expected(list(read_samples(tmp_path / "walk.txt", mapping=mapping)))
+
+
+def test_units_in_the_header_need_no_option_and_an_option_replaces_them(tmp_path: Path) -> None:
+    names = ["Zeit [ms]", *(f"A {axis} (m/s²)" for axis in "xyz"), *(f"G {axis} (rad/s)" for axis in "xyz")]
+    (tmp_path / "walk.csv").write_text(table(names=names), encoding="utf-8")
+    mapping = TableMapping({"t": "Zeit*", "acc": "A *", "gyro": "G *"})
+    assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping)))
+    other = TableMapping({"t": "Zeit*", "acc": "A *", "gyro": "G *"}, {"t": "s"})
+    with pytest.raises(RecordingError, match=r"Zeit.*the median time between samples is 10 s.*repair: --units ms"):
+        read_samples(tmp_path / "walk.csv", mapping=other)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-8-sig", "latin-1"])
+def test_other_encodings_are_read(tmp_path: Path, encoding: str) -> None:
+    names = ["Zeit", *(f"A {axis} größe" for axis in "xyz"), *NAMES[4:]]
+    (tmp_path / "walk.csv").write_text(table(";", ",", names=names), encoding=encoding)
+    mapping = TableMapping({"t": "Zeit", "acc": "A *", "gyro": NAMES[4:]}, {"t": "ms"})
+    assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping)))
+
+
+def test_a_table_without_names_has_numbers_for_names(tmp_path: Path) -> None:
+    (tmp_path / "walk.csv").write_text(table(names=[]).lstrip("\n"))
+    mapping = TableMapping.parse("t=1,acc=2,3,4,gyro=#5,#6,7", "ms")
+    assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping)))
+
+
+def test_a_name_that_occurs_twice_is_taken_by_its_number(tmp_path: Path) -> None:
+    (tmp_path / "walk.csv").write_text(table(names=["Zeit", "X", "Y", "Z", "X", "Y", "Z"]))
+    with pytest.raises(RecordingError) as caught:
+        read_samples(tmp_path / "walk.csv", mapping=TableMapping.parse("t=Zeit,acc=X,Y,Z,gyro=#5,#6,#7", "ms"))
+    assert "names the column X twice: it is #2 or #5; repair: --columns 't=Zeit,acc=#2,#3,#4" in str(caught.value)
+    mapping = TableMapping.parse("t=Zeit,acc=#2,#3,#4,gyro=#5,#6,#7", "ms")
+    assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping)))
+
+
+def test_signs_turn_axes(tmp_path: Path) -> None:
+    (tmp_path / "walk.csv").write_text(table())
+    mapping = TableMapping.parse("t=Zeit,acc=A y,-A x,A z,gyro=-G z,G y,G x", "ms")
+    (first, *_) = read_samples(tmp_path / "walk.csv", mapping=mapping)
+    assert first.acc == (-0.25, -0.5, 9.75) and first.gyro == (1.5, 0.0, 0.125)
+
+
+def test_a_rate_stands_for_times_and_a_row_that_is_left_out_keeps_its_time(tmp_path: Path) -> None:
+    lines = table().splitlines()
+    lines[3] = lines[3].replace("0.500", "oh no")
+    (tmp_path / "walk.csv").write_text("\n".join(lines) + "\n")
+    reports: list[str] = []
+    mapping = TableMapping({"acc": NAMES[1:4], "gyro": NAMES[4:]}, rate=100.0)
+    samples = list(read_samples(tmp_path / "walk.csv", mapping=mapping, report=reports.append))
+    assert [sample.t for sample in samples] == pytest.approx([0.0, 0.01, 0.03, 0.04, 0.05])
+    assert 'line 4: A x is "oh no", not a number; this row is left out' in reports[0]
+
+
+@pytest.mark.parametrize(
+    ("form", "first"),
+    [
+        ("2026-03-01T09:30:{:06.3f}", "2026-03-01T09:30:00+00:00"),
+        ("2026-03-01 09:30:{:06.3f}+01:00", "2026-03-01T08:30:00+00:00"),
+        ("2026-03-01 09:30:{:09.6f}", "2026-03-01T09:30:00+00:00"),
+        ("09:30:{:06.3f}", None),
+    ],
+)
+def test_times_may_be_dates_or_times_of_day(tmp_path: Path, form: str, first: str | None) -> None:
+    rows = [[form.format(1e-3 * row[0]), *(f"{v:.3f}" for v in row[1:])] for row in NUMBERS]
+    (tmp_path / "walk.csv").write_text("\n".join([",".join(NAMES), *map(",".join, rows)]) + "\n")
+    mapping = TableMapping({"t": "Zeit", "acc": NAMES[1:4], "gyro": NAMES[4:]})
+    source = open_source(tmp_path / "walk.csv", mapping=mapping)
+    assert source.header.get("began") == first
+    samples = [item for item in source if isinstance(item, Sample)]
+    start = samples[0].t
+    assert [sample.t - start for sample in samples] == pytest.approx([0.01 * k for k in range(6)], abs=1e-6)
+
+
+def test_a_time_of_day_goes_on_after_midnight(tmp_path: Path) -> None:
+    moments = [datetime(2026, 3, 1, 23, 59, 59, 980_000) + timedelta(milliseconds=10 * k) for k in range(6)]
+    rows = [[f"{m:%H:%M:%S.%f}", *(f"{v:.3f}" for v in row[1:])] for m, row in zip(moments, NUMBERS, strict=True)]
+    (tmp_path / "walk.csv").write_text("\n".join([",".join(NAMES), *map(",".join, rows)]) + "\n")
+    samples = list(read_samples(tmp_path / "walk.csv", mapping=TableMapping(MAPPING.columns, {"t": "datetime"})))
+    assert samples[5].t - samples[0].t == pytest.approx(0.05)
+
+
+def test_a_point_among_decimal_commas_is_no_number_because_it_may_be_a_thousand(tmp_path: Path) -> None:
+    lines = table(";", ",").splitlines()
+    lines[2] = lines[2].replace("10,000", "1.010,000")
+    lines[3] = lines[3].replace("0,500", "0.500")
+    (tmp_path / "walk.csv").write_text("\n".join(lines) + "\n")
+    reports: list[str] = []
+    samples = list(read_samples(tmp_path / "walk.csv", mapping=MAPPING, report=reports.append))
+    assert any('line 4: A x is "0.500", not a number' in report for report in reports)
+    assert any("time is out of order: 1.01 s" in report for report in reports) and len(samples) == 4
+
+
+LIBRARIES = [name for name in ("pandas", "polars") if importlib.util.find_spec(name) is not None]
+
+
+def only(monkeypatch: pytest.MonkeyPatch, *installed: str) -> None:
+    """Let the reader find none but these libraries."""
+    monkeypatch.setattr(sheet, "find_spec", lambda name: importlib.util.find_spec(name) if name in installed else None)
+
+
+@pytest.mark.parametrize("library", LIBRARIES)
+@pytest.mark.parametrize("suffix", [".xlsx", ".parquet"])
+def test_excel_and_parquet_are_read_with_either_library(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, library: str, suffix: str
+) -> None:
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip(
+        {"pandas": {".xlsx": "openpyxl"}, "polars": {".xlsx": "fastexcel"}}[library].get(suffix, "pyarrow")
+    )
+    frame = pandas.DataFrame(NUMBERS, columns=NAMES)
+    path = tmp_path / f"walk{suffix}"
+    if suffix == ".parquet":
+        frame.to_parquet(path)
+    else:
+        with pandas.ExcelWriter(path) as book:
+            pandas.DataFrame([["Labor 7"]]).to_excel(book, header=False, index=False)
+            frame.to_excel(book, startrow=2, index=False)
+    only(monkeypatch, library)
+    assert_expected(list(read_samples(path, mapping=MAPPING)))
+
+
+def test_dates_of_a_parquet_file_are_times(tmp_path: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("pyarrow")
+    frame: Any = pandas.DataFrame(NUMBERS, columns=NAMES)
+    frame["Zeit"] = pandas.Timestamp("2026-03-01T09:30") + pandas.to_timedelta(frame["Zeit"], unit="ms")
+    frame.to_parquet(tmp_path / "walk.parquet")
+    mapping = TableMapping(MAPPING.columns, {})
+    assert_expected(list(read_samples(tmp_path / "walk.parquet", mapping=mapping)))
+
+
+@pytest.mark.parametrize("name", ["walk.xlsx", "walk.parquet"])
+def test_a_damaged_workbook_and_a_missing_library_get_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    (tmp_path / name).write_bytes(b"PK\x03\x04 and no more")
+    if LIBRARIES:
+        with pytest.raises(RecordingError, match=r"is no whole (workbook|Parquet file) \(|which lacks"):
+            read_samples(tmp_path / name)
+    only(monkeypatch)
+    with pytest.raises(RecordingError, match=r"needs pandas or polars; repair: pip install 'solepath\[tables\]'"):
+        read_samples(tmp_path / name)

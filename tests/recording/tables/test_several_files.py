@@ -1,0 +1,175 @@
+"""Files of both feet and of several sensors: which foot a file is of, and how those of one foot are joined."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from solepath.recording import RecordingError, TableMapping, read_samples
+from solepath.recording.samples import load_samples
+from solepath.recording.samples.feet import foot_of_text
+from solepath.types import Foot, Sample, Site
+
+MAPPING = TableMapping({"t": "time"})
+
+
+def write(path: Path, names: str, t: np.ndarray, *columns: np.ndarray | float) -> Path:
+    rows = np.column_stack([t, *(np.broadcast_to(column, t.shape) for column in columns)])
+    path.write_text("\n".join([names, *(",".join(f"{v:.6f}" for v in row) for row in rows)]) + "\n")
+    return path
+
+
+def acc_file(path: Path, t: np.ndarray) -> Path:
+    return write(path, "t,acc_x,acc_y,acc_z", t, t, 0.0, 9.81)
+
+
+def gyro_file(path: Path, t: np.ndarray) -> Path:
+    return write(path, "t,gyro_x,gyro_y,gyro_z", t, 0.2 * t, 0.0, 0.0)
+
+
+NAMED = {
+    Foot.LEFT: ("left", "LF", "LeftFoot2", "walkLeft", "l_7", "S01-left.acc"),
+    Foot.RIGHT: ("walk_R", "S01-right-acc", "RightGyro", "RF", "right"),
+    None: ("leftover", "bright", "left_right", "control", "R2L", "Accelerometer", ""),
+}
+
+
+@pytest.mark.parametrize(("text", "foot"), [(text, foot) for foot, texts in NAMED.items() for text in texts])
+def test_a_name_gives_the_foot_if_a_word_of_it_does(text: str, foot: Foot | None) -> None:
+    assert foot_of_text(text) is foot
+
+
+def test_two_files_of_two_feet_are_one_recording(tmp_path: Path) -> None:
+    t = np.arange(20) / 100.0
+    files = [acc_file(tmp_path / name, t) for name in ("b_right.csv", "a_left.csv")]
+    samples = list(read_samples(files))
+    assert [sample.site for sample in samples[:4]] == [Site.LEFT_FOOT, Site.RIGHT_FOOT] * 2 and len(samples) == 40
+    assert {sample.site for sample in read_samples(files, Foot.LEFT)} == {Site.LEFT_FOOT}
+
+
+def test_files_whose_names_lack_the_foot_need_the_feet_in_their_order(tmp_path: Path) -> None:
+    files = [acc_file(tmp_path / name, np.arange(20) / 100.0) for name in ("one.csv", "two.csv")]
+    with pytest.raises(RecordingError) as caught:
+        read_samples(files)
+    assert [problem.what for problem in caught.value.problems] == ["nothing says of which foot it is"] * 2
+    assert caught.value.repair == "name the feet in the order of the files: --foot left,right"
+    assert len(load_samples(files, [Foot.RIGHT, Foot.LEFT]).tables) == 2
+    with pytest.raises(ValueError, match="there are 1 feet for 2 files"):
+        load_samples(files, [Foot.RIGHT])
+
+
+def test_a_pattern_of_a_mapping_gives_the_foot(tmp_path: Path) -> None:
+    files = [acc_file(tmp_path / name, np.arange(20) / 100.0) for name in ("s1_li.csv", "s1_re.csv")]
+    mapping = TableMapping(feet={"left": "*_li.csv", "right": "*_re.csv"})
+    assert [table.foot for table in load_samples(files, mapping=mapping).tables] == [Foot.LEFT, Foot.RIGHT]
+
+
+def test_the_slower_sensor_is_interpolated_to_the_times_of_the_faster_one(tmp_path: Path) -> None:
+    acc = acc_file(tmp_path / "left_acc.csv", np.arange(0.0, 2.0, 0.02))
+    gyro = gyro_file(tmp_path / "left_gyro.csv", np.arange(0.503, 3.0, 0.01))
+    for files in ([acc, gyro], [gyro, acc]):
+        samples = list(read_samples(files))
+        assert [s.t for s in samples] == pytest.approx(list(np.arange(0.503, 1.98, 0.01))), "what both cover"
+        for sample in samples:
+            assert sample.acc is not None and sample.gyro is not None
+            assert sample.acc[0] == pytest.approx(sample.t) and sample.gyro[0] == pytest.approx(0.2 * sample.t)
+
+
+def test_at_equal_rates_the_accelerometer_has_the_times_and_equal_times_are_joined_exactly(tmp_path: Path) -> None:
+    t = np.arange(50) / 100.0
+    acc, gyro = acc_file(tmp_path / "r_acc.csv", t), gyro_file(tmp_path / "r_gyro.csv", t + 0.004)
+    assert [s.t for s in read_samples([gyro, acc])] == pytest.approx(list(t[1:]))
+    gyro_file(tmp_path / "r_gyro.csv", t)
+    samples = list(read_samples([gyro, acc]))
+    assert samples[7] == Sample(0.07, Site.RIGHT_FOOT, (0.07, 0.0, 9.81), (0.014, 0.0, 0.0)) and len(samples) == 50
+
+
+def test_a_gap_of_one_sensor_is_a_gap_of_both_and_two_missing_samples_are_none(tmp_path: Path) -> None:
+    t = np.arange(100) / 100.0
+    gyro_t = np.concatenate([t[:20], t[22:50], t[60:]])
+    acc, gyro = acc_file(tmp_path / "r_acc.csv", t), gyro_file(tmp_path / "r_gyro.csv", gyro_t)
+    times = [sample.t for sample in read_samples([acc, gyro])]
+    assert times == pytest.approx([*t[:50], *t[60:]])
+
+
+def test_files_without_a_foot_that_hold_different_sensors_are_of_one_foot(tmp_path: Path) -> None:
+    t = np.arange(50) / 100.0
+    files = [acc_file(tmp_path / "Accelerometer.csv", t), gyro_file(tmp_path / "Gyroscope.csv", t)]
+    assert {sample.site for sample in read_samples(files)} == {Site.RIGHT_FOOT}
+    assert {sample.site for sample in read_samples(files, [Foot.LEFT, Foot.LEFT])} == {Site.LEFT_FOOT}
+
+
+def test_what_cannot_be_joined_is_named_with_what_repairs_it(tmp_path: Path) -> None:
+    t = np.arange(50) / 100.0
+    acc, again = acc_file(tmp_path / "left_1.csv", t), acc_file(tmp_path / "left_2.csv", t)
+    with pytest.raises(RecordingError, match=r"left_2.csv: holds acc of the left foot, as left_1.csv does; .*--foot"):
+        read_samples([acc, again])
+    later = gyro_file(tmp_path / "left_gyro.csv", t + 100.0)
+    with pytest.raises(
+        RecordingError, match=r"left_gyro.csv: t: holds no time that left_1.csv holds, too \(100 to 100.49"
+    ):
+        read_samples([acc, later])
+    with pytest.raises(
+        RecordingError, match=r"left_gyro.csv: line 1: names gyro but not acc; repair: give the file of the"
+    ):
+        read_samples(later)
+
+
+APPS = {
+    "phyphox": (
+        '"Time (s)","X (m/s^2)","Y (m/s^2)","Z (m/s^2)"',
+        '"Time (s)","X (rad/s)","Y (rad/s)","Z (rad/s)"',
+        "t=Time (s),acc=X (m/s^2),Y (m/s^2),Z (m/s^2),gyro=X (rad/s),Y (rad/s),Z (rad/s)",
+    ),
+    "Sensor Logger": (
+        "time,seconds_elapsed,z,y,x",
+        "time,seconds_elapsed,z,y,x",
+        "t=seconds_elapsed,acc=x,y,z,gyro=x,y,z",
+    ),
+}
+
+
+@pytest.mark.parametrize("app", APPS)
+def test_one_mapping_serves_the_files_of_two_sensors(app: str, tmp_path: Path) -> None:
+    acc_names, gyro_names, columns = APPS[app]
+    t = np.arange(50) / 100.0
+    is_logger = acc_names == gyro_names
+    extra = [1e9 * t] if is_logger else []
+    z, x = (9.81, 0.0) if is_logger else (0.0, 9.81)
+    first = [*extra, t] if is_logger else [t]
+    files = [
+        write(tmp_path / "Accelerometer.csv", acc_names, first[0], *first[1:], z, 0.0, x),
+        write(tmp_path / "Gyroscope.csv", gyro_names, first[0], *first[1:], 0.3, 0.2, 0.1),
+    ]
+    samples = list(read_samples(files, mapping=TableMapping.parse(columns)))
+    assert len(samples) == 50 and samples[3].t == pytest.approx(0.03)
+    gyro = (0.1, 0.2, 0.3) if is_logger else (0.3, 0.2, 0.1)
+    assert samples[3].gyro == pytest.approx(gyro) and sorted(samples[3].acc) == pytest.approx([0.0, 0.0, 9.81])
+
+
+def test_columns_that_no_file_has_are_named_once_for_each_file(tmp_path: Path) -> None:
+    t = np.arange(50) / 100.0
+    files = [acc_file(tmp_path / "acc.csv", t), gyro_file(tmp_path / "gyro.csv", t)]
+    with pytest.raises(RecordingError) as caught:
+        read_samples(files, mapping=TableMapping.parse("t=t,acc=acc_x,acc_y,acc_z,gyro=gyr_x,gyr_y,gyr_z"))
+    assert [problem.path.name for problem in caught.value.problems] == ["acc.csv", "gyro.csv"]
+    last = caught.value.problems[-1]
+    assert last.what.startswith("names no column gyr_x, gyr_y, gyr_z") and last.repair.endswith(
+        "gyro=gyro_x,gyro_y,gyro_z"
+    )
+
+
+def test_archives_and_tables_of_two_feet_may_be_mixed(tmp_path: Path) -> None:
+    t = np.arange(20) / 100.0
+    np.savez(tmp_path / "right.npz", zeit=1e3 * t, A=np.tile([0.0, 0.0, 1.0], (20, 1)), gx=t, gy=t, gz=-t)
+    acc_file(tmp_path / "left.csv", t)
+    mapping = TableMapping.parse("t=zeit,acc=A,gyro=gx,-gz,gy", "g,ms")
+    (right,) = load_samples(tmp_path / "right.npz", mapping=mapping).tables
+    assert right.t == pytest.approx(t) and right.columns["acc"][3] == pytest.approx([0.0, 0.0, 9.80665])
+    assert right.columns["gyro"][5] == pytest.approx([t[5], t[5], t[5]])
+    with pytest.raises(
+        RecordingError, match=r"has no key zeiten \(it holds A, gx, gy, gz, zeit\); repair: --columns t=KEY"
+    ):
+        load_samples(tmp_path / "right.npz", mapping=TableMapping.parse("t=zeiten,acc=A", "g,ms"))

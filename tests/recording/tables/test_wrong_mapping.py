@@ -1,0 +1,97 @@
+"""A mapping with wrong axes, signs or units, or of a force without gravity, is caught by `solepath check`."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import run
+from exported import G, columns, write
+
+from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.emulate.wearers.walker import Walker
+from solepath.types import Foot
+
+LOOP = np.radians(270.0)
+ROUTE = Route().stand(2.0).walk(5.0, speed=1.3).turn(LOOP, radius=1.5).turn(-LOOP, radius=1.5).walk(8.0).stop(1.5)
+"""A figure of eight: on a straight way some axes that are wrong cannot be told from others."""
+NAMES = "Time (s),AX,AY,AZ,GX,GY,GZ"
+RIGHT = "t=Time (s),acc=AX,AY,AZ,gyro=GX,GY,GZ"
+UNITS = "g,deg/s"
+
+
+@pytest.fixture(scope="module")
+def walker() -> Walker:
+    return Walker(ROUTE, seed=11)
+
+
+def written(path: Path, walker: Walker, change: Callable[[np.ndarray], np.ndarray] = lambda same: same) -> Path:
+    """Write the walk of the left foot as a table in g and deg/s, with its forces changed."""
+    t, acc, gyro = columns(walker.samples(Foot.LEFT, 100.0, LSM6DSOX))
+    rows = np.column_stack([t, change(acc), gyro])
+    return write(path, [NAMES, *(",".join(f"{value:.6f}" for value in row) for row in rows)])
+
+
+def test_the_right_mapping_has_nothing_to_repair(walker: Walker, tmp_path: Path) -> None:
+    done = run("check", written(tmp_path / "left.csv", walker), "--columns", RIGHT, "--units", UNITS)
+    assert done.returncode == 0 and "nothing must be mended" in done.stdout
+
+
+WRONG_AXES = {
+    "two axes of the gyroscope exchanged": "gyro=GY,GX,GZ",
+    "a sign of the gyroscope": "gyro=GX,-GY,GZ",
+    "all signs of the gyroscope": "gyro=-GX,-GY,-GZ",
+    "a left-handed accelerometer": "acc=AX,AY,-AZ",
+    "axes of the accelerometer exchanged": "acc=AZ,AY,AX",
+    "axes of the accelerometer turned round": "acc=AY,AZ,AX",
+}
+
+
+@pytest.mark.parametrize("wrong", WRONG_AXES)
+def test_wrong_axes_are_caught_and_the_line_that_is_offered_repairs_them(
+    wrong: str, walker: Walker, tmp_path: Path
+) -> None:
+    path = written(tmp_path / "left.csv", walker)
+    key = WRONG_AXES[wrong].partition("=")[0]
+    text = re.sub(rf"{key}=[^=]*(?=,\w+=|$)", WRONG_AXES[wrong], RIGHT)
+    done = run("check", path, "--columns", text, "--units", UNITS)
+    assert done.returncode == 1 and "the axes of the gyroscope do not fit those of the accelerometer" in done.stdout
+    (offer,) = re.findall(r"repair, if the gyroscope is wrong: (--columns .*)", done.stdout)
+    again = run("check", path, *shlex.split(offer), "--units", UNITS)
+    assert again.returncode == 0, again.stdout
+
+
+WRONG_UNITS = {
+    "acc": ("m/s^2,deg/s", "this looks like g; repair: --units g,deg/s"),
+    "acc in mg": ("mg,deg/s", "this looks like g; repair: --units g,deg/s"),
+    "gyro": ("g,rad/s", "this looks like deg/s; repair: --units g,deg/s"),
+    "small gyro": ("g,mdeg/s", "the gyroscope reads almost nothing while the foot moves"),
+    "time": ("g,deg/s,ms", "median time between samples is 1e-05 s: these are not seconds; repair: --units g,deg/s,s"),
+}
+
+
+@pytest.mark.parametrize("wrong", WRONG_UNITS)
+def test_a_wrong_unit_is_caught(wrong: str, walker: Walker, tmp_path: Path) -> None:
+    units, sentence = WRONG_UNITS[wrong]
+    done = run("check", written(tmp_path / "left.csv", walker), "--columns", RIGHT, "--units", units)
+    assert done.returncode == 1 and sentence in done.stdout
+
+
+def test_a_force_without_gravity_is_caught(walker: Walker, tmp_path: Path) -> None:
+    """The force that is left is that of the acceleration in the world's frame, as a fusion of sensors gives it."""
+    moved = walker.kinematics(Foot.LEFT, np.arange(int(walker.duration * 100.0) + 1) / 100.0)
+    path = written(tmp_path / "left.csv", walker, lambda acc: moved.acceleration[: len(acc)] / G)
+    done = run("check", path, "--columns", RIGHT, "--units", UNITS)
+    assert done.returncode == 1 and "gravity" in done.stdout
+
+
+@pytest.mark.parametrize("range_factor", [0.5, 2.0])
+def test_a_range_that_was_assumed_wrongly_is_caught(range_factor: float, walker: Walker, tmp_path: Path) -> None:
+    path = written(tmp_path / "left.csv", walker, lambda acc: range_factor * acc)
+    done = run("check", path, "--columns", RIGHT, "--units", UNITS)
+    assert done.returncode == 1 and "the accelerometer reads" in done.stdout
