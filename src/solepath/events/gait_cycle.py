@@ -67,6 +67,10 @@ class GaitCycleMeasured(Happening):
     None unless the recipe measures the position of one foot from the other; a recipe may only assume a distance."""
     step_width: float | None
     """Distance of the other foot from the line of this stride, m (Huxham et al. 2006); negative when the feet cross."""
+    step_length_sigma: float | None
+    """Standard deviation of `step_length`, m; None when that is None."""
+    step_width_sigma: float | None
+    """Standard deviation of `step_width`, m; None when that is None."""
     clearance: float | None
     """Highest rise of the sensor above the higher of the two foot-flats, m. It is not the minimum toe clearance, which
     a sensor on the instep cannot measure (Mariani et al. 2012, IEEE Trans. Biomed. Eng. 59, use the shoe's size)."""

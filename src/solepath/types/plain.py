@@ -47,8 +47,9 @@ def has_floats(sample: Sample) -> bool:
         quat.__class__ is not tuple or len(quat) != 4 or not ONLY_FLOATS.issuperset(map(type, quat))
     ):
         return False
-    if sample.air_pressure is not None and sample.air_pressure.__class__ is not float:
-        return False
+    for value in (sample.air_pressure, sample.range):
+        if value is not None and value.__class__ is not float:
+            return False
     return sample.t.__class__ is sample.known_at.__class__ is float and sample.saturated.__class__ is bool
 
 
@@ -67,6 +68,7 @@ def with_floats(sample: Sample) -> Sample:
         pressure=_cells(sample.pressure),
         air_pressure=None if sample.air_pressure is None else number("air_pressure of a sample", sample.air_pressure),
         saturated=flag("saturated of a sample", sample.saturated),
+        range=None if sample.range is None else number("range of a sample", sample.range),
     )
 
 

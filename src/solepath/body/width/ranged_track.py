@@ -1,0 +1,105 @@
+"""The track of one foot as ranges between the feet need it: without the jumps of corrections from outside.
+
+A body part may move and turn a foot's track after a stride (`Shift`). Such a jump is no motion of the foot."""
+
+from __future__ import annotations
+
+from math import cos, sin
+
+from ...events import StrideTaken
+from ...foot.view import FootView
+from ...types import Quat, Vec3
+from ...types.attrs import define, field, frozen
+from ...types.vector import IDENTITY, ZERO, heading_turned, sub
+
+MAX_POINTS, MIN_SPACING = 80, 0.008
+"""Largest number of points of a track that are kept, and least time between two of them, s: at least 0.6 s in all, by
+which a range may be ahead of the other foot's samples."""
+MAX_STRIDES = 3
+"""Number of newest strides that are kept."""
+
+
+@frozen
+class RangedStride:
+    """One stride on the track of its foot."""
+
+    contact: float
+    """Time of the heel-strike, or of the foot-flat of a foot that lands flat, s."""
+    t_start: float
+    """Foot-flat before the stride, s."""
+    t_end: float
+    """Foot-flat after the stride, s."""
+    start: Vec3
+    """Place before the stride, m."""
+    end: Vec3
+    """Place after the stride, m."""
+    turn: float
+    """Turn of the foot, rad."""
+    usable: bool
+    """Flag: a level stride, of which nothing is missing."""
+
+
+@define
+class RangedTrack:
+    """The newest points and strides of a foot's track, m; heights are above the newest foot-flat."""
+
+    points: list[tuple[float, Vec3]] = field(factory=list, init=False)
+    """Times, s, and places of the newest samples, oldest first."""
+    place: Vec3 = field(default=ZERO, init=False)
+    """Newest place."""
+    t: float | None = field(default=None, init=False)
+    """Time of the newest sample, s; None before any."""
+    position: Vec3 = field(default=ZERO, init=False)
+    """Position at `t` in the foot's own navigation frame, which corrections move, m."""
+    attitude: Quat = field(default=IDENTITY, init=False)
+    """Attitude at the newest stride's end."""
+    turn: float = field(default=0.0, init=False)
+    """Turn from the navigation frame into the frame of the track, rad."""
+    moved: bool = field(default=False, init=False)
+    """Flag: a stride ended with the newest sample, so that a correction may move the track before the next one."""
+    strides: list[RangedStride] = field(factory=list, init=False)
+    """Newest strides, oldest first."""
+    flat: tuple[float, Vec3] | None = field(default=None, init=False)
+    """Time, s, and place of the newest end of a stride; None before any."""
+
+    def add_sample(self, view: FootView) -> None:
+        """Add a sample with acc and gyro."""
+        if self.t is None:
+            self.position = view.position
+        (x, y, z), (px, py, pz), (qx, qy, qz) = view.position, self.position, self.place
+        if self.moved:
+            self.turn -= heading_turned(self.attitude, view.attitude)
+            self.moved = False
+        else:
+            c, s, dx, dy = cos(self.turn), sin(self.turn), x - px, y - py
+            self.place = (qx + c * dx - s * dy, qy + s * dx + c * dy, qz + z - pz)
+        self.t, self.position = view.t, view.position
+        if not self.points or view.t - self.points[-1][0] >= MIN_SPACING:
+            self.points = [*self.points[1 - MAX_POINTS :], (view.t, self.place)]
+
+    def add_stride(self, stride: StrideTaken, attitude: Quat, usable: bool) -> RangedStride | None:
+        """Add a stride that ends with the newest sample; return it, or None for the first one.
+
+        From now on, heights are above its end."""
+        self.moved, self.attitude = True, attitude
+        x, y, z = self.place
+        self.place = (x, y, 0.0)
+        self.points = [(t, (px, py, pz - z)) for t, (px, py, pz) in self.points]
+        before, self.flat = self.flat, (stride.t_end, self.place)
+        if before is None:
+            return None
+        contact = stride.t_end if stride.t_heel_strike is None else stride.t_heel_strike
+        taken = RangedStride(
+            contact, stride.t_start, stride.t_end, before[1], self.place, stride.heading_change, usable
+        )  # fmt: skip
+        self.strides = [*self.strides[1 - MAX_STRIDES :], taken]
+        return taken
+
+    def at(self, t: float) -> tuple[Vec3, Vec3] | None:
+        """Return place and velocity, m/s, at `t`, s, between two samples; None when they are not known."""
+        for (t0, p), (t1, q) in zip(reversed(self.points[:-1]), reversed(self.points[1:]), strict=True):
+            if t0 <= t <= t1:
+                k, (x, y, z) = 1.0 / (t1 - t0), sub(q, p)
+                velocity, dt = (k * x, k * y, k * z), t - t0
+                return (p[0] + dt * velocity[0], p[1] + dt * velocity[1], p[2] + dt * velocity[2]), velocity
+        return None
