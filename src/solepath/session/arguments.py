@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import deepcopy
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..calibration import Calibration, CalibrationError
 from ..events import Event

@@ -18,7 +18,7 @@ from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
-from ..types import SITE_OF_FOOT, Activity, Foot, Packet, Phase, Sample, Site, Support
+from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.plain import flag, text
 from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
 from .state import SessionState

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
+from ...events.gait_cycle import GaitCycleMeasured
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
@@ -64,7 +65,7 @@ class GaitCycles(Part):
             from ..width.between_feet import BetweenFeet
 
             self.between = BetweenFeet()
-        if self.between is not None:
+        if self.between is not None and self.left_unsettled is self.right_unsettled is None and not self.clocks_apart:
             self.between.feed(view)
         elif self.idle and not view.events:
             return ()
@@ -135,9 +136,6 @@ class GaitCycles(Part):
 
     def _release(self, known_at: float) -> Sequence[PartOutput]:
         """Return the cycles that end before the other foot's newest sample, or that have waited for `MAX_WAIT`."""
-        if not self.left.waiting_cycles and not self.right.waiting_cycles:
-            self.idle = self.between is None
-            return ()
         outputs: list[PartOutput] = []
         left, right = self.left_progress.t, self.right_progress.t
         for foot, falls, own, other in ((Foot.LEFT, self.left, left, right), (Foot.RIGHT, self.right, right, left)):
@@ -167,7 +165,8 @@ class GaitCycles(Part):
             comparable = not (self.clocks_apart or is_unsettled)
             previous = self.means.left if is_left else self.means.right
             measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
-            for one in (measured,) if self.between is None else self.between.receive(measured):
-                self.means.add(one)
+            for one in (measured,) if self.between is None or not comparable else self.between.receive(measured):
+                if isinstance(one, GaitCycleMeasured):
+                    self.means.add(one)
                 outputs.append(one)
         return outputs

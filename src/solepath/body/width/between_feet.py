@@ -5,7 +5,7 @@ The part is loaded with the first sample that has a range (body/gait/cycles.py).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan2, cos, hypot, isfinite, remainder, sin, sqrt, tau
+from math import atan2, cos, hypot, remainder, sin, sqrt, tau
 from typing import ClassVar
 
 from ...events import GaitCycleMeasured, SampleGap, StrideTaken
@@ -14,16 +14,16 @@ from ...types import SITE_OF_FOOT, Foot, Site, Vec3
 from ...types.attrs import define, evolve, field
 from ..part import Part, PartInput, PartOutput
 from .ranged_track import RangedStride, RangedTrack
-from .relative_place import BIAS_SIGMA, LAG_SIGMA, STATES, RelativePlace
+from .relative_place import RelativePlace
 
 FIRST_WIDTH, WIDTH_SIGMA = 0.12, 0.06
 """Width before any range, and its standard deviation, m: healthy adults walk 0.05 to 0.18 m wide."""
 STEP_SHARE = 0.15
 """Standard deviation of the step length about half of the stride, as a share of the stride."""
-TURN_SIGMA = 0.06
-"""Standard deviation of the angle between the directions of two successive strides of both feet, rad."""
 MIN_LENGTH, MAX_TURN, MAX_RISE = 0.4, 0.4, 0.08
 """Least length, m, largest turn, rad, and largest change of height, m, of a stride from which ranges are used."""
+MAX_RANGE = 3.0
+"""Largest distance between the feet of a walker, m."""
 MAX_PENDING = 64
 """Largest number of ranges that wait for the other foot's samples."""
 MAX_GATED = 50
@@ -61,7 +61,7 @@ class BetweenFeet(Part):
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add a sample of a foot, with its range and its strides; returns no output."""
         sample, track = view.sample, self.left if view.foot is Foot.LEFT else self.right
-        if sample.range is not None and isfinite(sample.range):
+        if sample.range is not None and 0.0 < sample.range < MAX_RANGE:
             self.pending = [*self.pending[1 - MAX_PENDING :], (view.t, sample.range)]
         if view.levelled and view.moved_at == view.t:
             track.add_sample(view)
@@ -72,6 +72,9 @@ class BetweenFeet(Part):
                 self._inflate(event.duration <= MAX_GAP)
         if self.pending:
             self._use_ranges()
+        if self.estimate is not None and track.moved:
+            # the covariance grows with each stride, also without ranges
+            self._propagate(self._common_time())
         return ()
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
@@ -85,7 +88,7 @@ class BetweenFeet(Part):
         if stride is None or standing is None or self.estimate is None or not stride.usable:
             return (event,)
         length, width, sigmas = _placement(self.estimate, stride, standing, is_left)
-        if max(sigmas) > MAX_SIGMA:
+        if not (sigmas[0] < MAX_SIGMA and sigmas[1] < MAX_SIGMA):
             return (event,)
         return (
             evolve(
@@ -120,7 +123,7 @@ class BetweenFeet(Part):
             self._start(stride, is_left)
 
     def _inflate(self, is_small: bool) -> None:
-        """Take into account that a foot moved unseen; restart if it may have moved far, but keep the sensor's errors."""
+        """Add the variance of a small move that was not seen; after a large one, restart with the sensor's errors."""
         if self.estimate is not None and is_small:
             for k in range(2):
                 self.estimate.covariance[k][k] += UNSEEN_MOVE * UNSEEN_MOVE
@@ -140,37 +143,44 @@ class BetweenFeet(Part):
             return
         left, right = (own, others) if is_left else (others, own)
         ahead, (c, s) = (-0.5 if is_left else 0.5) * own[1], (cos(left[0]), sin(left[0]))
-        along, across = (STEP_SHARE * own[1]) ** 2, WIDTH_SIGMA * WIDTH_SIGMA
-        covariance = [[0.0] * STATES for _ in range(STATES)]
-        covariance[0][0] = c * c * along + s * s * across
-        covariance[0][1] = covariance[1][0] = c * s * (along - across)
-        covariance[1][1] = s * s * along + c * c * across
-        for k, sigma in ((2, TURN_SIGMA), (3, BIAS_SIGMA), (4, LAG_SIGMA)):
-            covariance[k][k] = sigma * sigma
-        mean = [c * ahead + s * FIRST_WIDTH, s * ahead - c * FIRST_WIDTH, remainder(left[0] - right[0], tau), 0.0, 0.0]
+        along, across = STEP_SHARE * STEP_SHARE * own[1] * own[1], WIDTH_SIGMA * WIDTH_SIGMA
+        spread = (c * c * along + s * s * across, c * s * (along - across), s * s * along + c * c * across)
+        place = (c * ahead + s * FIRST_WIDTH, s * ahead - c * FIRST_WIDTH)
         places = (stride.end, standing) if is_left else (standing, stride.end)
         self.usual_width = FIRST_WIDTH
-        self.estimate = RelativePlace(this.t, *places, mean, covariance)
+        self.estimate = RelativePlace()
+        self.estimate.start(this.t, *places, place, spread, remainder(left[0] - right[0], tau))
         if self.last is not None:
             self.estimate.keep_errors(self.last)
 
+    def _common_time(self) -> float | None:
+        """Return the time of the newest points that both feet have, s; None before any."""
+        left, right = self.left.points, self.right.points
+        return min(left[-1][0], right[-1][0]) if left and right else None
+
     def _use_ranges(self) -> None:
-        """Use the ranges up to the newest sample that both feet have."""
-        if self.left.t is None or self.right.t is None:
+        """Use the ranges up to the newest points that both feet have."""
+        until = self._common_time()
+        if until is None or self.pending[0][0] > until:
             return
-        until = min(self.left.points[-1][0], self.right.points[-1][0])
         ready = [one for one in self.pending if one[0] <= until]
-        if not ready:
-            return
         self.pending = [one for one in self.pending if one[0] > until]
         for t, measured in ready:
-            left, right = self.left.at(t), self.right.at(t)
-            if self.estimate is None or left is None or right is None or t < self.estimate.t:
-                continue
-            self.estimate.propagate(t, left[0], right[0])
-            self.estimate.use_range(measured, left[1], right[1])
-            if self.estimate.gated > MAX_GATED:
-                self._inflate(False)
+            velocities = self._propagate(t)
+            if velocities is not None and self.estimate is not None:
+                self.estimate.use_range(measured, *velocities)
+                if self.estimate.gated > MAX_GATED:
+                    self._inflate(False)
+
+    def _propagate(self, t: float | None) -> tuple[Vec3, Vec3] | None:
+        """Propagate the estimate to `t`, s, and return the velocities of both feet there, m/s; None if it cannot."""
+        if self.estimate is None or t is None or t < self.estimate.t:
+            return None
+        left, right = self.left.at(t), self.right.at(t)
+        if left is None or right is None:
+            return None
+        self.estimate.propagate(t, left[0], right[0])
+        return left[1], right[1]
 
 
 def _standing(stride: RangedStride, other: RangedTrack) -> Vec3 | None:
@@ -213,4 +223,4 @@ def _variance(covariance: list[list[float]], row: tuple[float, float, float]) ->
     for j in range(3):
         for k in range(3):
             value += row[j] * covariance[j][k] * row[k]
-    return value
+    return max(0.0, value)

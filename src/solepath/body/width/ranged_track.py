@@ -86,7 +86,7 @@ class RangedTrack:
         self.place = (x, y, 0.0)
         self.points = [(t, (px, py, pz - z)) for t, (px, py, pz) in self.points]
         before, self.flat = self.flat, (stride.t_end, self.place)
-        if before is None:
+        if before is None or before[0] != stride.t_start:
             return None
         contact = stride.t_end if stride.t_heel_strike is None else stride.t_heel_strike
         taken = RangedStride(

@@ -1,9 +1,9 @@
 """An emulated sensor of the distance between the feet: a transmitter on one shoe and a receiver on the other.
 
 Idealised: both are where the inertial sensors are; they share the true clock; the noise is white and Gaussian, without
-the long tail of a reflected signal; the bias is constant; a lost range is lost and never the length of a detour. Signals
-fail in two ways. Sensors that look inwards lose each other when one foot is far in front (`cone`), and something, such
-as the other shoe or clothes, is in the way for a while (`blocked`)."""
+the long tail of a reflected signal; the bias is constant; a lost range is lost and never the length of a detour.
+Signals fail in two ways. Sensors that look inwards lose each other when one foot is far in front (`cone`), and
+something, such as the other shoe or clothes, is in the way for a while (`blocked`)."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def measure_ranges(
     """Return the ranges of a walk as samples of `foot`, which has the receiver, on the true clock."""
     rng = np.random.default_rng([walker.seed, 11])
     bias = errors.bias * float(rng.standard_normal())
-    t = (float(rng.uniform()) + np.arange(int(walker.duration * errors.rate))) / errors.rate
+    t = (float(rng.uniform()) + np.arange(int(walker.duration * errors.rate), dtype=np.float64)) / errors.rate
     worn = {one: (mountings or {}).get(one, IN_SOLE) for one in Foot}
     moved = {one: walker.kinematics(one, t, mounting) for one, mounting in worn.items()}
     between = moved[Foot.RIGHT].position - moved[Foot.LEFT].position
