@@ -10,8 +10,11 @@ from ...types.vector import ZERO
 
 TURN_SIGMA = 0.06
 """Standard deviation of the angle between the directions of two successive strides of both feet, rad."""
-TRACK_NOISE = 0.012
-"""Standard deviation of the displacement of a foot over 1 m, m: the error of a stride is about 1 % of its length."""
+TRACK_NOISE = 0.015
+"""Standard deviation of the displacement of a foot over 1 m, m: the error of a stride is about 1 % of its length.
+
+Errors of step lengths on 12 emulated walks are 1.1, 1.0 and 0.9 cm with 0.012, 0.015 and 0.02 by ultrasound, and 1.3 cm
+with each by ultra-wideband radio."""
 TURN_NOISE = 0.01
 """Standard deviation by which the headings of the two tracks diverge over 1 m, rad."""
 BIAS_SIGMA = 0.05

@@ -135,12 +135,12 @@ def guess_error(scores: Sequence[StepScore]) -> float:
 
 def covered(scores: Sequence[StepScore], factor: float, name: str) -> float:
     """Return the share of the errors in `name` (length or width) that are below `factor` standard deviations."""
-    inside = [
+    inside: list[bool] = [
         abs(getattr(error, name)) < factor * getattr(sigma, name)
         for score in scores
         for error, sigma in zip(score.errors, score.sigmas, strict=True)
     ]
-    return sum(inside) / max(len(inside), 1)  # whole numbers
+    return inside.count(True) / max(len(inside), 1)
 
 
 def row(name: str, scores: Sequence[StepScore]) -> str:
