@@ -51,7 +51,7 @@ class RelativePlace:
     one's, rad; the constant error of the ranges, m; the time by which the samples lag behind the ranges, s."""
 
     t: float = field(default=0.0, init=False)
-    """Time, s."""
+    """Time of the estimates, s."""
     left: Vec3 = field(default=ZERO, init=False)
     """Place of the left foot on its own track at `t`, m."""
     right: Vec3 = field(default=ZERO, init=False)

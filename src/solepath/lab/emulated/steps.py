@@ -36,8 +36,8 @@ KINDS: dict[str, RangeErrors | None] = {"no range": None, "ultrasound": ULTRASOU
 
 
 @frozen
-class Placement:
-    """Where a foot landed, from the line of its own stride."""
+class PlacedFoot:
+    """A landing of a foot relative to the other foot, along and across the line of its own stride."""
 
     length: float
     """Step length, m."""
@@ -55,9 +55,9 @@ class StepScore:
     """Mean of the measured widths, m; None if none was measured."""
     cycles: int
     """Number of steady cycles."""
-    errors: tuple[Placement, ...] = field(repr=False)
+    errors: tuple[PlacedFoot, ...] = field(repr=False)
     """Errors of each step that was measured, m."""
-    sigmas: tuple[Placement, ...] = field(repr=False)
+    sigmas: tuple[PlacedFoot, ...] = field(repr=False)
     """Their standard deviations, m."""
 
 
@@ -75,11 +75,11 @@ def walk_of(seed: int, width: float) -> SampledWalk:
     return sampled(route.stop(2.0), wearer=evolve(wearer_of(seed), step_width=width), insoles=insoles, seed=seed)
 
 
-def true_placements(truth: Truth) -> dict[tuple[Foot, float], Placement]:
+def true_placements(truth: Truth) -> dict[tuple[Foot, float], PlacedFoot]:
     """Return the true placements by foot and time of the contact, s."""
     flats = {foot: np.array([0.0, *truth.feet[foot].foot_flats]) for foot in Foot}
     places = {foot: truth.pose(foot, flats[foot]).position + np.array(truth.feet[foot].origin) for foot in Foot}
-    found: dict[tuple[Foot, float], Placement] = {}
+    found: dict[tuple[Foot, float], PlacedFoot] = {}
     for foot, other in OTHER.items():
         side = 1.0 if foot is Foot.LEFT else -1.0
         for number, stride in enumerate(truth.strides(foot)):
@@ -88,7 +88,7 @@ def true_placements(truth: Truth) -> dict[tuple[Foot, float], Placement]:
                 continue
             x, y, _ = places[foot][number + 1] - places[other][between[-1]]
             ux, uy = (component / stride.length for component in stride.displacement[:2])
-            placement = Placement(float(x * ux + y * uy), float(side * (ux * y - uy * x)))
+            placement = PlacedFoot(float(x * ux + y * uy), float(side * (ux * y - uy * x)))
             found[foot, stride.t_heel_strike] = placement
     return found
 
@@ -101,8 +101,8 @@ def score_steps(walk: SampledWalk, errors: RangeErrors | None) -> StepScore:
     truth = true_placements(walk.truth)
     widths: list[float] = []
     measured: list[float] = []
-    found: list[Placement] = []
-    sigmas: list[Placement] = []
+    found: list[PlacedFoot] = []
+    sigmas: list[PlacedFoot] = []
     for event in events:
         if not isinstance(event, GaitCycleMeasured) or not event.steady:
             continue
@@ -115,8 +115,8 @@ def score_steps(walk: SampledWalk, errors: RangeErrors | None) -> StepScore:
             continue
         assert event.step_length_sigma is not None and event.step_width_sigma is not None
         measured.append(event.step_width)
-        found.append(Placement(event.step_length - true.length, event.step_width - true.width))
-        sigmas.append(Placement(event.step_length_sigma, event.step_width_sigma))
+        found.append(PlacedFoot(event.step_length - true.length, event.step_width - true.width))
+        sigmas.append(PlacedFoot(event.step_length_sigma, event.step_width_sigma))
     mean = fsum(measured) / len(measured) if measured else None
     return StepScore(fsum(widths) / len(widths), mean, len(widths), tuple(found), tuple(sigmas))
 
