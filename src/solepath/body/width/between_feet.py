@@ -5,7 +5,7 @@ The part is loaded with the first sample that has a range (body/gait/cycles.py).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan2, cos, hypot, remainder, sin, sqrt, tau
+from math import atan2, cos, hypot, isfinite, remainder, sin, sqrt, tau
 from typing import ClassVar
 
 from ...events import GaitCycleMeasured, SampleGap, StrideTaken
@@ -128,7 +128,8 @@ class BetweenFeet(Part):
             for k in range(2):
                 self.estimate.covariance[k][k] += UNSEEN_MOVE * UNSEEN_MOVE
         elif self.estimate is not None:
-            self.last, self.estimate = self.estimate, None
+            known = isfinite(self.estimate.mean[3]) and isfinite(self.estimate.covariance[3][3])
+            self.last, self.estimate = self.estimate if known else None, None
 
     def _start(self, stride: RangedStride, is_left: bool) -> None:
         """Start from a stride that passes the other foot, whose place is assumed with large errors."""
