@@ -67,9 +67,9 @@ class GaitCycleMeasured(Happening):
     None unless samples have the range from one foot to the other (`Sample.range`)."""
     step_width: float | None
     """Distance of the other foot from the line of this stride, m (Huxham et al. 2006); negative when the feet cross."""
-    step_length_sigma: float | None
+    step_length_sigma: float | None = None
     """Standard deviation of `step_length`, m; None when that is None."""
-    step_width_sigma: float | None
+    step_width_sigma: float | None = None
     """Standard deviation of `step_width`, m; None when that is None."""
     clearance: float | None
     """Highest rise of the sensor above the higher of the two foot-flats, m. It is not the minimum toe clearance, which

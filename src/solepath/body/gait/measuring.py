@@ -96,8 +96,6 @@ def measure_cycle(
         speed=None if length is None else length / time,
         step_length=None,
         step_width=None,
-        step_length_sigma=None,
-        step_width_sigma=None,
         clearance=clearance,
         toe_off_angle=off_angle,
         heel_strike_angle=strike_angle,
