@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import deepcopy
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..calibration import Calibration, CalibrationError
 from ..events import Event
@@ -77,12 +77,3 @@ def check_now(now: float) -> float:
     if not isfinite(time):
         raise ValueError(f"now is {time}")
     return time
-
-
-def check_pair(where: Any) -> tuple[float, float]:
-    """Return x and y of a position as floats; raises TypeError for anything else than two numbers."""
-    try:
-        x, y = where
-        return float(x), float(y)
-    except (TypeError, ValueError) as error:
-        raise TypeError(f"a position is x and y, m, not {where!r:.80}") from error

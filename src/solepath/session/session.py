@@ -18,9 +18,9 @@ from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder, is_address
 from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
-from ..types import SITE_OF_FOOT, Activity, Foot, Packet, Phase, Sample, Site, Support
+from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.plain import flag, text
-from .arguments import ItemError, check_calibration, check_now, check_pair, check_start, index_floorplan
+from .arguments import ItemError, check_calibration, check_now, check_start, index_floorplan
 from .state import SessionState
 from .wearer import WearerParts, WearerSettings, sort_by_key
 
@@ -117,23 +117,11 @@ class Session:
 
         With a `level`, x and y are the plan's, and a name is that of stairs or a lift. Returns PositionReported and
         what follows. Raises ValueError."""
-        from ..link.receiver import reported_position
-        from ..wire.receiver import PositionFrame, build_position, parse_position
+        from .here import report_position
 
         state = self._state
-        if state.now is None or state.finished or (isinstance(where, str) and not where):
-            raise ValueError("a place needs a name, and a session that has samples and is not finished")
-        if text(level):
-            if self._plan is None:
-                raise ValueError("a level without a floor plan")
-            plan = self._plan.plan  # what is not there raises FloorPlanError, a ValueError
-            where = plan.landmark(where, level) if isinstance(where, str) else where
-            plan.level(level)
-        # the values that a packet would have, so that a replay of one is exact
-        position, place = (None, where or "") if where is None or isinstance(where, str) else (check_pair(where), "")
-        frame = parse_position(build_position(PositionFrame(position, sigma, place, text(level))))
-        site = SITE_OF_FOOT[next(iter(state.wearer.feet), Foot.LEFT)]
-        return state.wearer.receive(site, reported_position(frame, state.now, site))
+        event, site = report_position(state, self._plan, where, sigma, level)
+        return state.wearer.receive(site, event)
 
     def finish(self) -> list[Event]:
         """Return the events that were held back; the session can still be read, but not fed."""

@@ -41,6 +41,8 @@ CYCLE_MEASURE_FIELDS = (
     ("stride_length", "m"),
     ("step_length", "m"),
     ("step_width", "m"),
+    ("step_length_sigma", "m"),
+    ("step_width_sigma", "m"),
     ("speed", "m_per_s"),
     ("clearance", "m"),
     ("toe_off_angle", "deg"),

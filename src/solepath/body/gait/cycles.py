@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from ...events import Defect, DefectFound, FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, ToeOff
+from ...events.gait_cycle import GaitCycleMeasured
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
@@ -48,6 +49,8 @@ class GaitCycles(Part):
     right_unsettled: float | None = field(default=None, init=False)
     """Time up to which the right foot's clock cannot be compared with the left one's, s; None: it can."""
 
+    between: Part | None = field(default=None, init=False)
+    """Measurement of steps by ranges between the feet (`recipes.AIDS`); None until a sample has a range."""
     clocks_apart: bool = field(default=False, init=False)
     """Flag: the feet have separate clocks, so that nothing between the feet is measured."""
 
@@ -58,7 +61,13 @@ class GaitCycles(Part):
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add a sample of a foot with its events and return the cycles that are complete."""
-        if self.idle and not view.events:
+        if self.between is None and view.sample.range is not None:
+            from ..width.between_feet import BetweenFeet
+
+            self.between = BetweenFeet()
+        if self.between is not None and self.left_unsettled is self.right_unsettled is None and not self.clocks_apart:
+            self.between.feed(view)
+        elif self.idle and not view.events:
             return ()
         is_left = view.foot is Foot.LEFT
         progress, other = self.left_progress, self.right_progress
@@ -95,7 +104,7 @@ class GaitCycles(Part):
         """Return the cycles that still wait, because no more samples come."""
         for falls in (self.left, self.right):
             falls.close_cycle()
-        self.idle = True
+        self.idle = self.between is None
         counts = (len(self.left.waiting_cycles), len(self.right.waiting_cycles))
         return [*self._measure(Foot.LEFT, now, counts[0]), *self._measure(Foot.RIGHT, now, counts[1])]
 
@@ -117,6 +126,8 @@ class GaitCycles(Part):
         """Discard the cycles and the times of a foot whose clock restarts."""
         if site.foot is not None:
             self.clocks_apart = False
+            if self.between is not None:
+                self.between.reset(site)
             self.means.reset(site.foot)
             if site.foot is Foot.LEFT:
                 self.left, self.left_progress.t = Footfalls(count=self.left.count), None
@@ -125,9 +136,6 @@ class GaitCycles(Part):
 
     def _release(self, known_at: float) -> Sequence[PartOutput]:
         """Return the cycles that end before the other foot's newest sample, or that have waited for `MAX_WAIT`."""
-        if not self.left.waiting_cycles and not self.right.waiting_cycles:
-            self.idle = True
-            return ()
         outputs: list[PartOutput] = []
         left, right = self.left_progress.t, self.right_progress.t
         for foot, falls, own, other in ((Foot.LEFT, self.left, left, right), (Foot.RIGHT, self.right, right, left)):
@@ -140,7 +148,7 @@ class GaitCycles(Part):
                 ready_count += 1
             if ready_count:
                 outputs += self._measure(foot, known_at, ready_count)
-        self.idle = not (self.left.waiting_cycles or self.right.waiting_cycles)
+        self.idle = self.between is None and not (self.left.waiting_cycles or self.right.waiting_cycles)
         return outputs
 
     def _measure(self, foot: Foot, known_at: float, count: int) -> list[PartOutput]:
@@ -157,6 +165,8 @@ class GaitCycles(Part):
             comparable = not (self.clocks_apart or is_unsettled)
             previous = self.means.left if is_left else self.means.right
             measured = measure_cycle(foot, falls.count, cycle, previous, other, tracked, comparable, known_at)
-            self.means.add(measured)
-            outputs.append(measured)
+            for one in (measured,) if self.between is None or not comparable else self.between.receive(measured):
+                if isinstance(one, GaitCycleMeasured):
+                    self.means.add(one)
+                outputs.append(one)
         return outputs
