@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from ..types import Foot
 from ..types.attrs import evolve, fields
@@ -29,8 +29,10 @@ def merged(known: Calibration, newer: Calibration) -> Calibration:
         headings={foot: one for foot, one in known.headings.items() if foot not in stale},
         drift={foot: one for foot, one in known.drift.items() if foot not in stale},
     )
-    by_foot = {"insoles": insoles} | {name: getattr(known, name) | getattr(newer, name) for name in BY_FOOT}
-    ordered = {name: {foot: one[foot] for foot in Foot if foot in one} for name, one in by_foot.items()}
+    by_foot: dict[str, dict[Foot, Any]] = {"insoles": insoles} | {
+        name: getattr(known, name) | getattr(newer, name) for name in BY_FOOT
+    }
+    ordered: dict[str, Any] = {name: {foot: one[foot] for foot in Foot if foot in one} for name, one in by_foot.items()}
     return evolve(_replace_values(known, newer), **ordered)
 
 

@@ -126,9 +126,9 @@ class TriadCalibration:
     bias: Vec3
     """Reading where the true value is 0, m/s^2 or rad/s."""
     matrix_sigma: tuple[float, ...]
-    """Standard deviations of `matrix`."""
+    """Standard deviations of `matrix`, no unit."""
     bias_sigma: Vec3
-    """Standard deviations of `bias` on the day of the calibration."""
+    """Standard deviations of `bias` on the day of the calibration, m/s^2 or rad/s."""
 
     def correct(self, reading: Vec3) -> Vec3:
         """Return the true value for a reading."""

@@ -4,9 +4,9 @@
     samples = Insole().samples(hand, Site.RIGHT_FOOT, device_rng(7, Site.RIGHT_FOOT))
 
 A hand is no turntable. It turns the sensor grip by grip, each at its own speed and about its own axis near the intended
-one, overshoots or stops short of whole turns, wobbles about all axes on every way, trembles at 8 to 12 Hz, and moves the
-sensor through the room meanwhile. A turn starts and ends in a rest. What should be a rest is a sensor that leans on a
-thing or is held against one: it creeps by a fraction of a degree, about the vertical too, and trembles a little.
+one, overshoots or stops short of whole turns, wobbles about all axes on every way, trembles at 8 to 12 Hz, and moves
+the sensor through the room meanwhile. A turn starts and ends in a rest. What should be a rest is a sensor that leans on
+a thing or is held against one: it creeps by a fraction of a degree, about the vertical too, and trembles a little.
 
 The motion is a composition of rotations with smooth courses. Angular rate and acceleration are differences of it over a
 hundredth of the time between the fine instants of an emulated device, and no equation of the calibration is in it.
@@ -43,7 +43,7 @@ FACES = np.concatenate((np.eye(3), -np.eye(3)))
 
 @frozen
 class Clumsiness:
-    """How clumsy a hand is; all figures are assumed, for a person who was shown the task once."""
+    """Clumsiness of a hand; all figures are assumed, for a person who was shown the task once."""
 
     off_axis: float = radians(8.0)
     """Standard deviation of each grip's axis about the intended one, rad, on either axis across it."""
@@ -81,13 +81,13 @@ STEADY = Clumsiness(
 
 
 @frozen(eq=False)
-class Piece:
+class HandMove:
     """A part of the motion, in which the sensor turns by a rotation vector and wobbles on the way."""
 
     start: float
-    """Start, s."""
+    """Start of the move, s."""
     duration: float
-    """Duration, s."""
+    """Duration of the move, s."""
     before: Array
     """Attitude at the start, w x y z, sensor to world, (4)."""
     turn: Array
@@ -118,7 +118,7 @@ class Piece:
     @property
     def after(self) -> Array:
         """Attitude at the end, (4)."""
-        return self.attitude(np.array([self.start + self.duration]))[0]
+        return np.asarray(self.attitude(np.array([self.start + self.duration]))[0])
 
 
 class Handling(Walker):
@@ -133,7 +133,7 @@ class Handling(Walker):
         seed: int = 1,
         clumsiness: Clumsiness = CLUMSY,
         *,
-        rests: int = 12,
+        pauses: int = 12,
         turns: float = 5.0,
         axes: tuple[tuple[float, float, float], ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
         orientations: Array | None = None,
@@ -141,7 +141,7 @@ class Handling(Walker):
         self.seed, self.wearer, self.field = seed, Wearer(), UNDISTURBED
         rng = np.random.default_rng([seed, 50])
         composing = _Composing(rng, clumsiness)
-        for up in _orientations(rests, rng) if orientations is None else orientations:
+        for up in _orientations(pauses, rng) if orientations is None else orientations:
             composing.go(np.asarray(up, dtype=np.float64))
             composing.lie()
         for axis in axes if turns else ():
@@ -163,7 +163,7 @@ class Handling(Walker):
         return np.zeros((len(t), len(layout.cells)))
 
     def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
-        """Return the motion of the sensor at times `t`, s; neither foot nor mounting matters to a hand."""
+        """Return the motion of the sensor at increasing times `t`, s; neither foot nor mounting matters to a hand."""
         (before, place_before), (attitude, place), (after, place_after) = (self._pose(t + k * STEP) for k in (-1, 0, 1))
         inverse = before * (1.0, -1.0, -1.0, -1.0)
         difference = multiply_quaternions(inverse, after)
@@ -176,11 +176,11 @@ class Handling(Walker):
         return Kinematics(t, place, velocity, acceleration, attitude, rate, force)
 
     def _pose(self, t: Array) -> tuple[Array, Array]:
-        """Return attitude, (N, 4), and position, m, (N, 3), of the sensor at times `t`, s."""
+        """Return attitude, (N, 4), and position, m, (N, 3), of the sensor at increasing times `t`, s."""
         attitude, place, share = np.empty((len(t), 4)), np.empty((len(t), 3)), np.empty(len(t))
-        number = np.clip(np.searchsorted(self._starts, t, side="right") - 1, 0, len(self.pieces) - 1)
-        for k, piece in enumerate(self.pieces):
-            rows = number == k
+        edges = [0, *np.searchsorted(t, self._starts[1:]).tolist(), len(t)]
+        for piece, first, end in zip(self.pieces, edges, edges[1:], strict=False):
+            rows = slice(first, end)
             attitude[rows], place[rows] = piece.attitude(t[rows]), piece.hand(t[rows])
             s = np.clip((t[rows] - piece.start) / piece.duration, 0.0, 1.0)
             share[rows] = self._least_tremor + piece.tremor * 64.0 * (s * (1.0 - s)) ** 3
@@ -197,7 +197,7 @@ class _Composing:
 
     rng: Rng
     clumsiness: Clumsiness
-    pieces: list[Piece] = field(factory=list)
+    pieces: list[HandMove] = field(factory=list)
 
     def go(self, up: Array) -> None:
         """Turn the sensor until its direction `up` points upwards, with any heading and an error."""
@@ -248,16 +248,14 @@ class _Composing:
         half = up / np.linalg.norm(up) + z
         half = np.array([1.0, 0.0, 0.0]) if np.linalg.norm(half) < 1e-6 else half / np.linalg.norm(half)
         attitude = np.concatenate(([0.0], half))  # half a turn about the middle of both directions
-        self.pieces.append(
-            Piece(0.0, 0.5, attitude, np.zeros(3), np.zeros((2, 3)), np.zeros(3), np.zeros(3), 0.0)
-        )
+        self.pieces.append(HandMove(0.0, 0.5, attitude, np.zeros(3), np.zeros((2, 3)), np.zeros(3), np.zeros(3), 0.0))
 
     def _add(self, turn: Array, duration: float, wobble: float, travel: float, tremor: float) -> None:
         last = self.pieces[-1]
         sides = wobble * self.rng.standard_normal((2, 3)) * np.array([[1.0], [0.4]])
         way = travel * self.rng.standard_normal(3)
         start = last.start + last.duration
-        self.pieces.append(Piece(start, duration, last.after, turn, sides, last.place + last.travel, way, tremor))
+        self.pieces.append(HandMove(start, duration, last.after, turn, sides, last.place + last.travel, way, tremor))
 
 
 def _progress(s: Array) -> Array:

@@ -22,10 +22,10 @@ def add_sensor(kinds: Any) -> None:
     command: argparse.ArgumentParser = kinds.add_parser(
         "sensor",
         help="scale, axes and bias of a sensor, from rests and turns by hand",
-        description="From a sensor in the hand: twelve rests of three seconds in any orientations, and five turns about "
-        "each of two axes of the sensor that are held level, each from one rest to another. Every recipe then corrects "
-        "the readings of this sensor. A recording that does not show all of it is no calibration, and the command says "
-        "what is missing.",
+        description="From a sensor in the hand: twelve rests of three seconds in any orientations, and five turns "
+        "about each of two axes of the sensor that are held level, each from one rest to another. Every recipe then "
+        "corrects the readings of this sensor. A recording that does not show all of it is no calibration, and the "
+        "command says what is missing.",
         epilog="example: solepath calibrate sensor turns.jsonl --foot left --out me.json",
     )
     command.set_defaults(learn=_sensor)
@@ -43,7 +43,7 @@ def _sensor(options: argparse.Namespace, known: Calibration) -> tuple[Calibratio
     lines, rows = [], []
     for fit in fits:
         turns = " and ".join(str(count) for count in fit.turned) or "no"
-        lines.append(f"{fit.foot} foot: {fit.rests} rests and {turns} turns in {fit.duration:.0f} s")
+        lines.append(f"{fit.foot} foot: {fit.pauses} rests and {turns} turns in {fit.duration:.0f} s")
         lines += fit.notes
         for name, triad, factor in (
             ("accelerometer", fit.calibration.acc, 1.0), ("gyroscope", fit.calibration.gyro, degrees(1.0))

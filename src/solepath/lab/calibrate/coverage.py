@@ -1,4 +1,4 @@
-"""Says in words what a calibration by hand leaves open: rests and turns that are missing, and how well each axis is known."""
+"""Says in words what a calibration by hand leaves open: rests and turns that are missing."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ import numpy as np
 
 from ...types.vector import GRAVITY
 from .fit import ACC, ACC_BIAS, GYRO, SYMMETRIC, Fit
-from .rests import Floats
+from .pauses import Floats
 
 LARGEST_SCALE_SIGMA, LARGEST_AXIS_SIGMA, LARGEST_BIAS_SIGMA = 0.005, radians(0.5), 0.1
 """Largest standard deviation of a scale, no unit, of an axis, rad, and of the accelerometer's bias, m/s^2.
 
-Sheets of usual chips allow a scale error of 1 % and more, 1 degree across the axes and 0.2 m/s^2: what is known no better
-than this is no calibration."""
+Sheets of usual chips allow a scale error of 1 % and more, 1 degree across the axes and 0.2 m/s^2: what is known no
+better than this is no calibration."""
 AXES = "xyz"
 """Names of the axes of a sensor."""
 
@@ -41,24 +41,24 @@ def open_questions(fit: Fit) -> list[str]:
     ]
     if any(poor):
         known = ", ".join([part for part in poor if part])
-        sentences.append(f"the accelerometer is not known: {known}; {missing_rest(fit)}")
+        sentences.append(f"the accelerometer is not known: {known}; {missing_orientation(fit)}")
     scale, axis = np.diag(gyro), np.where(apart, gyro, 0.0)
     if scale.max() > LARGEST_SCALE_SIGMA:
         name = AXES[int(np.argmax(scale))]
         sentences.append(
-            f"the gyroscope's scale about {name} is known to {100.0 * scale.max():.2g} % only: hold the sensor's {name} "
-            "axis level and turn it five times about it, from one rest to another"
+            f"the gyroscope's scale about {name} is known to {100.0 * scale.max():.2g} % only: hold the sensor's "
+            f"{name} axis level and turn it five times about it, from one rest to another"
         )
     if axis.max() > LARGEST_AXIS_SIGMA:
         i, j = divmod(int(np.argmax(axis)), 3)
         sentences.append(
-            f"how far the gyroscope's {AXES[i]} reads turns about {AXES[j]} is known to {degrees(axis.max()):.2g} degrees "
-            f"only: add rests, each half a turn about the sensor's {AXES[j]} axis, held level, from the one before"
+            f"how far the gyroscope's {AXES[i]} reads turns about {AXES[j]} is known to {degrees(axis.max()):.2g} "
+            f"degrees only: add rests, each half a turn about the sensor's level {AXES[j]} axis from the one before"
         )
     return sentences
 
 
-def missing_rest(fit: Fit) -> str:
+def missing_orientation(fit: Fit) -> str:
     """Return in words the rest that would help the accelerometer most: of 26 orientations, the one with the least sum.
 
     The sum is of the squares of all standard deviations, each divided by the largest that is good enough."""

@@ -11,7 +11,8 @@ Observed are
 - the mean rate of every rest, as its bias, and that a bias changes slowly from rest to rest.
 
 A symmetric A is a choice: gravity does not show how the sensor is turned in its case, and this A turns nothing. It
-makes a frame of three right angles as near the axes of the accelerometer as there is, and G brings the gyroscope into it.
+makes a frame of three right angles as near the axes of the accelerometer as there is, and G brings the gyroscope into
+it.
 
 A turn about the vertical moves no gravity, so a way says nothing about it. Other ways do, in which another axis of the
 sensor is vertical. What all ways leave open has a large standard deviation (coverage.py).
@@ -30,7 +31,7 @@ import numpy as np
 from attrs import field, frozen
 
 from ...types.vector import GRAVITY
-from .rests import Floats, Rest, Way
+from .pauses import Floats, Pause, WayBetween
 
 ASSUMED_NOISE, PRIOR_WEIGHT = (0.005, radians(0.03), radians(0.01)), 2.0
 """Assumed noise of a rest on each axis, m/s^2 (half a mg), of a way per root of its angle, rad, and of a bias from one
@@ -47,7 +48,7 @@ SYMMETRIC = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 """Rows and columns of the six elements of A."""
 ACC, ACC_BIAS, GYRO, FIRST_NODE = slice(0, 6), slice(6, 9), slice(9, 18), 18
 """Indices of the unknowns of A, a, G, and of the first rest: then follow b, (3), and the turn of d, (2), of each."""
-PER_REST = 5
+PER_PAUSE = 5
 """Number of unknowns of each rest."""
 
 
@@ -77,7 +78,7 @@ class Unknowns:
             acc[i, j] += value
             if i != j:
                 acc[j, i] += value
-        nodes = step[FIRST_NODE:].reshape(-1, PER_REST)
+        nodes = step[FIRST_NODE:].reshape(-1, PER_PAUSE)
         up = self.up + np.einsum("nij,nj->ni", np.stack([across(one) for one in self.up]), nodes[:, 3:])
         return Unknowns(
             acc,
@@ -139,7 +140,7 @@ def rotations(vectors: Floats) -> Floats:
     return np.asarray(np.eye(3) + np.sinc(angle / np.pi) * k + 0.5 * half * half * (k @ k))
 
 
-def integrate(way: Way, gyro: Floats, start: Floats, end: Floats) -> _Integral:
+def integrate(way: WayBetween, gyro: Floats, start: Floats, end: Floats) -> _Integral:
     """Return the turn of a way with the correction G and the biases at its start and end, rad/s."""
     share = ((way.t - way.t[0]) / (way.t[-1] - way.t[0]))[:, None]
     reading = way.gyro - start - share * (end - start)
@@ -159,56 +160,54 @@ def integrate(way: Way, gyro: Floats, start: Floats, end: Floats) -> _Integral:
     return _Integral(turns[-1], by_gyro, (-early, -late))
 
 
-def fit(rests: Sequence[Rest], ways: Sequence[Way]) -> Fit:
+def fit(pauses: Sequence[Pause], ways: Sequence[WayBetween]) -> Fit:
     """Return the fit to rests and to the ways, none of them spoilt, between some of them."""
-    acc = np.array([rest.acc for rest in rests])
+    acc = np.array([rest.acc for rest in pauses])
     mean = acc / np.linalg.norm(acc, axis=1, keepdims=True)
-    rates = np.array([rest.rate for rest in rests])
+    rates = np.array([rest.rate for rest in pauses])
     unknowns = Unknowns(np.eye(3), np.zeros(3), np.eye(3), rates, mean)
     noise = ASSUMED_NOISE
     short = [way for way in ways if way.angle < SHORT_WAY]
     if short and len(short) < len(ways):
-        unknowns, _, _ = _solve(rests, short, unknowns, noise)
-    unknowns, noise, converged = _solve(rests, ways, unknowns, noise)
-    normal, _, residuals = _equations(rests, ways, unknowns, noise)
-    first = 3 * len(rests)
+        unknowns, _, _ = _solve(pauses, short, unknowns, noise)
+    unknowns, noise, converged = _solve(pauses, ways, unknowns, noise)
+    normal, _, residuals, _ = _system(pauses, ways, unknowns, noise)
+    first = 3 * len(pauses)
     last = first + 2 * len(ways)
     excess = np.linalg.norm(residuals[first:last].reshape(-1, 2), axis=1)
     sigmas = np.array([_way_sigma(way, noise[1]) for way in ways])
     return Fit(
-        unknowns, np.linalg.inv(normal), noise, tuple((excess * sigmas).tolist()),
+        unknowns, np.asarray(np.linalg.inv(normal), dtype=np.float64), noise, tuple((excess * sigmas).tolist()),
         tuple(excess.tolist()), converged,
     )  # fmt: skip
 
 
-def _way_sigma(way: Way, way_noise: float) -> float:
+def _way_sigma(way: WayBetween, way_noise: float) -> float:
     return sqrt(way_noise**2 * max(way.angle, 0.1) + way.density**2 * float(way.t[-1] - way.t[0]))
 
 
 def _solve(
-    rests: Sequence[Rest], ways: Sequence[Way], unknowns: Unknowns, noise: Noise
+    pauses: Sequence[Pause], ways: Sequence[WayBetween], unknowns: Unknowns, noise: Noise
 ) -> tuple[Unknowns, Noise, bool]:
     """Return the unknowns, the noise of rests and ways, and whether the iterations have converged."""
     for _ in range(MOST_ITERATIONS):
-        normal, gradient, _ = _equations(rests, ways, unknowns, noise)
-        step = -np.linalg.solve(normal, gradient)
+        normal, gradient, residuals, rows = _system(pauses, ways, unknowns, noise)
+        covariance = np.asarray(np.linalg.inv(normal), dtype=np.float64)
+        step = -covariance @ gradient
+        # the residuals after the step, by their slopes
+        noise = _components(len(pauses), len(ways), noise, residuals + rows @ step, rows, covariance)
         unknowns = unknowns.moved(step)
-        noise = _components(rests, ways, unknowns, noise)
         if np.abs(step[:FIRST_NODE]).max() < CONVERGED:
             return unknowns, noise, True
     return unknowns, noise, False
 
 
-def _components(
-    rests: Sequence[Rest], ways: Sequence[Way], unknowns: Unknowns, noise: Noise
-) -> Noise:
-    """Return the noise of rests and of ways from their residuals and redundancies."""
-    normal, _, residuals, rows = _system(rests, ways, unknowns, noise)
-    covariance = np.linalg.inv(normal)
-    used = np.einsum("ij,jk,ik->i", rows, covariance, rows)
-    first, last = 3 * len(rests), 3 * len(rests) + 2 * len(ways)
+def _components(pauses: int, ways: int, noise: Noise, residuals: Floats, rows: Floats, covariance: Floats) -> Noise:
+    """Return the noise of rests, ways and biases from their weighted residuals and redundancies."""
+    used = np.einsum("ij,ij->i", rows @ covariance, rows)
+    first, last = 3 * pauses, 3 * pauses + 2 * ways
     values = []
-    parts = (slice(0, first), slice(first, last), slice(last, last + 3 * (len(rests) - 1)))
+    parts = (slice(0, first), slice(first, last), slice(last, last + 3 * (pauses - 1)))
     for assumed, old, part in zip(ASSUMED_NOISE, noise, parts, strict=True):
         redundancy = float(np.sum(1.0 - used[part]))
         squares = float(np.sum(residuals[part] ** 2))
@@ -216,18 +215,11 @@ def _components(
     return values[0], values[1], values[2]
 
 
-def _equations(
-    rests: Sequence[Rest], ways: Sequence[Way], unknowns: Unknowns, noise: Noise
-) -> tuple[Floats, Floats, Floats]:
-    normal, gradient, residuals, _ = _system(rests, ways, unknowns, noise)
-    return normal, gradient, residuals
-
-
 def _system(
-    rests: Sequence[Rest], ways: Sequence[Way], unknowns: Unknowns, noise: Noise
+    pauses: Sequence[Pause], ways: Sequence[WayBetween], unknowns: Unknowns, noise: Noise
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Return normal matrix, gradient, weighted residuals and weighted rows of all equations."""
-    count = FIRST_NODE + PER_REST * len(rests)
+    count = FIRST_NODE + PER_PAUSE * len(pauses)
     rows, residuals = [], []
 
     def add(row: Floats, residual: Floats, sigma: float) -> None:
@@ -235,8 +227,8 @@ def _system(
         residuals.append(residual / sigma)
 
     bases = [across(one) for one in unknowns.up]
-    for k, rest in enumerate(rests):
-        row, node = np.zeros((3, count)), FIRST_NODE + PER_REST * k
+    for k, rest in enumerate(pauses):
+        row, node = np.zeros((3, count)), FIRST_NODE + PER_PAUSE * k
         x = rest.acc - unknowns.acc_bias
         for number, (i, j) in enumerate(SYMMETRIC):
             row[i, number] += x[j]
@@ -247,7 +239,7 @@ def _system(
         add(row, unknowns.acc @ x - GRAVITY * unknowns.up[k], sqrt(noise[0] ** 2 + rest.acc_sigma**2))
     for way in ways:
         k, row = way.number, np.zeros((3, count))
-        node = FIRST_NODE + PER_REST * k
+        node = FIRST_NODE + PER_PAUSE * k
         whole = integrate(way, unknowns.gyro, unknowns.biases[k], unknowns.biases[k + 1])
         by_turn = whole.turn.T @ cross_matrix(unknowns.up[k])
         row[:, GYRO] = by_turn @ whole.by_gyro
@@ -256,13 +248,13 @@ def _system(
         row[:, node + 8 : node + 10] = -bases[k + 1]
         residual = whole.turn.T @ unknowns.up[k] - unknowns.up[k + 1]
         add(bases[k + 1].T @ row, bases[k + 1].T @ residual, _way_sigma(way, noise[1]))
-    for k, (rest, other) in enumerate(zip(rests, rests[1:], strict=False)):
-        row, node = np.zeros((3, count)), FIRST_NODE + PER_REST * k
+    for k, (rest, other) in enumerate(zip(pauses, pauses[1:], strict=False)):
+        row, node = np.zeros((3, count)), FIRST_NODE + PER_PAUSE * k
         row[:, node : node + 3], row[:, node + 5 : node + 8] = -np.eye(3), np.eye(3)
         sigma = noise[2] * sqrt(other.middle - rest.middle)
         add(row, unknowns.biases[k + 1] - unknowns.biases[k], sigma)
-    for k, rest in enumerate(rests):
-        row, node = np.zeros((3, count)), FIRST_NODE + PER_REST * k
+    for k, rest in enumerate(pauses):
+        row, node = np.zeros((3, count)), FIRST_NODE + PER_PAUSE * k
         row[:, node : node + 3] = np.eye(3)
         up = rest.acc / np.linalg.norm(rest.acc)
         frame, sigmas = np.column_stack((across(up), up)), np.array([rest.level_sigma] * 2 + [rest.upright_sigma])
@@ -274,11 +266,7 @@ def _system(
     beforehand[ACC_BIAS] /= LARGEST_BIAS
     beforehand[GYRO] /= LARGEST_ERROR
     differences = np.concatenate(
-        (
-            [unknowns.acc[i, j] - (i == j) for i, j in SYMMETRIC],
-            unknowns.acc_bias,
-            (unknowns.gyro - np.eye(3)).ravel(),
-        )
+        ([unknowns.acc[i, j] - (i == j) for i, j in SYMMETRIC], unknowns.acc_bias, (unknowns.gyro - np.eye(3)).ravel())
     )
     rows.append(beforehand)
     residuals.append(np.diag(beforehand) * differences)

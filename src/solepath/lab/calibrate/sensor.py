@@ -13,10 +13,10 @@ from ...calibration.records import TriadCalibration
 from ...types import Foot, Sample, Vec3
 from ...types.vector import GRAVITY
 from .coverage import open_questions, sigmas
-from .fit import FIRST_NODE, PER_REST, Fit, fit, integrate
-from .rests import Floats, Recorded, Rest, Way, find_rests, find_ways, recorded_of
+from .fit import FIRST_NODE, PER_PAUSE, Fit, fit, integrate
+from .pauses import Floats, Pause, Recorded, WayBetween, find_pauses, find_ways, recorded_of
 
-LEAST_RESTS = 9
+LEAST_PAUSES = 9
 """Least number of rests: an accelerometer has nine unknowns. Twelve are asked for, because one or two may be spoilt."""
 LARGEST_EXCESS = 4.0
 """Standard deviations by which a way may not close: one in three thousand of normal errors exceeds them."""
@@ -37,8 +37,8 @@ class SensorFit:
     foot: Foot
     """Foot that wears the sensor."""
     calibration: SensorCalibration
-    """The calibration."""
-    rests: int
+    """Correction of both of its sensors."""
+    pauses: int
     """Number of rests."""
     turned: tuple[int, ...]
     """Whole turns of each way with at least two, in the order of time."""
@@ -72,21 +72,21 @@ def sensor_calibration(fits: Iterable[SensorFit]) -> Calibration:
 def _fit_foot(foot: Foot, samples: Sequence[Sample]) -> SensorFit:
     recorded = recorded_of(samples, foot)
     _check_units(foot, recorded)
-    rests = find_rests(recorded)
-    if len(rests) < LEAST_RESTS:
+    pauses = find_pauses(recorded)
+    if len(pauses) < LEAST_PAUSES:
         raise CalibrationError(
-            f"the {foot.value} foot has {len(rests)} rests of a second and more, and {LEAST_RESTS} are the least: leave "
-            "the sensor alone for three seconds in each of twelve orientations, on or against a thing that does not move"
+            f"the {foot.value} foot has {len(pauses)} rests of a second and more, and {LEAST_PAUSES} are the least: "
+            "leave the sensor alone for three seconds in each of twelve orientations, on or against what does not move"
         )
-    force = float(np.median([np.linalg.norm(rest.acc) for rest in rests]))
+    force = float(np.median([np.linalg.norm(rest.acc) for rest in pauses]))
     if not LEAST_GRAVITY < force < LARGEST_GRAVITY:
         raise CalibrationError(f"the {foot.value} foot reads {force:.3g} m/s^2 at rest: its unit is not m/s^2")
-    ways = find_ways(recorded, rests)
-    found, kept, ways = _fit_what_closes(foot, rests, ways)
+    ways = find_ways(recorded, pauses)
+    found, kept, ways = _fit_what_closes(foot, pauses, ways)
     missing = open_questions(found)
     notes = [
-        f"not used: {rests[way.number].end - recorded.t[0]:.0f} to {rests[way.number + 1].start - recorded.t[0]:.0f} s "
-        f"after the start, {way.spoilt}"
+        f"not used: {pauses[way.number].end - recorded.t[0]:.0f} to "
+        f"{pauses[way.number + 1].start - recorded.t[0]:.0f} s after the start: {way.spoilt}"
         for way in ways
         if way.spoilt
     ]
@@ -94,8 +94,8 @@ def _fit_foot(foot: Foot, samples: Sequence[Sample]) -> SensorFit:
         raise CalibrationError(f"{foot.value} foot: {'; '.join([*missing, *notes])}")
     turned = [round(way.angle / (2.0 * pi)) for way in kept]
     return SensorFit(
-        foot, _record(found), len(rests), tuple([count for count in turned if count >= TURNS]),
-        *_errors(found, rests, kept), rests[-1].end - rests[0].start, tuple(notes),
+        foot, _record(found), len(pauses), tuple([count for count in turned if count >= TURNS]),
+        *_errors(found, pauses, kept), pauses[-1].end - pauses[0].start, tuple(notes),
     )  # fmt: skip
 
 
@@ -105,7 +105,9 @@ def _check_units(foot: Foot, recorded: Recorded) -> None:
         raise CalibrationError(f"the {foot.value} foot turns by {rate:.3g} rad/s: its rates look like degrees/s")
 
 
-def _fit_what_closes(foot: Foot, rests: Sequence[Rest], ways: Sequence[Way]) -> tuple[Fit, list[Way], list[Way]]:
+def _fit_what_closes(
+    foot: Foot, pauses: Sequence[Pause], ways: Sequence[WayBetween]
+) -> tuple[Fit, list[WayBetween], list[WayBetween]]:
     """Return the fit, the ways that it uses, and all ways; ways that do not close with the others are left out.
 
     The way that exceeds its standard deviation most is left out first, and the others are fitted again."""
@@ -113,21 +115,23 @@ def _fit_what_closes(foot: Foot, rests: Sequence[Rest], ways: Sequence[Way]) -> 
     most = int(MOST_LEFT_OUT * len(ways))
     for left_out in range(most + 1):
         kept = [way for way in every if not way.spoilt]
-        if len(kept) < LEAST_RESTS - 1:
+        if len(kept) < LEAST_PAUSES - 1:
             reasons = "; ".join(sorted({way.spoilt for way in every if way.spoilt}))
-            raise CalibrationError(f"the {foot.value} foot has {len(kept)} ways between rests that can be used: {reasons}")
-        found = fit(rests, kept)
+            raise CalibrationError(
+                f"the {foot.value} foot has {len(kept)} ways between rests that can be used: {reasons}"
+            )
+        found = fit(pauses, kept)
         worst = int(np.argmax(found.excess))
         if found.excess[worst] < LARGEST_EXCESS or left_out == most:
             break
         angle = degrees(found.closures[worst])
-        spoilt = f"which does not close by {angle:.2g} degrees (a knock, or a slip of the clock)"
+        spoilt = f"gravity ends {angle:.2g} degrees off (a knock, or a slip of the clock)"
         every = [evolve(way, spoilt=spoilt) if way is kept[worst] else way for way in every]
     if not found.converged or found.noise[1] > LARGEST_WAY_NOISE or max(found.excess) >= LARGEST_EXCESS:
         raise CalibrationError(
             f"the {foot.value} foot's rates do not turn gravity from one rest to the next, by up to "
-            f"{degrees(max(found.closures)):.2g} degrees: are axes mirrored or exchanged, is a unit wrong, or were samples "
-            "lost? `solepath check` on a recording of a walk says more"
+            f"{degrees(max(found.closures)):.2g} degrees: are axes mirrored or exchanged, is a unit wrong, or were "
+            "samples lost? `solepath check` on a recording of a walk says more"
         )
     return found, kept, every
 
@@ -135,7 +139,7 @@ def _fit_what_closes(foot: Foot, rests: Sequence[Rest], ways: Sequence[Way]) -> 
 def _record(found: Fit) -> SensorCalibration:
     acc_sigma, acc_bias_sigma, gyro_sigma = sigmas(found)
     unknowns = found.unknowns
-    nodes = np.sqrt(np.diag(found.covariance))[FIRST_NODE:].reshape(-1, PER_REST)
+    nodes = np.sqrt(np.diag(found.covariance))[FIRST_NODE:].reshape(-1, PER_PAUSE)
     spread = unknowns.biases.std(axis=0)
     bias_sigma = np.sqrt(np.mean(nodes[:, :3] ** 2, axis=0) + spread**2)
     return SensorCalibration(
@@ -155,12 +159,14 @@ def _vector(values: Floats) -> Vec3:
     return x, y, z
 
 
-def _errors(found: Fit, rests: Sequence[Rest], ways: Sequence[Way]) -> tuple[tuple[float, float], tuple[float, float]]:
+def _errors(
+    found: Fit, pauses: Sequence[Pause], ways: Sequence[WayBetween]
+) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return errors of gravity, m/s^2, and of closures, rad, before and after, without and with the calibration.
 
     Before it, the gyroscope has the bias of the rests all the same, which every recipe learns."""
     unknowns = found.unknowns
-    raw = np.array([rest.acc for rest in rests])
+    raw = np.array([rest.acc for rest in pauses])
     corrected = (raw - unknowns.acc_bias) @ unknowns.acc.T
     gravity, closure = [], []
     for force, gyro in ((raw, np.eye(3)), (corrected, unknowns.gyro)):

@@ -1,4 +1,4 @@
-"""Worth of a calibration by hand on the emulator: its errors beside its standard deviations, and tracks with and without.
+"""Worth of a calibration by hand on the emulator: its errors and standard deviations, and tracks with and without it.
 
     python -m solepath.lab.calibrate.table [--sensors N] [--walks N] [--seed S] [--recipe NAME]
 
@@ -6,7 +6,7 @@ prints the tables of docs/calibration.md as Markdown. The first is of `N` sensor
 (emulate/handling.py): how far scale and axes are from the emulator's, and how often within one and two standard
 deviations, which is 68 and 95 % for errors that are normal.
 
-The second is of walks of 500 m along corridors (emulated/heading_walks.py) by wearers whose two sensors were calibrated
+The second is of walks of 250 m along corridors (emulated/heading_walks.py) by wearers whose two sensors were calibrated
 by a clumsy hand the day before. Bias and noise are other ones on the day of the walk: a tenth of the bias of the sheet
 is new (assumed; with `--bias-change 1` all of it). The error at the end is a share of the path."""
 
@@ -16,7 +16,6 @@ import argparse
 import os
 from collections.abc import Sequence
 from functools import partial
-from math import degrees
 
 import numpy as np
 from attrs import evolve, frozen
@@ -30,14 +29,14 @@ from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu, TriadError
 from ...emulate.walk import sampled
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
-from ..emulated.heading import follow, heading_figures, is_500_m
+from ..emulated.heading import follow, heading_figures
 from ..emulated.heading_walks import G_EFFECT, OTHER_DAY, heading_route, wearer_of
 from ..processes import run_jobs
 from .fit import SYMMETRIC
-from .rests import Floats
+from .pauses import Floats
 from .sensor import fit_sensors, sensor_calibration
 
-FIRST_SEED, SENSORS, WALKS = 9001, 40, 12
+FIRST_SEED, SENSORS, WALKS = 9001, 12, 6
 """First seed, number of sensors of each kind in each hand, and number of walks."""
 CHIPS = {one.name: one for one in (LSM6DSOX, MPU9250, MPU6050)}
 """Chips by name."""
@@ -45,8 +44,8 @@ HANDS = {"clumsy": CLUMSY, "steady": STEADY}
 """Hands by name."""
 BIAS_CHANGE = 0.1
 """Share of the bias that is new on another day (assumed: no sheet gives it)."""
-KIND = "right_angles"
-"""Kind of the routes."""
+KIND, LENGTH = "right_angles", 250.0
+"""Kind of the routes, and their length, m."""
 
 
 @frozen
@@ -78,9 +77,7 @@ class HandErrors:
 def specimen(chip: Imu, number: int, bias_change: float = BIAS_CHANGE) -> Imu:
     """Return the chip as the specimen of a number, with the sensitivity to force that some sheets give."""
     acc = evolve(chip.acc, specimen=2 * number, bias_change=bias_change)
-    return Imu(
-        chip.name, acc, evolve(chip.gyro, specimen=2 * number + 1, bias_change=bias_change, g_effect=G_EFFECT)
-    )
+    return Imu(chip.name, acc, evolve(chip.gyro, specimen=2 * number + 1, bias_change=bias_change, g_effect=G_EFFECT))
 
 
 def mixing(chip: TriadErrors) -> Floats:
@@ -124,8 +121,8 @@ def hand_errors(job: HandJob) -> HandErrors:
 def hand_table(results: Sequence[HandErrors]) -> list[str]:
     """Return the lines of the first table."""
     lines = [
-        "| chip | hand | sensors | rejected | gyroscope scale, %: median, 95 %, largest | axes, degrees | accelerometer "
-        "scale, % | axes, degrees | within 1 and 2 sigma: gyroscope | accelerometer |",
+        "| chip | hand | sensors | rejected | gyroscope scale, %: median, 95 %, largest | axes, degrees | "
+        "accelerometer scale, % | axes, degrees | within 1 and 2 sigma: gyroscope | accelerometer |",
         "|---|---|---|---|---|---|---|---|---|---|",
     ]
     apart = ~np.eye(3, dtype=np.bool_)
@@ -181,15 +178,14 @@ def walk_errors(job: WalkJob, bias_change: float = BIAS_CHANGE) -> WalkErrors:
         for k, (foot, imu) in enumerate(imus.items())
     }
     insoles = {SITE_OF_FOOT[foot]: Insole(cells=24, chip=imu) for foot, imu in imus.items()}
-    route = heading_route(KIND, job.seed, is_500_m)
+    route = heading_route(KIND, job.seed, lambda length, seconds: length >= LENGTH)
     walk = sampled(route, wearer=wearer_of(job.seed), insoles=insoles, seed=job.seed)
     figures = [
         heading_figures(follow(Session(recipes.by_name(job.recipe), calibration=calibration), walk), walk.truth)
         for calibration in (None, Calibration(sensors=sensors))
     ]
-    (end, heading), (end_with, heading_with) = (
-        (one.get("end_relative", np.nan), one.get("heading_end", np.nan)) for one in figures
-    )
+    end, end_with = (one.get("end_relative") or np.nan for one in figures)
+    heading, heading_with = (one.get("heading_end") or np.nan for one in figures)
     return WalkErrors(job, (end, end_with), (heading, heading_with))
 
 

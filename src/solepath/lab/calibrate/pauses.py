@@ -1,7 +1,7 @@
 """Finds the rests of a sensor in a hand, and the ways from one rest to the next.
 
-A rest is a span in which all windows of half a second are still. Tedaldi, Pretto and Menegatti (2014, "A robust and easy
-to implement method for IMU calibration without external equipments", ICRA) find rests by the variance of the
+A rest is a span in which all windows of half a second are still. Tedaldi, Pretto and Menegatti (2014, "A robust and
+easy to implement method for IMU calibration without external equipments", ICRA) find rests by the variance of the
 accelerometer alone, with a threshold from a first rest of 50 s. Here a person need not start with any rest: the limits
 are those of a hand that holds something still, and the gyroscope is asked too, because its turn is what spoils a rest.
 The bias of a gyroscope, which may be 20 degrees/s, is not a turn: it is the median rate of the still windows."""
@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 
 WINDOW = 0.5
 """Length of a window, s: several periods of the tremor of a hand, 8 to 12 Hz."""
-SHORTEST_REST = 1.0
+SHORTEST_PAUSE = 1.0
 """Shortest rest, s, counted between the middles of its first and last window."""
 STILL_ACC, STILL_GYRO = 0.3, 0.05
 """Largest standard deviation in a still window, m/s^2 and rad/s, each over all axes.
@@ -56,13 +56,13 @@ class Recorded:
 
 
 @frozen(eq=False)
-class Rest:
+class Pause:
     """One rest of a sensor."""
 
     start: float
-    """Start, s."""
+    """Start of the rest, s."""
     end: float
-    """End, s."""
+    """End of the rest, s."""
     acc: Floats
     """Mean specific force, m/s^2, (3)."""
     acc_sigma: float
@@ -74,7 +74,7 @@ class Rest:
     level_sigma: float
     """Standard deviation of the components of `rate` across the vertical as a bias, rad/s."""
     upright_sigma: float
-    """Standard deviation of the component of `rate` along the vertical as a bias, rad/s: there gravity shows no creep."""
+    """Standard deviation of the component of `rate` along the vertical as a bias, rad/s: no creep is seen there."""
 
     @property
     def middle(self) -> float:
@@ -83,7 +83,7 @@ class Rest:
 
 
 @frozen(eq=False)
-class Way:
+class WayBetween:
     """The samples from the middle of one rest to that of the next."""
 
     number: int
@@ -128,7 +128,7 @@ def _clipped(gyro: Floats) -> NDArray[np.bool_]:
     return clipped
 
 
-def find_rests(recorded: Recorded) -> list[Rest]:
+def find_pauses(recorded: Recorded) -> list[Pause]:
     """Return the rests in the order of time."""
     count = max(4, round(WINDOW / recorded.interval))
     acc, acc_variance = _windows(recorded.acc, count)
@@ -143,14 +143,14 @@ def find_rests(recorded: Recorded) -> list[Rest]:
         still = slow if slow.any() else still
     edges = np.flatnonzero(np.diff(np.concatenate(([0], slow.astype(np.int8), [0]))))
     middles = recorded.t[count // 2 : count // 2 + len(slow)]
-    rests = []
+    pauses = []
     for first, last in zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True):
-        if middles[last] - middles[first] >= SHORTEST_REST:
+        if middles[last] - middles[first] >= SHORTEST_PAUSE:
             rows = slice(first + count // 2, last + count // 2 + 1)
-            rests.append(_rest(recorded.t[rows], recorded.acc[rows], recorded.gyro[rows]))
+            pauses.append(_pause(recorded.t[rows], recorded.acc[rows], recorded.gyro[rows]))
     # a hand that creeps in one rest does so in others, and seldom about a level axis alone
-    usual = 0.5 * float(np.mean([rest.creep**2 for rest in rests])) if rests else 0.0
-    return [evolve(rest, upright_sigma=(0.5 * (rest.upright_sigma**2 + usual)) ** 0.5) for rest in rests]
+    usual = 0.5 * float(np.mean([rest.creep**2 for rest in pauses])) if pauses else 0.0
+    return [evolve(rest, upright_sigma=(0.5 * (rest.upright_sigma**2 + usual)) ** 0.5) for rest in pauses]
 
 
 def _windows(values: Floats, count: int) -> tuple[Floats, Floats]:
@@ -163,11 +163,11 @@ def _windows(values: Floats, count: int) -> tuple[Floats, Floats]:
     return means + values.mean(axis=0), np.maximum(variance, 0.0)
 
 
-def _rest(t: Floats, acc: Floats, gyro: Floats) -> Rest:
+def _pause(t: Floats, acc: Floats, gyro: Floats) -> Pause:
     """Return a rest; its creep about the horizontal is seen by gravity, and that about the vertical is like it.
 
-    Every reading is turned into the sensor frame in the middle of the rest. An even creep cancels, so the turn is that of
-    the rates beyond their mean, which no bias changes."""
+    Every reading is turned into the sensor frame in the middle of the rest. An even creep cancels, so the turn is that
+    of the rates beyond their mean, which no bias changes."""
     half, duration = len(t) // 2, float(t[-1] - t[0])
     rate = gyro.mean(axis=0)
     uneven = 0.5 * np.diff(t)[:, None] * (gyro[1:] + gyro[:-1] - 2.0 * rate)
@@ -179,9 +179,13 @@ def _rest(t: Floats, acc: Floats, gyro: Floats) -> Rest:
     change = acc[half:].mean(axis=0) - acc[:half].mean(axis=0)
     creep = -np.cross(mean, change) / (size * size) / (0.5 * duration)
     variance = _block_variance(gyro)
-    level = (variance + (4.0 * sigma / (size * duration)) ** 2) ** 0.5  # both halves have twice the variance of the mean
+    level = (
+        variance + (4.0 * sigma / (size * duration)) ** 2
+    ) ** 0.5  # both halves have twice the variance of the mean
     slow = float(np.linalg.norm(creep))
-    return Rest(float(t[0]), float(t[-1]), mean, sigma, rate - creep, slow, level, (variance + 0.5 * slow * slow) ** 0.5)
+    return Pause(
+        float(t[0]), float(t[-1]), mean, sigma, rate - creep, slow, level, (variance + 0.5 * slow * slow) ** 0.5
+    )
 
 
 def _block_variance(values: Floats) -> float:
@@ -191,14 +195,14 @@ def _block_variance(values: Floats) -> float:
     return float(np.mean(differences**2)) / 2.0 / 8.0
 
 
-def find_ways(recorded: Recorded, rests: Sequence[Rest]) -> list[Way]:
+def find_ways(recorded: Recorded, pauses: Sequence[Pause]) -> list[WayBetween]:
     """Return the way from each rest to the next, also those that are spoilt."""
     noise = [
-        float(np.mean(np.var(np.diff(recorded.gyro[_inside(recorded, rest)], axis=0), axis=0))) / 2.0 for rest in rests
+        float(np.mean(np.var(np.diff(recorded.gyro[_inside(recorded, rest)], axis=0), axis=0))) / 2.0 for rest in pauses
     ]
-    density = float(np.sqrt(np.median(noise) * recorded.interval)) if rests else 0.0
+    density = float(np.sqrt(np.median(noise) * recorded.interval)) if pauses else 0.0
     ways = []
-    for number, (one, other) in enumerate(zip(rests, rests[1:], strict=False)):
+    for number, (one, other) in enumerate(zip(pauses, pauses[1:], strict=False)):
         inside = (recorded.t > one.middle) & (recorded.t < other.middle)
         t = np.concatenate(([one.middle], recorded.t[inside], [other.middle]))
         gyro = np.stack([np.interp(t, recorded.t, axis) for axis in recorded.gyro.T], axis=1)
@@ -210,9 +214,9 @@ def find_ways(recorded: Recorded, rests: Sequence[Rest]) -> list[Way]:
             spoilt = "samples are lost"
         elif recorded.at_end[inside].any():
             spoilt = "a sensor was at the end of its range: turn more slowly, or choose a larger range"
-        ways.append(Way(number, t, gyro, angle, density, spoilt))
+        ways.append(WayBetween(number, t, gyro, angle, density, spoilt))
     return ways
 
 
-def _inside(recorded: Recorded, rest: Rest) -> NDArray[np.bool_]:
+def _inside(recorded: Recorded, rest: Pause) -> NDArray[np.bool_]:
     return (recorded.t >= rest.start) & (recorded.t <= rest.end)
