@@ -210,7 +210,9 @@ class _Composing:
         axis, angle = np.cross(here, (0.0, 0.0, 1.0)), float(np.arctan2(sqrt(here[0] ** 2 + here[1] ** 2), here[2]))
         length = float(np.linalg.norm(axis))
         axis = np.array([1.0, 0.0, 0.0]) if length < 1e-6 else axis / length
-        turn = angle * axis + clumsy.off_face * rng.standard_normal(3) + (0.0, 0.0, rng.uniform(-1.5, 1.5))
+        off, heading = clumsy.off_face * rng.standard_normal(3), np.array([0.0, 0.0, rng.uniform(-1.5, 1.5)])
+        ways = from_rotation_vectors(np.array([off, heading, angle * axis]))
+        turn = _rotation_vector(multiply_quaternions(ways[:1], multiply_quaternions(ways[1:2], ways[2:])))
         self._add(turn, float(np.linalg.norm(turn)) / self._pace() + 0.5, clumsy.wobble, clumsy.travel, 1.0)
 
     def lie(self) -> None:
@@ -256,6 +258,14 @@ class _Composing:
         way = travel * self.rng.standard_normal(3)
         start = last.start + last.duration
         self.pieces.append(HandMove(start, duration, last.after, turn, sides, last.place + last.travel, way, tremor))
+
+
+def _rotation_vector(q: Array) -> Array:
+    """Return the shortest rotation vector, rad, (3), of one unit quaternion, (1, 4)."""
+    scalar, vector = float(q[0, 0]), q[0, 1:]
+    sine = float(np.linalg.norm(vector))
+    angle = 2.0 * float(np.arctan2(sine, abs(scalar)))
+    return np.asarray(np.sign(scalar) * vector * (2.0 if sine < 1e-9 else angle / sine))
 
 
 def _progress(s: Array) -> Array:

@@ -170,15 +170,15 @@ class WalkErrors:
     heading: tuple[float, float]
 
 
-def walk_errors(job: WalkJob, bias_change: float = BIAS_CHANGE) -> WalkErrors:
-    """Return the errors of one walk."""
+def walk_errors(job: WalkJob, bias_change: float = BIAS_CHANGE, least: float = LENGTH) -> WalkErrors:
+    """Return the errors of one walk of a length of at least `least` m."""
     imus = {foot: specimen(CHIPS[job.chip], 2 * job.seed + k, bias_change) for k, foot in enumerate(Foot)}
     sensors = {
         foot: sensor_calibration(fit_sensors(handled(imu, CLUMSY, OTHER_DAY + 2 * job.seed + k, foot))).sensors[foot]
         for k, (foot, imu) in enumerate(imus.items())
     }
     insoles = {SITE_OF_FOOT[foot]: Insole(cells=24, chip=imu) for foot, imu in imus.items()}
-    route = heading_route(KIND, job.seed, lambda length, seconds: length >= LENGTH)
+    route = heading_route(KIND, job.seed, lambda length, seconds: length >= least)
     walk = sampled(route, wearer=wearer_of(job.seed), insoles=insoles, seed=job.seed)
     figures = [
         heading_figures(follow(Session(recipes.by_name(job.recipe), calibration=calibration), walk), walk.truth)
@@ -218,6 +218,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--seed", metavar="S", type=int, default=FIRST_SEED, help="first one")
     parser.add_argument("--recipe", metavar="NAME", action="append", default=[], help="may be repeated")
     parser.add_argument("--chip", metavar="NAME", action="append", default=[], choices=list(CHIPS), help="of the walks")
+    parser.add_argument("--length", metavar="M", type=float, default=LENGTH, help="of each walk, m")
     parser.add_argument("--bias-change", metavar="X", type=float, default=BIAS_CHANGE, help="share that is new")
     parser.add_argument("--processes", metavar="N", type=int, default=os.cpu_count() or 1)
     options = parser.parse_args(arguments)
@@ -236,9 +237,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         for recipe in options.recipe or [recipes.DEFAULT.name]
         for k in range(options.walks)
     ]
-    walked = list(run_jobs(partial(walk_errors, bias_change=options.bias_change), walks, processes=options.processes))
+    work = partial(walk_errors, bias_change=options.bias_change, least=options.length)
+    walked = list(run_jobs(work, walks, processes=options.processes))
     if walked:
-        print("\n".join(["", *walk_table(walked)]))
+        print("\n".join([*[""] * bool(results), *walk_table(walked)]))
 
 
 if __name__ == "__main__":
