@@ -36,7 +36,7 @@ from .fit import SYMMETRIC
 from .pauses import Floats
 from .sensor import fit_sensors, sensor_calibration
 
-FIRST_SEED, SENSORS, WALKS = 9001, 12, 6
+FIRST_SEED, SENSORS, WALKS = 9001, 8, 4
 """First seed, number of sensors of each kind in each hand, and number of walks."""
 CHIPS = {one.name: one for one in (LSM6DSOX, MPU9250, MPU6050)}
 """Chips by name."""
