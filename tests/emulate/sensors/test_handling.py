@@ -36,7 +36,7 @@ def test_force_is_acceleration_and_gravity_and_acceleration_is_the_slope_of_velo
     assert np.allclose(world - true.acceleration, (0.0, 0.0, 9.80665))
 
 
-def test_five_turns_are_turned_and_a_steady_hand_rests_quite_still() -> None:
+def test_five_turns_are_turned_and_a_steady_hand_does_not_move_at_rest() -> None:
     hand = Handling(7, STEADY, pauses=2, axes=((1.0, 0.0, 0.0),))
     t = np.arange(0.0, hand.duration, 1.0 / RATE)
     true = hand.kinematics(Foot.LEFT, t)
@@ -52,7 +52,7 @@ def test_the_same_seed_gives_the_same_hand_and_another_another() -> None:
     assert np.array_equal(one, same) and not np.array_equal(one, other)
 
 
-def test_rests_have_the_orientations_that_are_given() -> None:
+def test_the_hand_goes_to_the_orientations_that_are_given() -> None:
     ups = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
     hand = Handling(10, evolve(CLUMSY, off_face=0.0, wobble=0.0), turns=0.0, orientations=ups)
     for up, piece in zip(ups, hand.pieces[1::2], strict=True):

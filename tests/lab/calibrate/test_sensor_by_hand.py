@@ -88,7 +88,7 @@ def handled_with(hand: Handling) -> list[Sample]:
     return hand.samples(Foot.LEFT, 100.0, LSM6DSOX)
 
 
-def test_too_few_rests_are_counted() -> None:
+def test_too_few_times_at_rest_are_counted() -> None:
     with pytest.raises(CalibrationError, match="the left foot has 4 rests .* 9 are the least"):
         fit_sensors(handled_with(Handling(75, STEADY, pauses=4, turns=0.0)))
 
