@@ -28,9 +28,11 @@ from solepath import (
     read_calibration,
     recipes,
 )
-from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry, merged
+from solepath.calibration import InsoleCalibration, Limbs, Newtons, SensorCalibration, ShoeGeometry
 from solepath.calibration.file import write_calibration
 from solepath.calibration.limits import _limits, find_fault
+from solepath.calibration.merging import merged
+from solepath.calibration.records import TriadCalibration
 from solepath.emulate.sensors.insoles import layout
 from solepath.events import CellsFailed, Limitation
 from solepath.foot.pressure.insole import in_newtons
@@ -46,6 +48,16 @@ FULL_CALIBRATION = Calibration(
     },
     shoe=ShoeGeometry(),
     drift={Foot.LEFT: (0.001, -0.002)},
+    sensors={
+        Foot.LEFT: SensorCalibration(
+            TriadCalibration(
+                (1.01, 0.01, 0.0, 0.01, 0.99, 0.0, 0.0, 0.0, 1.0), (0.1, 0.0, 0.2), (1e-3,) * 9, (0.01,) * 3
+            ),
+            TriadCalibration(
+                (0.98, 0.02, 0.0, 0.0, 1.0, 0.0, 0.0, 0.01, 1.0), (0.0, 0.02, 0.0), (1e-3,) * 9, (1e-4,) * 3
+            ),
+        )
+    },
     limbs=Limbs(),
     weight=700.0,
     modes={Foot.RIGHT: {WalkingMode.LEFT_TIGHT: (0.01, -0.02)}},

@@ -1,4 +1,4 @@
-"""Calibration of wearer, shoes and insoles: records.py has the records, limits.py their limits, file.py their file."""
+"""Calibration of wearer, shoes, insoles and sensors: records, their limits, their file, and how two are merged."""
 
 from .records import (
     Calibration,
@@ -8,8 +8,8 @@ from .records import (
     Limbs,
     Newtons,
     RestNoise,
+    SensorCalibration,
     ShoeGeometry,
-    merged,
 )
 
 __all__ = [
@@ -20,6 +20,6 @@ __all__ = [
     "Limbs",
     "Newtons",
     "RestNoise",
+    "SensorCalibration",
     "ShoeGeometry",
-    "merged",
 ]

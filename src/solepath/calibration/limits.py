@@ -6,7 +6,17 @@ from collections.abc import Iterator
 
 from ..types import Cell, Foot, Layout, WalkingMode
 from ..types.attrs import fields
-from .records import Calibration, HeadingCalibration, InsoleCalibration, Limbs, Newtons, RestNoise, ShoeGeometry
+from .records import (
+    Calibration,
+    HeadingCalibration,
+    InsoleCalibration,
+    Limbs,
+    Newtons,
+    RestNoise,
+    SensorCalibration,
+    ShoeGeometry,
+    TriadCalibration,
+)
 
 _Limit = tuple[str, object, float, float, str]
 """Key, value, smallest and largest allowed value, and unit of one number of a calibration."""
@@ -68,6 +78,13 @@ def _type_problems(calibration: Calibration) -> Iterator[str]:
     yield from _check_dict("rest", calibration.rest, Foot)
     for foot, noise in calibration.rest.items():
         yield from _check_type(f"rest.{foot.value}", noise, RestNoise)
+    yield from _check_dict("sensors", calibration.sensors, Foot)
+    for foot, sensor in calibration.sensors.items():
+        yield from _check_type(f"sensors.{foot.value}", sensor, SensorCalibration)
+        for name, triad in (("acc", sensor.acc), ("gyro", sensor.gyro)):
+            yield from _check_type(f"sensors.{foot.value}.{name}", triad, TriadCalibration)
+            for part, count in (("matrix", 9), ("bias", 3), ("matrix_sigma", 9), ("bias_sigma", 3)):
+                yield from _check_tuple(f"sensors.{foot.value}.{name}.{part}", getattr(triad, part), count)
 
 
 def _check_type(key: str, value: object, kind: type) -> Iterator[str]:
@@ -113,6 +130,9 @@ def _limits(calibration: Calibration) -> Iterator[_Limit]:
         yield f"rest.{foot.value}.gyro_density", noise.gyro_density, 1e-7, 0.1, " rad/s/sqrt(Hz)"
         yield f"rest.{foot.value}.gyro_wander", noise.gyro_wander, 0.0, 0.01, " rad/s/sqrt(s)"
         yield f"rest.{foot.value}.rate", noise.rate, 1.0, 10_000.0, " Hz"
+    for foot, sensor in calibration.sensors.items():
+        yield from _limits_of_triad(f"sensors.{foot.value}.acc", sensor.acc, 5.0, " m/s^2")
+        yield from _limits_of_triad(f"sensors.{foot.value}.gyro", sensor.gyro, 1.0, " rad/s")
     if calibration.limbs is not None:
         for one in fields(Limbs):
             yield f"limbs.{one.name}", getattr(calibration.limbs, one.name), 0.001, 1.5, " m"
@@ -140,6 +160,15 @@ def _limits_of_insole(key: str, insole: InsoleCalibration) -> Iterator[_Limit]:
         yield f"{key}newtons.threshold", newtons.threshold, 0.0, 1e5, " N"
         yield f"{key}newtons.most", newtons.most, 0.001, 1e5, " N"
     yield from ((f"{key}noise[{i}]", value, 0.0, 1e6, "") for i, value in enumerate(insole.noise))
+
+
+def _limits_of_triad(key: str, triad: TriadCalibration, largest_bias: float, unit: str) -> Iterator[_Limit]:
+    for k, value in enumerate(triad.matrix):
+        one = float(k % 4 == 0)  # on the diagonal
+        yield f"{key}.matrix[{k}]", value, one - 0.3, one + 0.3, ""
+    yield from ((f"{key}.bias", value, -largest_bias, largest_bias, unit) for value in triad.bias)
+    yield from ((f"{key}.matrix_sigma", value, 0.0, 0.1, "") for value in triad.matrix_sigma)
+    yield from ((f"{key}.bias_sigma", value, 0.0, largest_bias, unit) for value in triad.bias_sigma)
 
 
 def _unusable_shoe(shoe: ShoeGeometry) -> str | None:

@@ -4,10 +4,8 @@ All of it is optional: a session without a calibration uses defaults and what it
 
 from __future__ import annotations
 
-from typing import TypeVar
-
-from ..types import Foot, Layout, WalkingMode
-from ..types.attrs import evolve, field, fields, frozen
+from ..types import Foot, Layout, Sample, Vec3, WalkingMode
+from ..types.attrs import evolve, field, frozen
 
 
 class CalibrationError(ValueError):
@@ -49,12 +47,8 @@ class ShoeGeometry:
     12.5 cm in front of the heel's rear end. The sole is flat and rigid up to 19.5 cm. In front of that it is a rocker:
     a cylinder of radius R = 5 cm, tangent to the flat part, that rolls without slip. At pitch p the plane of the flat
     part meets the ground R tan(p/2) behind the point of contact, which has moved R p forward on the ground. The pivot
-    is the line where plane and ground meet, so that
-
-        L_r = 0.070 + R tan(p/2)            L_p2t = 0.090 - R p + R tan(p/2)
-
-    in m, exactly. The series tan(p/2) = p/2 + p^3/24 + p^5/240 + ... turns them into polynomials, accurate to 0.2 mm up
-    to `steepest`."""
+    is the line where plane and ground meet: L_r = 0.070 + R tan(p/2) and L_p2t = 0.090 - R p + R tan(p/2), m, exactly.
+    The series p/2 + p^3/24 + p^5/240 + ... of tan(p/2) makes them polynomials, to 0.2 mm up to `steepest`."""
 
     heel_radius: float = 0.125
     """Radius L_r of the heel, from its rear end to the point of the sole below the sensor, m."""
@@ -124,6 +118,41 @@ class RestNoise:
 
 
 @frozen
+class TriadCalibration:
+    """Correction of a three-axis sensor: the true values are `matrix` times (reading - `bias`)."""
+
+    matrix: tuple[float, ...]
+    """Nine elements, row by row, no unit."""
+    bias: Vec3
+    """Reading where the true value is 0, m/s^2 or rad/s."""
+    matrix_sigma: tuple[float, ...]
+    """Standard deviations of `matrix`, no unit."""
+    bias_sigma: Vec3
+    """Standard deviations of `bias` on the day of the calibration, m/s^2 or rad/s."""
+
+    def correct(self, reading: Vec3) -> Vec3:
+        """Return the true value for a reading."""
+        (a, b, c), (xx, xy, xz, yx, yy, yz, zx, zy, zz) = self.bias, self.matrix
+        x, y, z = reading[0] - a, reading[1] - b, reading[2] - c
+        return xx * x + xy * y + xz * z, yx * x + yy * y + yz * z, zx * x + zy * y + zz * z
+
+
+@frozen
+class SensorCalibration:
+    """Scale, axes and bias of one sensor (`solepath calibrate sensor`), in the frame of its accelerometer."""
+
+    acc: TriadCalibration
+    """Correction of the accelerometer."""
+    gyro: TriadCalibration
+    """Correction of the gyroscope, which also turns its axes to those of the accelerometer."""
+
+    def correct(self, sample: Sample) -> Sample:
+        """Return the sample with corrected values, of which None stays None."""
+        acc, gyro = sample.acc, sample.gyro
+        return evolve(sample, acc=acc and self.acc.correct(acc), gyro=gyro and self.gyro.correct(gyro))
+
+
+@frozen
 class Calibration:
     """The calibration of one wearer; a value that was not calibrated is None or absent."""
 
@@ -132,9 +161,8 @@ class Calibration:
     shoe: ShoeGeometry | None = None
     """Geometry of the shoes."""
     drift: dict[Foot, tuple[float, float]] = field(factory=dict)
-    """Rate at which the position of each foot drifts, (x, y), m/s. If the device sends its attitude, it is in the world
-    frame of the device. Otherwise it is in the navigation frame, whose heading is that of the sensor at the start, so
-    it holds for walks that start with the same heading as the calibration."""
+    """Rate at which the position of each foot drifts, (x, y), m/s, world frame of a device that sends its attitude, or
+    else navigation frame, so that it holds for walks that start with the heading of the calibration."""
     limbs: Limbs | None = None
     """Lengths of the wearer's lower limbs."""
     weight: float | None = None
@@ -148,39 +176,9 @@ class Calibration:
     """Drift of the heading of each foot."""
     rest: dict[Foot, RestNoise] = field(factory=dict)
     """Noise of each foot's sensor at rest."""
+    sensors: dict[Foot, SensorCalibration] = field(factory=dict)
+    """Scale, axes and bias of each foot's sensor, which correct its samples for any recipe."""
 
     def insole(self, foot: Foot) -> InsoleCalibration:
         """Return the calibration of this foot's insole, or an empty one."""
         return self.insoles.get(foot, InsoleCalibration())
-
-
-def merged(known: Calibration, newer: Calibration) -> Calibration:
-    """Return `known` with its values replaced by those that `newer` has, field by field and insole by insole.
-
-    Known noise is discarded when `newer` changes the conversion to newtons, because it was measured in another unit."""
-    insoles = dict(known.insoles)
-    for foot, insole in newer.insoles.items():
-        old_insole = insoles.get(foot, InsoleCalibration())
-        if insole.newtons is not None and insole.newtons != old_insole.newtons:
-            old_insole = evolve(old_insole, noise=())
-        insoles[foot] = _replace_values(old_insole, insole)
-    drift = {**known.drift, **newer.drift}
-    toe_out = {**known.toe_out, **newer.toe_out}
-    headings = {**known.headings, **newer.headings}
-    rest = {**known.rest, **newer.rest}
-    return evolve(
-        _replace_values(known, newer),
-        insoles={foot: insoles[foot] for foot in Foot if foot in insoles},
-        drift={foot: drift[foot] for foot in Foot if foot in drift},
-        toe_out={foot: toe_out[foot] for foot in Foot if foot in toe_out},
-        headings={foot: headings[foot] for foot in Foot if foot in headings},
-        rest={foot: rest[foot] for foot in Foot if foot in rest},
-    )
-
-
-_Known = TypeVar("_Known", Calibration, InsoleCalibration)
-
-
-def _replace_values(known: _Known, newer: _Known) -> _Known:
-    replaced = {f.name: getattr(newer, f.name) for f in fields(type(newer)) if getattr(newer, f.name)}
-    return evolve(known, **replaced)

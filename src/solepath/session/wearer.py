@@ -93,6 +93,8 @@ class WearerParts:
         foot = sample.site.foot
         if foot is None:
             return self._feed_limb(sample)
+        if (correction := self.settings.calibration.sensors.get(foot)) is not None:
+            sample = correction.correct(sample)
         known_tracker = self.feet.get(foot)
         tracker = self._tracker(foot) if known_tracker is None else known_tracker
         events = tracker.feed(sample)

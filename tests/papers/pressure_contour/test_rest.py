@@ -7,7 +7,8 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from solepath.calibration import Calibration, CalibrationError, RestNoise, merged
+from solepath.calibration import Calibration, CalibrationError, RestNoise
+from solepath.calibration.merging import merged
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt
 from solepath.papers.pressure_contour.rest import allan_variance, fit_noise, rest_calibration, rest_noise
 from solepath.types import Foot, Sample, Site

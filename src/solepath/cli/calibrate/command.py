@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ...calibration import Calibration, merged
+from ...calibration import Calibration
+from ...calibration.merging import merged
 from ...recording import printable
 from ...saving.files import identity
 from ..common.failure import Failure

@@ -13,6 +13,7 @@ from ...types import Foot
 from ..common.failure import Failure, parse_count, parse_degrees, parse_share, recipe_named
 from ..common.inputs import add_foot, check_pressure, foot_of, source_of
 from .limbs import add_limbs
+from .sensor import add_sensor
 from .shoe import add_shoe
 from .toe_out import add_toe_out
 
@@ -233,5 +234,7 @@ def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     return rest_calibration(fits), lines
 
 
-KINDS = (_add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest)
+KINDS = (
+    _add_noise, add_shoe, _add_square, add_toe_out, _add_newton, add_limbs, _add_modes, _add_walk, _add_rest, add_sensor
+)  # fmt: skip
 """Functions that add the kinds to the parser, in the order of the help text."""

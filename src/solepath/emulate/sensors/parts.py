@@ -48,6 +48,10 @@ class TriadErrors:
     """Largest bias, u, where a sheet guarantees a limit."""
     specimen: int | None = None
     """Number of a specimen, which has the same scale, axes and signs of `g_effect` in every walk; None: random."""
+    bias_change: float = 1.0
+    """Share of `bias` that is another one in every walk; the rest is the specimen's own, the squares add up to 1.
+
+    Sheets give the spread of specimens alone, so that 1.0 supposes nothing about the days of one specimen."""
 
 
 @frozen

@@ -97,7 +97,11 @@ def add_errors(true: Array, sampling: Sampling, chip: TriadErrors, rng: Rng, for
     mixing = np.eye(3) + np.diag(chip.scale * specimen.standard_normal(3))
     mixing += chip.cross * specimen.standard_normal((3, 3)) * (1.0 - np.eye(3))
     signal = true @ mixing.T
-    signal += np.clip(chip.bias * rng.standard_normal(3), -chip.bias_limit, chip.bias_limit)
+    bias = rng.standard_normal(3)
+    if chip.specimen is not None and chip.bias_change < 1.0:
+        own = np.random.default_rng([chip.specimen, 25]).standard_normal(3)
+        bias = chip.bias_change * bias + sqrt(1.0 - chip.bias_change**2) * own
+    signal += np.clip(chip.bias * bias, -chip.bias_limit, chip.bias_limit)
     signal += chip.drift * random_drift(sampling.fine_times, chip.correlation_time, 3, rng)
     if force is not None and chip.g_effect:
         signal += chip.g_effect * force * specimen.choice([-1.0, 1.0], 3)

@@ -14,7 +14,8 @@ import numpy as np
 from attrs import frozen
 
 from ...body.part import ActivityPart, Position
-from ...calibration import Calibration, merged
+from ...calibration import Calibration
+from ...calibration.merging import merged
 from ...events import Event
 from ...recipes import Recipe
 from ...recording.samples import load_samples

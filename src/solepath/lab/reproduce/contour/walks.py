@@ -12,7 +12,8 @@ from math import atan2, cos, sin
 import numpy as np
 from attrs import evolve, frozen
 
-from ....calibration import Calibration, CalibrationError, InsoleCalibration, merged
+from ....calibration import Calibration, CalibrationError, InsoleCalibration
+from ....calibration.merging import merged
 from ....emulate.routes.actions import Stand
 from ....emulate.routes.laps import MARKS_PER_LAP, field_walk, square
 from ....emulate.routes.route import Route

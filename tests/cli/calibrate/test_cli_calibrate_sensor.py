@@ -1,0 +1,62 @@
+"""`solepath calibrate sensor`: rests and turns become a calibration, or a sentence on what is missing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import run, run_failing
+from recordings import recorded
+
+from solepath import Calibration, Foot, Packet, Site
+from solepath.calibration import HeadingCalibration
+from solepath.calibration.file import read_calibration, write_calibration
+from solepath.emulate.handling import CLUMSY, Handling
+from solepath.emulate.radio import Radio
+from solepath.emulate.sensors.device import device_rng
+from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.parts import MPU9250
+from solepath.lab.calibrate.table import specimen, true_corrections
+
+IMU = specimen(MPU9250, 81)
+
+
+def packets(hand: Handling, site: Site) -> tuple[Packet, ...]:
+    """Return the packets of an insole in a hand, over a radio that loses some."""
+    sent = Insole(cells=8, chip=IMU).emit(hand, site, device_rng(81, site))
+    radio = Radio(loss=0.002, jitter=0.02)
+    return tuple(radio.transmit(sent, site, np.random.default_rng(81)))
+
+
+def test_a_recording_of_packets_becomes_a_calibration_that_track_takes(tmp_path: Path) -> None:
+    file, out = recorded(tmp_path / "turns.jsonl", packets(Handling(81), Site.LEFT_FOOT)), tmp_path / "me.json"
+    write_calibration(out, Calibration(headings={Foot.LEFT: HeadingCalibration(0.001, 0.0, 1e-3, 1e-3)}))
+    result = run("calibrate", "sensor", file, "--out", out)
+    assert result.returncode == 0 and result.stderr == ""
+    assert "left foot: " in result.stdout and "rests and 5 and 5 turns in " in result.stdout
+    assert "left: heading or drift were learnt without this correction and are removed" in result.stdout
+    learnt = read_calibration(out)
+    assert list(learnt.sensors) == [Foot.LEFT] and not learnt.headings
+    _, gyro = true_corrections(IMU)
+    assert np.abs(np.array(learnt.sensors[Foot.LEFT].gyro.matrix).reshape(3, 3) - gyro).max() < 0.0035  # 0.2 degrees
+    assert run("track", file, "--calibration", out).returncode == 0
+
+
+@pytest.mark.parametrize(("turns", "status"), [(5.0, 0), (0.0, 2)])
+def test_samples_of_one_foot_become_a_calibration_of_it(turns: float, status: int, tmp_path: Path) -> None:
+    """With rests in one orientation and no turns, the command says what is missing and writes nothing."""
+    orientations = None if turns else np.tile([[0.0, 0.1, 1.0]], (14, 1))
+    site = Site.LEFT_FOOT
+    hand = Handling(82, CLUMSY, turns=turns, orientations=orientations)
+    samples = Insole(cells=8, chip=IMU).samples(hand, site, device_rng(82, site))
+    t, acc, gyro = ([getattr(one, name) for one in samples] for name in ("t", "acc", "gyro"))
+    np.savez(tmp_path / "turns.npz", t=t, acc=acc, gyro=gyro)
+    words = ("calibrate", "sensor", tmp_path / "turns.npz", "--foot", "left", "--out", tmp_path / "me.json")
+    if status == 0:
+        assert run(*words).returncode == 0
+        assert list(read_calibration(tmp_path / "me.json").sensors) == [Foot.LEFT]
+    else:
+        message = run_failing(*words)
+        assert "left foot: the accelerometer is not known" in message and "is missing" in message
+        assert not (tmp_path / "me.json").exists()

@@ -1,0 +1,159 @@
+"""A sensor in an emulated hand: its calibration is as near the truth as it claims, or says what is missing."""
+
+from __future__ import annotations
+
+from math import cos, pi, radians, sin
+
+import numpy as np
+import pytest
+from attrs import evolve
+
+from solepath import CalibrationError, Foot, Sample
+from solepath.emulate.handling import CLUMSY, STEADY, Handling
+from solepath.emulate.sensors.parts import LSM6DSOX
+from solepath.lab.calibrate.coverage import open_questions
+from solepath.lab.calibrate.fit import fit
+from solepath.lab.calibrate.pauses import find_pauses, find_ways, recorded_of
+from solepath.lab.calibrate.sensor import fit_sensors, sensor_calibration
+from solepath.lab.calibrate.table import HandJob, hand_errors, hand_table, handled, main, specimen
+
+APART = ~np.eye(3, dtype=np.bool_)
+
+
+@pytest.fixture(scope="module")
+def samples() -> list[Sample]:
+    return handled(specimen(LSM6DSOX, 71), CLUMSY, 71, Foot.RIGHT)
+
+
+def changed(
+    samples: list[Sample], acc: float = 1.0, gyro: tuple[float, float, float] = (1.0, 1.0, 1.0)
+) -> list[Sample]:
+    """Return the samples with the specific force times `acc` and each axis of the rate times one of `gyro`."""
+    result = []
+    for sample in samples:
+        force, rate = np.array(sample.acc) * acc, np.array(sample.gyro) * gyro
+        result.append(evolve(sample, acc=tuple(force.tolist()), gyro=tuple(rate.tolist())))
+    return result
+
+
+@pytest.mark.parametrize("chip", ["LSM6DSOX", "MPU-9250"])
+def test_a_clumsy_hand_finds_scale_to_a_fifth_of_a_percent_and_axes_to_a_fifth_of_a_degree(chip: str) -> None:
+    for seed in (72, 73):
+        one = hand_errors(HandJob(chip, "clumsy", seed))
+        assert one.gyro is not None and one.gyro_sigma is not None
+        assert one.acc is not None and one.acc_sigma is not None
+        assert np.abs(np.diag(one.gyro)).max() < 0.002
+        assert np.abs(np.degrees(one.gyro[APART])).max() < 0.2
+        assert np.abs(one.acc[:3]).max() < 0.005 and np.abs(np.degrees(one.acc[3:])).max() < 0.2
+        # what it is worth: no error beyond four standard deviations, and none of these useless
+        assert np.abs(one.gyro / one.gyro_sigma).max() < 4.0 and np.abs(one.acc / one.acc_sigma).max() < 4.0
+        assert np.diag(one.gyro_sigma).max() < 0.002
+
+
+def test_gravity_and_ways_fit_better_with_the_calibration_than_without(samples: list[Sample]) -> None:
+    (found,) = fit_sensors(samples)
+    assert found.foot is Foot.RIGHT and found.pauses >= 12 and found.turned == (5, 5) and not found.notes
+    assert found.gravity[1] < 0.1 * found.gravity[0] and found.closure[1] < 0.1 * found.closure[0]
+    assert sensor_calibration([found]).sensors == {Foot.RIGHT: found.calibration}
+
+
+def test_the_corrected_frame_is_that_of_the_accelerometer(samples: list[Sample]) -> None:
+    """Its correction is symmetric: it turns nothing."""
+    (found,) = fit_sensors(samples)
+    acc = np.array(found.calibration.acc.matrix).reshape(3, 3)
+    assert np.array_equal(acc, acc.T)
+
+
+def test_six_magnitudes_do_not_determine_an_accelerometer(samples: list[Sample]) -> None:
+    recorded = recorded_of(samples, Foot.RIGHT)
+    pauses = find_pauses(recorded)
+    (sentence,) = [one for one in open_questions(fit(pauses[:6], [])) if "accelerometer" in one]
+    assert "is not known" in sentence and "is missing" in sentence
+    ways = [way for way in find_ways(recorded, pauses) if not way.spoilt]
+    assert open_questions(fit(pauses, ways)) == []
+
+
+def test_a_rest_that_is_missing_is_named() -> None:
+    """All rests with z within 25 degrees of up, and turns that keep it there."""
+    tilts = [radians(25.0) * k / 12 for k in range(1, 13)]
+    ups = np.array([[sin(a) * cos(2.4 * k), sin(a) * sin(2.4 * k), cos(a)] for k, a in enumerate(tilts)])
+    hand = evolve(CLUMSY, off_face=radians(1.0), creep=radians(0.05))
+    walked = handled_with(Handling(74, hand, turns=0.0, orientations=ups))
+    with pytest.raises(CalibrationError, match=r"the accelerometer is not known.*axis down.* is missing"):
+        fit_sensors(walked)
+
+
+def handled_with(hand: Handling) -> list[Sample]:
+    """Return the samples of a hand's motion, without errors of a chip."""
+    return hand.samples(Foot.LEFT, 100.0, LSM6DSOX)
+
+
+def test_too_few_times_at_rest_are_counted() -> None:
+    with pytest.raises(CalibrationError, match="the left foot has 4 rests .* 9 are the least"):
+        fit_sensors(handled_with(Handling(75, STEADY, pauses=4, turns=0.0)))
+
+
+@pytest.mark.parametrize(
+    ("acc", "gyro", "message"),
+    [
+        (1.0 / 9.80665, (1.0, 1.0, 1.0), "its unit is not m/s\\^2"),
+        (1.0, (180.0 / pi,) * 3, "look like degrees/s"),
+        (1.0, (1.0, 1.0, -1.0), "are axes mirrored or exchanged"),
+    ],
+)
+def test_a_wrong_unit_and_a_mirrored_axis_are_named(
+    samples: list[Sample], acc: float, gyro: tuple[float, float, float], message: str
+) -> None:
+    with pytest.raises(CalibrationError, match=message):
+        fit_sensors(changed(samples, acc, gyro))
+
+
+def test_a_way_with_lost_samples_is_left_out_and_named(samples: list[Sample]) -> None:
+    recorded = recorded_of(samples, Foot.RIGHT)
+    way = find_ways(recorded, find_pauses(recorded))[5]
+    middle = 0.5 * float(way.t[0] + way.t[-1])
+    (found,) = fit_sensors([one for one in samples if abs(one.t - middle) > 0.1])
+    (note,) = found.notes
+    assert note.startswith("not used:") and note.endswith("samples are lost")
+
+
+def test_turns_beyond_the_range_of_the_gyroscope_are_left_out_and_named(samples: list[Sample]) -> None:
+    limit = radians(250.0)
+    clipped = [evolve(one, gyro=tuple(np.clip(one.gyro, -limit, limit).tolist())) for one in samples]
+    (found,) = fit_sensors(clipped)
+    assert found.notes and all("at the end of its range: turn more slowly" in note for note in found.notes)
+    (whole,) = fit_sensors(samples)
+    assert max(found.calibration.gyro.matrix_sigma) > max(whole.calibration.gyro.matrix_sigma)
+
+
+def test_a_knock_that_no_sensor_shows_is_found_because_the_way_does_not_close(samples: list[Sample]) -> None:
+    recorded = recorded_of(samples, Foot.RIGHT)
+    way = find_ways(recorded, find_pauses(recorded))[5]
+    middle = 0.5 * float(way.t[0] + way.t[-1])
+    turn = np.array([0.4, -0.3, 0.5]) * 2.0  # rad/s, over a fifth of a second
+    knocked = [
+        evolve(one, gyro=tuple((np.array(one.gyro) + turn).tolist())) if abs(one.t - middle) < 0.1 else one
+        for one in samples
+    ]
+    (found,) = fit_sensors(knocked)
+    (note,) = found.notes
+    assert "gravity ends" in note and "degrees off" in note
+    (whole,) = fit_sensors(samples)
+    errors = np.array(found.calibration.gyro.matrix) - np.array(whole.calibration.gyro.matrix)
+    assert np.abs(errors).max() < 0.001
+
+
+def test_a_recording_without_sensors_of_a_foot_is_rejected() -> None:
+    with pytest.raises(CalibrationError, match="no foot's accelerations"):
+        fit_sensors([])
+
+
+def test_the_table_has_a_row_for_each_chip_and_hand() -> None:
+    lines = hand_table([hand_errors(HandJob("MPU-6050", "steady", 76))])
+    assert len(lines) == 3 and lines[2].startswith("| MPU-6050 | steady | 1 | 0 |")
+
+
+def test_the_command_of_the_tables_prints_both(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["--sensors", "0", "--walks", "1", "--chip", "MPU-9250", "--length", "30", "--processes", "1", "--seed", "77"])
+    printed = capsys.readouterr().out.strip().splitlines()
+    assert printed[0].startswith("| chip | recipe |") and printed[2].startswith("| MPU-9250 | `default` | 1 |")
