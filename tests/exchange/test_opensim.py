@@ -8,7 +8,7 @@ import walks
 
 from solepath import Foot, Phase, Sample, Session, Site
 from solepath.recording import RecordingError
-from solepath.recording.posed import FootState, PosedSample, PosedSession
+from solepath.recording.posed import PoseState, PosedSample, PosedSession
 from solepath.show.opensim import LONGEST_INTERVAL, OpensimWriter, Quantity
 from solepath.types import SITE_OF_FOOT
 
@@ -22,7 +22,7 @@ SPIN = 2.0
 def posed(t: float, site: Site = LEFT) -> PosedSample:
     """Return the pose at `t` of a foot that turns at a constant rate and walks straight on at 1 m/s, 0.1 m up."""
     attitude = (cos(SPIN * t / 2), 0.0, 0.0, sin(SPIN * t / 2))
-    return PosedSample(Sample(t, site), FootState((t, 0.2, 0.1), (1.0, 0.0, 0.0), attitude, Phase.SWING))
+    return PosedSample(Sample(t, site), PoseState((t, 0.2, 0.1), (1.0, 0.0, 0.0), attitude, Phase.SWING))
 
 
 def written(path: Path, quantity: Quantity, samples: list[PosedSample]) -> Path:

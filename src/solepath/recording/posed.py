@@ -12,7 +12,7 @@ from ..types.attrs import define, field, frozen
 
 
 @frozen
-class FootState:
+class PoseState:
     """Position, velocity, attitude and phase of a foot after a sample, as the session knew them with that sample."""
 
     position: Vec3
@@ -32,7 +32,7 @@ class PosedSample:
     foot did not use."""
 
     sample: Sample
-    state: FootState | None
+    state: PoseState | None
 
 
 @define
@@ -60,7 +60,7 @@ class PoseKeepingState(SessionState):
         if tracker is not None and tracker.levelled:
             for event in events:
                 if isinstance(event, FootMoved) and event.foot is tracker.foot and event.t == sample.t:
-                    state = FootState(event.position, event.velocity, tracker.attitude, event.phase)
+                    state = PoseState(event.position, event.velocity, tracker.attitude, event.phase)
         self.posed.append(PosedSample(sample, state))
 
 

@@ -12,6 +12,7 @@ from attrs import define, field
 
 from ..types import Foot, Packet, Sample
 from .bad_rows import BadRows
+from .bids.names import MOTION_END
 from .clock_offset import shift_clock
 from .errors import RecordingError, Report, printable, warn
 from .packets import OpenRecording, open_packets
@@ -103,15 +104,18 @@ class Source:
 
 
 def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Source:
-    """Return the recording at `path`: samples if the file's name ends in .npz or .csv, else packets.
+    """Return the recording at `path`: samples if its name ends in .npz, .csv or _motion.tsv (BIDS), else packets.
 
     `foot`: for samples that name no foot, the foot that wore the sensor (None: the right foot); for any other
     recording, the only foot to read (None: all). RecordingError when nothing can be used."""
     path = Path(path)
-    if path.suffix.lower() in SAMPLE_SUFFIXES:
-        from .samples import load_samples  # imports numpy, which packets do not need
-
-        samples = load_samples(path, foot, report=report)
+    if path.suffix.lower() in SAMPLE_SUFFIXES or path.name.endswith(MOTION_END):
+        # either imports numpy, which packets do not need
+        if path.name.endswith(MOTION_END):
+            from .bids.reader import load_motion as load
+        else:
+            from .samples import load_samples as load
+        samples = load(path, foot, report=report)
         return Source(path, foot, report, total=len(samples), samples=samples, bad_rows=samples.bad_rows)
     opened = open_packets(path, report=report)
     if not path.is_file():

@@ -7,9 +7,9 @@
             writer.add(one)
     writer.write("walk.sto")
 
-The header is that of OpenSim's STOFileAdapter, version 3: DataRate (1/s), DataType (Quaternion or Vec3), then one row for
-each instant. A row has the time, s, and one value for each foot, whose numbers are separated by commas: w,x,y,z of a
-unit quaternion that turns sensor coordinates into ground coordinates, or x,y,z, m. Ground is OpenSim's frame: x as in
+The header is that of OpenSim's STOFileAdapter, version 3: DataRate (1/s), DataType (Quaternion or Vec3), then one row
+for each instant. A row has the time, s, and one value for each foot, whose numbers are separated by commas: w,x,y,z of
+a unit quaternion that turns sensor coordinates into ground coordinates, or x,y,z, m. Ground is OpenSim's frame: x as in
 the world frame, along the first heading; y up; z to the right. OpenSense therefore needs no further rotation
 (`sensor_to_opensim_rotations` is 0 0 0). Attitudes are named as OpenSense expects them, calcn_l_imu and calcn_r_imu.
 

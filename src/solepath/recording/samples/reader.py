@@ -56,10 +56,15 @@ def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
             tables = read_csv(path, one_foot, bad_rows)
         case _:
             raise RecordingError(path, "is neither .npz nor .csv, so it holds no samples")
-    used_tables = [table for table in tables if foot in (None, table.foot)]
     if not tables:
         bad_rows.finish()
         raise RecordingError(path, "holds no samples")
+    return use_tables(path, tables, foot, bad_rows)
+
+
+def use_tables(path: Path, tables: Sequence[FootTable], foot: Foot | None, bad_rows: BadRows) -> SampleRecording:
+    """Return the tables of `foot` (None: all) without bad rows, as a recording; RecordingError if they are unusable."""
+    used_tables = [table for table in tables if foot in (None, table.foot)]
     if not used_tables and foot is not None:
         raise RecordingError(path, f"holds nothing of the {foot.value} foot")
     _remove_bad_rows(used_tables, bad_rows)
