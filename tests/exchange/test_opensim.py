@@ -8,7 +8,7 @@ import walks
 
 from solepath import Foot, Phase, Sample, Session, Site
 from solepath.recording import RecordingError
-from solepath.recording.posed import PoseState, PosedSample, PosedSession
+from solepath.recording.posed import PosedSample, PosedSession, PoseState
 from solepath.show.opensim import LONGEST_INTERVAL, OpensimWriter, Quantity
 from solepath.types import SITE_OF_FOOT
 

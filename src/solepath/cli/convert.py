@@ -31,8 +31,8 @@ def add_to(commands: Any) -> None:
         "convert",
         help="import a phone's btsnoop log; export to MCAP, OpenSim or Motion-BIDS",
         description="Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
-        "either to MCAP, which opens in Foxglove; or any recording to a storage file of OpenSim or, with --subject, into "
-        "a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, .mcap or .sto.",
+        "either to MCAP, which opens in Foxglove; or any recording to a storage file of OpenSim or, with --subject, "
+        "into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, .mcap or .sto.",
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
     command.add_argument("source", metavar="IN", type=Path, help="a btsnoop log, or a recording")
