@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ..common.failure import require
 from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable, files_of_track
 from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
 from ..common.view import add_view, need_page, page_address_of
@@ -35,6 +36,14 @@ def add_to(commands: Any) -> None:
         help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into this directory, with a floor plan "
         "places.csv too",
     )
+    live.add_argument(
+        "--lsl",
+        metavar="NAME",
+        nargs="?",
+        const="solepath",
+        help="publish samples, poses and events as streams of the lab streaming layer, whose names start with NAME "
+        "(default: solepath)",
+    )
     add_force(live)
     live.set_defaults(run=run)
 
@@ -49,7 +58,15 @@ def add_to(commands: Any) -> None:
     record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
     add_force(record)
     record.set_defaults(
-        run=run, recipe="default", heading=None, calibration=None, out=None, floorplan=None, start=None, view=None
+        run=run,
+        recipe="default",
+        heading=None,
+        calibration=None,
+        out=None,
+        floorplan=None,
+        start=None,
+        view=None,
+        lsl=None,
     )
 
 
@@ -62,6 +79,8 @@ def run(options: argparse.Namespace) -> int:
     address = page_address_of(options)
     plan, start = floorplan_of(options)
     need_bleak()
+    if options.lsl is not None:
+        require("--lsl needs", "lsl", "pylsl")
     from .backend import listen_to_end
     from .live_run import listen
 

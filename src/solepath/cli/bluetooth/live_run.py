@@ -66,7 +66,7 @@ async def listen(
             await stack.enter_async_context(
                 serve_page(scene, address, lambda command: packets.report_position(position_of(command, floor_plan)))
             )
-        live = LiveSession(session, observer if scene is None else scene, files)
+        live = LiveSession(session, observer if scene is None else scene, files, _publisher_of(options, session))
         end_hint = "Ctrl-C ends" if seconds is None else f"{seconds:g} s"
         try:
             with show_state(observer, end_hint) as report:
@@ -101,6 +101,8 @@ class LiveSession:
     session: Session
     collector: Observer | Scene
     files: LiveFiles
+    publish: Callable[[list[Event]], None] | None = None
+    """Function that gets the events after each packet; None for none."""
 
     def take(self, packet: Packet) -> None:
         """Feed the next packet to the session; write and show the packet and its events."""
@@ -116,6 +118,21 @@ class LiveSession:
         self.collector.take(packet, events)
         for event in events:
             self.files.write_event(event)
+        if self.publish is not None:
+            self.publish(events)
+
+
+def _publisher_of(options: argparse.Namespace, session: Session) -> Callable[[list[Event]], None] | None:
+    """Return the function that publishes samples, poses and events as --lsl says; None without it."""
+    if options.lsl is None:
+        return None
+    from ...recording.lsl.clock import clock_offset
+    from ...recording.lsl.outlet import LslOutlets
+    from ...recording.posed import PosedSession
+
+    outlets = LslOutlets(clock_offset(asyncio.get_running_loop().time), options.lsl)
+    posed = PosedSession(session)
+    return lambda events: outlets.push(posed.take(), events)
 
 
 REPORT_INTERVAL = 5.0

@@ -46,10 +46,11 @@ class LslOutlets:
     """The streams of one session; those of a sensor are made with its first sample.
 
     `offset` is the time to add to a time of the session, s, as `clock_offset` measures it. `name` starts the name of
-    each stream; it has to differ between wearers in one network. `sent` counts the values by stream."""
+    each stream; it has to differ between wearers in one network. `with_samples` says whether samples are sent too.
+    `sent` counts the values by stream."""
 
-    def __init__(self, offset: float, name: str = "solepath") -> None:
-        self.offset, self.name = offset, name
+    def __init__(self, offset: float, name: str = "solepath", *, with_samples: bool = True) -> None:
+        self.offset, self.name, self.with_samples = offset, name, with_samples
         self.sent: dict[str, int] = {}
         self._outlets: dict[str, StreamOutlet] = {}
         self._open("markers", "Markers", (("marker", ""),))
@@ -59,7 +60,7 @@ class LslOutlets:
         """Send samples, poses and events; receivers get them at once."""
         for posed in samples:
             sample, state, site = posed.sample, posed.state, posed.sample.site
-            if sample.acc is not None and sample.gyro is not None:
+            if self.with_samples and sample.acc is not None and sample.gyro is not None:
                 self._send(
                     self._of_site(site, "samples", "IMU", SAMPLE_CHANNELS), [*sample.acc, *sample.gyro], sample.t
                 )
