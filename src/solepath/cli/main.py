@@ -17,7 +17,7 @@ from typing import Any
 from ..calibration import CalibrationError
 from ..recording import RecordingError
 from . import check, convert, demo, evaluate, fleet_demo, reproduce, streams, track, web
-from .bluetooth import emulate, live, scan
+from .bluetooth import emulate, live, rsc, scan
 from .calibrate import command as calibrate
 from .common.failure import Failure, note
 
@@ -28,6 +28,7 @@ COMMANDS = (
     scan,
     live,
     streams,
+    rsc,
     emulate,
     convert,
     calibrate,

@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.failure import require
+from ..common.failure import host_and_port, require
 from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable, files_of_track
 from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
 from ..common.view import add_view, need_page, page_address_of
@@ -44,6 +44,12 @@ def add_to(commands: Any) -> None:
         help="publish samples, poses and events as streams of the lab streaming layer, whose names start with NAME "
         "(default: solepath)",
     )
+    live.add_argument(
+        "--rsc",
+        metavar="HOST:PORT",
+        help="serve speed, cadence and distance as a sensor of running speed and cadence (0x1814), on a virtual "
+        "Bluetooth controller there",
+    )
     add_force(live)
     live.set_defaults(run=run)
 
@@ -67,6 +73,7 @@ def add_to(commands: Any) -> None:
         start=None,
         view=None,
         lsl=None,
+        rsc=None,
     )
 
 
@@ -81,6 +88,9 @@ def run(options: argparse.Namespace) -> int:
     need_bleak()
     if options.lsl is not None:
         require("--lsl needs", "lsl", "pylsl")
+    if options.rsc is not None:
+        require("--rsc needs", "loopback", "bumble")
+        host_and_port("--rsc", options.rsc)
     from .backend import listen_to_end
     from .live_run import listen
 
