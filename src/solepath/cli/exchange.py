@@ -11,6 +11,7 @@ from .common.failure import Failure, parse_whole_number
 from .common.files import RECORDING, OutputFile, check_outputs
 from .common.inputs import add_calibration, add_foot, add_recipe, calibration_of, check_pressure, foot_of, recipe_of
 from .common.inputs import source_of as open_recording
+from .validating import need_validator, validate_dataset, validate_storage
 
 if TYPE_CHECKING:
     from ..events import Event
@@ -41,6 +42,11 @@ def add_exchange(command: argparse.ArgumentParser) -> None:
         default=0,
         help="the repetition, in the dataset",
     )
+    command.add_argument(
+        "--validate",
+        action="store_true",
+        help="have the official validator of BIDS, or OpenSim, read the result (extras bids and opensim)",
+    )
     add_foot(command)
     add_recipe(command)
     add_calibration(command)
@@ -50,6 +56,8 @@ def convert_computed(options: argparse.Namespace) -> int:
     """Run the recording through a session and write what OUT or --subject says; return the exit status."""
     if options.sites or options.handles:
         raise Failure("--site and --handle are for btsnoop logs: convert the log to a recording (.jsonl) first")
+    if options.validate:
+        need_validator(dataset=options.subject is not None)
     return _to_dataset(options) if options.subject is not None else _to_storage(options)
 
 
@@ -69,7 +77,8 @@ def _to_storage(options: argparse.Namespace) -> int:
     rows: list[int] = []
     replace_whole(options.out, lambda path: rows.append(writer.write(path)), lambda _: output.check_again())
     print(f"{rows[0]} rows written to {printable(str(options.out))}")
-    return _end(damage)
+    _raise(damage)
+    return validate_storage(options.out, positions=options.positions) if options.validate else 0
 
 
 def _to_dataset(options: argparse.Namespace) -> int:
@@ -88,7 +97,8 @@ def _to_dataset(options: argparse.Namespace) -> int:
     damage = _run(options, source, writer.add)
     written = writer.write()
     print(f"{len(written)} files written to {printable(str(options.out / entities.folder))}")
-    return _end(damage)
+    _raise(damage)
+    return validate_dataset(options.out) if options.validate else 0
 
 
 def _run(
@@ -114,8 +124,7 @@ def _run(
     return damage
 
 
-def _end(damage: RecordingError | None) -> int:
-    """Raise what ended the recording early; return the exit status 0 otherwise."""
+def _raise(damage: RecordingError | None) -> None:
+    """Raise what ended the recording early, if anything did."""
     if damage is not None:
         raise damage
-    return 0

@@ -98,11 +98,14 @@ async def _listen(options: argparse.Namespace, names: dict[Site, str], stop: asy
     recipe = recipe_of(options)
     posed = PosedSession(Session(recipe, calibration=calibration_of(options), poses=True))
     channels, units = _stated(options)
-    start = local_clock()  # times of the session count from here
     inlets = [
-        await asyncio.to_thread(partial(LslInlet, site, name, offset=start, channels=channels, units=units))
+        await asyncio.to_thread(partial(LslInlet, site, name, channels=channels, units=units))
         for site, name in names.items()
     ]
+    start = local_clock()  # times of the session count from here, when all streams are open
+    for inlet in inlets:
+        inlet.pull()
+        inlet.offset = start
     outlets = LslOutlets(start, options.name, with_samples=False)
     files = None if options.out is None else TrackFiles(options.out)
     observer = Observer()
@@ -121,7 +124,8 @@ async def _listen(options: argparse.Namespace, names: dict[Site, str], stop: asy
         while not stop.is_set() and (end is None or local_clock() < end):
             for sample in sorted([one for inlet in inlets for one in inlet.pull()], key=lambda one: one.t):
                 publish(partial(posed.session.feed, sample), sample)
-            report()
+            if observer.item_count:
+                report()
             await asyncio.sleep(POLL_INTERVAL)
     publish(posed.session.finish, None)
     if files is not None:
