@@ -1,4 +1,4 @@
-"""`live --lsl`, `lsl`, `emulate --rsc`, `live --rsc` and `rsc`, as processes that talk to each other in real time."""
+"""`live` with streams of LSL and foot pods, as processes that talk to each other in real time."""
 
 from __future__ import annotations
 
@@ -52,12 +52,12 @@ def test_what_live_publishes_is_run_by_lsl_and_published_again(tmp_path: Path) -
         started("live", "--via", address, *names, "--lsl", "lab", "--duration", 300) as live,
     ):
         line_of(live, "   5.0 s")  # the streams are there since the first sample
-        streams = run("lsl").stdout.splitlines()
+        streams = run("scan", "--lsl").stdout.splitlines()
         assert {f"lab {foot}_foot {content}" for foot in ("left", "right") for content in ("samples", "pose")} <= set(
             streams
         )
-        given = ["--left", "lab left_foot samples", "--right", "lab right_foot samples"]
-        done = run("lsl", *given, "--duration", 8, "--out", tmp_path / "out")
+        given = ["--left", "lsl:lab left_foot samples", "--right", "lsl:lab right_foot samples"]
+        done = run("live", *given, "--lsl", "--duration", 8, "--out", tmp_path / "out")
     assert re.search(r"^left +\d{3,} +\d+\.\d +[3-9] ", done.stdout, re.MULTILINE)
     assert re.search(r"published: \d+ in solepath markers, \d+ in solepath events, ", done.stdout)
     events = [json.loads(line) for line in (tmp_path / "out" / "events.jsonl").read_text().splitlines()]
@@ -66,14 +66,14 @@ def test_what_live_publishes_is_run_by_lsl_and_published_again(tmp_path: Path) -
 
 
 def test_a_stream_that_is_not_there_is_one_sentence() -> None:
-    done = run("lsl", "--left", "none of these", expect=2)
+    done = run("live", "--left", "lsl:none of these", expect=2)
     assert "there is no stream 'none of these'; there are: none" in done.stderr
-    assert "not ACC,GYRO" in run("lsl", "--left", "x", "--units", "g", expect=2).stderr
+    assert "not ACC,GYRO" in run("live", "--left", "lsl:x", "--units", "g", expect=2).stderr
 
 
 def test_the_emulated_sensor_of_running_speed_is_read() -> None:
     with emulator("--distance", 15, "--rsc") as (_, address):
-        done = run("rsc", "--via", address, "--duration", 8)
+        done = run("live", "--pod", "--via", address, "--duration", 8)
     first, *lines = done.stdout.splitlines()
     assert first == "connected to solepath RSC (F0:5E:00:00:00:0A)"
     assert re.fullmatch(
@@ -90,7 +90,6 @@ def test_what_live_measures_is_served() -> None:
     ):
         served = line_of(live, "serving running speed").split()[-1]
         line_of(live, "   5.0 s")
-        done = run("rsc", "--via", served, "--duration", 4, "--distance", 100)
+        done = run("live", "--pod", "solepath RSC", "--via", served, "--duration", 4)
     speeds = [float(line.split()[2]) for line in done.stdout.splitlines()[1:]]
     assert 1.0 < max(speeds) < 1.6
-    assert re.search(r"distance 10\d\.\d m", done.stdout)

@@ -114,7 +114,7 @@ async def test_the_reader_reads_what_the_sensor_sends() -> None:
 
 
 @virtually
-async def test_the_control_point_answers_as_the_service_says() -> None:
+async def test_the_control_point_answers_by_the_rules_of_the_service() -> None:
     async with virtual_link([sensor()]) as backend, plain_client(backend) as client:
         with pytest.raises(BleakGATTProtocolError) as raised:
             await client.write_gatt_char(CONTROL, b"\x01\x00\x00\x00\x00", response=True)

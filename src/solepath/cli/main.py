@@ -16,8 +16,8 @@ from typing import Any
 
 from ..calibration import CalibrationError
 from ..recording import RecordingError
-from . import check, convert, demo, evaluate, fleet_demo, reproduce, streams, track, web
-from .bluetooth import emulate, live, rsc, scan
+from . import check, convert, demo, evaluate, fleet_demo, reproduce, track, web
+from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
 from .common.failure import Failure, note
 
@@ -27,8 +27,6 @@ COMMANDS = (
     check,
     scan,
     live,
-    streams,
-    rsc,
     emulate,
     convert,
     calibrate,

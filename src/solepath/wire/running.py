@@ -111,7 +111,7 @@ class RscResponse:
     operation: int
     """Number of the operation that was requested."""
     result: int
-    """An RscResult."""
+    """Result of the operation, a number of RscResult."""
     locations: tuple[int, ...] = ()
     """Locations at which the sensor may be worn, for LIST_LOCATIONS."""
 

@@ -12,6 +12,8 @@ from ..common.files import RECORDING, OutputFile, add_force, check_outputs, chec
 from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
 from ..common.view import add_view, need_page, page_address_of
 from .devices import add_devices, need_bleak
+from .live_pod import run_pod
+from .live_streams import run_streams, stream_names_of
 
 
 def add_to(commands: Any) -> None:
@@ -45,6 +47,23 @@ def add_to(commands: Any) -> None:
         "(default: solepath)",
     )
     live.add_argument(
+        "--channels",
+        metavar="NAMES",
+        help="what the channels of streams of LSL are (--left lsl:NAME), in order, where they do not say it: "
+        "acc_x,acc_y,acc_z,gyro_x,... and - for one that is not used",
+    )
+    live.add_argument(
+        "--units", metavar="ACC,GYRO", help="the units of acc and gyro of such streams, where they do not say: g,deg/s"
+    )
+    live.add_argument(
+        "--pod",
+        metavar="DEVICE",
+        nargs="?",
+        const="",
+        help="read a foot pod instead: a sensor of running speed and cadence (0x1814), of any maker (default: the "
+        "nearest one)",
+    )
+    live.add_argument(
         "--rsc",
         metavar="HOST:PORT",
         help="serve speed, cadence and distance as a sensor of running speed and cadence (0x1814), on a virtual "
@@ -73,6 +92,7 @@ def add_to(commands: Any) -> None:
         start=None,
         view=None,
         lsl=None,
+        pod=None,
         rsc=None,
     )
 
@@ -85,7 +105,11 @@ def run(options: argparse.Namespace) -> int:
     need_page(options, options.view is not None)
     address = page_address_of(options)
     plan, start = floorplan_of(options)
+    if stream_names_of(options):
+        return run_streams(options, recipe, calibration)
     need_bleak()
+    if options.pod is not None:
+        return run_pod(options)
     if options.lsl is not None:
         require("--lsl needs", "lsl", "pylsl")
     if options.rsc is not None:

@@ -1,45 +1,21 @@
-"""`solepath rsc`: prints what a sensor of running speed and cadence sends."""
+"""Does the work of `solepath live --pod`: prints what a sensor of running speed and cadence sends."""
 
 from __future__ import annotations
 
 import argparse
 import asyncio
 from functools import partial
-from typing import Any
 
 from ...recording import printable
-from ..common.failure import Failure, parse_offset
-from .devices import LISTEN_TIME, add_duration, add_via, need_bleak
 
 KMH = 3.6
 """Value of 1 m/s in km/h."""
 
 
-def add_to(commands: Any) -> None:
-    """Add the command to the parser."""
-    command: argparse.ArgumentParser = commands.add_parser(
-        "rsc",
-        help="read a sensor of running speed and cadence",
-        description="Connect to a sensor with the Bluetooth Running Speed and Cadence Service (0x1814), of any maker, "
-        "and print a line for each measurement.",
-        epilog="example: solepath rsc --device 'Foot pod' --duration 60",
-    )
-    command.add_argument("--device", metavar="DEVICE", help="its address or name (default: the nearest one)")
-    command.add_argument(
-        "--distance", metavar="M", type=parse_offset, help="set its total distance first, for instance 0"
-    )
-    add_via(command)
-    add_duration(command, LISTEN_TIME)
-    command.set_defaults(run=run)
-
-
-def run(options: argparse.Namespace) -> int:
-    """Print the measurements; return the exit status."""
-    need_bleak()
+def run_pod(options: argparse.Namespace) -> int:
+    """Print the measurements of the sensor; return the exit status."""
     from .backend import listen_to_end
 
-    if options.distance is not None and options.distance < 0.0:
-        raise Failure("--distance: a distance is not negative")
     return listen_to_end(partial(_listen, options))
 
 
@@ -59,10 +35,8 @@ async def _listen(options: argparse.Namespace, stop: asyncio.Event) -> int:
     seconds = listening_time(options)
     async with backend_of(options.via) as backend:
         async with unless_stopped(stop):
-            sensor = await RunningSensor(options.device, backend=backend).__aenter__()
+            sensor = await RunningSensor(options.pod or None, backend=backend).__aenter__()
         try:
-            if options.distance is not None:
-                await sensor.set_distance(options.distance)
             print(f"connected to {printable(sensor.name)} ({sensor.address})", flush=True)
             start = asyncio.get_running_loop().time()
             try:
