@@ -13,7 +13,7 @@ from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibrat
 from ..common.view import add_view, need_page, page_address_of
 from .devices import add_devices, need_bleak
 from .live_pod import run_pod
-from .live_streams import run_streams, stream_names_of
+from .live_streams import need_lsl, run_streams, stream_names_of
 
 
 def add_to(commands: Any) -> None:
@@ -111,7 +111,7 @@ def run(options: argparse.Namespace) -> int:
     if options.pod is not None:
         return run_pod(options)
     if options.lsl is not None:
-        require("--lsl needs", "lsl", "pylsl")
+        need_lsl("--lsl needs")
     if options.rsc is not None:
         require("--rsc needs", "loopback", "bumble")
         host_and_port("--rsc", options.rsc)

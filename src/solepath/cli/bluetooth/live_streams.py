@@ -31,9 +31,18 @@ def stream_names_of(options: argparse.Namespace) -> dict[Site, str]:
     return names
 
 
+def need_lsl(what: str) -> None:
+    """Raise Failure when the lab streaming layer cannot be used; `what` starts the sentence, such as "--lsl needs"."""
+    require(what, "lsl", "pylsl")
+    try:
+        import pylsl  # noqa: F401
+    except (RuntimeError, OSError):  # the wheels for some machines have no liblsl
+        raise Failure(f"{what} liblsl, which pylsl does not find: install it, or name its file in PYLSL_LIB") from None
+
+
 def run_streams(options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None) -> int:
     """Run the streams that --left and --right name; return the exit status."""
-    require("streams of LSL need", "lsl", "pylsl")
+    need_lsl("streams of LSL need")
     from ...recording.lsl.inlet import LslError
     from ..common.loop import run_to_end
 

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from ...recording import printable
 from ...show.tables.table import table
-from ..common.failure import parse_positive, require
+from ..common.failure import parse_positive
 from .devices import SCAN_TIME, add_via, need_bleak
+from .live_streams import need_lsl
 
 if TYPE_CHECKING:
     from ...ble import Advertisement
@@ -58,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _print_streams() -> int:
-    require("streams of LSL need", "lsl", "pylsl")
+    need_lsl("streams of LSL need")
     from ...recording.lsl.inlet import stream_names
 
     print("\n".join(stream_names()) or "no stream of samples is in the network")
