@@ -48,6 +48,28 @@ def test_rows_become_the_events_of_their_story(story: dict[str, Any]) -> None:
     assert numbers == list(range(len(numbers)))
 
 
+class OwnSent(Sent):
+    """A row of an app's own class, which never takes the short way of packets that are in their turn."""
+
+
+@settings(max_examples=60)
+@given(
+    arrived=st.lists(st.tuples(st.integers(0, 2), st.integers(0, 9)), max_size=60),
+    windows=st.tuples(st.integers(0, 6), st.integers(0, 6)),
+)
+def test_a_packet_in_its_turn_is_used_as_any_other_row_is(
+    arrived: list[tuple[int, int]], windows: tuple[int, int]
+) -> None:
+    sent = [shown(number, run) for run, number in sorted(arrived, key=lambda one: one[0] == 2)]
+    own = [OwnSent(one.wearer, one.number, one.what, one.run) for one in sent]
+    half, states = len(sent) // 2, [None, None]
+    for fleet, some in ((Fleet(window=windows[0]), slice(half)), (Fleet(window=windows[1]), slice(half, None))):
+        (states[0], events), (states[1], expected) = (
+            fleet.step(WEARER, state, one[some]) for state, one in zip(states, (sent, own), strict=True)
+        )
+        assert events == expected and states[0] == states[1]
+
+
 def rows(count: int, ended: bool) -> list[Sent]:
     ordered = [shown(number) for number in range(count)]
     return [*ordered, Sent(WEARER, count, End())] if ended else ordered

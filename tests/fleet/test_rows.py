@@ -29,6 +29,7 @@ from solepath.fleet import (
     Unreadable,
     event_row,
     read_line,
+    read_lines,
     read_sent,
     sent_line,
     sent_row,
@@ -98,6 +99,25 @@ def test_a_line_that_was_torn_or_damaged_is_read_or_is_unreadable(sent: Sent, at
 def test_what_is_no_line_is_unreadable() -> None:
     for line in (None, "text", b"\xff", b"[" * 50_000, b"1" * 70_000, b'{"number":' + b"9" * 5000 + b"}"):
         assert isinstance(read_line(line), Unreadable)
+
+
+@settings(max_examples=60)
+@given(some=st.lists(st.tuples(st.sampled_from("ab"), COUNTS)))
+def test_lines_are_read_as_a_list_for_each_wearer_in_their_order(some: list[tuple[str, int]]) -> None:
+    sent = [Sent(wearer, number, End()) for wearer, number in some]
+    read = read_lines([*map(sent_line, sent), b"{"])
+    expected = {name: [one for one in sent if one.wearer == name] for name, _ in some}
+    assert dict(read[:-1]) == expected and list(expected) == [name for name, _ in read[:-1]]
+    assert read[-1] == ("", [read_line(b"{")])
+
+
+def test_a_row_of_an_event_has_what_its_line_in_a_file_has() -> None:
+    for event in walked().events:
+        record = event.to_dict()
+        columns = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}
+        assert event_row(NumberedEvent("w", 7, event)) == {
+            "wearer": "w", "number": 7, **columns, "fields": json.dumps(record)
+        }  # fmt: skip
 
 
 def test_a_row_holds_no_more_than_a_phone_sends() -> None:

@@ -1,7 +1,7 @@
 """A fleet on bytewax: an operator for any dataflow, and a sink for its events. Needs the extra `bytewax`.
 
-    sent = operators.input("phones", flow, source)                      # of Sent and Unreadable, as read_sent gives
-    keyed = operators.key_on("wearer", sent, lambda one: one.wearer)
+    lines = operators.input("phones", flow, LineSource("sent"))         # of bytes, any source
+    keyed = operators.flat_map_batch("read", lines, read_lines)         # of lists of rows, keyed by wearer
     events = gait("gait", keyed, Fleet(recipe))                         # of NumberedEvent, keyed by wearer
     operators.output("files", events, ParquetSink("events"))
 
@@ -111,9 +111,10 @@ class KeyedWearer(StatefulBatchLogic[tuple[str, Any], NumberedEvent, tuple[bytes
     def on_batch(self, values: list[tuple[str, Any]]) -> tuple[Iterable[NumberedEvent], bool]:
         keyed = self.keyed = self.keyed or self.fleet.open(values[0][0], self.state)
         self.state = None
-        events = [keyed.feed(sent if isinstance(sent, list | tuple) else [sent]) for _, sent in values]
+        rows = [sent if isinstance(sent, list | tuple) else (sent,) for _, sent in values]
+        events = keyed.feed(chain.from_iterable(rows))
         self.ended = datetime.now(UTC) if keyed.ended else None
-        return list(chain.from_iterable(events)), self.RETAIN
+        return events, self.RETAIN
 
     def notify_at(self) -> datetime | None:
         idle = [datetime.now(UTC) + self.idle] if self.idle is not None and self.keyed is not None else []

@@ -1,7 +1,7 @@
 """A bytewax source of phones' rows from a directory of files of lines, unchanged. Needs the extra `bytewax`.
 
-    lines = operators.input("phones", flow, LineSource("sent"))          # of bytes
-    sent = operators.map("read", lines, read_line)                       # of Sent and Unreadable
+    lines = operators.input("phones", flow, LineSource("sent"))         # of bytes
+    keyed = operators.flat_map_batch("read", lines, read_lines)         # of lists of Sent and Unreadable, by wearer
 
 bytewax's own file sources end the job at a byte that is not UTF-8. They read all files of a directory at the same time,
 which mixes the rows of one wearer."""

@@ -18,19 +18,19 @@ from bytewax.dataflow import Dataflow
 from bytewax.recovery import RecoveryConfig, init_db_dir
 from bytewax.testing import run_main
 
-from solepath.fleet import Fleet, Sent, Unreadable, read_line
+from solepath.fleet import Fleet, Sent, Unreadable, read_lines
 from solepath.fleet.bytewax import ParquetSink, gait
 from solepath.fleet.lines import LineSource
 
 
-def reader(die_at: int | None) -> Callable[[bytes], Sent | Unreadable]:
+def reader(die_at: int | None) -> Callable[[list[bytes]], list[tuple[str, list[Sent | Unreadable]]]]:
     """Return a reader of lines that kills this process at line number `die_at` of those that it reads."""
-    lines = count()
+    numbers = count()
 
-    def read(line: bytes) -> Sent | Unreadable:
-        if next(lines) == die_at:
+    def read(lines: list[bytes]) -> list[tuple[str, list[Sent | Unreadable]]]:
+        if die_at in [next(numbers) for _ in lines]:
             os.kill(os.getpid(), signal.SIGKILL)
-        return read_line(line)
+        return read_lines(lines)
 
     return read
 
@@ -46,8 +46,7 @@ def main() -> None:
         init_db_dir(options.store, 1)
     flow = Dataflow("job")
     lines = operators.input("phones", flow, LineSource(options.sent, batch=25))
-    sent = operators.map("read", lines, reader(options.die_at))
-    keyed = operators.key_on("wearer", sent, lambda one: one.wearer)
+    keyed = operators.flat_map_batch("read", lines, reader(options.die_at))
     operators.output("files", gait("gait", keyed, Fleet()), ParquetSink(options.directory, partitions=2))
     try:
         run_main(flow, epoch_interval=timedelta(milliseconds=50), recovery_config=RecoveryConfig(options.store))

@@ -20,6 +20,7 @@ from struct import Struct
 from time import process_time, time
 from typing import Any
 
+import pyarrow as pa
 from attrs import asdict, define
 from bytewax import operators
 from bytewax.dataflow import Dataflow
@@ -30,6 +31,8 @@ from bytewax.run import cli_main
 from ...recipes import Recipe
 from ..bytewax import ParquetSink, gait
 from ..fleet import Fleet
+from ..parquet import SCHEMA
+from ..rows import event_row
 from ..step import keyed
 from ..step.sent import Sent, Unreadable
 from .child import end_with_parent, freeze_garbage, memory, most_memory
@@ -77,9 +80,11 @@ def flow(run: str) -> Dataflow:
 
 def _warm(fleet: Fleet, wearers: Wearers) -> None:
     """Step through the bundles of one wearer, so that the time to load modules is not measured with a wearer."""
-    wearer, state = wearers.all[0], None
+    wearer, state, rows = wearers.all[0], None, list[dict[str, Any]]()
     for number in range(wearers.bundles):
-        state, _ = fleet.step(wearer.name, state, wearer.bundle(number))
+        state, events = fleet.step(wearer.name, state, wearer.bundle(number))
+        rows += map(event_row, events)
+    pa.Table.from_pylist(rows, SCHEMA)  # loads pandas if there is one
 
 
 class CountedSessions(Fleet):

@@ -6,6 +6,7 @@ so that no process emulates walks, and every process has the same rows of a wear
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from itertools import chain
 from math import pi
 from pathlib import Path
@@ -37,8 +38,12 @@ DEVICES: dict[str, Device] = {
     "insoles out of reach": Insole(cells=48, rate=50.0),
     "CC2650": CC2650(presses=(2.0,)),
     "CC2541": CC2541(rate=20.0),
+    "insoles of 96 cells": Insole(cells=96),
 }
 """Device on both feet, by the name of the walk."""
+LARGE_INSOLES = "insoles of 96 cells"
+"""Name of the walk of which the demonstration has no wearer, since it would take half its time."""
+DEMO_WALKS = tuple(name for name in DEVICES if name != LARGE_INSOLES)
 SILENT_WALK = "insoles out of reach"
 """Name of the walk in which no packet arrives for some time."""
 SILENCE_SHARES = (0.5, 0.65)
@@ -73,7 +78,7 @@ class DemoPlan:
 
     `seconds` is the duration of a walk. `bundle` is the time of walking that a phone sends at once, s. `parts` is the
     number of processes, and of partitions of the source and of the files. `every` is the time between two snapshots, s;
-    None derives it from the duration of the run."""
+    None derives it from the duration of the run. `walks` are names of walks, of which each wearer has one."""
 
     wearers: int
     seconds: float
@@ -82,11 +87,12 @@ class DemoPlan:
     parts: int = 1
     bundle: float = 1.0
     every: float | None = None
+    walks: Sequence[str] = DEMO_WALKS
 
 
 def prepare(stage: Path, plan: DemoPlan) -> None:
     """Emulate the walks and write them and the plan into the directory `stage`. Raises OSError, RecordingError."""
-    for number, name in enumerate(DEVICES):
+    for number, name in enumerate(plan.walks):
         with PacketWriter(_walk_path(stage, number)) as writer:
             for packet in walk(name, plan.seconds, plan.seed + number):
                 writer.write(packet)
@@ -158,7 +164,7 @@ class Wearers:
     def read(cls, stage: Path) -> Wearers:
         """Read the wearers of a stage."""
         plan = DemoPlan(**json.loads((stage / "plan.json").read_text(encoding="utf-8")))
-        walks = [list(read_packets(_walk_path(stage, number))) for number in range(len(DEVICES))]
+        walks = [list(read_packets(_walk_path(stage, number))) for number in range(len(plan.walks))]
         rng = Random(f"sendings {plan.seed}")
         sendings = []
         for packets in walks:

@@ -70,7 +70,7 @@ class Keyed:
             self._emit_pending(emitted)
         for item in sent:
             if type(item) is Sent and self._is_next_packet(item):
-                self._order.next_number += 1
+                self._order.pass_next()
                 self._use(item.what, emitted)
             else:
                 self._use_in_order(item, emitted)
@@ -121,15 +121,14 @@ class Keyed:
             self._opened_state = state
 
     def _is_next_packet(self, sent: Sent) -> bool:
-        """Return whether this is a valid packet in its turn while no row is held, which holds for nearly all rows."""
+        """Return whether this is a valid packet in its turn and no held row follows, as for nearly all rows."""
         order, payload = self._order, sent.what
         return (
             type(sent.number) is int
             and sent.number == order.next_number
             and type(sent.run) is int
             and sent.run == order.run
-            and not order.held_rows
-            and not order.strays.rising_rows
+            and not (order.held_rows and order.may_release_after_next())
             and not order.ended
             and sent.number <= MAX_COUNT
             and type(sent.wearer) is str

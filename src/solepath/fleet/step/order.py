@@ -65,6 +65,17 @@ class RowOrder:
         self._waiting = sorted(self.held_rows)
         self._size = sum(map(_size, self.held_rows.values()))  # whole numbers
 
+    def may_release_after_next(self) -> bool:
+        """Return whether a held row may pass when the next row of this run has passed; some rows must be held."""
+        run, number = self._waiting[0]
+        is_full = len(self._waiting) > self.window or self._size > MAX_HELD_BYTES  # under a smaller window than before
+        return run != self.run or number <= self.next_number + 1 or is_full
+
+    def pass_next(self) -> None:
+        """Pass the next row of this run, as `take` does when no held row passes after it."""
+        self.next_number += 1
+        self.strays.rising_rows = self.strays.number = 0
+
     def take(self, run: int, number: int, payload: Payload) -> PassedRows:
         """Add one row and return the rows that pass now; `run` and `number` are from 0 to MAX_COUNT."""
         if run == self.run:
