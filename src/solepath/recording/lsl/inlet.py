@@ -21,8 +21,8 @@ from pylsl.util import TimeoutError as LslTimeout
 
 from ...types import Sample, Site, Vec3
 
-SEARCH_TIME = 5.0
-"""Time of the search for a stream, s; streams on this machine answer within 0.1 s."""
+SEARCH_TIME = 15.0
+"""Time of the search for a stream, s; streams of an idle machine answer within 0.1 s, of a busy one in seconds."""
 MAX_CHUNK = 1024
 """Number of samples that are taken from the queue at a time."""
 UNITS: dict[str, dict[str, float]] = {
