@@ -141,7 +141,8 @@ def test_what_cannot_be_converted_replaces_nothing(log, tmp_path):
 def test_impossible_file_names_are_rejected(log, tmp_path):
     walk = recording(tmp_path / "walk.jsonl")
     assert complaint(log, tmp_path / "walk.csv").endswith(
-        "walk.csv: ends neither in .jsonl nor in .mcap, which says what to write"
+        "walk.csv: ends neither in .jsonl nor in .mcap nor in .sto, which says what to write; "
+        "--subject writes a Motion-BIDS dataset"
     )
     assert complaint(walk, tmp_path / "other.jsonl").endswith(
         "is no btsnoop log; a recording is converted to .mcap only"

@@ -18,6 +18,8 @@ from solepath.wire.envelope import seal
 from solepath.wire.error import WireError
 from solepath.wire.fields import parse_whole
 
+NO_DEVICE = ("receiver/", "rsc/")
+"""Starts of channels that are of no device with samples."""
 FILES = {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(VECTORS.glob("*.json"))}
 
 
@@ -102,9 +104,9 @@ def test_every_format_has_a_vector_file_and_the_other_way_round() -> None:
 def test_every_channel_has_a_vector_file() -> None:
     channels = {channel.name for profile in PROFILES for channel in profile.channels}
     non_period_channels = {name for name in channels if not name.endswith("-period")}
-    file_channels = {file["channel"] for file in FILES.values() if not file["channel"].startswith("receiver/")}
+    file_channels = {file["channel"] for file in FILES.values() if not file["channel"].startswith(NO_DEVICE)}
     assert file_channels - {"cc2650/movement-period"} == non_period_channels
-    files = {name for name in FILES if not name.startswith("receiver-")}
+    files = {name for name in FILES if not name.replace("-", "/").startswith(NO_DEVICE)}
     assert {name.replace("/", "-") for name in non_period_channels} | {"sensortag-period", "insole-fragment"} == files
 
 

@@ -1,4 +1,4 @@
-"""`solepath convert IN OUT`: converts a btsnoop log to a recording, or a log or a recording to MCAP."""
+"""`solepath convert IN OUT`: converts a btsnoop log to a recording, and recordings to MCAP, OpenSim or Motion-BIDS."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from ..types import Packet, Site
 from .common.failure import Failure, note
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs, replacements
+from .exchange import STORAGE, add_exchange, convert_computed
 
 if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
@@ -28,13 +29,19 @@ def add_to(commands: Any) -> None:
     """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "convert",
-        help="import a phone's btsnoop log, export to MCAP",
+        help="import a phone's btsnoop log; export to MCAP, OpenSim or Motion-BIDS",
         description="Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
-        "either to MCAP, which opens in Foxglove. The name of OUT chooses the format: .jsonl or .mcap.",
+        "either to MCAP, which opens in Foxglove; or any recording to a storage file of OpenSim or, with --subject, "
+        "into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, .mcap or .sto.",
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
-    command.add_argument("source", metavar="IN", type=Path, help="a btsnoop log, or a recording of packets (.jsonl)")
-    command.add_argument("out", metavar="OUT", type=Path, help="what to write: FILE.jsonl or FILE.mcap")
+    command.add_argument("source", metavar="IN", type=Path, help="a btsnoop log, or a recording")
+    command.add_argument(
+        "out",
+        metavar="OUT",
+        type=Path,
+        help="what to write: FILE.jsonl, FILE.mcap, FILE.sto, or with --subject the folder of a dataset",
+    )
     command.add_argument(
         "--site",
         metavar="ADDRESS=SITE",
@@ -55,6 +62,7 @@ def add_to(commands: Any) -> None:
         help="what an attribute is whose discovery is not in the log, for instance 0x002b=cc2650/movement; may be "
         "given again",
     )
+    add_exchange(command)
     add_force(command)
     command.set_defaults(run=run)
 
@@ -92,6 +100,8 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.progress import progress_bar
 
     source, out = options.source, options.out
+    if options.subject is not None or out.suffix.lower() == STORAGE:
+        return convert_computed(options)
     open_writer = _writer_class(out)
     output = OutputFile(out, RECORDING_KIND)
     check_outputs([output], [source], force=options.force)
@@ -159,7 +169,10 @@ def _writer_class(out: Path) -> OpenWriter:
     if suffix == RECORDING:
         return PacketWriter
     if suffix != MCAP:
-        raise Failure(f"{printable(str(out))}: ends neither in {RECORDING} nor in {MCAP}, which says what to write")
+        raise Failure(
+            f"{printable(str(out))}: ends neither in {RECORDING} nor in {MCAP} nor in {STORAGE}, which says "
+            "what to write; --subject writes a Motion-BIDS dataset"
+        )
     try:
         from ..recording.mcap import McapWriter
     except ModuleNotFoundError as error:

@@ -33,12 +33,11 @@ from ..events import Event, FootFlat, FootMoved, HeelOff, HeelStrike, LiveEvent,
 from ..events.happening import json_ready
 from ..link.driver import Driver
 from ..session import Session
-from ..session.state import SessionState
-from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
-from ..types.attrs import define, field
+from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Vec3
 from .errors import RecordingError, os_error_text
 from .packet_writer import open_locked
 from .packets import FORMAT, VERSION, read_start_time
+from .posed import PosedSession
 
 CHUNK_SIZE = 8192
 """Size of a chunk before compression, bytes; a file that was cut off loses one chunk, about 1 s of two insoles."""
@@ -89,18 +88,6 @@ SCHEMAS: dict[str, dict[str, Any]] = {
 """JSON schema of each kind of message."""
 
 
-@define
-class _SampleKeepingState(SessionState):
-    """State of a session that adds every sample that it uses to `samples`, which the caller empties."""
-
-    samples: list[Sample] = field(factory=list, init=False)
-
-    def use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
-        items = list(items)
-        self.samples += [sample for sample in items if isinstance(sample, Sample)]
-        super().use_items(site, items, events)
-
-
 class McapWriter:
     """Writes packets, and the samples and events that a session computes from them, as MCAP.
 
@@ -126,8 +113,8 @@ class McapWriter:
     ) -> None:
         self.path, self.count, self.outside = Path(path), 0, 0
         self._header = dict(header)
-        self._session = Session(poses=True, profiles=profiles)
-        self._state = self._session._state = _SampleKeepingState(self._session._state.wearer)
+        self._posed = PosedSession(Session(poses=True, profiles=profiles))
+        self._session = self._posed.session
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._sequences: dict[int, int] = {}
@@ -201,9 +188,8 @@ class McapWriter:
 
     def _write_results(self, events: list[Event]) -> None:
         """Write the new samples of the session, and then its events."""
-        samples, self._state.samples = self._state.samples, []
-        for sample in samples:
-            self._write_sample(sample)
+        for posed in self._posed.take():
+            self._write_sample(posed.sample)
         for event in events:
             self._write_event(event)
 

@@ -12,6 +12,7 @@ from attrs import define, field
 
 from ..types import Foot, Packet, Sample
 from .bad_rows import BadRows
+from .bids.names import MOTION_END
 from .clock_offset import shift_clock
 from .errors import RecordingError, Report, printable, warn
 from .packets import OpenRecording, open_packets
@@ -123,7 +124,7 @@ def open_source(
     mapping: TableMapping | None = None,
     report: Report = warn,
 ) -> Source:
-    """Return a recording: samples if a name ends as those of tables do or there is a mapping, else packets.
+    """Return a recording: samples if a name ends as those of tables or BIDS do or there is a mapping, else packets.
 
     `files`: a file of packets; or one or more files of samples, of both feet or of several sensors. `foot`: for samples
     that name no foot, the foot that wore the sensor (None: what the name of the file says, else the right foot); for
@@ -133,6 +134,11 @@ def open_source(
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
     name, path = label_files(paths), paths[0]
     only = foot if isinstance(foot, Foot) else None
+    if path.name.endswith(MOTION_END) and mapping is None and len(paths) == 1:
+        from .bids.reader import load_motion
+
+        motion = load_motion(path, only, report=report)
+        return Source(path, only, report, len(motion), samples=motion, bad_rows=motion.bad_rows, name=name)
     if mapping is not None or len(paths) > 1 or path.suffix.lower() in SAMPLE_SUFFIXES:
         from .samples import load_samples  # imports numpy, which packets do not need
 

@@ -7,10 +7,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ..common.failure import host_and_port, require
 from ..common.files import RECORDING, OutputFile, add_force, check_outputs, check_writable, files_of_track
 from ..common.inputs import add_calibration, add_floorplan, add_recipe, calibration_of, floorplan_of, recipe_of
 from ..common.view import add_view, need_page, page_address_of
 from .devices import add_devices, need_bleak
+from .live_pod import run_pod
+from .live_streams import need_lsl, run_streams, stream_names_of
 
 
 def add_to(commands: Any) -> None:
@@ -35,6 +38,37 @@ def add_to(commands: Any) -> None:
         help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into this directory, with a floor plan "
         "places.csv too",
     )
+    live.add_argument(
+        "--lsl",
+        metavar="NAME",
+        nargs="?",
+        const="solepath",
+        help="publish samples, poses and events as streams of the lab streaming layer, whose names start with NAME "
+        "(default: solepath)",
+    )
+    live.add_argument(
+        "--channels",
+        metavar="NAMES",
+        help="what the channels of streams of LSL are (--left lsl:NAME), in order, where they do not say it: "
+        "acc_x,acc_y,acc_z,gyro_x,... and - for one that is not used",
+    )
+    live.add_argument(
+        "--units", metavar="ACC,GYRO", help="the units of acc and gyro of such streams, where they do not say: g,deg/s"
+    )
+    live.add_argument(
+        "--pod",
+        metavar="DEVICE",
+        nargs="?",
+        const="",
+        help="read a foot pod instead: a sensor of running speed and cadence (0x1814), of any maker (default: the "
+        "nearest one)",
+    )
+    live.add_argument(
+        "--rsc",
+        metavar="HOST:PORT",
+        help="serve speed, cadence and distance as a sensor of running speed and cadence (0x1814), on a virtual "
+        "Bluetooth controller there",
+    )
     add_force(live)
     live.set_defaults(run=run)
 
@@ -49,7 +83,17 @@ def add_to(commands: Any) -> None:
     record.add_argument("--out", metavar="FILE", dest="record", type=Path, required=True, help="the recording")
     add_force(record)
     record.set_defaults(
-        run=run, recipe="default", heading=None, calibration=None, out=None, floorplan=None, start=None, view=None
+        run=run,
+        recipe="default",
+        heading=None,
+        calibration=None,
+        out=None,
+        floorplan=None,
+        start=None,
+        view=None,
+        lsl=None,
+        pod=None,
+        rsc=None,
     )
 
 
@@ -61,7 +105,16 @@ def run(options: argparse.Namespace) -> int:
     need_page(options, options.view is not None)
     address = page_address_of(options)
     plan, start = floorplan_of(options)
+    if stream_names_of(options):
+        return run_streams(options, recipe, calibration)
     need_bleak()
+    if options.pod is not None:
+        return run_pod(options)
+    if options.lsl is not None:
+        need_lsl("--lsl needs")
+    if options.rsc is not None:
+        require("--rsc needs", "loopback", "bumble")
+        host_and_port("--rsc", options.rsc)
     from .backend import listen_to_end
     from .live_run import listen
 

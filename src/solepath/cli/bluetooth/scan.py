@@ -9,6 +9,7 @@ from ...recording import printable
 from ...show.tables.table import table
 from ..common.failure import parse_positive
 from .devices import SCAN_TIME, add_via, need_bleak
+from .live_streams import need_lsl
 
 if TYPE_CHECKING:
     from ...ble import Advertisement
@@ -29,6 +30,9 @@ def add_to(commands: Any) -> None:
         default=SCAN_TIME,
         help=f"how long to listen (default: {SCAN_TIME:g})",
     )
+    command.add_argument(
+        "--lsl", action="store_true", help="list the streams of the lab streaming layer instead of sensors"
+    )
     command.add_argument("--all", action="store_true", help="devices of kinds that are not known here too")
     add_via(command)
     command.set_defaults(run=run)
@@ -36,6 +40,8 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Scan and print the devices; return the exit status."""
+    if options.lsl:
+        return _print_streams()
     need_bleak()
     import asyncio
 
@@ -50,6 +56,14 @@ def run(options: argparse.Namespace) -> int:
         return 0
 
     return listen_to_end(listen)
+
+
+def _print_streams() -> int:
+    need_lsl("streams of LSL need")
+    from ...recording.lsl.inlet import stream_names
+
+    print("\n".join(stream_names()) or "no stream of samples is in the network")
+    return 0
 
 
 def _print_devices(found: list[Advertisement], show_all: bool) -> None:

@@ -22,6 +22,8 @@ class AttCode(IntEnum):
     WRONG_LENGTH = 0x0D
     APPLICATION_ERROR = 0x80
     """First of the codes that an application may define."""
+    NOT_SUBSCRIBED = 0xFD
+    """The host must subscribe first (Core Specification Supplement, part B, 1.2)."""
 
 
 SMALLEST_MTU = 23
@@ -51,7 +53,7 @@ class Characteristic:
     channel: str
     """Name of the channel whose values are read, written or notified here."""
     properties: frozenset[str]
-    """Subset of "read", "write", "write-without-response" and "notify"."""
+    """Subset of "read", "write", "write-without-response", "notify" and "indicate"."""
 
 
 @frozen

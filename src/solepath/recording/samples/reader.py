@@ -184,6 +184,18 @@ def _count_from_start(tables: list[FootTable]) -> datetime | None:
         return None
 
 
+def use_tables(path: Path, tables: Sequence[FootTable], foot: Foot | None, bad_rows: BadRows) -> SampleRecording:
+    """Return the tables of `foot` (None: all) without bad rows, as a recording; RecordingError if they are unusable."""
+    used_tables = [table for table in tables if foot in (None, table.foot)]
+    if not used_tables and foot is not None:
+        raise RecordingError(path, f"holds nothing of the {foot.value} foot")
+    _remove_bad_rows(used_tables, bad_rows)
+    problems = [problem for table in used_tables for problem in find_wrong_units(table)]
+    if problems:
+        raise RecordingError.of(problems)
+    return SampleRecording(path, tuple(used_tables), bad_rows)
+
+
 def _remove_bad_rows(tables: Sequence[FootTable], bad_rows: BadRows) -> None:
     """Remove the rows that cannot be used from the tables and report them, a row of both feet once."""
     total = max(map(len, tables))

@@ -1,0 +1,144 @@
+"""The channels of one sensor over a recording, and the three files in which Motion-BIDS has them."""
+
+from __future__ import annotations
+
+import json
+from array import array
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from math import isfinite, nan
+from pathlib import Path
+from typing import Any
+
+from attrs import define, field
+
+from ...types import Site
+from ..posed import PosedSample
+from .names import CHANNEL_TYPES, CHANNELS, FRAMES, SCALAR, TSV_MISSING
+
+_CHANNEL_COLUMNS = ("name", "component", "type", "tracked_point", "units", "reference_frame", "description")
+
+
+@define
+class MotionColumns:
+    """The values of one sensor, one row for each sample; a channel starts with the first sample that has its quantity.
+
+    Memory is 8 bytes for each value: about 1 GB for an hour of 96 cells at 100 Hz."""
+
+    site: Site
+    pressure_units: str = "N"
+    """Unit of the pressure cells; "n/a" for counts."""
+    t: array[float] = field(factory=lambda: array("d"), init=False)
+    """Times of the rows, s, on the recording's clock."""
+    _columns: dict[str, list[array[float]]] = field(factory=dict, init=False)
+    """One column for each component, by quantity."""
+
+    def add(self, posed: PosedSample) -> None:
+        """Add a sample as a row."""
+        sample, state, row = posed.sample, posed.state, len(self.t)
+        values: dict[str, Sequence[float] | None] = {
+            "acc": sample.acc,
+            "gyro": sample.gyro,
+            "mag": sample.mag,
+            "device": sample.quat,
+            "air_pressure": None if sample.air_pressure is None else (sample.air_pressure,),
+            "pressure": sample.pressure,
+            "saturated": (1.0,) if sample.saturated else (0.0,) if "saturated" in self._columns else None,
+            "position": None if state is None else state.position,
+            "velocity": None if state is None else state.velocity,
+            "attitude": None if state is None else state.attitude,
+        }
+        for name, value in values.items():
+            if value is not None and name not in self._columns:
+                before = [0.0 if name == "saturated" else nan] * row
+                self._columns[name] = [array("d", before) for _ in value]
+        for name, columns in self._columns.items():
+            numbers = values[name] or ()
+            for number, column in enumerate(columns):
+                given = numbers[number] if number < len(numbers) else None
+                column.append(nan if given is None else given)
+        self.t.append(sample.t)
+
+    @property
+    def tracksys(self) -> str:
+        """Label of the tracking system: the sensor's site."""
+        return self.site.value.replace("_", "")
+
+    @property
+    def interval(self) -> float:
+        """Usual time between two samples, s; nan with fewer than two."""
+        intervals = sorted([b - a for a, b in zip(self.t, self.t[1:], strict=False)])
+        return intervals[len(intervals) // 2] if intervals else nan
+
+    def channels(self) -> list[dict[str, str]]:
+        """Return the rows of channels.tsv: one for each column of motion.tsv, in their order."""
+        rows = []
+        for quantity, kind in CHANNELS.items():
+            columns = self._columns.get(quantity, ()) if quantity != "latency" else (self.t,)
+            for number, _ in enumerate(columns):
+                component = kind.components[number] if kind.components else TSV_MISSING
+                end = f"_{component}" if component != TSV_MISSING else f"_{number}" if kind.components != SCALAR else ""
+                units = self.pressure_units if quantity == "pressure" else kind.units
+                values = (quantity + end, component, kind.kind, self.site.value, units, kind.frame, kind.description)
+                rows.append(dict(zip(_CHANNEL_COLUMNS, values, strict=True)))
+        return rows
+
+    def metadata(self, task: str, start: float, version: str) -> dict[str, Any]:
+        """Return the content of motion.json; `start` is the time of the recording's start, s."""
+        channels = self.channels()
+        duration = self.t[-1] - self.t[0]
+        rate = round(1.0 / self.interval, 3) if self.interval > 0.0 else TSV_MISSING
+        effective = (len(self.t) - 1) / duration if duration > 0.0 else TSV_MISSING
+        counts = Counter(channel["type"] for channel in channels)
+        return {
+            "TaskName": task,
+            "TrackingSystemName": f"sensor on the {self.site.words}",
+            "SamplingFrequency": rate,
+            "SamplingFrequencyEffective": effective,
+            "RecordingDuration": duration,
+            "StartTime": self.t[0] - start,
+            "MissingValues": TSV_MISSING,
+            "MotionChannelCount": len(channels),
+            "TrackedPointsCount": 1,
+            "SoftwareVersions": f"solepath {version}",
+        } | {f"{kind}ChannelCount": counts[kind] for kind in CHANNEL_TYPES}
+
+    def write_channels(self, path: Path) -> None:
+        """Write the table channels.tsv, which describes the columns of motion.tsv."""
+        write_table(path, _CHANNEL_COLUMNS, self.channels())
+
+    def write_motion(self, path: Path, start: float) -> None:
+        """Write motion.tsv, which has no header; latencies count from `start`, s."""
+        columns = [column for quantity in CHANNELS for column in self._columns.get(quantity, ())]
+        with path.open("w", encoding="ascii", newline="\n") as file:
+            for row, t in enumerate(self.t):
+                texts = [repr(value) if isfinite(value := column[row]) else TSV_MISSING for column in columns]
+                file.write("\t".join([f"{t - start:.9f}", *texts]) + "\n")
+
+
+def frames_json() -> str:
+    """Return the content of channels.json, which describes the reference frames."""
+    return to_json({"reference_frame": {"Description": "Frame of the values.", "Levels": FRAMES}})
+
+
+def to_json(value: Any) -> str:
+    """Return a value as the text of a metadata file."""
+    return json.dumps(value, indent=2, allow_nan=False) + "\n"
+
+
+def write_table(path: Path, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:
+    """Write a table of text cells with a header."""
+    path.write_text("".join(_lines(columns, rows)), encoding="utf-8", newline="\n")
+
+
+def _lines(columns: Sequence[str], rows: Sequence[dict[str, str]]) -> Iterator[str]:
+    yield "\t".join(columns) + "\n"
+    for row in rows:
+        yield "\t".join([row.get(column, TSV_MISSING) for column in columns]) + "\n"
+
+
+def read_table(path: Path) -> list[dict[str, str]]:
+    """Return the rows of a table with a header, as texts by column."""
+    lines = path.read_text(encoding="utf-8-sig").splitlines()
+    header = lines[0].split("\t") if lines else []
+    return [dict(zip(header, line.split("\t"), strict=False)) for line in lines[1:] if line.strip()]

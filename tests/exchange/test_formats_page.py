@@ -1,0 +1,82 @@
+"""The programs of docs/formats.md run, and its commands do what the page says."""
+
+import asyncio
+import inspect
+import shlex
+import uuid
+from typing import Any
+
+import pytest
+import walks
+from here import DOCS
+from programs import run
+from quoted import blocks
+from recordings import recorded
+
+from solepath.cli.main import parser
+
+PAGE = (DOCS / "formats.md").read_text("utf-8")
+
+
+@pytest.fixture(scope="module")
+def names() -> dict[str, Any]:
+    found: dict[str, Any] = {"__name__": "page"}
+    for program in blocks(PAGE, "python"):
+        exec(compile(program, "docs/formats.md", "exec"), found)
+    return found
+
+
+def test_the_programs_are_whole(names: dict[str, Any], tmp_path) -> None:
+    assert inspect.iscoroutinefunction(names["run"]) and inspect.iscoroutinefunction(names["speeds"])
+    source = recorded(tmp_path / "walk.jsonl", walks.insoles().packets)
+    assert names["to_opensim"](str(source), str(tmp_path / "walk.sto")) > 700
+    with pytest.raises(ValueError, match="no label"):
+        names["Entities"]("0_1")
+    assert names["MotionWriter"](tmp_path / "study", names["Entities"]("01", "walk"))
+
+
+def test_the_program_for_streams_publishes(names: dict[str, Any], tmp_path, monkeypatch) -> None:
+    pylsl = pytest.importorskip("pylsl", reason="the extra lsl is not installed")
+    name = f"page {uuid.uuid4().hex[:8]}"
+    info = pylsl.StreamInfo(name, "IMU", 6, 0.0, pylsl.cf_double64, name)
+    info.set_channel_labels([f"{quantity}_{axis}" for quantity in ("acc", "gyro") for axis in "xyz"])
+    info.set_channel_units(["m/s^2"] * 3 + ["rad/s"] * 3)
+    outlet = pylsl.StreamOutlet(info)
+    if not pylsl.resolve_byprop("name", name, timeout=5.0):
+        pytest.skip("streams of this machine are not found: neither multicast nor loopback works here")
+
+    async def both() -> list:
+        task = asyncio.create_task(names["run"](name))
+        while not outlet.have_consumers():
+            await asyncio.sleep(0.05)
+            assert not task.done()
+        outlet.push_sample([0.0, 0.0, 9.81, 0.0, 0.0, 0.0])
+        found: list = []
+        while not found:
+            found = await asyncio.to_thread(pylsl.resolve_byprop, "name", "solepath left_foot samples", 1, 0.5)
+            assert not task.done()
+        task.cancel()
+        return found
+
+    assert asyncio.run(asyncio.wait_for(both(), 60.0))
+
+
+def test_every_command_of_the_page_is_understood() -> None:
+    lines = [line.partition(" #")[0].strip() for text in blocks(PAGE, "sh") for line in text.splitlines()]
+    commands = [line for line in lines if line.startswith("solepath ")]
+    assert len(commands) > 8
+    for line in commands:
+        assert parser().parse_args(shlex.split(line)[1:]).command
+
+
+def test_the_official_programs_read_what_convert_writes(tmp_path) -> None:
+    pytest.importorskip("opensim", reason="the extra opensim is not installed")
+    pytest.importorskip("bids_validator_deno", reason="the extra bids is not installed")
+    source = recorded(tmp_path / "walk.jsonl", walks.insoles().packets)
+    done = run("convert", source, tmp_path / "walk.sto", "--validate")
+    assert done.stdout.splitlines()[-1].endswith(" rows of calcn_l_imu, calcn_r_imu")
+    done = run("convert", source, tmp_path / "study", "--subject", "01", "--validate")
+    assert "the validator of BIDS: 0 errors, " in done.stdout
+    (tmp_path / "study" / "sub-01" / "notes.txt").write_text("x")
+    done = run("convert", source, tmp_path / "study", "--subject", "02", "--validate", expect=1)
+    assert "notes.txt" in done.stdout and "the validator of BIDS: 1 errors" in done.stdout

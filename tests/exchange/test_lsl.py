@@ -1,0 +1,224 @@
+"""The lab streaming layer between two processes of this machine: nothing is lost, and times are right to 1 ms."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+import uuid
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import walks
+
+from solepath import HeelStrike, Sample, Session, Site
+from solepath.recording.posed import PosedSample, PosedSession
+
+pylsl = pytest.importorskip("pylsl", reason="the extra lsl is not installed")
+from solepath.recording.lsl.clock import clock_offset  # noqa: E402
+from solepath.recording.lsl.inlet import LslError, LslInlet, stream_names  # noqa: E402
+from solepath.recording.lsl.outlet import POSE_CHANNELS, LslOutlets, marker_of  # noqa: E402
+
+LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+RATE = 100.0
+"""Rate of the samples of each foot, 1/s."""
+SEND = """
+import sys, time
+from solepath import Sample, Site
+from solepath.recording.lsl.outlet import LslOutlets
+from solepath.recording.posed import PosedSample
+
+seconds, rate, name = float(sys.argv[1]), float(sys.argv[2]), sys.argv[3]
+outlets = LslOutlets(0.0, name)
+feet = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
+outlets.push([PosedSample(Sample(0.0, site, (0.0,) * 3, (0.0,) * 3), None) for site in feet], [])
+print("ready", flush=True)
+sys.stdin.readline()
+from pylsl import local_clock
+start = local_clock() + 0.1
+for number in range(1, int(seconds * rate) + 1):
+    t = start + number / rate
+    time.sleep(max(0.0, t - local_clock()))
+    for site in feet:
+        outlets.push([PosedSample(Sample(t, site, (float(number), 0.0, 0.0), (t, 0.0, 0.0)), None)], [])
+print("done", flush=True)
+sys.stdin.readline()
+"""
+"""A program that sends numbered samples of both feet, whose angular rate is their own time on LSL's clock."""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def layer(tmp_path_factory) -> None:
+    """Keep the streams of these tests to this machine and apart from others; skip where no stream is found."""
+    config = f"[multicast]\nResolveScope = machine\n[lab]\nKnownPeers = {{127.0.0.1}}\nSessionID = {uuid.uuid4().hex}\n"
+    path = tmp_path_factory.mktemp("lsl") / "lsl_api.cfg"
+    path.write_text(config)
+    os.environ["LSLAPICFG"] = str(path)
+    outlet = pylsl.StreamOutlet(pylsl.StreamInfo("probe", "Test", 1, 0.0, pylsl.cf_double64, "probe"))
+    if not pylsl.resolve_byprop("name", "probe", timeout=30.0):
+        pytest.skip("streams of this machine are not found: neither multicast nor loopback works here")
+    del outlet
+
+
+def exchange(seconds: float) -> tuple[dict[Site, list[Sample]], int]:
+    """Send samples from another process for so long; return those that came, and how many were sent for each foot."""
+    name = f"test {uuid.uuid4().hex[:8]}"
+    words = [sys.executable, "-c", SEND, str(seconds), str(RATE), name]
+    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as sender:
+        assert sender.stdin is not None and sender.stdout is not None
+        assert sender.stdout.readline() == "ready\n"
+        inlets = {site: LslInlet(site, f"{name} {site.value} samples", timeout=30.0) for site in (LEFT, RIGHT)}
+        found: dict[Site, list[Sample]] = {LEFT: [], RIGHT: []}
+        sender.stdin.write("\n")
+        sender.stdin.flush()
+        end = time.monotonic() + seconds + 0.6
+        while time.monotonic() < end:
+            for site, inlet in inlets.items():
+                found[site] += [sample for sample in inlet.pull() if sample.acc != (0.0, 0.0, 0.0)]
+            time.sleep(0.005)
+        assert sender.stdout.readline() == "done\n"
+        for site, inlet in inlets.items():
+            found[site] += inlet.pull()
+            inlet.close()
+        sender.stdin.write("\n")
+    return found, int(seconds * RATE)
+
+
+def check(seconds: float) -> str:
+    """Check a transmission for so long; return the figure."""
+    found, sent = exchange(seconds)
+    errors = []
+    for samples in found.values():
+        assert [int(sample.acc[0]) for sample in samples] == list(range(1, sent + 1)), "lost, repeated or out of order"
+        errors += [abs(sample.t - sample.gyro[0]) for sample in samples]
+        assert all(earlier.t < later.t for earlier, later in zip(samples, samples[1:], strict=False))
+    errors.sort()
+    assert errors[-1] < 1e-3
+    return (
+        f"{len(errors)} samples in {seconds:g} s, none lost; clock error: "
+        f"median {1e6 * errors[len(errors) // 2]:.1f} us, largest {1e6 * errors[-1]:.1f} us"
+    )
+
+
+def test_no_sample_is_lost_and_times_are_right() -> None:
+    print(check(4.0))
+
+
+@pytest.mark.soak
+def test_no_sample_is_lost_in_ten_minutes() -> None:
+    """The figure of docs/formats.md: `pytest -m soak -s tests/exchange/test_lsl.py`."""
+    print(check(600.0))
+
+
+def posed_walk() -> Iterator[tuple[list[PosedSample], list]]:
+    posed = PosedSession(Session(poses=True))
+    for packet in walks.insoles().packets:
+        events = posed.session.feed(packet)
+        yield posed.take(), events
+    events = posed.session.finish()
+    yield posed.take(), events
+
+
+def received(name: str, kind: str) -> "pylsl.StreamInlet":
+    (info,) = pylsl.resolve_byprop("name", name, timeout=30.0)
+    assert info.type() == kind
+    inlet = pylsl.StreamInlet(info)
+    inlet.open_stream(30.0)
+    return inlet
+
+
+def pulled(inlet: "pylsl.StreamInlet", count: int) -> tuple[list, list[float]]:
+    """Return `count` values of a stream with their time stamps, and check that no more come."""
+    values, times = [], []
+    end = time.monotonic() + 30.0
+    while len(times) < count and time.monotonic() < end:
+        more, stamps = inlet.pull_chunk(timeout=0.1)
+        values, times = values + list(more), times + list(stamps)
+    more, _ = inlet.pull_chunk(timeout=0.1)
+    assert not list(more)
+    return values, times
+
+
+def test_events_markers_and_poses_go_out_with_their_own_times() -> None:
+    """They are received by plain pylsl, as a recorder of the lab would."""
+    name, offset = f"walk {uuid.uuid4().hex[:8]}", pylsl.local_clock()
+    outlets = LslOutlets(offset, name)
+    walk = list(posed_walk())
+    outlets.push([posed for samples, _ in walk for posed in samples][:2], [])  # the streams of both feet begin
+    outlets.push([next(one for samples, _ in walk for one in samples if one.state and one.sample.site is LEFT)], [])
+    inlets = [
+        received(f"{name} markers", "Markers"), received(f"{name} events", "Events"),
+        received(f"{name} left_foot pose", "MoCap"),
+    ]  # fmt: skip
+    labels = inlets[2].info().get_channel_labels()
+    assert labels == [label for label, _ in POSE_CHANNELS]
+    for samples, events in walk:
+        outlets.push(samples, events)
+    all_events = [event for _, events in walk for event in events]
+    texts = [(marker_of(event), event.t) for event in all_events if marker_of(event) is not None]
+    values, times = pulled(inlets[0], len(texts))
+    assert [value for (value,) in values] == [text for text, _ in texts]
+    assert times == pytest.approx([t + offset for _, t in texts], abs=1e-9)
+    assert texts.count(("HeelStrike left", texts[0][1])) == 0 and ("WALKING" in [text for text, _ in texts])
+    values, _ = pulled(inlets[1], outlets.sent["events"])
+    strikes = [value for (text,) in values if (value := json.loads(text))["event"] == "HeelStrike"]
+    assert len(strikes) == sum(isinstance(event, HeelStrike) for event in all_events) > 6
+    states = [one for samples, _ in walk for one in samples if one.state and one.sample.site is LEFT]
+    values, times = pulled(inlets[2], len(states))
+    assert len(values) == len(states)
+    assert list(values[-1][:3]) == list(states[-1].state.position)
+    assert times[-1] == pytest.approx(states[-1].sample.t + offset, abs=1e-9)
+    outlets.close()
+
+
+def stream(name: str, labels: list[str] | None, units: list[str] | None) -> "pylsl.StreamOutlet":
+    info = pylsl.StreamInfo(name, "IMU", 7, 100.0, pylsl.cf_float32, name)
+    if labels:
+        info.set_channel_labels(labels)
+    if units:
+        info.set_channel_units(units)
+    return pylsl.StreamOutlet(info)
+
+
+LABELS = ["battery", "AccX", "AccY", "AccZ", "Gyroscope 1", "Gyroscope 2", "Gyroscope 3"]
+
+
+def test_a_stream_of_another_program_is_read_in_its_units() -> None:
+    outlet = stream("other", LABELS, ["V", "g", "g", "g", "deg/s", "deg/s", "deg/s"])
+    inlet = LslInlet(RIGHT, "other", offset=pylsl.local_clock())
+    outlet.push_sample([3.7, 0.0, 0.5, 1.0, 180.0, 0.0, -90.0], inlet.offset + 2.0)
+    samples: list[Sample] = []
+    end = time.monotonic() + 30.0
+    while not samples and time.monotonic() < end:
+        samples += inlet.pull()
+    (sample,) = samples
+    assert sample.acc == pytest.approx((0.0, 4.903325, 9.80665)) and sample.site is RIGHT
+    assert sample.gyro == pytest.approx((3.14159265, 0.0, -1.5707963))
+    assert sample.t == pytest.approx(2.0, abs=1e-3)
+
+
+def test_what_is_wrong_with_a_stream_is_one_sentence() -> None:
+    outlets = [stream("bare", None, None), stream("unitless", LABELS, None)]
+    with pytest.raises(LslError, match="there is no stream 'none of these'; there are: .*bare"):
+        LslInlet(LEFT, "none of these", timeout=0.5)
+    with pytest.raises(LslError, match="has no acc_x, _y and _z; its channels are: 7 without labels"):
+        LslInlet(LEFT, "bare")
+    with pytest.raises(LslError, match="the unit of acc of the stream 'unitless' is none, not one of m/s\\^2"):
+        LslInlet(LEFT, "unitless")
+    units = {"acc": "g", "gyro": "dps"}
+    assert LslInlet(LEFT, "unitless", units=units).received == 0
+    assert LslInlet(LEFT, "bare", channels=["-", *[f"{q}_{a}" for q in ("acc", "gyro") for a in "xyz"]], units=units)
+    assert {"bare", "unitless"} <= set(stream_names())
+    assert len(outlets) == 2
+
+
+def test_the_offset_between_two_clocks() -> None:
+    offset = clock_offset(lambda: pylsl.local_clock() - 1234.5)
+    assert offset == pytest.approx(1234.5, abs=1e-3)
+
+
+def test_the_extra_has_no_part_in_a_session() -> None:
+    program = "import sys, solepath.recording; from solepath import Session; print('pylsl' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout == "False\n"
+    assert Path(pylsl.__file__).exists()

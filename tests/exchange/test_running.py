@@ -1,0 +1,175 @@
+"""The Running Speed and Cadence Service over the virtual radio: clients without solepath's parser read its values.
+
+The independent clients are plain bleak with the standard library's struct, and the parser of the package
+bluetooth-sig."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import struct
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+import pytest
+import walks
+from bleak import BleakClient, BleakScanner
+from bleak.exc import BleakGATTProtocolError
+from here import PROTOCOL
+from virtual import now, virtually
+
+from solepath import GaitCycleMeasured, Session, StrideTaken
+from solepath.ble import Backend, BluetoothError
+from solepath.ble.running import RunningSensor
+from solepath.emulate.controllers import virtual_link
+from solepath.emulate.devices.peripheral import Placement
+from solepath.emulate.devices.running import RunningPeripheral
+from solepath.emulate.devices.running_meter import ReplayedMeter, RunningMeter
+from solepath.emulate.routes.route import Route
+from solepath.types import Site
+from solepath.wire.running import RscMeasurement, build_measurement
+
+LONG = Route().stand(1.5).walk(12.0, 1.3).stop(6.0)
+"""A walk of about 9 s, and then standing for longer than a measurement of speed lasts."""
+SERVICE, MEASUREMENT, FEATURE, LOCATION, CONTROL = (
+    f"0000{number:04x}-0000-1000-8000-00805f9b34fb" for number in (0x1814, 0x2A53, 0x2A54, 0x2A5D, 0x2A55)
+)
+
+
+def sensor(**given: object) -> RunningPeripheral:
+    source = ReplayedMeter(walks.insoles(LONG).packets)
+    return RunningPeripheral(source, Placement(Site.RIGHT_FOOT, "F0:5E:00:00:00:0A", started_at=1.0), **given)
+
+
+@asynccontextmanager
+async def plain_client(backend: Backend) -> AsyncIterator[BleakClient]:
+    """Yield a client that found the sensor by its service, as a watch does."""
+    device = await BleakScanner.find_device_by_filter(
+        lambda _, advertised: SERVICE in advertised.service_uuids, backend=backend.scanner
+    )
+    assert device is not None and device.name == "solepath RSC"
+    async with BleakClient(device, backend=backend.client) as client:
+        yield client
+
+
+@virtually
+async def test_a_plain_client_reads_what_the_session_measured() -> None:
+    """Bytes are taken apart by struct alone; numbers are compared with those of a session over the same packets."""
+    async with virtual_link([sensor()]) as backend, plain_client(backend) as client:
+        assert await client.read_gatt_char(FEATURE) == b"\x07\x00"
+        assert await client.read_gatt_char(LOCATION) == b"\x01"
+        received: list[tuple[float, bytes]] = []
+        await client.start_notify(MEASUREMENT, lambda _, data: received.append((now(), bytes(data))))
+        await asyncio.sleep(LONG_SECONDS)
+    session, fed = Session(), iter(walks.insoles(LONG).packets)
+    cycles: list[GaitCycleMeasured] = []
+    strides: list[StrideTaken] = []
+    walked = []
+    packet = next(fed, None)
+    for at, data in received:
+        t = round(at - 1.0)
+        while packet is not None and packet.t <= t:
+            events = session.feed(packet)
+            cycles += [event for event in events if isinstance(event, GaitCycleMeasured)]
+            strides += [event for event in events if isinstance(event, StrideTaken)]
+            packet = next(fed, None)
+        flags, speed, cadence, length, distance = struct.unpack("<BHBHI", data)
+        assert flags in (3, 7) and len(data) == 10
+        assert distance / 10 == pytest.approx(sum(stride.length for stride in strides) / 2, abs=0.8)
+        if speed:
+            walked.append(t)
+            newest = list({cycle.foot: cycle for cycle in cycles}.values())
+            assert speed / 256 == pytest.approx(sum(c.speed for c in newest) / len(newest), abs=1 / 256)
+            assert cadence == round(sum(c.cadence for c in newest) / len(newest))
+            assert length / 100 == pytest.approx(sum(c.stride_length for c in newest) / len(newest), abs=0.01)
+            assert speed / 256 == pytest.approx(length / 100 * cadence / 120, rel=0.05), "strides and steps"
+    assert [round(at - 1.0) for at, _ in received] == list(range(len(received)))
+    assert len(walked) > 5
+    assert struct.unpack("<BHBHI", received[-1][1])[1:3] == (0, 0), "the wearer stands at the end"
+    assert struct.unpack("<BHBHI", received[-1][1])[4] / 10 == pytest.approx(12.0, rel=0.1)
+
+
+LONG_SECONDS = 17.0
+
+
+@virtually
+async def test_the_reader_reads_what_the_sensor_sends() -> None:
+    served = sensor()
+    async with virtual_link([served]) as backend, RunningSensor(backend=backend, search_time=1.0) as reader:
+        assert (reader.name, reader.address, reader.location) == ("solepath RSC", "F0:5E:00:00:00:0A", 1)
+        assert reader.feature is not None and reader.feature.running and reader.feature.distance
+        found: list[RscMeasurement] = []
+        async for _, measurement in reader:
+            found.append(measurement)
+            if len(found) == 10:
+                break
+        assert max(measurement.speed for measurement in found) == pytest.approx(1.3, abs=0.15)
+        await reader.set_distance(1000.0)
+        first = served.measure(now() - 1.0).distance
+        async for _, measurement in reader:
+            if measurement.distance is not None and measurement.distance > 900.0:
+                assert first is not None and measurement.distance >= first > 999.9
+                break
+    assert reader.rejected == 0
+
+
+@virtually
+async def test_the_control_point_answers_by_the_rules_of_the_service() -> None:
+    async with virtual_link([sensor()]) as backend, plain_client(backend) as client:
+        with pytest.raises(BleakGATTProtocolError) as raised:
+            await client.write_gatt_char(CONTROL, b"\x01\x00\x00\x00\x00", response=True)
+        assert raised.value.code == 0xFD
+        answers: list[bytes] = []
+        await client.start_notify(CONTROL, lambda _, data: answers.append(bytes(data)))
+        for request in (b"\x01\x10\x27\x00\x00", b"\x02", b"\x04", b"\x01\x00", b"\x63"):
+            await client.write_gatt_char(CONTROL, request, response=True)
+            await asyncio.sleep(0.1)
+        assert [answer.hex() for answer in answers] == ["100101", "100202", "100402", "100103", "106302"]
+
+
+@virtually
+async def test_a_sensor_that_is_not_there_is_one_sentence_and_one_that_goes_away_ends_the_reading() -> None:
+    async with virtual_link([]) as backend:
+        with pytest.raises(BluetoothError, match="no sensor of running speed and cadence is in range"):
+            await RunningSensor(backend=backend, search_time=0.5).__aenter__()
+    served = sensor()
+    async with virtual_link([served]) as backend, RunningSensor("solepath RSC", backend=backend) as reader:
+        count = 0
+        async for _ in reader:
+            count += 1
+            if count == 2:
+                await reader._client.disconnect()
+        assert count == 2
+
+
+def test_the_package_bluetooth_sig_reads_every_valid_vector_alike() -> None:
+    module = pytest.importorskip(
+        "bluetooth_sig.gatt.characteristics.rsc_measurement", reason="bluetooth-sig is not installed"
+    )
+    theirs = module.RSCMeasurementCharacteristic()
+    file = json.loads((PROTOCOL / "vectors" / "rsc-measurement.json").read_text())
+    compared = 0
+    for vector in file["vectors"]:
+        if vector["result"] != "valid" or vector["fields"]["reserved"]:
+            continue
+        found, fields = theirs.parse_value(bytearray.fromhex(vector["hex"])), vector["fields"]
+        assert found.instantaneous_speed == pytest.approx(fields["speed"])
+        assert found.instantaneous_cadence == fields["cadence"]
+        assert (found.instantaneous_stride_length is None) == (fields["stride_length"] is None)
+        assert found.instantaneous_stride_length == pytest.approx(fields["stride_length"])
+        assert found.total_distance == pytest.approx(fields["distance"])
+        assert found.is_running is fields["running"]
+        compared += 1
+    assert compared >= 8
+
+
+def test_the_meter_averages_both_feet_and_stops_with_the_wearer() -> None:
+    meter = RunningMeter()
+    packets = walks.insoles(LONG).packets
+    session = Session()
+    for packet in packets:
+        meter.add(session.feed(packet))
+    distance = meter.distance
+    assert distance == pytest.approx(12.0, rel=0.1)
+    assert meter.measure(packets[-1].t) == RscMeasurement(0.0, 0, 0.0, distance)
+    assert len(build_measurement(meter.measure(packets[-1].t))) == 10
