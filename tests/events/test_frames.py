@@ -18,7 +18,8 @@ import solepath
 from solepath import GaitCycleMeasured, HeelStrike, Session, StrideTaken, to_frame
 from solepath.emulate import Route, emulate
 from solepath.events import Candidate, KeysChanged, Placed, SampleGap, StrideFeatures
-from solepath.events.frames.columns import Kind, _columns_of, table_of
+from solepath.events.frames.columns import _columns_of, table_of
+from solepath.events.frames.forms import ValueKind
 from solepath.events.frames.units import UNITS
 from solepath.events.happening import Happening
 from solepath.types import Foot, Layout, Sample, Site
@@ -142,7 +143,7 @@ def test_a_column_has_one_kind_and_one_unit_whatever_the_event() -> None:
             units[name].add(unit)
     assert {name: kinds for name, kinds in forms.items() if len(kinds) > 1} == {}
     assert {name: several for name, several in units.items() if len(several) > 1} == {}
-    unknown = {name for name, kinds in forms.items() if {form.kind for form in kinds} == {Kind.FLOAT}} - {
+    unknown = {name for name, kinds in forms.items() if {form.kind for form in kinds} == {ValueKind.FLOAT}} - {
         name for name, several in units.items() if None not in several
     }
     assert unknown == {"force", "features_contact_load", "layout_full_scale"}, "loads, in newtons or counts"

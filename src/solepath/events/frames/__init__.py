@@ -8,13 +8,14 @@ from typing import Any
 
 from ...types import Sample
 from ..happening import Happening
-from .columns import Column, ColumnTable, Kind, table_of
+from .columns import ColumnTable, table_of
+from .forms import TableColumn, ValueKind
 
 LIBRARIES = ("pandas", "polars")
 """Libraries of data frames; the first that is installed is taken."""
-WHOLE = {Kind.FLOAT: "float64", Kind.INT: "int64", Kind.BOOL: "bool"}
+WHOLE = {ValueKind.FLOAT: "float64", ValueKind.INT: "int64", ValueKind.BOOL: "bool"}
 """Types of pandas for columns without a missing value, and for all columns of floats, which have NaN instead."""
-WITH_MISSING = {Kind.INT: "Int64", Kind.BOOL: "boolean"}
+WITH_MISSING = {ValueKind.INT: "Int64", ValueKind.BOOL: "boolean"}
 """Types of pandas for columns with a missing value."""
 
 
@@ -57,6 +58,6 @@ def _pandas(pandas: Any, table: ColumnTable) -> Any:
     return frame
 
 
-def _series(pandas: Any, column: Column) -> Any:
-    kinds = WHOLE if column.kind is Kind.FLOAT or None not in column.values else WITH_MISSING
+def _series(pandas: Any, column: TableColumn) -> Any:
+    kinds = WHOLE if column.kind is ValueKind.FLOAT or None not in column.values else WITH_MISSING
     return pandas.Series(column.values, dtype=kinds.get(column.kind, "object"))

@@ -15,6 +15,7 @@ import attrs
 from ...types import Sample, Site
 from ...types.attrs import fields, frozen
 from ..happening import FIRST_KEYS, Happening, json_ready
+from .forms import Form, TableColumn, ValueKind
 from .units import UNITS
 
 Extract = Callable[[list[Any]], list[Any]]
@@ -34,44 +35,7 @@ NO_AXES = {"north": ("", "sigma")}
 """Components of fields that are no vector."""
 
 
-class Kind(Enum):
-    """The type of the values of a column."""
-
-    FLOAT = "float"
-    INT = "int"
-    BOOL = "bool"
-    TEXT = "text"
-    LIST = "list"
-    RECORD = "record"
-
-
-SCALARS = {float: Kind.FLOAT, int: Kind.INT, bool: Kind.BOOL, str: Kind.TEXT}
-
-
-@frozen
-class Form:
-    """The type of a value, with the types of what is inside of it."""
-
-    kind: Kind
-    inner: tuple[tuple[str, Form], ...] = ()
-    """Names and forms of the fields of a record; of the items of a list, with the name "item"."""
-
-
-@frozen
-class Column:
-    """One column of a table."""
-
-    name: str
-    form: Form
-    unit: str | None
-    """Unit of its numbers; None without one, "1" for shares."""
-    values: list[Any]
-    """One value per row; None where it is missing."""
-
-    @property
-    def kind(self) -> Kind:
-        """Type of the values."""
-        return self.form.kind
+SCALARS = {float: ValueKind.FLOAT, int: ValueKind.INT, bool: ValueKind.BOOL, str: ValueKind.TEXT}
 
 
 @frozen
@@ -81,7 +45,7 @@ class ColumnTable:
     `pyarrow.table(table)`, `polars.DataFrame(table)` and `pandas.DataFrame.from_arrow(table)` take it as it is, without
     a package of Arrow on this side. The metadata "unit" of each field of Arrow is the unit of its column."""
 
-    columns: tuple[Column, ...]
+    columns: tuple[TableColumn, ...]
     rows: int
     """Number of rows."""
 
@@ -98,7 +62,7 @@ class ColumnTable:
         from .arrow import schema_capsule
         from .nodes import node_of
 
-        return schema_capsule(node_of(self))
+        return schema_capsule(node_of(self.columns, self.rows))
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """Return the table as one batch in a capsule named "arrow_array_stream"; other types are not made on request.
@@ -107,7 +71,7 @@ class ColumnTable:
         from .arrow import stream_capsule
         from .nodes import node_of
 
-        return stream_capsule(node_of(self))
+        return stream_capsule(node_of(self.columns, self.rows))
 
 
 def table_of(records: Iterable[Any], of: type[Any] | None = None) -> ColumnTable:
@@ -120,14 +84,16 @@ def table_of(records: Iterable[Any], of: type[Any] | None = None) -> ColumnTable
             rows.append(count)
             members.append(record)
             count += 1
-    columns: dict[str, Column] = {}
+    columns: dict[str, TableColumn] = {}
     for cls, (rows, members) in groups.items():
         for name, form, unit, extract in _columns_of(cls):
             column = columns.get(name)
             if column is None:
-                column = columns[name] = Column(name, form, unit, [None] * count)
+                column = columns[name] = TableColumn(name, form, unit, [None] * count)
             elif column.form != form:
-                column = columns[name] = Column(name, Form(Kind.TEXT), None, [_text(each) for each in column.values])
+                column = columns[name] = TableColumn(
+                    name, Form(ValueKind.TEXT), None, [_text(each) for each in column.values]
+                )
             values = extract(members)
             if column.form != form:
                 values = list(map(_text, values))
@@ -147,10 +113,10 @@ def _columns_of(cls: Any) -> tuple[tuple[str, Form, str | None, Extract], ...]:
         raise TypeError(f"to_frame takes events and samples, not {cls.__name__}")
     found = list(_fields_of(cls, cls.__name__, "", lambda members: members))
     if issubclass(cls, Happening):
-        found.append(("event", Form(Kind.TEXT), None, lambda members: [cls.__name__] * len(members)))
+        found.append(("event", Form(ValueKind.TEXT), None, lambda members: [cls.__name__] * len(members)))
     names = [one.name for one in fields(cls)]
     if "site" in names and "foot" not in names:
-        found.append(("foot", Form(Kind.TEXT), None, lambda members: [_foot(each.site) for each in members]))
+        found.append(("foot", Form(ValueKind.TEXT), None, lambda members: [_foot(each.site) for each in members]))
     return tuple(found)
 
 
@@ -172,7 +138,7 @@ def _fields_of(
             yield from _fields_of(hint, owner, f"{name}_", values)
         elif get_origin(hint) is tuple and set(arguments) == {float} and len(arguments) in AXES:
             for place, axis in enumerate(NO_AXES.get(name, AXES[len(arguments)])):
-                yield f"{name}_{axis}".rstrip("_"), Form(Kind.FLOAT), unit, _then(values, itemgetter(place))
+                yield f"{name}_{axis}".rstrip("_"), Form(ValueKind.FLOAT), unit, _then(values, itemgetter(place))
         else:
             form, plain = _form(hint)
             yield name, form, unit, values if plain is None else _then(values, plain)
@@ -200,20 +166,22 @@ def _form(hint: Any) -> tuple[Form, Callable[[Any], Any] | None]:
     if kind := SCALARS.get(hint):
         return Form(kind), None
     if isinstance(hint, type) and issubclass(hint, Enum):
-        return Form(Kind.TEXT), lambda member: str(member.value)
+        return Form(ValueKind.TEXT), lambda member: str(member.value)
     if attrs.has(hint):
         hints = get_type_hints(hint)
         inner = {one.name: _form(hints[one.name]) for one in fields(hint)}
         gets = [(name, _plain(hints[name])) for name in inner]
-        return Form(Kind.RECORD, tuple([(name, form) for name, (form, _) in inner.items()])), lambda record: {
+        return Form(ValueKind.RECORD, tuple([(name, form) for name, (form, _) in inner.items()])), lambda record: {
             name: plain(getattr(record, name)) if plain else getattr(record, name) for name, plain in gets
         }
     arguments = {each for each in get_args(hint) if each is not Ellipsis}
     if get_origin(hint) in (tuple, list) and len(arguments) == 1:
         item = arguments.pop()
         plain = _plain(item)
-        return Form(Kind.LIST, (("item", _form(item)[0]),)), list if plain is None else lambda each: [*map(plain, each)]
-    return Form(Kind.TEXT), _text
+        return Form(ValueKind.LIST, (("item", _form(item)[0]),)), list if plain is None else lambda each: [
+            *map(plain, each)
+        ]
+    return Form(ValueKind.TEXT), _text
 
 
 def _plain(hint: Any) -> Callable[[Any], Any] | None:

@@ -9,13 +9,20 @@ from itertools import accumulate, chain
 from struct import pack
 from typing import Any
 
-from ...types.attrs import field, frozen
-from .columns import ColumnTable, Form, Kind
+from ...types.attrs import frozen
+from .forms import Form, TableColumn, ValueKind
 
-FORMATS = {Kind.FLOAT: "g", Kind.INT: "l", Kind.BOOL: "b", Kind.TEXT: "u", Kind.LIST: "+l", Kind.RECORD: "+s"}
+FORMATS = {
+    ValueKind.FLOAT: "g",
+    ValueKind.INT: "l",
+    ValueKind.BOOL: "b",
+    ValueKind.TEXT: "u",
+    ValueKind.LIST: "+l",
+    ValueKind.RECORD: "+s",
+}
 """Format strings of the Arrow C data interface: float64, int64, bits, UTF-8, list, struct."""
 EMPTY = bytearray(8)
-"""What stands in for a buffer of no length, because some readers reject a null pointer."""
+"""Stand-in for a buffer of no length, because some readers reject a null pointer."""
 
 
 @frozen
@@ -23,19 +30,27 @@ class Node:
     """One array of Arrow with its type, and the arrays inside of it."""
 
     name: str
+    """Name of the column, or of the field of a record."""
     format: str
+    """Type in the notation of the C data interface."""
     length: int
+    """Number of values."""
     buffers: tuple[bytearray | array[Any] | None, ...]
+    """Bits that say which values are there, None if all are; then offsets and values."""
     nulls: int = 0
+    """Number of missing values."""
     children: tuple[Node, ...] = ()
+    """Arrays of the items of lists, or of the fields of records."""
     metadata: bytes | None = None
-    nullable: bool = field(default=True)
+    """Keys and values in the binary form of the C data interface."""
+    nullable: bool = True
+    """True if values may be missing."""
 
 
-def node_of(table: ColumnTable) -> Node:
-    """Return a table as one array of records, which is what a batch of Arrow is."""
-    children = [_array(column.name, column.form, column.values, column.unit) for column in table.columns]
-    return Node("", "+s", table.rows, (None,), children=tuple(children), nullable=False)
+def node_of(columns: tuple[TableColumn, ...], rows: int) -> Node:
+    """Return columns as one array of records, which is what a batch of Arrow is."""
+    children = [_array(column.name, column.form, column.values, column.unit) for column in columns]
+    return Node("", "+s", rows, (None,), children=tuple(children), nullable=False)
 
 
 def _metadata(unit: str) -> bytes:
@@ -50,19 +65,19 @@ def _array(name: str, form: Form, values: list[Any], unit: str | None = None) ->
     children: tuple[Node, ...] = ()
     buffers: tuple[bytearray | array[Any] | None, ...]
     match form.kind:
-        case Kind.FLOAT | Kind.INT:
-            buffers = (array("d" if form.kind is Kind.FLOAT else "q", [0 if v is None else v for v in values]),)
-        case Kind.BOOL:
+        case ValueKind.FLOAT | ValueKind.INT:
+            buffers = (array("d" if form.kind is ValueKind.FLOAT else "q", [0 if v is None else v for v in values]),)
+        case ValueKind.BOOL:
             buffers = (_bits(values, missing=False),)
-        case Kind.TEXT:
+        case ValueKind.TEXT:
             texts = [b"" if value is None else value.encode() for value in values]
             buffers = (_offsets(texts), bytearray().join(texts) or EMPTY)
-        case Kind.LIST:
+        case ValueKind.LIST:
             lists = [() if value is None else value for value in values]
             buffers = (_offsets(lists),)
             ((inner, of),) = form.inner
             children = (_array(inner, of, list(chain.from_iterable(lists))),)
-        case Kind.RECORD:
+        case ValueKind.RECORD:
             buffers = ()
             children = tuple(
                 [_array(key, of, [None if v is None else v[key] for v in values]) for key, of in form.inner]
