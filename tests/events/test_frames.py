@@ -17,7 +17,7 @@ from strides import stride
 import solepath
 from solepath import GaitCycleMeasured, HeelStrike, Session, StrideTaken, to_frame
 from solepath.emulate import Route, emulate
-from solepath.events import Candidate, KeysChanged, Placed, SampleGap, StrideFeatures
+from solepath.events import Candidate, FlightClimbed, KeysChanged, Placed, SampleGap, StrideFeatures
 from solepath.events.frames.columns import _columns_of, table_of
 from solepath.events.frames.forms import ValueKind
 from solepath.events.frames.units import UNITS
@@ -107,13 +107,23 @@ class Weighed(Happening):
 
     length: str
     weights: dict[str, float]
+    height: float
+    """Height, inches."""
 
 
 def test_an_event_of_an_app_is_a_row_too_and_what_no_table_has_is_json() -> None:
-    own = Weighed(t=1.0, known_at=1.0, length="long", weights={"a": 1.5})
+    own = Weighed(t=1.0, known_at=1.0, length="long", weights={"a": 1.5}, height=70.0)
     frame = to_frame([STRIDE, own])
     assert frame["length"].to_list() == ["1.25", "long"] and frame["weights"].to_list() == [None, '{"a": 1.5}']
-    assert "length" not in frame.attrs["units"]
+    assert "length" not in frame.attrs["units"] and frame.attrs["units"]["t"] == "s"
+
+
+def test_an_event_of_an_app_has_no_unit_that_it_does_not_state() -> None:
+    own = Weighed(t=1.0, known_at=1.0, length="long", weights={}, height=70.0)
+    climbed = FlightClimbed(t=1.0, known_at=1.0, t_start=0.0, up=True, steps=9, height=1.5)
+    for events in ([own], [own, climbed], [climbed, own]):
+        assert "height" not in to_frame(events).attrs["units"], "inches and metres in one column have no unit"
+    assert to_frame([climbed]).attrs["units"]["height"] == "m"
 
 
 def test_what_is_no_event_and_no_library_is_rejected_in_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:

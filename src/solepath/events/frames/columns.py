@@ -94,6 +94,8 @@ def table_of(records: Iterable[Any], of: type[Any] | None = None) -> ColumnTable
                 column = columns[name] = TableColumn(
                     name, Form(ValueKind.TEXT), None, [_text(each) for each in column.values]
                 )
+            elif column.unit != unit:
+                column = columns[name] = TableColumn(name, form, None, column.values)
             values = extract(members)
             if column.form != form:
                 values = list(map(_text, values))
@@ -110,7 +112,7 @@ def table_of(records: Iterable[Any], of: type[Any] | None = None) -> ColumnTable
 def _columns_of(cls: Any) -> tuple[tuple[str, Form, str | None, Extract], ...]:
     """Return name, form, unit and way to the values of each column of a class of records."""
     if not (isinstance(cls, type) and issubclass(cls, Happening | Sample)):
-        raise TypeError(f"to_frame takes events and samples, not {cls.__name__}")
+        raise TypeError(f"to_frame takes events and samples, not {getattr(cls, '__name__', cls)}")
     found = list(_fields_of(cls, cls.__name__, "", lambda members: members))
     if issubclass(cls, Happening):
         found.append(("event", Form(ValueKind.TEXT), None, lambda members: [cls.__name__] * len(members)))
@@ -128,11 +130,12 @@ def _fields_of(
     cls: type[Any], owner: str, prefix: str, members: Extract
 ) -> Iterator[tuple[str, Form, str | None, Extract]]:
     hints = get_type_hints(cls)
+    is_own = cls.__module__.partition(".")[0] == Happening.__module__.partition(".")[0]  # else an app's, in any units
     for one in fields(cls):
         name = prefix + RENAMED.get((owner, one.name), one.name)
         hint = _without_none(hints[one.name])
         values = _then(members, attrgetter(one.name))
-        unit = UNITS.get(name)
+        unit = UNITS.get(name) if is_own or one.name in FIRST_KEYS else None
         arguments = get_args(hint)
         if attrs.has(hint):
             yield from _fields_of(hint, owner, f"{name}_", values)
