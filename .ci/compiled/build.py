@@ -19,6 +19,8 @@ from rewrite import ModuleRewriter
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
 HOT = (
+    "types/plain.py",
+    "types/records.py",
     "types/vector.py",
     "foot/*.py",
     "foot/cues/*.py",
@@ -41,19 +43,12 @@ HOT = (
     "session/state.py",
     "session/wearer.py",
     "body/part.py",
-    "body/activity/activities.py",
-    "body/activity/chain.py",
-    "body/activity/hypotheses.py",
-    "body/activity/ride.py",
-    "body/activity/elevator_evidence.py",
+    "body/activity/*.py",
     "body/activity/blocks/[fsv]*.py",
     "body/checks/**/*.py",
-    "body/fuse/both_feet.py",
-    "body/fuse/position.py",
-    "body/gait/cycles.py",
-    "body/gait/footfalls.py",
-    "body/gait/turn*.py",
-    "body/height/altitude.py",
+    "body/fuse/*.py",
+    "body/gait/*.py",
+    "body/height/*.py",
     "body/worn/*.py",
 )
 """Modules whose code runs for every sample or packet with the default recipe."""

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import ast
 
-from classes import Record, init_fields
+from classes import Field, Record, init_fields
 
 RUNTIME = "solepath._compiled"
 """Module of the build that has the functions of records.py."""
 RUNTIME_NAMES = (
     "NOTHING, annotate, astuple, declare, equal, evolve, fields, hashed, hide_slots, made_by, make_record, shown"
 )
+OPEN = "solepath.types.records"
+"""Module of packets and samples, whose fields hold what an app gives: plain.py converts lists and arrays later."""
 OPTIONS = "serializable=True, allow_interpreted_subclasses=True"
 """Options of native classes: `__new__` makes one without fields, as restoring a state needs, and apps may derive."""
 
@@ -88,7 +90,7 @@ class ModuleRewriter:
                 own = next(own for own in record.own if own.name == ast.unparse(one.target))
                 if own.name not in inherited:
                     value = None if record.is_record else one.value
-                    body.append(ast.AnnAssign(ast.Name(own.name), own.hint, value, simple=1))
+                    body.append(ast.AnnAssign(ast.Name(own.name), _native_hint(record, own), value, simple=1))
                 continue
             if isinstance(one, ast.AnnAssign) and ast.unparse(one.target) in properties:
                 # a class variable in place of a property of the base, which compiled code would call
@@ -131,7 +133,7 @@ class ModuleRewriter:
         passed = []
         for owner, one in init_fields(record, self.classes):
             own = owner is record
-            hint = ast.unparse(one.hint) if own else "Any"
+            hint = ast.unparse(_native_hint(record, one)) if own else "Any"
             if record.kw_only and positional:
                 arguments.append("*")
                 positional = False
@@ -182,6 +184,11 @@ class ModuleRewriter:
                 these.append(f"{one.name!r}: {declared}")
             lines.append(f"make_record({record.name}, {{{', '.join(these)}}}, {record.frozen}, {record.kw_only})")
         return ast.parse("\n".join(lines)).body
+
+
+def _native_hint(record: Record, one: Field) -> ast.expr:
+    """Return the type of a field for the compiler."""
+    return ast.Name("Any") if record.module == OPEN else one.hint
 
 
 def _is_empty(function: ast.FunctionDef) -> bool:

@@ -188,7 +188,7 @@ def test_without_cells_a_pressure_detector_gives_no_evidence(detector: Any) -> N
 
 
 def test_airborne_cells_overrule_a_still_sensor() -> None:
-    evidence = Cycle().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.0, None, None, 0.0, True))
+    evidence = Cycle().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.0, None, None, True))
     assert evidence.sigma == inf and evidence.hint is Phase.SWING
 
 

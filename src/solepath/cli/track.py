@@ -27,6 +27,7 @@ from .common.inputs import (
     source_of,
     undo_clocks,
 )
+from .common.outcomes import add_outcomes, clinic_of, has_outcomes
 from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
@@ -63,6 +64,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
     )
+    add_outcomes(command)
     add_force(command)
     add_view(command, command, "play it")
     add_speed(command, "1, on the page")
@@ -76,6 +78,7 @@ def run(options: argparse.Namespace) -> int:
     from .common.results import Results
 
     recipe = recipe_of(options)
+    clinic = clinic_of(options)
     outputs = _check_outputs(options)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
@@ -102,6 +105,7 @@ def run(options: argparse.Namespace) -> int:
         recipe=recipe.name,
         when=_start_text(source),
         outputs=outputs,
+        clinic=clinic,
     )
     seconds, shown = 0.0, False
     with stop_signals_raise(), results:
@@ -123,7 +127,7 @@ def run(options: argparse.Namespace) -> int:
 def _check_outputs(options: argparse.Namespace) -> list[OutputFile]:
     """Return the files of --out and --report; raise Failure or OSError when one must not, or cannot, be written."""
     has_plan = options.floorplan is not None
-    outputs = files_of_track(options.out, places=has_plan, plan=has_plan)
+    outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=has_outcomes(options))
     if options.report is not None:
         outputs.append(OutputFile(options.report, REPORT))
     check_outputs(outputs, [options.file, options.calibration, options.floorplan], force=options.force)

@@ -13,10 +13,9 @@ from .cues.cues import Cues, TimedCue
 from .gaps.gap import Infill
 from .gaps.template import StrideTemplate
 from .navigate.corrector import Corrector
-from .path import PathCovariance
 from .phase import EVENT_OF_PHASE, PHASES, Cue
 from .stride import SHORTEST_STRIDE, StrideBuilder, usual_strides
-from .world import Covariance3, World
+from .world import Covariance3, PathCovariance, World
 
 FLAT_SPEED = 0.35
 """Speed after a correction above which a foot is not flat, even if the evidence was accepted, m/s; chosen by hand."""

@@ -49,14 +49,16 @@ class RejectionReason(NamedTuple):
 
 def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | None:
     """Return the reason why `sample` cannot be used after one at `newest`, s; None when it can be used."""
-    t, known_at = sample.t, sample.known_at
+    t: float = sample.t
+    known_at: float = sample.known_at
     if (
         not LEAST_TIME <= t <= ABSURD_TIME
         or not LEAST_TIME <= known_at <= ABSURD_TIME
         or (newest is not None and t - newest < SHORTEST_STEP)
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
-    acc, gyro = sample.acc, sample.gyro
+    acc: Vec3 | None = sample.acc
+    gyro: Vec3 | None = sample.gyro
     vectors_valid = True
     try:
         if acc is not None:

@@ -119,7 +119,7 @@ class FootTracker:
             newtons = insole.settings.newtons is not None or (layout is not None and layout.scale is not None)
             without_inertial = self.moved_at is None and sample.gyro is None
             centre = insole.centre_of_pressure(cells) if without_inertial else None
-            pressed = PressedCells(cells, layout, newtons, insole.highest, centre)
+            pressed = PressedCells(cells, layout, newtons, centre)
         return FootView(
             self.foot, sample, sample.t, known_at, events, self.moved_at, self.levelled, gait.phase,
             corrector.position, corrector.velocity, corrector.attitude, gait.world.north,
@@ -170,10 +170,11 @@ class FootTracker:
 
     def feed(self, sample: Sample) -> list[Event]:
         """Return the events of one sample of this foot; one that cannot be used is reported and changes no state."""
-        t, acc, gyro = sample.t, sample.acc, sample.gyro
+        t: float = sample.t
+        acc: Vec3 | None = sample.acc
+        gyro: Vec3 | None = sample.gyro
         t_last = self.moved_at if (has_inertial := acc is not None and gyro is not None) else self.partial_at
-        rejection = rejection_reason(sample, t_last)
-        if rejection is not None:
+        if (rejection := rejection_reason(sample, t_last)) is not None:
             return [rejected(sample, rejection, t_last)]
         known_at = sample.known_at if sample.known_at > t else t
         if acc is None and gyro is None and not sample.pressure:
@@ -194,8 +195,8 @@ class FootTracker:
         if load is not None:
             stride = self.gait.stride
             if self.gait.phase is not SWING and stride.t_toe_off is None and stride.add_load(sole.insole.sum):
-                known = load.airborne or with_centre
-                stride.add_cop(load.centre if known else sole.insole.centre_of_pressure(load.cells))
+                is_known = load.airborne or with_centre
+                stride.add_cop(load.centre if is_known else sole.insole.centre_of_pressure(load.cells))
         elif self.settings.needs_pressure and not sole.had_cells:
             text = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limitations.report_lacking(text, t, known_at, events)
@@ -217,8 +218,8 @@ class FootTracker:
                 self.corrector.use_attitude(sample.quat)
             self._add_inertial(t, dt, known_at, acc, gyro, sample.saturated, load, events)
             return events
-        lacking = "accelerometer" if acc is None else "gyroscope"
-        text = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
+        text = f"no {'accelerometer' if acc is None else 'gyroscope'} on the {self.foot.value} foot"
+        text = f"{text}: no steps and no track from it"
         self.limitations.report_lacking(text, t, known_at, events)
         if load is not None:
             for timed_cue in self.cues.alone(t, dt, load, self.phase):
@@ -258,8 +259,7 @@ class FootTracker:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
         if not self.levelled:
-            first_attitude = self.levelling.update(t, acc, gyro)
-            if first_attitude is not None:
+            if (first_attitude := self.levelling.update(t, acc, gyro)) is not None:
                 corrector.start(*first_attitude)
                 gait.stride.start_stride(t, ZERO, corrector.attitude)
             if self.levelling.final:

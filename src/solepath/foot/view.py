@@ -21,8 +21,6 @@ class PressedCells(NamedTuple):
     """Layout of the cells; None when it is unknown."""
     in_newtons: bool
     """The values are in N."""
-    highest: float
-    """Largest recent value of any cell, in the unit of `values`."""
     centre_alone: tuple[float, float] | None
     """Centre of pressure (x, y) of an insole without inertial sensor, foot frame, m; None otherwise."""
 

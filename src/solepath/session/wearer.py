@@ -104,8 +104,8 @@ class WearerParts:
             return events
         if known_tracker is None:
             self._add_tracker(tracker)
-        t = sample.t
-        known_at = sample.known_at if sample.known_at > t else t
+        t: float = sample.t
+        known_at: float = sample.known_at if sample.known_at > t else t
         if tracker.viewed_at is None or t > tracker.viewed_at:
             tracker.viewed_at = t
         if not events and sample.air_pressure is None:  # the case of nearly all samples

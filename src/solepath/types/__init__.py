@@ -1,12 +1,11 @@
 """Types that all packages share: feet, sites, phases and activities; packets, samples and layouts of cells; vectors."""
 
+from .layout import Cell, Layout, shared
 from .records import (
     OTHER,
     SITE_OF_FOOT,
     Activity,
-    Cell,
     Foot,
-    Layout,
     OnBody,
     Packet,
     Phase,
@@ -18,7 +17,6 @@ from .records import (
     Vec3,
     WalkingMode,
     Word,
-    shared,
 )
 
 __all__ = [

@@ -20,10 +20,10 @@ from solepath.types import Cell, Foot, Layout, Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
 CELLS = (0.0,) * 96
-BOTH_LOADED = Load(1.0, 0.5, 0.5, 1.0, False, CELLS, (0.13, 0.0))
-FOREFOOT_LOADED = Load(0.6, 0.0, 0.6, 1.0, False, CELLS, (0.20, 0.0))
-HEEL_LOADED = Load(0.5, 0.5, 0.0, 1.0, False, CELLS, (0.03, 0.0))
-UNLOADED = Load(0.0, 0.0, 0.0, 0.0, True, CELLS)
+BOTH_LOADED = Load(1.0, 0.5, 0.5, False, CELLS, (0.13, 0.0))
+FOREFOOT_LOADED = Load(0.6, 0.0, 0.6, False, CELLS, (0.20, 0.0))
+HEEL_LOADED = Load(0.5, 0.5, 0.0, False, CELLS, (0.03, 0.0))
+UNLOADED = Load(0.0, 0.0, 0.0, True, CELLS)
 STILL: Vec3 = (0.0, 0.0, GRAVITY)
 
 

@@ -54,7 +54,7 @@ def watch(
     gyro: Vec3 = (0.0, 0.5, 0.0)
     for k, (x, stands) in enumerate(rows):
         cop = None if x is None or cues.foot_centre is None else (x, 0.0)  # a layout is needed for both
-        load = Load(0.0 if x is None else 0.5, 0.0, 0.0, 0.0, x is None, CELLS, cop)
+        load = Load(0.0 if x is None else 0.5, 0.0, 0.0, x is None, CELLS, cop)
         stance = STANDS if stands else MOVES
         for one in cues.update(0.01 * k, 0.01, UP, gyro, stands, 0.0 if stands else speed, phase, load, stance):
             seen.append((one, k))
@@ -265,6 +265,6 @@ def test_a_valley_in_mid_stance_is_no_swing_on_an_insole_of_two_cells() -> None:
     stride = [(0.0, 1.0)] * 20 + [(0.02, 0.02)] * 8 + [(1.0, 0.0)] * 20 + [(0.0, 0.0)] * 40
     airborne = []
     for k, cells in enumerate(stride * 3):
-        airborne.append(touch.update(0.01 * k, Load(sum(cells), None, None, 0.0, False, cells)))
+        airborne.append(touch.update(0.01 * k, Load(sum(cells), None, None, False, cells)))
     last = airborne[2 * len(stride) :]
     assert not any(last[:48]) and all(last[50:])

@@ -50,7 +50,7 @@ def cone(x: float, tip: float = 120e3, slope: float = 4e6) -> Load:
     """Return a load of the heel array with a cone of pressure around (x, 0), tip in Pa and slope in Pa/m."""
     cells = heel_array(RIGHT).cells
     values = tuple([cell.area * max(0.0, tip - slope * float(np.hypot(cell.x - x, cell.y))) for cell in cells])
-    return Load(0.8, 0.8, 0.0, 1.0, False, values)
+    return Load(0.8, 0.8, 0.0, False, values)
 
 
 @pytest.mark.parametrize(("speed", "stands"), [(0.0, True), (0.003, True), (0.012, False)])

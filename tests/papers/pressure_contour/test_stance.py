@@ -146,7 +146,7 @@ def test_they_rest_in_nearly_every_stance(name: str) -> None:
 
 
 def heel_load(share: float, *, airborne: bool = False, cells: tuple[float, ...] = ()) -> Load:
-    return Load(share, share, 0.0, share, airborne, cells)
+    return Load(share, share, 0.0, airborne, cells)
 
 
 def fed(

@@ -20,7 +20,7 @@ from typing import ClassVar, Final
 
 from ...events import Defect, DefectFound, Event, StrideFeatures, StrideTaken
 from ...foot.view import FootView
-from ...types import Activity, Foot, Site
+from ...types import Activity, Foot, Site, Vec3
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartInput, PartOutput
@@ -117,7 +117,8 @@ class Activities(ActivityPart):
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
         sample = view.sample
-        acc, t, origin = sample.acc, sample.t, self.origin
+        acc: Vec3 | None = sample.acc
+        t, origin = view.t, self.origin
         side = self.left if view.foot is LEFT else self.right
         if origin is None:
             if acc is None:
@@ -132,7 +133,7 @@ class Activities(ActivityPart):
                 side.close()
                 side.start_block(floor(block_number), view.gyro_bias, view.acc_grain)
                 events = self._judge(t, view.known_at)
-            side.add(acc, sample.gyro, view if view.levelled else None)
+            side.add(acc, sample.gyro, view.velocity if view.levelled else None, view.position[2])
         if view.events:
             side.add_events(view.events, view.position[2])
             for event in view.events:

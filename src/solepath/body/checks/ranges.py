@@ -44,8 +44,21 @@ GYROSCOPE = RangeKind("gyroscope", "rad/s", 2.0)
 
 def find_extremes(values: Sequence[Vec3]) -> Extremes:
     """Return the extremes of every other sample of a block, among which is one of any two neighbours at an end."""
-    x, y, z = zip(*values[::2], strict=True)
-    return max(x), -min(x), max(y), -min(y), max(z), -min(z)
+    most_x, most_y, most_z = least_x, least_y, least_z = values[0]
+    for x, y, z in values[::2]:
+        if x > most_x:
+            most_x = x
+        elif x < least_x:
+            least_x = x
+        if y > most_y:
+            most_y = y
+        elif y < least_y:
+            least_y = y
+        if z > most_z:
+            most_z = z
+        elif z < least_z:
+            least_z = z
+    return most_x, -least_x, most_y, -least_y, most_z, -least_z
 
 
 @define

@@ -158,8 +158,7 @@ class MeanOfFeet(TrackPart):
         this.t, this.absent_for, this.newest_place = t, 0.0, newest_place
         if has_returned:
             self._start_return(this, other)
-        covariance = view.after.covariance
-        if covariance is not None:  # a stride has ended
+        if view.events and (covariance := view.after.covariance) is not None:  # a stride has ended
             xx, _, _, yy, _, zz = covariance
             this.variance = (0.5 * (xx + yy), zz)
             if other.t is not None and other.absent_for < ABSENCE_TIME:

@@ -127,15 +127,19 @@ def add_force(command: argparse.ArgumentParser) -> None:
     )
 
 
-def files_of_track(out: Path | None, *, places: bool, plan: bool = False) -> list[OutputFile]:
+def files_of_track(out: Path | None, *, places: bool, plan: bool = False, outcomes: bool = False) -> list[OutputFile]:
     """Return the files that are written to the directory `out`; `places`, `plan`: with a floor plan, and its picture.
 
-    Raise OSError when there is a file in place of the directory."""
+    `outcomes`: with clinical outcomes. Raise OSError when there is a file in place of the directory."""
     if out is None:
         return []
     if out.exists() and not out.is_dir():
         raise FileExistsError(EEXIST, os.strerror(EEXIST), str(out))
     kinds = TRACK_KINDS | (PLACE_KINDS if places else {}) | (PLAN_KINDS if plan else {})
+    if outcomes:
+        from ...show.outcomes.files import BOUT_COLUMNS, BOUTS_FILE, OUTCOME_COLUMNS, OUTCOMES_FILE
+
+        kinds |= {BOUTS_FILE: _table(BOUT_COLUMNS), OUTCOMES_FILE: _table(OUTCOME_COLUMNS)}
     return [OutputFile(out / name, kind) for name, kind in kinds.items()]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from attrs import define, field
 
@@ -19,6 +20,9 @@ from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
 from .files import OutputFile, replacements
+
+if TYPE_CHECKING:
+    from ...show.outcomes.clinic import Clinic
 
 
 @define
@@ -38,6 +42,8 @@ class Results:
     """Start of the recording, as text."""
     outputs: Sequence[OutputFile] = ()
     """All files of `out`, and `report`, as they were before the run."""
+    clinic: Clinic | None = None
+    """Collects the clinical outcomes; None without any."""
     observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
     _report: Report | None = field(init=False)
@@ -54,6 +60,7 @@ class Results:
         self._report = None
         if self.report is not None:
             self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
+            self._report.clinic = self.clinic
 
     def open_files(self) -> None:
         """Open the files, if they are not open."""
@@ -76,6 +83,8 @@ class Results:
                 self._files.write(event)
             if self._picture is not None:
                 self._picture.add(event)
+            if self.clinic is not None:
+                self.clinic.add(event)
 
     def write_and_print(self, seconds: float) -> None:
         """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
@@ -83,10 +92,19 @@ class Results:
         if self._picture is not None and self._picture_path is not None and self.out is not None:
             with os_errors_naming(self.out):
                 self._picture.write(self._picture_path, self.title)
+        results = None if self.clinic is None else self.clinic.results()
+        if results is not None and self.out is not None:
+            from ...show.outcomes.files import BOUTS_FILE, OUTCOMES_FILE, write_bouts, write_outcomes
+
+            with os_errors_naming(self.out):
+                write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
+                write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
         self._file_replacements.move_to_targets()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
+        if self.clinic is not None and results is not None:
+            print("\n".join(self.clinic.lines(results)))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
         if self._report is not None and self._report_path is not None and self.report is not None:

@@ -12,7 +12,7 @@ from ..limitations import Limitations
 from ..settings import FootSettings
 from ..stance.stance import Load
 from .cell_health import CellHealth
-from .insole import LEAST_LOAD, InsoleLoads, weighted_sums
+from .insole import HIGHEST_DECAY, LEAST_LOAD, InsoleLoads, weighted_sums
 from .layout_guess import LayoutGuess
 
 
@@ -35,6 +35,8 @@ class Sole:
     """Layout of the calibration that waits for a sample with the same number of cells; None when none waits."""
     count_checked: bool = field(default=False, init=False)
     """It is decided whether the calibration is used: it matches the number of cells, or was rejected."""
+    highest: float = field(default=0.0, init=False)
+    """Highest recent value of any cell of a pressure event, unit of the cells; it decays slowly."""
     layout_changed: bool = field(default=False, init=False)
     """The layout has changed, and detector and cues have not received it yet."""
 
@@ -89,6 +91,7 @@ class Sole:
         insole, health = self.insole, self.health
         if not health.usable(pressure):
             return None
+        self.highest = max(self.highest * HIGHEST_DECAY, *insole.cells)
         values = insole.above_tare(insole.cells)
         if health.excluded or health.non_numeric:  # the calibration's cubic may turn 0 into a force
             failed_cells = {*health.excluded, *[i for i, _ in health.non_numeric]}
@@ -97,7 +100,7 @@ class Sole:
         centre, layout = None, insole.layout
         if layout is not None and not self.layout_estimated and len(values) == len(layout.cells):
             # after a long time in the air the range of loads is small; then the highest cell value sets the limit
-            least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
+            least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, self.highest)
             if force > least_force:
                 load, x_sum, y_sum = weighted_sums(values, repeat(0.0, len(values)), layout.xs, layout.ys)
                 centre = (x_sum / load, y_sum / load)

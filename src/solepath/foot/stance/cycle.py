@@ -22,7 +22,7 @@ from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
 from ..settings import CycleSettings
-from .sensor_height import EMPTY, SensorHeight
+from .sensor_height import SensorHeight
 from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .stance import Detector, Load, Stance
 
@@ -86,7 +86,7 @@ class Cycle(Detector):
         entries.append((t, ax, ay, az, a2, w2))
         oldest = t - SHOE_WINDOW + 1e-9
         while entries[0][0] < oldest and len(entries) > 1:
-            _, ax, ay, az, a2, w2 = entries.popleft()
+            _, ax, ay, az, a2, w2 = entries.pop(0)
             sx -= ax
             sy -= ay
             sz -= az
@@ -111,7 +111,7 @@ class Cycle(Detector):
         if statistic < settings.least_threshold:
             hint = STATIONARY if statistic < settings.standing_statistic else None
         elif statistic > settings.largest_threshold or statistic > self._threshold():
-            if self.sensor_height.sums is not EMPTY:
+            if self.sensor_height.sums[0]:
                 self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, None, None))
         else:

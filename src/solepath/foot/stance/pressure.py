@@ -8,8 +8,9 @@ from __future__ import annotations
 from math import inf
 
 from ...types import Phase, Quat, Vec3
-from ...types.attrs import define
+from ...types.attrs import define, field, frozen
 from ...types.vector import IDENTITY, ZERO
+from ..pressure.insole import HIGHEST_DECAY
 from .stance import Detector, Load, Stance
 
 NO_EVIDENCE = Stance(ZERO, inf, 0.0, None)
@@ -40,6 +41,16 @@ class TwoArea(Detector):
         return Stance(ZERO, inf, statistic, Phase.SWING if load.airborne else None)
 
 
+@frozen
+class MaximumPressureSettings:
+    """Settings of `MaximumPressure`."""
+
+    threshold: float = 0.25
+    """Statistic above which the foot is on the ground."""
+    sigma: float = 0.05
+    """Standard deviation of the zero velocity, m/s."""
+
+
 @define
 class MaximumPressure(Detector):
     """Detects a foot on the ground: the most loaded cell is above a threshold.
@@ -48,16 +59,18 @@ class MaximumPressure(Detector):
     compensation algorithm against walking modes", method III. The statistic is the value of this cell as a share of the
     highest cell value so far. A foot on the ground may still roll, so the noise is larger than that of `TwoArea`."""
 
-    threshold: float = 0.25
-    """Statistic above which the foot is on the ground."""
-    sigma: float = 0.05
-    """Standard deviation of the zero velocity, m/s."""
+    settings: MaximumPressureSettings = MaximumPressureSettings()
+    highest: float = field(default=0.0, init=False)
+    """Highest recent value of any cell, unit of the cells; it decays slowly."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
         if load is None:
             return NO_EVIDENCE
-        if load.highest > self.threshold and not load.airborne:
-            return Stance(ZERO, self.sigma, load.highest, None)
-        return Stance(ZERO, inf, load.highest, Phase.SWING if load.airborne else None)
+        largest = max(load.cells, default=0.0)
+        self.highest = max(self.highest * HIGHEST_DECAY, largest)
+        statistic = largest / self.highest if self.highest > 0.0 else 0.0
+        if statistic > self.settings.threshold and not load.airborne:
+            return Stance(ZERO, self.settings.sigma, statistic, None)
+        return Stance(ZERO, inf, statistic, Phase.SWING if load.airborne else None)

@@ -20,8 +20,16 @@ from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import TIE
 
-EMPTY = (0.0,) * 18
-"""Sums of a stance without samples."""
+Sums = tuple[
+    float, float, float, float, float, float, float, float, float,
+    float, float, float, float, float, float, float, float, float,
+]  # fmt: skip
+"""State of a stance, 18 numbers, in the units of the module.
+
+They are: number of samples, time; last acceleration x, y; u x, y; sums of t and t^2; sums of c^2 and u c over both
+axes; sums of u, t u, c and t c, each on x and on y."""
+EMPTY: Sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+"""State of a stance without samples."""
 
 INITIAL_HEIGHT = 0.05
 """Height before any stance, m: between that of a sensor in the sole and that of one on the instep."""
@@ -47,11 +55,8 @@ class SensorHeight:
     """Weighted sum of u c dt over the stances, m (rad/s)^2 s."""
     square: float = field(default=INITIAL_WEIGHT, init=False)
     """Weighted sum of c^2 dt over the stances, (rad/s)^2 s."""
-    sums: tuple[float, ...] = field(default=EMPTY, init=False)
-    """State of the current stance, 18 numbers, in the units of the module.
-
-    They are: number of samples, time; last acceleration x, y; u x, y; sums of t and t^2; sums of c^2 and u c over both
-    axes; sums of u, t u, c and t c, each on x and on y."""
+    sums: Sums = field(default=EMPTY, init=False)
+    """State of the current stance."""
 
     def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:
         """Add one sample of a foot on the ground; return h w x up, the velocity x, y, m/s, navigation frame.

@@ -6,7 +6,6 @@ causal and uses a window that ends with the current sample; it is the only laten
 
 from __future__ import annotations
 
-from collections import deque
 from math import sqrt
 
 from ...types import Quat, Vec3
@@ -28,7 +27,7 @@ class ShoeDetector(Detector):
     T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2), over the W samples of the window."""
 
     settings: WindowThreshold = WindowThreshold(window=0.025, rest_statistic=1e4, motion_statistic=3.5e5)
-    entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
+    entries: list[tuple[float, float, float, float, float, float]] = field(factory=list, init=False)
     """Time (s), acc x, y, z (m/s^2), and squared norms of acc and gyro (rad/s) of each sample in the window."""
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
     """Sums over the window of acc x, y, z and of the squared norms of acc and gyro."""
@@ -58,7 +57,7 @@ class ShoeDetector(Detector):
         entries.append((t, ax, ay, az, a2, w2))
         oldest = t - self.settings.window + 1e-9
         while entries[0][0] < oldest and len(entries) > 1:
-            _, ax, ay, az, a2, w2 = entries.popleft()
+            _, ax, ay, az, a2, w2 = entries.pop(0)
             sx -= ax
             sy -= ay
             sz -= az

@@ -28,8 +28,6 @@ class Load:
     """Load of the heel area, as a share of the full load; None if no working cell is in that area."""
     forefoot: float | None
     """Load of the forefoot area, as a share of the full load; None if no working cell is in that area."""
-    highest: float
-    """Value of the most loaded cell, as a share of the highest recent value of any cell."""
     airborne: bool
     """The foot is in the air: there is hardly any load."""
     cells: tuple[float, ...] = ()

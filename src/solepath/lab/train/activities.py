@@ -28,7 +28,7 @@ from ... import recipes
 from ...body.activity.blocks import motion
 from ...body.activity.blocks.features import BLOCK_DURATION, FEATURE_COUNT, FIRST_STRIDE_FEATURE, WINDOW_REACH
 from ...body.activity.blocks.foot_blocks import FootBlocks
-from ...body.activity.blocks.motion import MotionModel, to_json
+from ...body.activity.blocks.motion import MotionModel
 from ...body.activity.blocks.votes import block_force
 from ...body.activity.elevator_evidence import BlockForce
 from ...emulate.sensors.device import Device
@@ -47,7 +47,7 @@ from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from ...types.vector import TIE
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts
-from .activities_net import CLASSES, feature_statistics, fit_networks
+from .activities_net import CLASSES, feature_statistics, fit_networks, to_json
 from .hugadb import FOLDS, Span, labels, recordings, spans
 from .resampling import resampled
 
@@ -165,7 +165,9 @@ def _features(
             rest = tracker.rest
             window.start_block(index, rest.bias, rest.grain if rest.count else 0.0)
         if sample.acc is not None:
-            window.add(sample.acc, sample.gyro, tracker.corrector if tracker.levelled else None)
+            corrector = tracker.corrector
+            velocity = corrector.velocity if tracker.levelled else None
+            window.add(sample.acc, sample.gyro, velocity, corrector.position[2])
         if events:
             window.add_events(events, tracker.corrector.position[2])
 

@@ -7,11 +7,13 @@ Numbers without a source were chosen by hand; no sweep of them is recorded."""
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ...body.activity.blocks.features import FIRST_GYRO_FEATURE, FIRST_STRIDE_FEATURE, FIRST_TRACK_FEATURE
-from ...body.activity.blocks.motion import MOTIONS, Network, Row
+from ...body.activity.blocks.motion import MOTIONS, MotionModel, Network, Row
 from ...types import Activity
 
 Floats = NDArray[np.float64]
@@ -134,3 +136,25 @@ def disturb(features: Floats, rng: np.random.Generator) -> Floats:
 def rounded_row(values: Floats) -> Row:
     """Return the values rounded as in the file of the model."""
     return tuple([float(f"{value:.5g}") for value in values.tolist()])
+
+
+def to_json(model: MotionModel) -> dict[str, Any]:
+    """Return the model in the form that `from_json` reads."""
+    return {
+        "trained_on": model.trained_on,
+        "whole": _network_json(model.whole),
+        "alone": _network_json(model.alone),
+        "usual": [list(row) for row in model.usual],
+        "spread": [list(row) for row in model.spread],
+        "chances": [list(row) for row in model.chances],
+        "shifts": [[a.value, b.value, shift] for a, b, shift in model.shifts],
+    }
+
+
+def _network_json(network: Network) -> dict[str, Any]:
+    return {
+        "hidden": [list(row) for row in network.hidden],
+        "hidden_bias": list(network.hidden_bias),
+        "output": [list(row) for row in network.output],
+        "output_bias": list(network.output_bias),
+    }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import hypot
 
 from ...events import Event, FootFlat, Limitation, StrideTaken
+from ...foot.pressure.insole import HIGHEST_DECAY
 from ...foot.view import FootView, PressedCells
 from ...types import SITE_OF_FOOT, Foot, Phase
 from ...types.attrs import define, field
@@ -50,7 +51,8 @@ class Signs:
         """Add the cells of the foot's newest sample, and return its state."""
         state = self.states[foot]
         state.pressure = max(cells.values)
-        state.highest_pressure = None if cells.in_newtons else cells.highest
+        recent = (state.highest_pressure or 0.0) * HIGHEST_DECAY
+        state.highest_pressure = None if cells.in_newtons else max(recent, state.pressure)
         return state
 
     def down_flags(self, t: float, alone: Foot | None, known_at: float, events: list[Event]) -> Flags:

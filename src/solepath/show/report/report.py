@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, tostring
 
 from attrs import define, evolve, field
@@ -38,6 +39,9 @@ from .gait_table import gait_tables
 from .markup import add, section, sentences, skeleton, table, terms
 from .soles import ReportSole
 from .words import CAUTION, defects, limitations, link_rows, overview, problems, sensors
+
+if TYPE_CHECKING:
+    from ..outcomes.clinic import Clinic
 
 MAX_STRIDES, MAX_PLACES, MAX_POINTS = 1200, 1000, 1500
 """Largest number of strides of a foot, of places on the plan, and of points of a track; more are thinned evenly."""
@@ -78,6 +82,8 @@ class Report:
     when: str = ""
     version: str = field(factory=_installed)
     observer: Observer = field(factory=Observer)
+    clinic: Clinic | None = field(default=None, init=False)
+    """Clinical outcomes, which the report shows before the gait; None without any."""
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
     strides: dict[Foot, ThinnedList[GaitCycleMeasured]] = field(factory=_list_of_each_foot, init=False)
     footprints: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_list_of_each_foot, init=False)
@@ -154,6 +160,10 @@ class Report:
             sentences(parent, defects(self.observer))
         stride_counts = {foot: strides.count for foot, strides in self.strides.items()}
         sentences(parent, overview(self.observer, clock, self.event_span is not None, stride_counts))
+        if self.clinic is not None:
+            from .clinical import clinical_sections
+
+            clinical_sections(main, self.clinic)
         parent = section(main, "gait", "Gait")
         if not gait_tables(parent, self.observer.gait):
             add(parent, "p", NO_STRIDE if not any(stride_counts.values()) else NO_STEADY)

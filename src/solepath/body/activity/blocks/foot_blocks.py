@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from math import dist, hypot, sqrt
-from typing import Protocol
+from math import sqrt
 
 from ....events import Event, FootFlat, HeelStrike, StrideTaken
 from ....types import Vec3
@@ -28,18 +27,6 @@ MAX_STRIDES = 3
 """Number of strides that are kept: a window of a runner holds as many."""
 MAX_STRIDE_TIME = 1.6
 """Longest time of a stride, s; a longer one started with standing, which is cut off."""
-
-
-class FootTrack(Protocol):
-    """Position, m, and velocity, m/s, of a foot, z up."""
-
-    @property
-    def position(self) -> Vec3:
-        """Position of the foot, world frame, m."""
-
-    @property
-    def velocity(self) -> Vec3:
-        """Velocity of the foot, world frame, m/s."""
 
 
 @define
@@ -96,21 +83,26 @@ class FootBlocks:
         self.tracked = False
         self.climb = self.sink = self.speed = 0.0
 
-    def add(self, acc: Vec3, gyro: Vec3 | None, track: FootTrack | None) -> None:
-        """Add a sample to the block under way; `track` is the foot's motion after it, None when it is not known."""
-        length = hypot(*acc)
+    def add(self, acc: Vec3, gyro: Vec3 | None, velocity: Vec3 | None, height: float) -> None:
+        """Add a sample to the block under way.
+
+        `velocity`, m/s, and `height`, m, are those of the foot after it, z up; no velocity: the motion is not known."""
+        x, y, z = acc
+        length = sqrt(x * x + y * y + z * z)
         self.force += length
         self.squares += length * length
         self.acc_bins[int(length * 0.5) if length < ACC_LIMIT else BIN_COUNT - 1] += 1
         if gyro is None:
             return
-        rate = dist(gyro, self.bias)
-        self.rate_squares += rate * rate
+        (x, y, z), (u, v, w) = gyro, self.bias
+        square = (x - u) * (x - u) + (y - v) * (y - v) + (z - w) * (z - w)
+        rate = sqrt(square)
+        self.rate_squares += square
         self.gyro_bins[int(rate) if rate < RATE_LIMIT else BIN_COUNT - 1] += 1
-        if track is None:
+        if velocity is None:
             return
         self.tracked = True
-        x, y, z = track.velocity
+        x, y, z = velocity
         if z > self.climb:
             self.climb = z
         elif z < self.sink:
@@ -118,11 +110,10 @@ class FootBlocks:
         square = x * x + y * y
         if square > self.speed:
             self.speed = square
-        z = track.position[2]
-        if z > self.top:
-            self.top = z
-        elif z < self.bottom:
-            self.bottom = z
+        if height > self.top:
+            self.top = height
+        elif height < self.bottom:
+            self.bottom = height
 
     def add_events(self, events: Sequence[Event], height: float) -> None:
         """Add the events of a sample; `height` is the foot's, navigation frame, m."""

@@ -1,23 +1,17 @@
-"""Motion model: two small neural networks that turn one foot's features into the probability of each motion.
+"""Parameters of the motion model: two small neural networks, and the statistics of their training data.
+
+votes.py turns one foot's features into the probability of each motion with them.
 
 Each network has one hidden layer of tanh units and softmax outputs. One network uses all features; the other one serves
 feet without a gyroscope. `solepath.lab.train.activities` trains them and lists the training data. The result is
 activities.json in this directory. The file also has the transition chances and label delays that chain.py uses.
-
-`strangeness` is the distance of features from the training data. Each motion has a mean and a standard deviation for
-every accelerometer feature; the strangeness is the mean squared deviation, in standard deviations, from the nearest
-motion.
-
-Sums of products use math.dist: w x = (w w + x x - |w - x|^2) / 2. It is the only loop over floats that runs in C in
-every Python from 3.11 on, three times as fast as sum(map(mul, ...)), and gives the same bits everywhere. The result
-is off by 1e-12 at most, and hypotheses.py rounds the scores to 1e-4."""
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache, cached_property
-from itertools import repeat
-from math import dist, exp, fsum, hypot, log, tanh
+from math import fsum
 from operator import truediv
 from typing import Any
 
@@ -47,24 +41,13 @@ class Network:
 
     @cached_property
     def hidden_half(self) -> Row:
-        """Bias of each hidden unit plus half the squared length of its weights (see the module's docstring)."""
+        """Bias of each hidden unit plus half the squared length of its weights (votes.py)."""
         return _with_half_squares(self.hidden, self.hidden_bias)
 
     @cached_property
     def output_half(self) -> Row:
         """Bias of each output unit plus half the squared length of its weights."""
         return _with_half_squares(self.output, self.output_bias)
-
-    def log_probabilities(self, features: Sequence[float]) -> list[float]:
-        """Return the natural logarithm of the probability of each of `MOTIONS`.
-
-        Features beyond the network's inputs are ignored."""
-        inputs = tuple(features[: len(self.hidden[0])])
-        hidden_values = tuple(map(tanh, _weighted_sums(self.hidden, self.hidden_half, inputs)))
-        output_values = _weighted_sums(self.output, self.output_half, hidden_values)
-        highest = max(output_values)
-        total = highest + log(fsum([exp(value - highest) for value in output_values]))
-        return [value - total for value in output_values]
 
 
 @frozen
@@ -88,20 +71,6 @@ class MotionModel:
     def middles(self) -> tuple[Row, ...]:
         """Rows of `usual` divided by the rows of `spread`."""
         return tuple([tuple(map(truediv, *rows)) for rows in zip(self.usual, self.spread, strict=True)])
-
-    def log_probabilities(self, features: Sequence[float]) -> list[float]:
-        """Return the natural logarithm of the probability of each of `MOTIONS`."""
-        return (self.whole if features[FIRST_GYRO_FEATURE] else self.alone).log_probabilities(features)
-
-    def strangeness(self, features: Sequence[float]) -> float:
-        """Return the mean squared deviation from the nearest motion; 1 is usual, 4 is two deviations everywhere."""
-        inputs = features[:FIRST_GYRO_FEATURE]
-        distances = [
-            dist(tuple(map(truediv, inputs, spread)), middle)
-            for spread, middle in zip(self.spread, self.middles, strict=True)
-        ]
-        nearest = min(distances)
-        return nearest * nearest / FIRST_GYRO_FEATURE
 
     @cached_property
     def chain(self) -> Chain:
@@ -136,19 +105,6 @@ def from_json(data: dict[str, Any]) -> MotionModel:
     return model
 
 
-def to_json(model: MotionModel) -> dict[str, Any]:
-    """Return the model in the form that `from_json` reads."""
-    return {
-        "trained_on": model.trained_on,
-        "whole": _network_json(model.whole),
-        "alone": _network_json(model.alone),
-        "usual": [list(row) for row in model.usual],
-        "spread": [list(row) for row in model.spread],
-        "chances": [list(row) for row in model.chances],
-        "shifts": [[a.value, b.value, shift] for a, b, shift in model.shifts],
-    }
-
-
 def _network(data: dict[str, Any], count: int) -> Network:
     network = Network(
         hidden=_rows(data["hidden"]),
@@ -161,15 +117,6 @@ def _network(data: dict[str, Any], count: int) -> Network:
     return network
 
 
-def _network_json(network: Network) -> dict[str, Any]:
-    return {
-        "hidden": [list(row) for row in network.hidden],
-        "hidden_bias": list(network.hidden_bias),
-        "output": [list(row) for row in network.output],
-        "output_bias": list(network.output_bias),
-    }
-
-
 def _row(data: Sequence[Any]) -> Row:
     return tuple([float(value) for value in data])
 
@@ -180,11 +127,3 @@ def _rows(data: Sequence[Sequence[Any]]) -> tuple[Row, ...]:
 
 def _with_half_squares(rows: Sequence[Row], bias: Row) -> Row:
     return tuple([b + 0.5 * fsum([w * w for w in row]) for row, b in zip(rows, bias, strict=True)])
-
-
-def _weighted_sums(rows: Sequence[Row], half: Row, inputs: Row) -> list[float]:
-    """Return bias + w x for each row w; `half` has the bias plus w w / 2."""
-    length = hypot(*inputs)
-    square = 0.5 * length * length
-    distances = map(dist, rows, repeat(inputs))
-    return [constant + square - 0.5 * distance * distance for constant, distance in zip(half, distances, strict=True)]

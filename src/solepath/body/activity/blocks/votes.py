@@ -1,12 +1,18 @@
-"""Votes (log-likelihoods) of both feet on the motion in a block of half a second, and their sum."""
+"""Votes (log-likelihoods) of both feet on the motion in a block of half a second, and their sum.
+
+Sums of products use math.dist: w x = (w w + x x - |w - x|^2) / 2. It is the only loop over floats that runs in C in
+every Python from 3.11 on, three times as fast as sum(map(mul, ...)), and gives the same bits everywhere. The result
+is off by 1e-12 at most, and hypotheses.py rounds the scores to 1e-4."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import repeat
+from math import dist, exp, fsum, hypot, inf, log, tanh
 
 from ..elevator_evidence import SWAY_DEVIATION, BlockForce
 from .features import FIRST_GYRO_FEATURE, ActivityBlock, stride_of
-from .motion import MOTIONS, MotionModel
+from .motion import MOTIONS, MotionModel, Network, Row
 from .stride_slope import slope_evidence
 
 STILL, STAIRS_UP, STAIRS_DOWN = [MOTIONS.index(motion) for motion in ("still", "stairs_up", "stairs_down")]
@@ -45,7 +51,8 @@ def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> 
             continue
         known = True
         weight = VOTE_WEIGHT if features[FIRST_GYRO_FEATURE] or not with_gyro else LESSER_WEIGHT
-        for i, likely in enumerate(model.log_probabilities(features)):
+        network = model.whole if features[FIRST_GYRO_FEATURE] else model.alone
+        for i, likely in enumerate(log_probabilities(network, features)):
             votes[i] += weight * max(likely, MIN_VOTE)
         stride = stride_of(features)
         if stride is not None:
@@ -55,8 +62,41 @@ def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> 
                 votes[STILL] -= STRIDE_EVIDENCE
             votes[STAIRS_UP] += slope.up
             votes[STAIRS_DOWN] += slope.down
-        unknown += weight * min(0.5 * (model.strangeness(features) - USUAL_STRANGENESS) - UNKNOWN_COST, 0.0)
+        unknown += weight * min(0.5 * (strangeness(model, features) - USUAL_STRANGENESS) - UNKNOWN_COST, 0.0)
     return (*votes, unknown) if known else (*[-1.0] * len(MOTIONS), 0.0)
+
+
+def log_probabilities(network: Network, features: Sequence[float]) -> list[float]:
+    """Return the natural logarithm of the probability of each of `MOTIONS` by a network.
+
+    Features beyond the network's inputs are ignored."""
+    inputs = tuple(features[: len(network.hidden[0])])
+    hidden_values = tuple(map(tanh, _weighted_sums(network.hidden, network.hidden_half, inputs)))
+    output_values = _weighted_sums(network.output, network.output_half, hidden_values)
+    highest = max(output_values)
+    total = highest + log(fsum([exp(value - highest) for value in output_values]))
+    return [value - total for value in output_values]
+
+
+def strangeness(model: MotionModel, features: Sequence[float]) -> float:
+    """Return the distance of features from the training data: 1 is usual, 4 is two standard deviations everywhere.
+
+    It is the mean squared deviation from the nearest motion, over all accelerometer features, in standard
+    deviations."""
+    inputs, nearest = features[:FIRST_GYRO_FEATURE], inf
+    for spread, middle in zip(model.spread, model.middles, strict=True):
+        distance = dist([value / deviation for value, deviation in zip(inputs, spread, strict=True)], middle)
+        if distance < nearest:
+            nearest = distance
+    return nearest * nearest / FIRST_GYRO_FEATURE
+
+
+def _weighted_sums(rows: Sequence[Row], half: Row, inputs: Row) -> list[float]:
+    """Return bias + w x for each row w; `half` has the bias plus w w / 2."""
+    length = hypot(*inputs)
+    square = 0.5 * length * length
+    distances = map(dist, rows, repeat(inputs))
+    return [constant + square - 0.5 * distance * distance for constant, distance in zip(half, distances, strict=True)]
 
 
 def block_force(block: ActivityBlock | None, resolution: float) -> BlockForce | None:

@@ -1,0 +1,173 @@
+"""Collects what outcomes need from a session's events, and puts the outcomes into text.
+
+clinic = Clinic(outcomes=True)
+clinic.add(event)  # each event
+print("\\n".join(clinic.lines()))"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+
+from attrs import define, field, frozen
+
+from ...events import Event, GaitCycleMeasured, StrideTaken, TurnMade
+from ..tables.table import number, table
+from ..valid import has_valid_numbers
+from .bouts import WalkingBout, walking_bouts
+from .mobility import implausible, mobility_outcomes
+from .references import Person
+from .rows import PARTS, OutcomeRow, mobility_rows, six_minute_rows, stride_rows, up_and_go_rows
+from .walk_tests import SixMinuteWalk, TimedUpAndGo, six_minute_walk, timed_up_and_go
+
+LABEL = (
+    "Walking bouts and mobility outcomes are from foot-worn sensors, with the rules and limits of Mobilise-D (Kluge et "
+    "al. 2021; mobgap 1.2). They are not outcomes of its validated pipeline, which uses one sensor at the lower back."
+)
+NEEDED = (
+    "needed: strides for an interval of 20 % of a variability, or of 2 percentage points of an asymmetry, to each side"
+)
+SENSORS = (
+    "the intervals are of the strides: sensors whose scales differ by 1 % make lengths and speeds differ by as much"
+)
+NO_WALK = "No walking bout was found, so that there is no six-minute walk."
+"""Sentence for a six-minute walk without a start."""
+UP_AND_GO_NOTE = (
+    "The total is the time between the two marks. It is not divided: sitting to standing cannot be seen from a foot."
+)
+NO_STEP = "No step was found between the marks: are they times of the recording's clock?"
+"""Sentence for marks between which nobody walked."""
+INTERVAL_HEADER = ("%", "95 % interval", "strides", "needed")
+MAX_BOUTS = 12
+"""Largest number of bouts that the text names one by one; bouts.csv has all of them."""
+
+
+@frozen(kw_only=True)
+class ClinicalResults:
+    """All outcomes of a session that were requested."""
+
+    bouts: list[WalkingBout]
+    six_minutes: SixMinuteWalk | None
+    """The six-minute walk; None if it was not requested or not found."""
+    up_and_go: TimedUpAndGo | None
+    rows: list[OutcomeRow]
+    """Rows of all outcomes, in the order of PARTS."""
+
+    def part(self, *names: str) -> list[OutcomeRow]:
+        """Return the rows of some parts whose values are known."""
+        return [row for row in self.rows if row.part in names and row.value is not None]
+
+    def sources(self, *names: str) -> list[str]:
+        """Return sentences on the references of some parts, with their sources."""
+        return [
+            f"Reference of {row.label}: {row.reference.words} ({row.reference.source})."
+            for row in self.part(*names)
+            if row.reference is not None
+        ]
+
+
+@define
+class Clinic:
+    """The outcomes that were requested, and the events that they need; memory grows with the strides."""
+
+    outcomes: bool = False
+    """True for bouts, mobility outcomes, variability and asymmetry."""
+    six_minutes: bool = False
+    """True for the six-minute walk."""
+    six_minutes_start: float | None = None
+    """Time at which the six minutes start, s; None for the first step."""
+    up_and_go: tuple[float, float] | None = None
+    """Times at which an observer marked start and stop of a timed up and go, s."""
+    person: Person | None = None
+    """Person for whom references are given."""
+    events: list[Event] = field(factory=list, init=False)
+    end: float | None = field(default=None, init=False)
+    """Time of the last event of any kind, s."""
+
+    def add(self, event: Event) -> None:
+        """Add an event of the session."""
+        if self.end is None or self.end < event.t < inf:
+            self.end = event.t
+        if isinstance(event, GaitCycleMeasured | StrideTaken | TurnMade) and event.final and has_valid_numbers(event):
+            self.events.append(event)
+
+    def results(self) -> ClinicalResults:
+        """Return the outcomes of the events so far."""
+        rows: list[OutcomeRow] = []
+        walk = test = None
+        if self.six_minutes:
+            walk = six_minute_walk(self.events, self.six_minutes_start, self.end)
+            rows += [] if walk is None else six_minute_rows(walk, self.person)
+        if self.up_and_go is not None:
+            test = timed_up_and_go(self.events, *self.up_and_go)
+            rows += up_and_go_rows(test, self.person)
+        bouts = walking_bouts(self.events)
+        if self.outcomes:
+            rows += [*mobility_rows(mobility_outcomes(bouts)), *stride_rows(self.events, self.person)]
+        return ClinicalResults(bouts=bouts, six_minutes=walk, up_and_go=test, rows=rows)
+
+    def lines(self, results: ClinicalResults) -> list[str]:
+        """Return the outcomes as plain text."""
+        lines: list[str] = []
+        if self.six_minutes:
+            walk = results.six_minutes
+            lines += ["", NO_WALK if walk is None else six_minute_sentence(walk)]
+            lines += _table("six-minute walk", results.part(PARTS[0])) if walk is not None else []
+        if results.up_and_go is not None:
+            lines += ["", *_table("timed up and go", results.part(PARTS[1])), UP_AND_GO_NOTE]
+            lines += [NO_STEP] if not results.up_and_go.steps else []
+        if self.outcomes:
+            lines += ["", *bout_lines(results.bouts), ""]
+            lines += _table("mobility outcomes", results.part(PARTS[2]))
+            for part in PARTS[3:]:
+                lines += ["", *_interval_table(f"{part} of steady strides", results.part(part))]
+            lines += [*([NEEDED, SENSORS] if results.part(*PARTS[3:]) else []), "", LABEL]
+        return lines + results.sources(*PARTS)
+
+
+def six_minute_sentence(walk: SixMinuteWalk) -> str:
+    """Return the result of a six-minute walk as a sentence."""
+    distance = "an unknown distance" if walk.distance is None else f"{walk.distance:.1f} m"
+    start = f"from {walk.t_start:.1f} s on the recording's clock"
+    if walk.complete:
+        return f"Walked {distance} in six minutes, {start}."
+    return f"Walked {distance} in {walk.duration:.1f} s, {start}: the recording ends before the six minutes do."
+
+
+def bout_lines(bouts: Sequence[WalkingBout]) -> list[str]:
+    """Return a table of the first bouts as lines of text."""
+    if not bouts:
+        return ["no walking bout: none has four strides without a break of more than 3 s"]
+    header = ["walking bout", "start s", "duration s", "strides", "steps", "turns", "cadence", "length m", "speed m/s"]
+    lines = table(header, [bout_row(bout) for bout in bouts[:MAX_BOUTS]]).splitlines()
+    return lines + ([f"and {len(bouts) - MAX_BOUTS} more"] if len(bouts) > MAX_BOUTS else [])
+
+
+def bout_row(bout: WalkingBout) -> list[str]:
+    """Return the cells of a bout in a table; an implausible mean, which counts in no outcome, is in brackets."""
+    wrong = implausible(bout)
+    digits = {"cadence": 1, "stride_length": 2, "walking_speed": 2}
+    means = {name: number(getattr(bout, name), count) for name, count in digits.items()}
+    shown = [f"({mean})" if name in wrong else mean for name, mean in means.items()]
+    counts = [str(count) for count in (bout.strides, bout.steps, bout.turns)]
+    return [str(bout.number), f"{bout.t_start:.1f}", f"{bout.duration:.1f}", *counts, *shown]
+
+
+def _table(title: str, rows: Sequence[OutcomeRow]) -> list[str]:
+    has_reference = any(row.reference_text for row in rows)
+    header = [title, "value", "", *(["reference"] if has_reference else [])]
+    cells = [[r.label, r.shown(r.value), r.shown_unit, *([r.reference_text] if has_reference else [])] for r in rows]
+    return table(header, cells).splitlines()
+
+
+def _interval_table(title: str, rows: Sequence[OutcomeRow]) -> list[str]:
+    """Return a table of estimates with their intervals; none if there are too few strides."""
+    if not rows:
+        return [f"{title}: needs four steady strides of a foot, and of both feet for an asymmetry"]
+    return table([title, *INTERVAL_HEADER], [interval_row(row) for row in rows]).splitlines()
+
+
+def interval_row(row: OutcomeRow) -> list[str]:
+    """Return the cells of an estimate in a table."""
+    counts = ["", ""] if row.interval is None else [str(row.interval.strides), str(row.interval.needed)]
+    return [row.label, row.shown(row.value), row.interval_text, *counts]

@@ -1,0 +1,104 @@
+"""Published reference values of healthy people for comparison, each with its source; none is a limit of what is normal.
+
+Only numbers of the sources stand here. A mean, and an interval of a mean, say where the average of a group is, not
+where most of its members are; `Reference.words` says which it is."""
+
+from __future__ import annotations
+
+from attrs import frozen
+
+from ...types import Word
+
+
+class Sex(Word):
+    """The sex for which a study gives values."""
+
+    FEMALE = "female"
+    MALE = "male"
+
+
+@frozen
+class Person:
+    """The person for whom reference values are looked up; a value that needs what is not known is not given."""
+
+    age: float
+    """Age of the person, years."""
+    sex: Sex
+    height: float | None = None
+    """Height of the person, m."""
+    weight: float | None = None
+    """Body mass of the person, kg."""
+
+
+@frozen(kw_only=True)
+class Reference:
+    """A published value for people like this one, in the unit of the outcome."""
+
+    value: float
+    low: float | None = None
+    """Lower end of the band, or the lower limit of normal; None when the source gives none."""
+    high: float | None = None
+    """Upper end of the band; None when the source gives none."""
+    words: str
+    """Short description of the value and its band, such as "mean of healthy women aged 70 to 79"."""
+    source: str
+    """Publication of the value."""
+
+
+WALKING_SPEEDS = {
+    Sex.MALE: ((20, 1.36), (30, 1.43), (40, 1.43), (50, 1.43), (60, 1.34), (70, 1.26), (80, 0.97)),
+    Sex.FEMALE: ((20, 1.34), (30, 1.34), (40, 1.39), (50, 1.31), (60, 1.24), (70, 1.13), (80, 0.94)),
+}
+"""First age of each group, years, and mean speed at a usual pace, m/s; the last group goes up to 99 years."""
+SPEED_SOURCE = "Bohannon and Andrews 2011, Physiotherapy 97"
+UP_AND_GO_TIMES = ((60, 8.1, 7.1, 9.0), (70, 9.2, 8.2, 10.2), (80, 11.3, 10.0, 12.7))
+"""First age of each group, years, mean, and 95 % confidence interval of the mean, s; the last group up to 99 years."""
+UP_AND_GO_SOURCE = "Bohannon 2006, J. Geriatr. Phys. Ther. 29"
+SIX_MINUTE_SOURCE = "Enright and Sherrill 1998, Am. J. Respir. Crit. Care Med. 158"
+SIX_MINUTE_AGES = (40.0, 80.0)
+"""Youngest and oldest age of the people of Enright and Sherrill 1998, years."""
+LOWER_LIMITS = {Sex.MALE: 153.0, Sex.FEMALE: 139.0}
+"""Distance by which the lower limit of normal is below the predicted six-minute distance, m (same source)."""
+OLDEST = 100.0
+"""Age at which the oldest groups end, years."""
+
+
+def _group_name(first: float, sex: Sex | None) -> str:
+    people = "people" if sex is None else {Sex.MALE: "men", Sex.FEMALE: "women"}[sex]
+    return f"healthy {people} aged {first:.0f} to {99 if first >= 80 else first + 9:.0f}"
+
+
+def walking_speed_reference(person: Person) -> Reference | None:
+    """Return the mean usual walking speed, m/s, of people of this age and sex; None below 20 and above 99 years."""
+    groups = [group for group in WALKING_SPEEDS[person.sex] if group[0] <= person.age < OLDEST]
+    if not groups:
+        return None
+    first, mean = groups[-1]
+    return Reference(value=mean, words=f"mean of {_group_name(first, person.sex)}, usual pace", source=SPEED_SOURCE)
+
+
+def up_and_go_reference(person: Person) -> Reference | None:
+    """Return the mean timed up and go, s, of people of this age; None below 60 and above 99 years.
+
+    The source calls a person slower than the upper end of the interval worse than average."""
+    groups = [group for group in UP_AND_GO_TIMES if group[0] <= person.age < OLDEST]
+    if not groups:
+        return None
+    first, mean, low, high = groups[-1]
+    words = f"mean of {_group_name(first, None)}, with the 95 % interval of the mean"
+    return Reference(value=mean, low=low, high=high, words=words, source=UP_AND_GO_SOURCE)
+
+
+def six_minute_reference(person: Person) -> Reference | None:
+    """Return the six-minute distance, m, that the equations of Enright and Sherrill 1998 predict, and its lower limit.
+
+    They need height and weight, and are of people aged 40 to 80; None otherwise."""
+    if person.height is None or person.weight is None or not SIX_MINUTE_AGES[0] <= person.age <= SIX_MINUTE_AGES[1]:
+        return None
+    height = 100.0 * person.height
+    if person.sex is Sex.MALE:
+        value = 7.57 * height - 5.02 * person.age - 1.76 * person.weight - 309.0
+    else:
+        value = 2.11 * height - 2.29 * person.weight - 5.78 * person.age + 667.0
+    words = "predicted from age, sex, height and weight, with the lower limit of normal"
+    return Reference(value=value, low=value - LOWER_LIMITS[person.sex], words=words, source=SIX_MINUTE_SOURCE)

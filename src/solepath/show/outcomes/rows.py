@@ -1,0 +1,143 @@
+"""Rows of outcomes, which the tables of the terminal, the report and outcomes.csv share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from attrs import asdict, frozen
+
+from ...events import Event
+from ..tables.table import number
+from .bouts import mean_of
+from .mobility import MobilityOutcomes, unit_of
+from .references import Person, Reference, six_minute_reference, up_and_go_reference, walking_speed_reference
+from .spread import VARIABLE, IntervalEstimate, asymmetry, steady_strides, variability
+from .walk_tests import SixMinuteWalk, TimedUpAndGo
+
+PARTS = ("six-minute walk", "timed up and go", "mobility", "variability", "asymmetry")
+KINDS = {
+    "walkdur": "walking time", "wbsteps": "initial contacts", "turns": "turns", "wb": "walking bouts",
+    "wbdur": "bout duration", "cadence": "cadence", "strdur": "stride duration", "ws": "walking speed",
+    "strlen": "stride length",
+}  # fmt: skip
+CLASSES = {
+    "all": "", "10": ", bouts > 10 s", "1030": ", bouts of 10 to 30 s", "30": ", bouts > 30 s", "60": ", bouts > 60 s",
+}  # fmt: skip
+AGGREGATES = {"sum": "", "avg": ", mean", "p90": ", 90th percentile", "var": ", CV"}
+DIGITS = {"s": 2, "m": 2, "m/s": 2, "1/min": 1}
+"""Digits after the point in tables by unit; a share is shown in percent with one digit."""
+LARGE = 100.0
+"""Size from which one digit is enough."""
+
+
+@frozen(kw_only=True)
+class OutcomeRow:
+    """One outcome with its interval and reference, where it has them; a share (no unit, a float) is 0.02 for 2 %."""
+
+    part: str
+    """Part of the outcomes that it belongs to, one of PARTS."""
+    name: str
+    """Name of the outcome in outcomes.csv."""
+    label: str
+    """Name of the outcome in tables."""
+    unit: str = ""
+    value: float | int | None
+    interval: IntervalEstimate | None = None
+    reference: Reference | None = None
+
+    def shown(self, value: float | int | None) -> str:
+        """Return a value of this outcome as a table shows it, without the unit."""
+        if value is None:
+            return "-"
+        if not self.unit and isinstance(value, int):
+            return str(value)
+        digits = DIGITS[self.unit] if self.unit and abs(value) < LARGE else 1
+        text = number(value if self.unit else 100.0 * value, digits)
+        return text.removeprefix("-") if float(text) == 0.0 else text
+
+    @property
+    def shown_unit(self) -> str:
+        """Unit in tables: % for a share."""
+        return self.unit or ("" if isinstance(self.value, int) else "%")
+
+    @property
+    def interval_text(self) -> str:
+        """Ends of the interval as a table shows them; "" without one."""
+        one = self.interval
+        return "" if one is None else f"{self.shown(one.low)} to {self.shown(one.high)}"
+
+    @property
+    def reference_text(self) -> str:
+        """Reference value and its band as a table shows them; "" without one."""
+        if (one := self.reference) is None:
+            return ""
+        if one.high is not None:
+            return f"{self.shown(one.value)} ({self.shown(one.low)} to {self.shown(one.high)})"
+        return self.shown(one.value) if one.low is None else f"{self.shown(one.value)} (from {self.shown(one.low)})"
+
+
+def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeRow]:
+    """Return the rows of a six-minute walk; the distance has a reference if the whole test was recorded."""
+    reference = None if person is None or not walk.complete else six_minute_reference(person)
+    values: list[tuple[str, str, str, float | int | None]] = [
+        ("duration", "duration", "s", walk.duration),
+        *[(f"distance_{foot}", f"distance of the {foot} foot", "m", d) for foot, d in walk.foot_distances.items()],
+        ("speed", "distance / duration", "m/s", walk.speed),
+        ("cadence", "steps / duration", "1/min", walk.cadence),
+        ("steps", "steps", "", walk.steps),
+        *[(f"distance_minute_{k}", f"distance in minute {k}", "m", d) for k, d in enumerate(walk.minutes, start=1)],
+        ("distance_index", "change from minute 1 to 6", "", walk.distance_index),
+        ("stops", "stops of more than 3 s", "", walk.stops),
+        ("stopped_time", "time of these stops", "s", walk.stopped_time),
+        ("about_turns", "turns about", "", walk.about_turns),
+        ("degraded", "degraded strides", "", walk.degraded),
+    ]  # fmt: skip
+    first = OutcomeRow(
+        part=PARTS[0], name="distance", label="distance", unit="m", value=walk.distance, reference=reference
+    )
+    return [first, *[OutcomeRow(part=PARTS[0], name=n, label=label, unit=u, value=v) for n, label, u, v in values]]
+
+
+def up_and_go_rows(test: TimedUpAndGo, person: Person | None) -> list[OutcomeRow]:
+    """Return the rows of a timed up and go."""
+    reference = None if person is None else up_and_go_reference(person)
+    values: list[tuple[str, str, str, float | int | None]] = [
+        ("walking_time", "from the first toe-off to the last contact", "s", test.walking_time),
+        ("steps", "steps", "", test.steps),
+        ("distance", "distance", "m", test.distance),
+    ]
+    first = OutcomeRow(
+        part=PARTS[1], name="duration", label="total time", unit="s", value=test.duration, reference=reference
+    )
+    return [first, *[OutcomeRow(part=PARTS[1], name=n, label=label, unit=u, value=v) for n, label, u, v in values]]
+
+
+def mobility_rows(outcomes: MobilityOutcomes) -> list[OutcomeRow]:
+    """Return the rows of mobility outcomes, by their names in Mobilise-D."""
+    rows = []
+    for name, value in asdict(outcomes).items():
+        kind, of_bouts, how = name.split("_")
+        aggregate = ", median" if (kind, how) == ("wbdur", "avg") else AGGREGATES[how]
+        label = f"{KINDS[kind]}{CLASSES[of_bouts]}{aggregate}".replace("bouts, bouts", "bouts")
+        rows.append(OutcomeRow(part=PARTS[2], name=name, label=label, unit=unit_of(name), value=value))
+    return rows
+
+
+def stride_rows(events: Sequence[Event], person: Person | None) -> list[OutcomeRow]:
+    """Return the mean speed of steady strides, and variability and asymmetry of the fields in VARIABLE."""
+    speed = mean_of([stride.speed for stride in steady_strides(events)])
+    reference = None if person is None else walking_speed_reference(person)
+    rows = [
+        OutcomeRow(
+            part=PARTS[2], name="steady_speed", label="speed of steady strides, mean", unit="m/s", value=speed,
+            reference=reference,
+        )
+    ]  # fmt: skip
+    for part, estimates in (
+        (PARTS[3], {name: variability(events, name) for name in VARIABLE}),
+        (PARTS[4], {name: asymmetry(events, name) for name in VARIABLE}),
+    ):
+        for name, one in estimates.items():
+            value = None if one is None else one.value
+            rows.append(OutcomeRow(part=part, name=name, label=name.replace("_", " "), value=value, interval=one))
+    return rows

@@ -1,0 +1,178 @@
+"""Variability and asymmetry of steady strides with 95 % confidence intervals, and the strides that they need.
+
+The intervals are analytic: no random number is drawn. They allow for strides that resemble the one before, by the
+autocorrelation at lag 1 of each foot's strides (of a process of order 1). Slower changes, such as getting tired over
+minutes, they do not cover, nor errors of the sensors: where their scales differ by 1 %, so do lengths.
+tests/outcomes/test_spread.py shows how often the intervals hold the true value."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import ceil, fsum, sqrt
+
+from attrs import frozen
+
+from ...events import Event, GaitCycleMeasured
+from ...types import Foot
+from .quantiles import Z, chi_squared_quantile, student_quantile
+
+VARIABLE = ("stride_time", "stance_time", "swing_time", "step_time", "stride_length", "step_length", "speed")
+"""Fields of GaitCycleMeasured whose variability and asymmetry the command line and the report show."""
+MIN_FOOT_STRIDES = 4
+"""Least number of strides of a foot for an interval; chosen by hand: an autocorrelation of fewer means nothing."""
+VARIABILITY_PRECISION = 0.2
+"""Half width of the interval, as a share of the coefficient of variation, for which `needed` is given.
+
+With independent strides it takes 50, which is also from where on variability was as reliable as it gets (Koenig et al.
+2014, Gait & Posture 39)."""
+ASYMMETRY_PRECISION = 0.02
+"""Half width of the interval of an asymmetry for which `needed` is given, as a share; chosen by hand."""
+MAX_CORRELATION = 0.95
+"""Largest autocorrelation that is used; chosen by hand: nearer to 1 the number of independent strides is below 3 %."""
+
+
+@frozen(kw_only=True)
+class IntervalEstimate:
+    """An estimate over steady strides with its 95 % confidence interval; all three are shares (0.02 is 2 %)."""
+
+    value: float
+    low: float
+    """Lower end of the interval."""
+    high: float
+    """Upper end of the interval."""
+    strides: int
+    """Number of strides, of both feet where both count."""
+    needed: int
+    """Number of strides, of both feet where both count, from which the interval is as narrow as it should be: 20 % of a
+    coefficient of variation, or 2 percentage points of an asymmetry, to each side. By the formula of the interval, with
+    the variances and autocorrelations of these strides."""
+
+    @property
+    def enough(self) -> bool:
+        """True if there are as many strides as needed."""
+        return self.strides >= self.needed
+
+
+@frozen
+class FootSample:
+    """The values of one parameter in the steady strides of one foot, as moments."""
+
+    count: int
+    mean: float
+    variance: float
+    """Unbiased variance of the values."""
+    correlation: float
+    """Autocorrelation at lag 1, of strides that follow each other, corrected for its bias and not below 0."""
+
+    @property
+    def mean_count(self) -> float:
+        """Number of independent strides whose mean would vary as much: n (1 - r) / (1 + r).
+
+        Bayley and Hammersley 1946, J. R. Stat. Soc. Suppl. 8."""
+        return self.count * (1.0 - self.correlation) / (1.0 + self.correlation)
+
+    @property
+    def variance_count(self) -> float:
+        """Number of independent strides whose variance would vary as much: n (1 - r^2) / (1 + r^2) (same source)."""
+        square = self.correlation * self.correlation
+        return self.count * (1.0 - square) / (1.0 + square)
+
+
+def variability(events: Iterable[Event], name: str, foot: Foot | None = None) -> IntervalEstimate | None:
+    """Return the coefficient of variation of a field of GaitCycleMeasured over steady walking strides.
+
+    Without `foot` it is that of both feet, as in the gait table: the root of the mean of the feet's variances over the
+    mean of their means (Galna et al. 2013, Gait & Posture 37); of a wearer of one sensor that foot's. The interval is
+    the modified one of McKay (Vangel 1996, Am. Stat. 50, equation 16), for which the values are normally distributed
+    and the coefficient is below 1/3. The number of strides needed is 1 + z^2 / (2 h^2) independent ones of each foot
+    together, with half width h (Greenwood and Sandomire 1950, J. Am. Stat. Assoc. 45). None if a foot has fewer than
+    four strides or the mean is not above zero."""
+    samples = [s for one, s in _samples(events, name).items() if foot is None or one is foot]
+    if not samples or min([sample.count for sample in samples]) < MIN_FOOT_STRIDES:
+        return None
+    mean = fsum([sample.mean for sample in samples]) / len(samples)
+    variances = [sample.variance for sample in samples]
+    total = fsum(variances)
+    if mean <= 0.0 or total <= 0.0:
+        return None
+    cv = sqrt(total / len(samples)) / mean
+    # degrees of freedom of a mean of variances (Satterthwaite 1946, Biometrics Bull. 2)
+    freedoms = [max(sample.variance_count - 1.0, 1.0) for sample in samples]
+    freedom = total * total / fsum([v * v / f for v, f in zip(variances, freedoms, strict=True)])
+    ends = []
+    for share in (0.975, 0.025):
+        u = chi_squared_quantile(share, freedom)
+        ends.append(cv / sqrt(max(((u + 2.0) / (freedom + 1.0) - 1.0) * cv * cv + u / freedom, 1e-9)))
+    count = sum([sample.count for sample in samples])  # whole numbers
+    needed = len(samples) + (Z / VARIABILITY_PRECISION) ** 2 / 2.0 * count / (freedom + len(samples))
+    return IntervalEstimate(value=cv, low=ends[0], high=ends[1], strides=count, needed=ceil(needed))
+
+
+def asymmetry(events: Iterable[Event], name: str) -> IntervalEstimate | None:
+    """Return the symmetry index of a field of GaitCycleMeasured, 2 (right - left) / (right + left).
+
+    `left` and `right` are the feet's means over steady walking strides (Robinson et al. 1987, J. Manip. Physiol. Ther.
+    10). The variance of the index is that of first order (delta method) of these means, which are taken as independent:
+    what both feet have in common makes the true interval narrower. Its quantile is Student's t, with degrees of freedom
+    by Welch (1947, Biometrika 34). None without four strides of each foot, or if a mean is not above zero."""
+    samples = _samples(events, name)
+    if len(samples) < len(Foot) or min([sample.count for sample in samples.values()]) < MIN_FOOT_STRIDES:
+        return None
+    left, right = samples[Foot.LEFT], samples[Foot.RIGHT]
+    if min(left.mean, right.mean) <= 0.0:
+        return None
+    index = 2.0 * (right.mean - left.mean) / (right.mean + left.mean)
+    slope = 4.0 / (right.mean + left.mean) ** 2
+    parts = [(slope * other.mean) ** 2 * one.variance / one.mean_count for one, other in ((left, right), (right, left))]
+    variance = fsum(parts)
+    freedoms = [max(sample.mean_count - 1.0, 1.0) for sample in (left, right)]
+    spread = fsum([part * part / f for part, f in zip(parts, freedoms, strict=True)])
+    half = 0.0 if spread <= 0.0 else student_quantile(variance * variance / spread) * sqrt(variance)
+    count = left.count + right.count
+    needed = max(2 * MIN_FOOT_STRIDES, ceil(count * (half / ASYMMETRY_PRECISION) ** 2))
+    return IntervalEstimate(value=index, low=index - half, high=index + half, strides=count, needed=needed)
+
+
+def steady_strides(events: Iterable[Event]) -> list[GaitCycleMeasured]:
+    """Return the strides that count: steady ones of walking that the next one of the foot follows.
+
+    They are those of the means in `Session.gait`."""
+    latest: dict[Foot, GaitCycleMeasured] = {}
+    strides = []
+    for event in events:
+        if isinstance(event, GaitCycleMeasured):
+            last, latest[event.foot] = latest.get(event.foot), event
+            if last is not None and last.steady and not last.running and last.t == event.t_start:
+                strides.append(last)
+    return strides
+
+
+def _samples(events: Iterable[Event], name: str) -> dict[Foot, FootSample]:
+    """Return the moments of a parameter over the steady strides of each foot that has any."""
+    runs: dict[Foot, list[list[float]]] = {}
+    ends: dict[Foot, float] = {}
+    for stride in steady_strides(events):
+        value = getattr(stride, name)
+        if value is None:
+            continue
+        foot_runs = runs.setdefault(stride.foot, [])
+        if ends.get(stride.foot) != stride.t_start:
+            foot_runs.append([])
+        foot_runs[-1].append(value)
+        ends[stride.foot] = stride.t
+    return {foot: _moments(runs[foot]) for foot in Foot if foot in runs}
+
+
+def _moments(runs: Sequence[Sequence[float]]) -> FootSample:
+    """Return the moments of values in runs of strides that follow each other."""
+    values = [value for run in runs for value in run]
+    count = len(values)
+    mean = fsum(values) / count
+    squares = fsum([(value - mean) ** 2 for value in values])
+    pairs = [(a - mean) * (b - mean) for run in runs for a, b in zip(run, run[1:], strict=False)]
+    correlation = 0.0
+    if pairs and squares > 0.0:
+        found = fsum(pairs) / len(pairs) / (squares / count)
+        # the bias of the estimate (Marriott and Pope 1954, Biometrika 41)
+        correlation = min(max(found + (1.0 + 4.0 * found) / count, 0.0), MAX_CORRELATION)
+    return FootSample(count, mean, squares / (count - 1) if count > 1 else 0.0, correlation)

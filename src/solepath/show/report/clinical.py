@@ -1,0 +1,83 @@
+"""Adds clinical outcomes to a report: the six-minute walk, the timed up and go, walking bouts and mobility outcomes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree.ElementTree import Element
+
+from ..outcomes.clinic import (
+    INTERVAL_HEADER,
+    LABEL,
+    MAX_BOUTS,
+    NEEDED,
+    NO_STEP,
+    NO_WALK,
+    SENSORS,
+    UP_AND_GO_NOTE,
+    Clinic,
+    bout_row,
+    interval_row,
+    six_minute_sentence,
+)
+from ..outcomes.rows import PARTS, OutcomeRow
+from .figures.minutes import minutes_figure
+from .markup import add, section, table
+
+SIX_MINUTE_NOTE = (
+    "The distance is the mean of what both feet went, stride by stride, turns included (ATS 2002 counts lengths of a "
+    "course). Stops are breaks of more than 3 s."
+)
+BOUT_HEADER = ("bout", "start, s", "duration, s", "strides", "steps", "turns", "steps/min", "length, m", "speed, m/s")
+NO_BOUT = "There is no walking bout: none has four strides without a break of more than 3 s."
+TOO_FEW = "There are too few steady strides for variability and asymmetry: four of a foot are needed."
+
+
+def clinical_sections(main: Element, clinic: Clinic) -> None:
+    """Add a section for each outcome that was requested."""
+    results = clinic.results()
+    if clinic.six_minutes:
+        parent = section(main, "six-minute-walk", "Six-minute walk")
+        walk = results.six_minutes
+        add(parent, "p", NO_WALK if walk is None else six_minute_sentence(walk))
+        if walk is not None:
+            figures = add(parent, "div", class_="figures")
+            rows = [row for row in results.part(PARTS[0]) if not row.name.startswith("distance_minute")]
+            _table(figures, "Six-minute walk", rows)
+            minutes_figure(figures, walk.minutes)
+            _notes(parent, [SIX_MINUTE_NOTE, *results.sources(PARTS[0])])
+    if results.up_and_go is not None:
+        parent = section(main, "up-and-go", "Timed up and go")
+        _table(parent, "Timed up and go", results.part(PARTS[1]))
+        notes = [UP_AND_GO_NOTE, *([] if results.up_and_go.steps else [NO_STEP]), *results.sources(PARTS[1])]
+        _notes(parent, notes)
+    if clinic.outcomes:
+        parent = section(main, "outcomes", "Walking bouts and mobility outcomes")
+        add(parent, "p", LABEL, class_="caution")
+        if results.bouts:
+            table(parent, "Walking bouts", BOUT_HEADER, [bout_row(bout) for bout in results.bouts[:MAX_BOUTS]])
+        else:
+            add(parent, "p", NO_BOUT)
+        if len(results.bouts) > MAX_BOUTS:
+            add(parent, "p", f"and {len(results.bouts) - MAX_BOUTS} more bouts", class_="note")
+        _table(parent, "Mobility outcomes", results.part(PARTS[2]))
+        for part in PARTS[3:]:
+            cells = [interval_row(row) for row in results.part(part)]
+            if cells:
+                table(parent, f"{part.capitalize()} of steady strides", (part, *INTERVAL_HEADER), cells)
+        notes = [NEEDED.capitalize(), SENSORS.capitalize()] if results.part(*PARTS[3:]) else [TOO_FEW]
+        _notes(parent, [*notes, *results.sources(PARTS[2])])
+
+
+def _table(parent: Element, caption: str, rows: Sequence[OutcomeRow]) -> None:
+    has_reference = any(row.reference_text for row in rows)
+    header = ["outcome", "value", *(["reference"] if has_reference else [])]
+    cells = []
+    for row in rows:
+        value = f"{row.shown(row.value)} {row.shown_unit}".rstrip()
+        cells.append([row.label, value, *([row.reference_text or "-"] if has_reference else [])])
+    table(parent, caption, header, cells)
+
+
+def _notes(parent: Element, sentences: Sequence[str]) -> None:
+    for sentence in sentences:
+        add(parent, "p", f"{sentence.removesuffix('.')}.", class_="note")

@@ -1,0 +1,83 @@
+"""Layouts of the pressure cells of insoles."""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+from math import dist
+from struct import pack
+
+from .attrs import field, frozen
+from .records import Foot
+
+
+@frozen
+class Cell:
+    """A pressure cell of an insole.
+
+    The foot frame has x to the toe, y to the left, and its origin at the heel's rear end on the insole's midline."""
+
+    x: float
+    """Position of the centre along the foot's x axis, to the toe, m."""
+    y: float
+    """Position of the centre along the foot's y axis, to the left, m."""
+    area: float = 1e-4
+    """Area of the cell, m^2."""
+
+
+@frozen
+class Layout:
+    """The pressure cells of one insole, in the order in which samples have them."""
+
+    id: int
+    """Number by which the device names the layout."""
+    foot: Foot
+    """Foot that wears the insole."""
+    cells: tuple[Cell, ...]
+    """Cells in the order in which samples have them."""
+    length: float
+    """Distance from heel to toe, m."""
+    scale: float | None = None
+    """Force of one transmitted count, N: 1.0 when the device sends newtons, None when it is unknown, so that loads are
+    in counts."""
+    full_scale: float = 4095.0
+    """Largest value that a cell can report, in the unit of the samples (N or counts)."""
+
+    @cached_property
+    def xs(self) -> tuple[float, ...]:
+        """Position of each cell along the foot's x axis, to the toe, m."""
+        return tuple([cell.x for cell in self.cells])
+
+    @cached_property
+    def ys(self) -> tuple[float, ...]:
+        """Position of each cell along the foot's y axis, to the left, m."""
+        return tuple([cell.y for cell in self.cells])
+
+    @cached_property
+    def spacing(self) -> float:
+        """Usual distance from one cell to the next, m; 0 with fewer than two cells."""
+        positions = [(cell.x, cell.y) for cell in self.cells]
+        nearest = [min([dist(a, b) for b in positions if b is not a], default=0.0) for a in positions]
+        return sorted(nearest)[len(nearest) // 2] if nearest else 0.0
+
+
+def shared(layout: Layout) -> Layout:
+    """Return one object for all layouts that are equal bit for bit.
+
+    It saves memory, because all wearers of one kind of insole then share one object."""
+    numbers = [layout.length, layout.full_scale, 0.0 if layout.scale is None else layout.scale]
+    for cell in layout.cells:
+        numbers += (cell.x, cell.y, cell.area)
+    # -0.0 and 0.0 are equal, but their bits differ
+    bits = pack(f"<{len(numbers)}d", *numbers)
+    return _intern(_Bits((layout.id, layout.foot, layout.scale is None, bits), layout))
+
+
+@frozen
+class _Bits:
+    key: tuple[int, Foot, bool, bytes]
+    layout: Layout = field(eq=False)
+
+
+@lru_cache(maxsize=256)
+def _intern(bits: _Bits) -> Layout:
+    return bits.layout

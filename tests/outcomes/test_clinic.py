@@ -1,0 +1,192 @@
+"""Outcomes on the command line, in files, in the report and on the page of documents; loaded by nothing else."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+import subprocess
+import sys
+from contextlib import redirect_stdout
+from math import pi
+from pathlib import Path
+
+import pytest
+from commands import run_failing, solepath
+from here import DOCS, ROOT
+from pages import parse_page
+from quoted import PAGES, blocks
+from recordings import recorded
+from strides import cycles
+from walks import run_session
+
+from solepath import GaitCycleMeasured
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import emulate
+from solepath.show.outcomes import Person, Sex, mobility_outcomes, variability, walking_bouts
+from solepath.show.outcomes.clinic import LABEL, MAX_BOUTS, NO_STEP, Clinic, bout_lines
+from solepath.show.outcomes.files import BOUT_COLUMNS, OUTCOME_COLUMNS
+from solepath.show.outcomes.references import six_minute_reference, up_and_go_reference, walking_speed_reference
+from solepath.show.report import Report
+from solepath.types import Foot
+
+ROUTE = Route().stand(2.0).walk(3.0, speed=1.0).turn(pi, radius=0.5).walk(3.0).stop(5.0).walk(12.0, speed=1.2).stop(2.0)
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return recorded(tmp_path_factory.mktemp("clinic") / "walk.jsonl", emulate(ROUTE, seed=3).packets)
+
+
+@pytest.fixture(scope="module")
+def tracked(recording: Path) -> tuple[str, Path]:
+    """Return the output of all options together, and the folder of their files."""
+    out, report = recording.parent / "out", recording.parent / "walk.html"
+    options = ["--outcomes", "--six-minute-walk", "--timed-up-and-go", "1,14", "--reference", "72,female,162,68"]
+    result = solepath("track", recording, *options, "--out", out, "--report", report)
+    assert (result.returncode, result.stderr) == (0, "")
+    return result.stdout, out
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_the_files_hold_the_outcomes_of_the_events(tracked: tuple[str, Path]) -> None:
+    _, out = tracked
+    events = run_session(emulate(ROUTE, seed=3).packets)
+    bouts = walking_bouts(events)
+    assert len(bouts) == 2
+    written = rows_of(out / "bouts.csv")
+    assert [(row["number"], float(row["t_start_s"]), int(row["strides"])) for row in written] == [
+        (str(bout.number), bout.t_start, bout.strides) for bout in bouts
+    ]
+    assert [float(row["walking_speed_m_per_s"]) for row in written] == pytest.approx(
+        [bout.walking_speed for bout in bouts], abs=1e-6
+    )
+    outcomes = {(row["part"], row["outcome"]): row for row in rows_of(out / "outcomes.csv")}
+    expected = mobility_outcomes(bouts)
+    assert float(outcomes["mobility", "walkdur_all_sum"]["value"]) == pytest.approx(expected.walkdur_all_sum, abs=1e-6)
+    assert outcomes["mobility", "ws_30_avg"]["value"] == "" and outcomes["mobility", "ws_30_avg"]["unit"] == "m/s"
+    one, row = variability(events, "stride_time"), outcomes["variability", "stride_time"]
+    assert one is not None
+    assert [float(row[key]) for key in ("value", "low", "high")] == pytest.approx(
+        [one.value, one.low, one.high], abs=1e-6
+    )
+    assert (int(row["strides"]), int(row["needed"])) == (one.strides, one.needed)
+    total = outcomes["timed up and go", "duration"]
+    assert (total["value"], total["reference"], total["reference_high"]) == ("13.000000", "9.200000", "10.200000")
+    assert outcomes["six-minute walk", "distance"]["reference"] == ""  # the recording ends before the six minutes do
+
+
+def test_the_text_names_what_was_measured_and_what_it_is_not(tracked: tuple[str, Path]) -> None:
+    text, _ = tracked
+    assert "the recording ends before the six minutes do" in text
+    assert "sitting to standing cannot be seen from a foot" in text
+    assert LABEL in text and "not outcomes of its validated pipeline" in LABEL
+    assert re.search(r"^total time +13\.00 +s +9\.20 \(8\.20 to 10\.20\)$", text, re.MULTILINE)
+    assert "Bohannon 2006" in text and "Bohannon and Andrews 2011" in text
+
+
+def test_the_report_has_a_section_for_each(tracked: tuple[str, Path]) -> None:
+    page = parse_page((tracked[1].parent / "walk.html").read_text(encoding="utf-8"))
+    headings = [heading.text for heading in page.all("h2")]
+    assert headings[1:4] == ["Six-minute walk", "Timed up and go", "Walking bouts and mobility outcomes"]
+    assert LABEL in [paragraph.text for paragraph in page.all("p")]
+
+
+def test_a_whole_six_minute_walk_in_the_report_has_a_bar_for_each_minute() -> None:
+    clinic = Clinic(six_minutes=True, person=Person(72.0, Sex.FEMALE, 1.62, 68.0))
+    for event in cycles(Foot.LEFT, 0.0, [1.0] * 400):
+        clinic.add(event)
+    report = Report("six minutes")
+    report.clinic = clinic
+    text = report.text()
+    assert "Walked an unknown distance in six minutes" in text and "Distance of each minute" in text
+    clinic.events.clear()
+    assert "there is no six-minute walk" in report.text()
+
+
+def test_without_steps_between_the_marks_and_without_bouts_there_are_sentences() -> None:
+    clinic = Clinic(outcomes=True, up_and_go=(5.0, 9.0))
+    lines = clinic.lines(clinic.results())
+    assert NO_STEP in lines and any(line.startswith("no walking bout") for line in lines)
+    many = walking_bouts([one for k in range(MAX_BOUTS + 3) for one in cycles(Foot.LEFT, 20.0 * k, [1.0] * 5, 2.5)])
+    assert bout_lines(many)[-1] == "and 3 more" and "(2.50)" in bout_lines(many)[2]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--timed-up-and-go", "3"], "is not START,STOP"),
+        (["--timed-up-and-go", "4,3"], "is not START,STOP"),
+        (["--outcomes", "--reference", "72"], "is not AGE,SEX"),
+        (["--outcomes", "--reference", "72,f"], "is not AGE,SEX"),
+        (["--outcomes", "--reference", "72,male,1.7,70"], "is not AGE,SEX"),
+        (["--reference", "72,male"], "--reference goes with"),
+    ],
+)
+def test_a_wrong_option_gets_one_line(recording: Path, options: list[str], words: str) -> None:
+    assert words in run_failing("track", recording, *options)
+
+
+def test_a_recording_after_the_option_for_six_minutes_is_named(recording: Path) -> None:
+    result = solepath("track", "--six-minute-walk", recording)
+    assert result.returncode == 2 and "the recording stands before this option" in result.stderr
+
+
+def test_references_are_those_of_their_tables_and_formulas() -> None:
+    woman, man = Person(72.0, Sex.FEMALE, 1.62, 68.0), Person(60.0, Sex.MALE, 1.75, 80.0)
+    # 2.11 * 162 - 2.29 * 68 - 5.78 * 72 + 667 = 341.82 - 155.72 - 416.16 + 667 = 436.94; less 139 = 297.94
+    one = six_minute_reference(woman)
+    assert one is not None and (one.value, one.low) == pytest.approx((436.94, 297.94))
+    # 7.57 * 175 - 5.02 * 60 - 1.76 * 80 - 309 = 1324.75 - 301.2 - 140.8 - 309 = 573.75; less 153 = 420.75
+    one = six_minute_reference(man)
+    assert one is not None and (one.value, one.low) == pytest.approx((573.75, 420.75))
+    assert six_minute_reference(Person(72.0, Sex.FEMALE)) is None
+    assert six_minute_reference(Person(39.0, Sex.MALE, 1.75, 80.0)) is None
+    for age, mean in ((60.0, 8.1), (69.9, 8.1), (70.0, 9.2), (99.0, 11.3)):
+        time = up_and_go_reference(Person(age, Sex.MALE))
+        assert time is not None and time.value == mean
+    assert up_and_go_reference(Person(59.0, Sex.MALE)) is up_and_go_reference(Person(100.0, Sex.MALE)) is None
+    speed, old = walking_speed_reference(man), walking_speed_reference(Person(85.0, Sex.FEMALE))
+    assert speed is not None and (speed.value, "men aged 60 to 69" in speed.words) == (1.34, True)
+    assert old is not None and (old.value, "women aged 80 to 99" in old.words) == (0.94, True)
+    assert walking_speed_reference(Person(19.0, Sex.MALE)) is None
+
+
+def test_the_page_of_documents_runs_and_names_the_columns() -> None:
+    page = PAGES["docs/outcomes.md"]
+    (program,) = blocks((DOCS / "outcomes.md").read_text(encoding="utf-8"), "python")
+    with redirect_stdout(io.StringIO()) as out:
+        exec(compile(program, "docs/outcomes.md", "exec"), {"__name__": "page"})
+    lines = out.getvalue().splitlines()
+    assert lines[0].startswith("bout 1: ") and lines[2].startswith("2 bouts, ") and lines[-1].endswith(" False")
+    assert f"`{','.join(BOUT_COLUMNS)}`" in page and f"`{','.join(OUTCOME_COLUMNS)}`" in page
+
+
+PROGRAM = """
+import json, sys
+from solepath import Session
+from solepath.emulate import Route, emulate
+session = Session(poses=True)
+session.feed(emulate(Route().stand(1.5).walk(3.0).stop(1.0)).packets)
+session.finish()
+import solepath.show.observer, solepath.show.page.scene.scene, solepath.show.report.report, solepath.cli.main
+print(json.dumps(sorted(name for name in sys.modules if name.startswith("solepath.show.outcomes"))))
+"""
+
+
+def test_no_session_page_report_or_command_loads_it_before_it_is_needed() -> None:
+    done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=True, cwd=ROOT)
+    assert json.loads(done.stdout) == []
+
+
+def test_other_events_are_not_kept() -> None:
+    clinic = Clinic(outcomes=True)
+    for event in run_session(emulate(Route().stand(1.5).walk(3.0).stop(1.0), seed=2).packets):
+        clinic.add(event)
+    assert {type(event).__name__ for event in clinic.events} == {"GaitCycleMeasured", "StrideTaken"}
+    assert clinic.end is not None and any(isinstance(event, GaitCycleMeasured) for event in clinic.events)
