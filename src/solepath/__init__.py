@@ -62,7 +62,7 @@ if TYPE_CHECKING:
         WalkingModeChanged,
         WearerMoved,
     )
-    from .events.frame import to_frame
+    from .events.frames import to_frame
     from .floorplan.importers.reading import read_floorplan
     from .floorplan.index import IndexedPlan
     from .floorplan.plan import FloorPlan, FloorPlanError, Start
@@ -84,9 +84,9 @@ _MODULES = (
     "floorplan.index",
     "floorplan.importers.reading",
     "calibration.file",
-    "events.frame",
     "saving.codec",
     "session.arguments",
+    "events.frames",
 )
 """Modules of the names in `__all__`; those that most apps need come first.
 

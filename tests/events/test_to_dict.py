@@ -1,17 +1,13 @@
-"""Events as plain data: `to_dict`, which is a line of events.jsonl, and `to_frame`."""
+"""Events as plain data: `to_dict`, which is a line of events.jsonl."""
 
 import json
-import sys
 
-import pytest
 from strides import stride
 
-from solepath import to_frame
 from solepath.events import (
     CellFault,
     CellsFailed,
     FeetSwapped,
-    HeelStrike,
     LayoutKnown,
     SampleGap,
     StrideFeatures,
@@ -24,7 +20,6 @@ STRIDE = stride(
     Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.5, 0.0), degraded=True,
     features=StrideFeatures(0.125, 4.0, 1.0),
 )  # fmt: skip
-STRIKE = HeelStrike(t=1.75, known_at=1.8125, foot=Foot.RIGHT)
 
 
 def test_events_are_strict_json_with_feet_and_modes_by_their_names():
@@ -69,23 +64,3 @@ def test_numbers_that_are_none_are_null():
 def test_words_print_as_they_are_written():
     assert f"{Foot.LEFT} {Site.PELVIS} {Phase.SWING} {Activity.WALKING}" == "left pelvis SWING WALKING"
     assert str(Foot.RIGHT) == "right" and repr(Foot.RIGHT) == "<Foot.RIGHT: 'right'>"
-
-
-@pytest.mark.parametrize("library", ["pandas", "polars"])
-def test_a_frame_has_a_row_an_event_and_a_column_a_number(library, monkeypatch):
-    pytest.importorskip(library, reason=f"{library} is not installed")
-    monkeypatch.setitem(sys.modules, {"pandas": "polars", "polars": "pandas"}[library], None)
-    frame = to_frame(event for event in (STRIKE, STRIDE))
-    assert type(frame).__module__.startswith(library)
-    assert list(frame.columns)[:6] == ["event", "t", "known_at", "final", "foot", "inferred"]
-    assert frame["event"].to_list() == ["HeelStrike", "StrideTaken"] and frame["foot"].to_list() == ["right", "left"]
-    assert [*frame["position_y"]][1] == 0.5 and [*frame["features_clearance"]][1] == 0.125
-    assert list([*frame["covariance"]][1]) == list(STRIDE.covariance)
-    assert len(to_frame([])) == 0
-
-
-def test_without_a_library_for_it_a_frame_is_rejected_in_one_sentence(monkeypatch):
-    for library in ("pandas", "polars"):
-        monkeypatch.setitem(sys.modules, library, None)
-    with pytest.raises(ImportError, match=r"^to_frame needs pandas or polars: pip install pandas$"):
-        to_frame([STRIKE])

@@ -1,0 +1,38 @@
+"""docs/frames.md: its lines run one after the other, and print what the text says."""
+
+from __future__ import annotations
+
+import io
+from contextlib import redirect_stdout
+from pathlib import Path
+from typing import Any
+
+import pytest
+from quoted import PAGES, blocks
+from recordings import recorded
+
+from solepath.emulate import Route, emulate
+
+for package in ("pandas", "polars", "pyarrow"):
+    pytest.importorskip(package, reason=f"{package} is not installed")
+
+
+def test_the_lines_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    recorded(tmp_path / "walk.jsonl", emulate(Route().stand(2).walk(10).stop(2), seed=1).packets)
+    names: dict[str, Any] = {"__name__": "page"}
+    printed = []
+    for program in blocks(PAGES["docs/frames.md"], "python"):
+        with redirect_stdout(io.StringIO()) as out:
+            exec(compile(program, "docs/frames.md", "exec"), names)
+        printed.append(out.getvalue())
+    cycles, samples, arrow = printed
+    assert cycles.rstrip().endswith(" s") and "left" in cycles
+    assert "gyro_y" in samples and len(names["samples"]) > 500
+    assert "{b'unit': b's'}" in arrow and "GaitCycleMeasured" in arrow
+
+
+def test_every_other_name_of_a_column_is_on_the_page() -> None:
+    from solepath.events.frames.columns import RENAMED
+
+    assert [name for name in RENAMED.values() if f"`{name}`" not in PAGES["docs/frames.md"]] == []

@@ -1,0 +1,55 @@
+"""examples/two_recipes.ipynb: Jupyter opens it, it is small, without outputs, and runs from the file to the figure."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+from here import EXAMPLES, ROOT
+from recordings import recorded
+
+from solepath.emulate import Route, emulate
+
+nbformat = pytest.importorskip("nbformat", reason="the extra notebook is not installed")
+nbclient = pytest.importorskip("nbclient", reason="the extra notebook is not installed")
+pytest.importorskip("ipykernel", reason="the extra notebook is not installed")
+NOTEBOOK = EXAMPLES / "two_recipes.ipynb"
+
+
+def executed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return the notebook after Jupyter's client has run all of its cells in a kernel in the folder."""
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]))
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    return nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(folder)}}).execute()
+
+
+def printed(notebook: Any) -> str:
+    """Return what the cells print and show as text."""
+    outputs = [one for cell in notebook.cells for one in cell.get("outputs", ())]
+    return "\n".join(one.get("text") or one.get("data", {}).get("text/plain", "") for one in outputs)
+
+
+def test_it_is_a_valid_notebook_without_outputs() -> None:
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    nbformat.validate(notebook)
+    for cell in notebook.cells:
+        assert not cell.get("outputs") and cell.get("execution_count") is None
+    assert NOTEBOOK.stat().st_size < 12_000
+
+
+def test_it_runs_from_an_emulated_walk_to_a_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    notebook = executed(tmp_path, monkeypatch)
+    text = printed(notebook)
+    assert "GaitCycleMeasured" in text and "1/min" in text and "limits of agreement" in text and "version" in text
+    kinds = {kind for cell in notebook.cells for one in cell.get("outputs", ()) for kind in one.get("data", ())}
+    assert "image/png" in kinds and "text/html" in kinds
+    assert not [one for cell in notebook.cells for one in cell.get("outputs", ()) if one.get("name") == "stderr"]
+    assert (tmp_path / "walk.jsonl").stat().st_size > 100_000 and (tmp_path / "two_recipes.png").is_file()
+
+
+def test_it_takes_a_recording_that_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    walk = emulate(Route().stand(2.0).walk(12.0, speed=1.2).stop(2.0), seed=3)
+    recorded(tmp_path / "walk.jsonl", walk.packets)
+    assert f"walk.jsonl: {len(walk.packets)} packets" in printed(executed(tmp_path, monkeypatch))

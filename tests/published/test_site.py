@@ -1,0 +1,91 @@
+"""The site (`docs/site.md`): it builds without a warning, links lead somewhere, and nothing comes from elsewhere."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from functools import cache
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pytest
+from here import DOCS, PROTOCOL, ROOT
+
+pytest.importorskip("sphinx", reason="the extra docs is not installed")
+
+LOADED = {"img", "script", "link", "iframe", "source", "video", "audio"}
+"""Elements whose address the browser fetches by itself."""
+
+
+class Page(HTMLParser):
+    """The anchors of a page, where its links lead, and what a browser loads with it."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.anchors: set[str] = {""}
+        self.links: set[str] = set()
+        self.loads: set[str] = set()
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        values = dict(attrs)
+        self.anchors |= {values.get("id") or "", values.get("name") or ""}
+        target = values.get("href") or values.get("src")
+        if target and not (tag == "link" and values.get("rel") == "canonical"):
+            (self.loads if tag in LOADED else self.links).add(target)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of the built site; the command is that of docs/site.md."""
+    out = tmp_path_factory.mktemp("site")
+    (command,) = re.findall(r"^sphinx-build (.+) site$", (DOCS / "site.md").read_text("utf-8"), re.MULTILINE)
+    words = [sys.executable, "-m", "sphinx", *command.split(), str(out), "-q"]
+    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    return out
+
+
+@cache
+def page(path: Path) -> Page:
+    return Page(path.read_text("utf-8"))
+
+
+def test_every_page_of_the_checkout_is_in_the_site(site: Path) -> None:
+    sources = [ROOT / "README.md", ROOT / "CHANGELOG.md", *DOCS.rglob("*.md"), *PROTOCOL.glob("*.md")]
+    assert [path for path in sources if not (site / path.relative_to(ROOT).with_suffix(".html")).is_file()] == []
+    assert (site / "api" / "solepath" / "recording.html").is_file()
+    contents = page(site / "README.html").links
+    assert [
+        path for path in DOCS.rglob("*.md") if f"{path.relative_to(ROOT).with_suffix('.html')}" not in contents
+    ] == []
+
+
+def test_every_link_leads_to_a_page_and_to_a_place_on_it(site: Path) -> None:
+    dead = []
+    for path in site.rglob("*.html"):
+        for target in page(path).links | page(path).loads:
+            parts = urlsplit(target)
+            if parts.scheme or parts.netloc:
+                continue
+            file = (path.parent / unquote(parts.path)).resolve() if parts.path else path
+            file = file / "index.html" if file.is_dir() else file
+            if not file.is_file() or file.suffix == ".html" and unquote(parts.fragment) not in page(file).anchors:
+                dead.append(f"{path.relative_to(site)}: {target}")
+    assert dead == []
+
+
+def test_no_page_loads_anything_from_elsewhere(site: Path) -> None:
+    for path in site.rglob("*.html"):
+        assert [url for url in page(path).loads if re.match(r"(?:[a-z]+:)?//", url)] == [], path.name
+    for path in site.rglob("*.css"):
+        assert not re.search(r"@import|url\([\"']?(?:https?:)?//", path.read_text("utf-8")), path.name
+
+
+def test_a_word_of_a_page_is_found_by_the_search(site: Path) -> None:
+    index = json.loads((site / "searchindex.js").read_text("utf-8").removeprefix("Search.setIndex(").removesuffix(")"))
+    assert {"docs/gait", "README", "protocol/insole"} <= set(index["docnames"])
+    assert "cadenc" in index["terms"]
