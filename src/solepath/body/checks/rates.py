@@ -28,6 +28,8 @@ BURST_BLOCKS, EXAMINED_BLOCKS = 3, 8
 """Number of blocks with bursts before they are reported, and number of first blocks in which they are searched."""
 REPEAT_SAMPLES, REPEAT_SHARE = 160, 0.1
 """Number of samples in motion after which repeats are judged, and share of them above which they are reported."""
+REPEAT_RATE = 0.5
+"""Angular rate of a sample in motion, rad/s: in steps of 0.1 rad/s, those of an 8-bit gyroscope, it hardly repeats."""
 SKIPPED_BLOCKS = 3
 """Number of blocks of motion that are not searched for repeats after each that is, in a sensor that had none so far."""
 STUCK_SHARE = 0.9
@@ -99,9 +101,12 @@ class RateCheck:
             self.skips -= 1
             return None
         self.skips = SKIPPED_BLOCKS if self.had_none else 0
-        self.acc_repeats += [*map(eq, accs, accs[1:])].count(True)
-        self.gyro_repeats += [*map(eq, gyros, gyros[1:])].count(True)
-        self.moving += len(accs) - 1
+        # while a foot stands, the values of a coarse or silent sensor repeat by themselves
+        least = REPEAT_RATE * REPEAT_RATE
+        fast = [x * x + y * y + z * z > least for x, y, z in gyros[1:]]
+        self.acc_repeats += [a and b for a, b in zip(fast, map(eq, accs, accs[1:]), strict=False)].count(True)
+        self.gyro_repeats += [a and b for a, b in zip(fast, map(eq, gyros, gyros[1:]), strict=False)].count(True)
+        self.moving += fast.count(True)
         if self.moving < REPEAT_SAMPLES:
             return None
         limit = REPEAT_SHARE * self.moving

@@ -16,7 +16,9 @@ from ...events import Event, GaitCycleMeasured
 from ...types import Foot
 from .quantiles import Z, chi_squared_quantile, student_quantile
 
-VARIABLE = ("stride_time", "stance_time", "swing_time", "step_time", "stride_length", "step_length", "speed")
+VARIABLE = (
+    "stride_time", "stance_time", "swing_time", "step_time", "stride_length", "step_length", "step_width", "speed",
+)  # fmt: skip
 """Fields of GaitCycleMeasured whose variability and asymmetry the command line and the report show."""
 MIN_FOOT_STRIDES = 4
 """Least number of strides of a foot for an interval; chosen by hand: an autocorrelation of fewer means nothing."""
