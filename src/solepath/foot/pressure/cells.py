@@ -1,8 +1,8 @@
-"""Extremes of pressure cells over a span of time, and geometry of their layout."""
+"""Sums of pressure cells, their extremes over a span of time, and geometry of their layout."""
 
 from __future__ import annotations
 
-from math import atan2, fsum, hypot, pi
+from math import atan2, hypot, pi
 
 from ...types import Layout
 from ...types.attrs import define, field
@@ -13,6 +13,25 @@ WIDEST_NEIGHBOUR_ANGLE = 2.6
 """Widest angle at a cell between two neighbours next to each other if it lies among them, rad; chosen by hand.
 
 A cell with a wider angle lies at the rim of its neighbours."""
+
+
+def add_up(cells: tuple[float, ...]) -> float:
+    """Return the sum of the cells in order; `fsum` takes twice the time, and `sum` rounds as its Python's version does."""
+    total = 0.0
+    for value in cells:
+        total += value
+    return total
+
+
+def add_up_area(cells: tuple[float, ...], indices: tuple[int, ...]) -> float:
+    """Return the sum of the cells with these indices, of which there is at least one, in ascending order."""
+    first = indices[0]
+    if indices[-1] - first + 1 == len(indices):  # a slice takes a tenth of the time of picking cells one by one
+        return add_up(cells[first : first + len(indices)])
+    total = 0.0
+    for i in indices:
+        total += cells[i]
+    return total
 
 
 @define
@@ -30,7 +49,9 @@ class CellSpan:
 
     def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
         """Add one sample; cells with an index in `excluded` do not count in the sum."""
-        total = fsum(cells) - fsum([cells[i] for i in excluded])
+        total = add_up(cells)
+        for i in excluded:
+            total -= cells[i]
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total
