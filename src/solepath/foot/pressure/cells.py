@@ -16,7 +16,7 @@ A cell with a wider angle lies at the rim of its neighbours."""
 
 
 def add_up(cells: tuple[float, ...]) -> float:
-    """Return the sum of the cells in order; `fsum` takes twice the time, and `sum` rounds as its Python's version does."""
+    """Return the sum of the cells, in order; `fsum` takes twice the time, and `sum` rounds as its Python does."""
     total = 0.0
     for value in cells:
         total += value
