@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.worn.rate_integral import RateIntegral
+from solepath.body.worn.rate_integral import INSTANT, RateIntegral
 from solepath.body.worn.sides import MAX_GAP, MAX_INSTANTS
 from solepath.types import Vec3
 
@@ -35,7 +35,7 @@ def test_of_a_foot_that_never_lands_only_the_newest_instants_are_kept() -> None:
     integral.restart(0.0)
     for k in range(1, 1000):
         integral.add(0.02 * k, 0.02, (9.0, -9.0, 0.0), MAX_INSTANTS)
-        assert len(integral.rows) <= MAX_INSTANTS
+        assert len(integral.instants) <= MAX_INSTANTS * INSTANT.size
     times = integral.times()
     assert times[-1] == 0.02 * 999 and times[-1] - times[0] > 1.3
     *_, last = integral.turns_between(len(times) - 11, len(times))

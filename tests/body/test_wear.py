@@ -197,7 +197,7 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
     assert of(FeetSwapped, events) == []
     sides = session._state.wearer.find_attribute("sides")
     assert sides.left.declared and sides.right.declared
-    assert not sides.left.turn_integral.rows and not sides.right.turn_integral.rows, (
+    assert not sides.left.turn_integral.instants and not sides.right.turn_integral.instants, (
         "what their feet do need not be remembered"
     )
     sides.left.roll = sides.right.roll = RunningAverage(count=24, mean=0.2)
