@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 import walks
 from commands import one_line, run
+from exported import strange
 from recordings import recorded
 
 from solepath import Foot, HeelStrike, Packet, Sample, Session, Site, StrideTaken
-from solepath.recording import RecordingError, open_source
+from solepath.recording import RecordingError, TableMapping, open_source
 from solepath.recording.bids.columns import read_table
 from solepath.recording.bids.names import Entities
 from solepath.recording.bids.reader import foot_of_point
@@ -247,3 +248,37 @@ def test_convert_writes_storage_files_of_opensim(tmp_path):
     assert "exists; --force replaces it" in one_line(run("convert", source, out))
     assert run("convert", source, out, "--positions", "--force").returncode == 0
     assert "DataType=Vec3" in out.read_text()
+
+
+def test_damaged_files_of_a_dataset_are_named_in_one_line(tmp_path):
+    path = motion_file(dataset(tmp_path / "study"))
+    channels = path.with_name(path.name.replace("_motion.", "_channels."))
+    rows, described = path.read_bytes(), channels.read_bytes()
+    channels.write_bytes(bytes(range(128, 256)) * 20)
+    assert "channels.tsv: describes no channels" in one_line(run("track", path))
+    channels.write_bytes(described)
+    path.write_bytes(b"")
+    assert "holds no samples" in one_line(run("track", path))
+    path.write_bytes(rows)
+    assert run("track", path).stderr == ""
+
+
+def test_all_files_of_a_recording_may_be_named_and_none_of_another(tmp_path):
+    files = dataset(tmp_path / "study")
+    both = [motion_file(files, "left"), motion_file(files, "right")]
+    assert len(open_source(both).samples) == len(open_source(both[0]).samples)
+    other = motion_file(dataset(tmp_path / "study", entities=Entities("02")))
+    with pytest.raises(RecordingError, match="is no tracking system of the recording"):
+        open_source([both[0], other])
+
+
+def test_tables_of_other_programs_become_a_dataset(tmp_path):
+    files = [strange(tmp_path, foot) for foot in Foot]
+    options = ("--columns", "t=Zeit,acc=Beschl *,gyro=Gyro *", "--units", "ms,g,deg/s")
+    done = run("convert", *files, tmp_path / "study", "--subject", "01", *options)
+    assert (done.returncode, done.stderr) == (0, "")
+    written = tmp_path / "study" / "sub-01" / "motion" / "sub-01_task-walk_tracksys-leftfoot_motion.tsv"
+    read = list(open_source(written))
+    given = list(open_source(files, mapping=TableMapping.parse(options[1], options[3])))
+    assert [sample.site for sample in read] == [sample.site for sample in given]
+    assert all(one.acc == pytest.approx(other.acc, abs=1e-6) for one, other in zip(read, given, strict=True))

@@ -190,3 +190,22 @@ def test_other_events_are_not_kept() -> None:
         clinic.add(event)
     assert {type(event).__name__ for event in clinic.events} == {"GaitCycleMeasured", "StrideTaken"}
     assert clinic.end is not None and any(isinstance(event, GaitCycleMeasured) for event in clinic.events)
+
+
+@pytest.mark.parametrize(
+    ("options", "what", "given"),
+    [
+        (["--six-minute-walk=-300"], "six-minute walk", "-300 s"),
+        (["--six-minute-walk", "1000"], "six-minute walk", "1000 s"),
+        (["--timed-up-and-go", "3,1000"], "timed up and go", "3 and 1000 s"),
+    ],
+)
+def test_marks_that_are_not_within_the_recording_give_no_outcome(
+    recording: Path, tmp_path: Path, options: list[str], what: str, given: str
+) -> None:
+    result = solepath("track", recording, *options, "--out", tmp_path / "out", "--report", tmp_path / "walk.html")
+    assert result.returncode == 0
+    assert f"There is no {what}. The recording is from 0.0 to " in result.stdout
+    assert f"{given} is not within it." in result.stdout and "total time" not in result.stdout
+    assert rows_of(tmp_path / "out" / "outcomes.csv") == []
+    assert f"There is no {what}. The recording is from" in (tmp_path / "walk.html").read_text()

@@ -14,6 +14,7 @@ from ..types import Packet, Site
 from .common.failure import Failure, note
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs, replacements
+from .common.tables import add_tables
 from .exchange import STORAGE, add_exchange, convert_computed
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ def add_to(commands: Any) -> None:
         "into a Motion-BIDS dataset. The name of OUT chooses the format: .jsonl, .mcap or .sto.",
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
-    command.add_argument("source", metavar="IN", type=Path, help="a btsnoop log, or a recording")
+    add_tables(command, "IN")
     command.add_argument(
         "out",
         metavar="OUT",
@@ -99,10 +100,12 @@ def run(options: argparse.Namespace) -> int:
     from ..recording.btsnoop.records import reject_pipe
     from ..show.tables.progress import progress_bar
 
-    source, out = options.source, options.out
+    source, out = options.files[0], options.out
     if options.subject is not None or out.suffix.lower() == STORAGE:
         return convert_computed(options)
     open_writer = _writer_class(out)
+    if len(options.files) > 1:
+        raise Failure(f"{printable(str(out))}: is made of one log or recording, not of {len(options.files)}")
     output = OutputFile(out, RECORDING_KIND)
     check_outputs([output], [source], force=options.force)
     log: BtsnoopLog | None = None
@@ -140,7 +143,7 @@ def _open_log(options: argparse.Namespace) -> BtsnoopLog:
     for name in handles.values():
         if name not in known:
             raise Failure(f"there is no channel {name!r}; there are: {', '.join(sorted(known))}")
-    return open_btsnoop(options.source, sites=sites, handles=handles, report=note)
+    return open_btsnoop(options.files[0], sites=sites, handles=handles, report=note)
 
 
 def _by_key(option: str, pairs: Iterable[tuple[_Key, _Value]]) -> dict[_Key, _Value]:

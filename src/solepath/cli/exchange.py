@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from ..recording import RecordingError, printable
 from .common.failure import Failure, parse_whole_number
 from .common.files import RECORDING, OutputFile, check_outputs
-from .common.inputs import add_calibration, add_foot, add_recipe, calibration_of, check_pressure, foot_of, recipe_of
+from .common.inputs import add_calibration, add_recipe, calibration_of, check_pressure, recipe_of
 from .common.inputs import source_of as open_recording
+from .common.tables import feet_of, mapping_of
 from .validating import need_validator, validate_dataset, validate_storage
 
 if TYPE_CHECKING:
@@ -47,7 +48,6 @@ def add_exchange(command: argparse.ArgumentParser) -> None:
         action="store_true",
         help="have the official validator of BIDS, or OpenSim, read the result (extras bids and opensim)",
     )
-    add_foot(command)
     add_recipe(command)
     add_calibration(command)
 
@@ -61,19 +61,23 @@ def convert_computed(options: argparse.Namespace) -> int:
     return _to_dataset(options) if options.subject is not None else _to_storage(options)
 
 
+def _source(options: argparse.Namespace) -> Source:
+    return open_recording(options.files, feet_of(options), mapping_of(options))
+
+
 def _to_storage(options: argparse.Namespace) -> int:
     from ..saving.files import replace_whole
     from ..show.opensim import OpensimWriter, Quantity
 
     output = OutputFile(options.out, RECORDING)
-    check_outputs([output], [options.source, options.calibration], force=options.force)
+    check_outputs([output], [*options.files, options.mapping, options.calibration], force=options.force)
     writer = OpensimWriter(Quantity.POSITIONS if options.positions else Quantity.ATTITUDES)
 
     def add(samples: Iterable[PosedSample], _: Iterable[Event]) -> None:
         for posed in samples:
             writer.add(posed)
 
-    damage = _run(options, open_recording(options.source, foot_of(options)), add)
+    damage = _run(options, _source(options), add)
     rows: list[int] = []
     replace_whole(options.out, lambda path: rows.append(writer.write(path)), lambda _: output.check_again())
     print(f"{rows[0]} rows written to {printable(str(options.out))}")
@@ -89,7 +93,7 @@ def _to_dataset(options: argparse.Namespace) -> int:
         entities = Entities(options.subject, options.task, options.session, options.repetition)
     except ValueError as error:
         raise Failure(str(error)) from None
-    source = open_recording(options.source, foot_of(options))
+    source = _source(options)
     try:
         writer = MotionWriter(options.out, entities, source.header, replace=options.force)
     except RecordingError as error:

@@ -12,7 +12,7 @@ from attrs import define, field
 
 from ..types import Foot, Packet, Sample
 from .bad_rows import BadRows
-from .bids.names import MOTION_END
+from .bids.names import MOTION_END, recording_of
 from .clock_offset import shift_clock
 from .errors import RecordingError, Report, printable, warn
 from .packets import OpenRecording, open_packets
@@ -134,7 +134,11 @@ def open_source(
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
     name, path = label_files(paths), paths[0]
     only = foot if isinstance(foot, Foot) else None
-    if path.name.endswith(MOTION_END) and mapping is None and len(paths) == 1:
+    if path.name.endswith(MOTION_END) and mapping is None:
+        other = next((one for one in paths if recording_of(one) != recording_of(path)), None)
+        if other is not None:
+            what = f"is no tracking system of the recording {printable(path.name)}, whose files are read together"
+            raise RecordingError(other, what)
         from .bids.reader import load_motion
 
         motion = load_motion(path, only, report=report)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import degrees
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import MPU9250
 from solepath.lab.calibrate.table import specimen, true_corrections
+from solepath.recording.mapping.units import GRAVITY
 
 IMU = specimen(MPU9250, 81)
 
@@ -60,3 +62,28 @@ def test_samples_of_one_foot_become_a_calibration_of_it(turns: float, status: in
         message = run_failing(*words)
         assert "left foot: the accelerometer is not known" in message and "is missing" in message
         assert not (tmp_path / "me.json").exists()
+
+
+def test_a_table_of_another_program_becomes_a_calibration(tmp_path: Path) -> None:
+    samples = Insole(cells=8, chip=IMU).samples(Handling(82), Site.LEFT_FOOT, device_rng(82, Site.LEFT_FOOT))
+    rows = [(1000.0 * one.t, *(a / GRAVITY for a in one.acc or ()), *map(degrees, one.gyro or ())) for one in samples]
+    lines = [";".join(f"{value:.6f}" for value in row) for row in rows]
+    (tmp_path / "left.csv").write_text("\n".join(["Time;AX;AY;AZ;GX;GY;GZ", *lines]) + "\n")
+    options = ("--columns", "t=Time,acc=AX,AY,AZ,gyro=GX,GY,GZ", "--units", "ms,g,deg/s")
+    result = run("calibrate", "sensor", tmp_path / "left.csv", *options, "--out", tmp_path / "me.json")
+    assert (result.returncode, result.stderr) == (0, "")
+    _, gyro = true_corrections(IMU)
+    learnt = read_calibration(tmp_path / "me.json").sensors[Foot.LEFT]
+    assert np.abs(np.array(learnt.gyro.matrix).reshape(3, 3) - gyro).max() < 0.0035  # 0.2 degrees
+
+
+@pytest.mark.parametrize(("turning", "words"), [(0.0, "always reads the same"), (1.0, "rates do not turn gravity")])
+def test_readings_that_never_change_at_rest_are_one_sentence(tmp_path: Path, turning: float, words: str) -> None:
+    """Twenty-four exact rests, with rates that turn nothing: an emulated sensor without noise."""
+    t = np.arange(9600) * 0.01
+    face = (np.arange(9600) // 400) % 6
+    acc = np.eye(3)[face % 3] * np.where(face < 3, 9.81, -9.81)[:, None]
+    gyro = np.where(np.arange(9600)[:, None] % 400 < 20, [turning, 0.0, 0.0], 0.0)
+    np.savez(tmp_path / "left.npz", t=t, acc=acc, gyro=gyro)
+    message = run_failing("calibrate", "sensor", tmp_path / "left.npz", "--out", tmp_path / "me.json")
+    assert words in message and "nan" not in message

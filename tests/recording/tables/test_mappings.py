@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.recording import RecordingError, TableMapping, read_mapping
+from solepath.recording import RecordingError, TableMapping, read_mapping, read_samples
 from solepath.recording.mapping.mapping import join_names
 from solepath.recording.mapping.units import UNITS, find_unit
 
@@ -107,7 +107,7 @@ format = "fitbit"
 [columns]
 t = ["a", "b"]
 speed = "v"
-acc = [1, 2, 3]
+acc = [1.5, 2, 3]
 [units]
 t = "hours"
 [feet]
@@ -155,3 +155,19 @@ def test_a_repair_names_the_option_or_the_line_of_the_file(tmp_path: Path) -> No
     assert option.write_units("t", {"t": "ms"}) == "--units g,ms"
     assert file.write_units("t", {"t": "us"}) == 'in lab.toml: t = "us" below [units]'
     assert file.write_setting("rate", "HZ") == "in lab.toml: rate = HZ"
+
+
+def test_columns_in_a_file_may_be_numbers(tmp_path: Path) -> None:
+    mapping = read_mapping(written(tmp_path, "[columns]\nt = 1\nacc = [2, 3, 4]\n"))
+    assert mapping.columns == {"t": ("1",), "acc": ("2", "3", "4")}
+    with pytest.raises(RecordingError, match="t has no names of columns"):
+        read_mapping(written(tmp_path, "[columns]\nt = true\n"))
+
+
+def test_a_rate_without_end_and_a_header_beyond_the_file_are_named(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="rate is inf, not a number above 0"):
+        read_mapping(written(tmp_path, "rate = inf\n"))
+    mapping = read_mapping(written(tmp_path, "header = 99\n[columns]\nt = 1\n"))
+    (tmp_path / "walk.csv").write_text("a,b\n1,2\n")
+    with pytest.raises(RecordingError, match=r"no names in line 99; repair: header = N, .* in lab\.toml$"):
+        read_samples(tmp_path / "walk.csv", mapping=mapping)

@@ -121,3 +121,21 @@ def test_usual_names_are_understood(tmp_path: Path, header: str) -> None:
     line = run("track", tmp_path / "walk_left.csv").stderr
     options = offered(line)
     assert options[1] == GUESSES[header] and "ms" in options[3].split(",") and "g" in options[3].split(",")
+
+
+def test_the_note_on_the_foot_knows_the_name_of_the_file(files: list[Path], tmp_path: Path) -> None:
+    assert "only the file's name says its foot: taken as the left one" in run("track", files[0], *GOOD).stderr
+    unnamed = tmp_path / "walk.csv"
+    unnamed.write_bytes(files[0].read_bytes())
+    assert "does not say of which foot it is" in run("track", unnamed, *GOOD).stderr
+
+
+def test_numbers_that_no_factor_fits_are_named_without_a_warning_of_a_library(tmp_path: Path) -> None:
+    rows = [f"{10 * k},0,0,1e308" for k in range(50)]
+    (tmp_path / "left.csv").write_text("\n".join(["T,X,Y,Z", *rows]) + "\n")
+    done = run("track", tmp_path / "left.csv", "--columns", "t=T,acc=X,Y,Z", "--units", "ms,g")
+    assert done.returncode == 2
+    assert done.stderr.splitlines() == [
+        f"solepath: {tmp_path / 'left.csv'}: line 2, acc: is inf, not a finite number (t = 0 s); "
+        "50 of 50 rows cannot be used"
+    ]

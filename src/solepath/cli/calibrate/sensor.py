@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import argparse
 from math import degrees
-from pathlib import Path
 from typing import Any
 
 from ...calibration import Calibration
 from ...calibration.merging import stale_feet
 from ...calibration.records import TriadCalibration
 from ...show.tables.table import number, table
-from ..common.inputs import add_foot, foot_of, source_of
+from ..common.inputs import source_of
+from ..common.tables import add_tables, feet_of, mapping_of
 
 AXES = "xyz"
 """Names of the axes of a sensor."""
@@ -29,16 +29,15 @@ def add_sensor(kinds: Any) -> None:
         epilog="example: solepath calibrate sensor turns.jsonl --foot left --out me.json",
     )
     command.set_defaults(learn=_sensor)
-    command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
-    add_foot(command)
+    add_tables(command, "RECORDING")
 
 
 def _sensor(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
     from ...lab.calibrate.sensor import fit_sensors, sensor_calibration
     from ...recording.decoded import decode_recording
 
-    foot = foot_of(options)
-    fits = fit_sensors(decode_recording(source_of(options.file, foot)).samples, foot)
+    source = source_of(options.files, feet_of(options), mapping_of(options))
+    fits = fit_sensors(decode_recording(source).samples, source.foot)
     learnt = sensor_calibration(fits)
     lines, rows = [], []
     for fit in fits:

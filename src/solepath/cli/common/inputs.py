@@ -104,7 +104,8 @@ def assumed_foot(source: Source) -> str | None:
     tables = () if source.samples is None else source.samples.tables
     if source.foot is not None or len(tables) != 1 or tables[0].is_named:
         return None
-    return f"the file does not say of which foot it is: taken as the {tables[0].foot} one; --foot says otherwise"
+    why = "the file does not say of which foot it is" if tables[0].is_assumed else "only the file's name says its foot"
+    return f"{why}: taken as the {tables[0].foot} one; --foot says otherwise"
 
 
 def check_pressure(recipe: Recipe, source: Source) -> None:

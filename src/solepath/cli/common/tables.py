@@ -14,11 +14,11 @@ MAPPING_OPTIONS = ("columns", "units", "mapping", "format", "rate")
 """Options from which a mapping is made."""
 
 
-def add_tables(command: argparse.ArgumentParser) -> None:
-    """Add FILE..., and the options for tables of samples, to a command."""
+def add_tables(command: argparse.ArgumentParser, metavar: str = "FILE") -> None:
+    """Add FILE... under this name, and the options for tables of samples, to a command."""
     command.add_argument(
         "files",
-        metavar="FILE",
+        metavar=metavar,
         type=Path,
         nargs="+",
         help="the recording; of samples, one file or those of both feet or of several sensors (docs/tables.md)",

@@ -142,12 +142,13 @@ def find_pauses(recorded: Recorded) -> list[Pause]:
         slow = still & (np.linalg.norm(rate - bias, axis=1) < STILL_RATE)
         still = slow if slow.any() else still
     edges = np.flatnonzero(np.diff(np.concatenate(([0], slow.astype(np.int8), [0]))))
+    step = _smallest_step(recorded.gyro)
     middles = recorded.t[count // 2 : count // 2 + len(slow)]
     pauses = []
     for first, last in zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True):
         if middles[last] - middles[first] >= SHORTEST_PAUSE:
             rows = slice(first + count // 2, last + count // 2 + 1)
-            pauses.append(_pause(recorded.t[rows], recorded.acc[rows], recorded.gyro[rows]))
+            pauses.append(_pause(recorded.t[rows], recorded.acc[rows], recorded.gyro[rows], step))
     # a hand that creeps in one rest does so in others, and seldom about a level axis alone
     usual = 0.5 * float(np.mean([rest.creep**2 for rest in pauses])) if pauses else 0.0
     return [evolve(rest, upright_sigma=(0.5 * (rest.upright_sigma**2 + usual)) ** 0.5) for rest in pauses]
@@ -163,11 +164,17 @@ def _windows(values: Floats, count: int) -> tuple[Floats, Floats]:
     return means + values.mean(axis=0), np.maximum(variance, 0.0)
 
 
-def _pause(t: Floats, acc: Floats, gyro: Floats) -> Pause:
+def _smallest_step(values: Floats) -> float:
+    """Return the smallest change from one reading to the next of any axis, as of a digit; 0 if all readings agree."""
+    steps = np.abs(np.diff(values, axis=0))
+    return float(np.min(steps, where=steps > 0.0, initial=float(steps.max(initial=0.0))))
+
+
+def _pause(t: Floats, acc: Floats, gyro: Floats, step: float) -> Pause:
     """Return a rest; its creep about the horizontal is seen by gravity, and that about the vertical is like it.
 
     Every reading is turned into the sensor frame in the middle of the rest. An even creep cancels, so the turn is that
-    of the rates beyond their mean, which no bias changes."""
+    of the rates beyond their mean, which no bias changes. Rates that never change may be wrong by half a `step`."""
     half, duration = len(t) // 2, float(t[-1] - t[0])
     rate = gyro.mean(axis=0)
     uneven = 0.5 * np.diff(t)[:, None] * (gyro[1:] + gyro[:-1] - 2.0 * rate)
@@ -178,7 +185,7 @@ def _pause(t: Floats, acc: Floats, gyro: Floats) -> Pause:
     size = float(np.linalg.norm(mean))
     change = acc[half:].mean(axis=0) - acc[:half].mean(axis=0)
     creep = -np.cross(mean, change) / (size * size) / (0.5 * duration)
-    variance = _block_variance(gyro)
+    variance = _block_variance(gyro) or step * step / 12.0
     level = (
         variance + (4.0 * sigma / (size * duration)) ** 2
     ) ** 0.5  # both halves have twice the variance of the mean

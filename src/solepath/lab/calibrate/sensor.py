@@ -100,6 +100,8 @@ def _fit_foot(foot: Foot, samples: Sequence[Sample]) -> SensorFit:
 
 
 def _check_units(foot: Foot, recorded: Recorded) -> None:
+    if not np.ptp(recorded.gyro, axis=0).any():
+        raise CalibrationError(f"the {foot.value} foot's gyroscope always reads the same: it does not measure")
     rate = float(np.abs(recorded.gyro).max())
     if rate > LARGEST_RATE:
         raise CalibrationError(f"the {foot.value} foot turns by {rate:.3g} rad/s: its rates look like degrees/s")

@@ -139,6 +139,6 @@ def _lines(columns: Sequence[str], rows: Sequence[dict[str, str]]) -> Iterator[s
 
 def read_table(path: Path) -> list[dict[str, str]]:
     """Return the rows of a table with a header, as texts by column."""
-    lines = path.read_text(encoding="utf-8-sig").splitlines()
+    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     header = lines[0].split("\t") if lines else []
     return [dict(zip(header, line.split("\t"), strict=False)) for line in lines[1:] if line.strip()]

@@ -17,6 +17,11 @@ TSV_MISSING = "n/a"
 """Text of a value that is missing or does not apply, in tables."""
 
 
+def recording_of(path: Path) -> Path:
+    """Return the path of a file without its tracking system, which all files of one recording have in common."""
+    return path.with_name(re.sub(r"_tracksys-[0-9A-Za-z]+", "", path.name))
+
+
 def _check_label(entity: object, attribute: object, label: str) -> None:
     if label and not LABEL.fullmatch(label):
         raise ValueError(f"{label!r} is no label of BIDS, which has letters and digits only")

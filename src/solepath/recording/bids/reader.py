@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping
 from datetime import datetime
 from pathlib import Path
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from attrs import define, field
@@ -23,7 +24,7 @@ from ..errors import RecordingError, Report, os_error_text, printable, warn
 from ..samples.reader import SampleRecording, use_tables
 from ..samples.table import Floats, FootTable
 from .columns import read_table
-from .names import MOTION_END, TSV_MISSING
+from .names import MOTION_END, TSV_MISSING, recording_of
 
 UNITS: dict[str, dict[str, float]] = {
     "acc": {"m/s^2": 1.0, "m/s2": 1.0, "m/s²": 1.0, "m/s/s": 1.0, "g": 9.80665},
@@ -80,9 +81,7 @@ def _tracking_systems(path: Path) -> list[Path]:
         raise RecordingError(path, f"is no file of Motion-BIDS, whose name ends in {MOTION_END}")
     if not path.is_file():
         raise RecordingError(path, "no such file")
-    without = re.sub(r"_tracksys-[0-9A-Za-z]+", "", path.name)
-    found = sorted(path.parent.glob(f"*{MOTION_END}"))
-    return [one for one in found if re.sub(r"_tracksys-[0-9A-Za-z]+", "", one.name) == without]
+    return [one for one in sorted(path.parent.glob(f"*{MOTION_END}")) if recording_of(one) == recording_of(path)]
 
 
 @define
@@ -102,6 +101,8 @@ class _TrackingSystem:
             self.channels = read_table(beside)
         except OSError as error:
             raise RecordingError(beside, os_error_text(error)) from error
+        if not self.channels or not all("type" in channel for channel in self.channels):
+            raise RecordingError(beside, "describes no channels, each with a type")
         self.metadata = _inherited(self.path)
         self.start = _start_of(self.path)
 
@@ -139,12 +140,15 @@ class _TrackingSystem:
     def _read(self) -> Floats:
         if self._values is None:
             try:
-                with self.path.open(encoding="utf-8-sig") as file:
+                with self.path.open(encoding="utf-8-sig") as file, catch_warnings():
+                    simplefilter("ignore")  # of a file without rows, which is reported below
                     rows = np.loadtxt(_numeric(file), dtype=np.float64, delimiter="\t", ndmin=2)
             except ValueError as error:
                 raise RecordingError(self.path, f"is no table of numbers: {printable(str(error))}") from None
             except OSError as error:
                 raise RecordingError(self.path, os_error_text(error)) from error
+            if not rows.size:
+                raise RecordingError(self.path, "holds no samples")
             if rows.shape[1] != len(self.channels):
                 what = f"has {rows.shape[1]} columns, and channels.tsv describes {len(self.channels)}"
                 raise RecordingError(self.path, what)

@@ -38,8 +38,10 @@ def read_mapping(path: Path | str) -> TableMapping:
             del values[key]
     used = {key: value for key, value in values.items() if key in (*TEXTS, *TABLES)}
     for key, names in used.get("columns", {}).items():
-        if not isinstance(names, str) and not (isinstance(names, list) and all(isinstance(n, str) for n in names)):
-            used["columns"][key] = ()
+        listed = names if isinstance(names, list) else [names]
+        # columns of a table without names have numbers
+        fits = all(isinstance(name, str) or type(name) is int for name in listed)
+        used["columns"][key] = [str(name) for name in listed] if fits else ()
     try:
         mapping = TableMapping(**used, origin=path.name)
     except ValueError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterable, Mapping
+from math import inf
 from typing import Any
 
 from attrs import evolve, field, frozen
@@ -79,7 +80,9 @@ class TableMapping:
                 found[f"units.{quantity}"] = f"{unit!r} is no unit of {quantity}: {', '.join(UNITS[quantity])}"
         for key in ("rate", "wrap"):
             value = getattr(self, key)
-            if value is not None and (isinstance(value, bool) or not isinstance(value, int | float) or not value > 0.0):
+            if value is not None and (
+                isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < inf
+            ):
                 found[key] = f"{key} is {value!r}, not a number above 0"
         if self.separator is not None and self.separator not in SEPARATORS:
             found["separator"] = f"separator is {self.separator!r}, not one of comma, semicolon, tab, bar, blank"

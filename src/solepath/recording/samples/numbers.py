@@ -136,7 +136,8 @@ class _FootRows:
             if width:
                 factor = UNITS[quantity][units[quantity]]
                 part = rows[:, start : start + width]
-                quantities[quantity] = part if factor == 1.0 else part * factor
+                with np.errstate(over="ignore"):  # a value that is infinite then is reported with its line
+                    quantities[quantity] = part if factor == 1.0 else part * factor
                 start += width
         names = {"t": self.columns.names["t"], **{quantity: self.columns.names[quantity] for quantity in quantities}}
         signed = {q: tuple(("-" if c.is_reversed else "") + c.name for c in columns[q]) for q in quantities}

@@ -5,6 +5,7 @@ A text file is read as a stream, so that it may come through a pipe. Workbooks a
 
 from __future__ import annotations
 
+from codecs import getincrementaldecoder
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -53,7 +54,7 @@ def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[SheetLayout,
         yield layout, (Row(number, cells) for number, cells in rows if number >= layout.first)
         return
     file = open_file(path)
-    encoding = "utf-16" if file.peek(2)[:2] in UTF_16 else "utf-8-sig"  # type: ignore[attr-defined]
+    encoding = _encoding_of(file.peek(2))  # type: ignore[attr-defined]
     # bytes that are no text become part of a column's name or of a number, where they are reported
     with TextIOWrapper(file, encoding=encoding, errors="replace") as text:
         lines = _read_lines(path, text)
@@ -63,11 +64,24 @@ def open_sheet(path: Path, mapping: TableMapping) -> Iterator[tuple[SheetLayout,
         yield layout, _cut_rows(chain(head, lines), layout)
 
 
+def _encoding_of(start: bytes) -> str:
+    """Return the encoding of a text file by its first bytes: those of UTF-16, else UTF-8, else that of Windows."""
+    if start[:2] in UTF_16:
+        return "utf-16"
+    try:
+        getincrementaldecoder("utf-8")().decode(start)  # a character may be cut off at the end
+    except UnicodeDecodeError:
+        return "cp1252"
+    return "utf-8-sig"
+
+
 def _layout_of(path: Path, find: Any, rows: list[Any], mapping: TableMapping) -> SheetLayout:
     try:
         layout: SheetLayout = find(rows, mapping)
     except ValueError as error:
-        repair = mapping.write_setting("header", "of the names") if mapping.header else ""
+        repair = (
+            f"header = N, for the line with the names, in {mapping.origin or 'the mapping'}" if mapping.header else ""
+        )
         raise RecordingError(path, str(error), repair=repair) from None
     if not layout.names:
         raise RecordingError(path, "is empty")

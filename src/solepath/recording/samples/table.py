@@ -157,6 +157,6 @@ def _out_of_order(t: Floats) -> NDArray[np.int64]:
 
 def _describe_order(t: Floats, bad: NDArray[np.bool_], row: int) -> str:
     before, after = np.flatnonzero(~bad[:row]), np.flatnonzero(~bad[row + 1 :])
-    places = [f"after {float(t[before[-1]])!r} s"] if len(before) else []
-    places += [f"before {float(t[row + 1 + after[0]])!r} s"] if len(after) else []
-    return f"time is out of order: {float(t[row])!r} s {' and '.join(places)}"
+    places = [f"after {float(t[before[-1]]):.10g} s"] if len(before) else []
+    places += [f"before {float(t[row + 1 + after[0]]):.10g} s"] if len(after) else []
+    return f"time is out of order: {float(t[row]):.10g} s {' and '.join(places)}"

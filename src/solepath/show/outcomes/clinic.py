@@ -37,6 +37,8 @@ UP_AND_GO_NOTE = (
 )
 NO_STEP = "No step was found between the marks: are they times of the recording's clock?"
 """Sentence for marks between which nobody walked."""
+MARK_ERROR = 1.0
+"""Time by which an observer's mark may lie before the first sample or after the last one, s; chosen by hand."""
 INTERVAL_HEADER = ("%", "95 % interval", "strides", "needed")
 MAX_BOUTS = 12
 """Largest number of bouts that the text names one by one; bouts.csv has all of them."""
@@ -50,6 +52,10 @@ class ClinicalResults:
     six_minutes: SixMinuteWalk | None
     """The six-minute walk; None if it was not requested or not found."""
     up_and_go: TimedUpAndGo | None
+    six_minutes_fault: str = ""
+    """Sentence on a start that is not within the recording; "" without one."""
+    up_and_go_fault: str = ""
+    """Sentence on marks that are not within the recording; "" without one."""
     rows: list[OutcomeRow]
     """Rows of all outcomes, in the order of PARTS."""
 
@@ -81,6 +87,8 @@ class Clinic:
     person: Person | None = None
     """Person for whom references are given."""
     events: list[Event] = field(factory=list, init=False)
+    start: float | None = field(default=None, init=False)
+    """Time of the earliest event of any kind, s."""
     end: float | None = field(default=None, init=False)
     """Time of the last event of any kind, s."""
 
@@ -88,6 +96,8 @@ class Clinic:
         """Add an event of the session."""
         if self.end is None or self.end < event.t < inf:
             self.end = event.t
+        if self.start is None or -inf < event.t < self.start:
+            self.start = event.t
         if isinstance(event, GaitCycleMeasured | StrideTaken | TurnMade) and event.final and has_valid_numbers(event):
             self.events.append(event)
 
@@ -95,24 +105,44 @@ class Clinic:
         """Return the outcomes of the events so far."""
         rows: list[OutcomeRow] = []
         walk = test = None
-        if self.six_minutes:
+        start_fault = self._find_fault([] if self.six_minutes_start is None else [self.six_minutes_start])
+        marks_fault = self._find_fault(self.up_and_go or [])
+        if self.six_minutes and not start_fault:
             walk = six_minute_walk(self.events, self.six_minutes_start, self.end)
             rows += [] if walk is None else six_minute_rows(walk, self.person)
-        if self.up_and_go is not None:
+        if self.up_and_go is not None and not marks_fault:
             test = timed_up_and_go(self.events, *self.up_and_go)
             rows += up_and_go_rows(test, self.person)
         bouts = walking_bouts(self.events)
         if self.outcomes:
             rows += [*mobility_rows(mobility_outcomes(bouts)), *stride_rows(self.events, self.person)]
-        return ClinicalResults(bouts=bouts, six_minutes=walk, up_and_go=test, rows=rows)
+        return ClinicalResults(
+            bouts=bouts,
+            six_minutes=walk,
+            up_and_go=test,
+            six_minutes_fault=start_fault,
+            up_and_go_fault=marks_fault,
+            rows=rows,
+        )
+
+    def _find_fault(self, marks: Sequence[float]) -> str:
+        """Return a sentence on marks that are not within the recording; "" if they are."""
+        if self.start is None or self.end is None:
+            return ""
+        if all(self.start - MARK_ERROR <= mark <= self.end + MARK_ERROR for mark in marks):
+            return ""
+        given = " and ".join([f"{mark:.10g}" for mark in marks])
+        return f"The recording is from {self.start:.1f} to {self.end:.1f} s on its clock; {given} s is not within it."
 
     def lines(self, results: ClinicalResults) -> list[str]:
         """Return the outcomes as plain text."""
         lines: list[str] = []
         if self.six_minutes:
             walk = results.six_minutes
-            lines += ["", NO_WALK if walk is None else six_minute_sentence(walk)]
+            lines += ["", walk_sentence(results)]
             lines += _table("six-minute walk", results.part(PARTS[0])) if walk is not None else []
+        if results.up_and_go_fault:
+            lines += ["", f"There is no timed up and go. {results.up_and_go_fault}"]
         if results.up_and_go is not None:
             lines += ["", *_table("timed up and go", results.part(PARTS[1])), UP_AND_GO_NOTE]
             lines += [NO_STEP] if not results.up_and_go.steps else []
@@ -123,6 +153,13 @@ class Clinic:
                 lines += ["", *_interval_table(f"{part} of steady strides", results.part(part))]
             lines += [*([NEEDED, SENSORS] if results.part(*PARTS[3:]) else []), "", LABEL]
         return lines + results.sources(*PARTS)
+
+
+def walk_sentence(results: ClinicalResults) -> str:
+    """Return the result of the six-minute walk as a sentence, or why there is none."""
+    if results.six_minutes_fault:
+        return f"There is no six-minute walk. {results.six_minutes_fault}"
+    return NO_WALK if results.six_minutes is None else six_minute_sentence(results.six_minutes)
 
 
 def six_minute_sentence(walk: SixMinuteWalk) -> str:

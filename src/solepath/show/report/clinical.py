@@ -11,13 +11,12 @@ from ..outcomes.clinic import (
     MAX_BOUTS,
     NEEDED,
     NO_STEP,
-    NO_WALK,
     SENSORS,
     UP_AND_GO_NOTE,
     Clinic,
     bout_row,
     interval_row,
-    six_minute_sentence,
+    walk_sentence,
 )
 from ..outcomes.rows import PARTS, OutcomeRow
 from .figures.minutes import minutes_figure
@@ -38,13 +37,16 @@ def clinical_sections(main: Element, clinic: Clinic) -> None:
     if clinic.six_minutes:
         parent = section(main, "six-minute-walk", "Six-minute walk")
         walk = results.six_minutes
-        add(parent, "p", NO_WALK if walk is None else six_minute_sentence(walk))
+        add(parent, "p", walk_sentence(results))
         if walk is not None:
             figures = add(parent, "div", class_="figures")
             rows = [row for row in results.part(PARTS[0]) if not row.name.startswith("distance_minute")]
             _table(figures, "Six-minute walk", rows)
             minutes_figure(figures, walk.minutes)
             _notes(parent, [SIX_MINUTE_NOTE, *results.sources(PARTS[0])])
+    if results.up_and_go_fault:
+        parent = section(main, "up-and-go", "Timed up and go")
+        add(parent, "p", f"There is no timed up and go. {results.up_and_go_fault}")
     if results.up_and_go is not None:
         parent = section(main, "up-and-go", "Timed up and go")
         _table(parent, "Timed up and go", results.part(PARTS[1]))
