@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import asyncio
 from functools import partial
+from typing import TYPE_CHECKING
 
 from ...recording import printable
+
+if TYPE_CHECKING:
+    import asyncio
 
 KMH = 3.6
 """Value of 1 m/s in km/h."""
@@ -20,6 +23,8 @@ def run_pod(options: argparse.Namespace) -> int:
 
 
 async def _listen(options: argparse.Namespace, stop: asyncio.Event) -> int:
+    import asyncio
+
     from ...ble.running import RunningSensor
     from ...wire.running import RscMeasurement
     from ..common.loop import unless_stopped

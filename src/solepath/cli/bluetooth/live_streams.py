@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import asyncio
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -13,6 +12,8 @@ from ...types import Site
 from ..common.failure import Failure, note, require
 
 if TYPE_CHECKING:
+    import asyncio
+
     from ...calibration import Calibration
     from ...recipes import Recipe
 
@@ -58,6 +59,8 @@ async def _listen(
     options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None, stop: asyncio.Event
 ) -> int:
     """Run the streams until `stop` is set or the time is over; return the exit status."""
+    import asyncio
+
     from pylsl import local_clock
 
     from ...recording.lsl.inlet import LslInlet
