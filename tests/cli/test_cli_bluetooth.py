@@ -34,7 +34,7 @@ def test_live_connects_to_the_insoles_it_finds_and_reports_their_links(insoles: 
 
 def test_what_record_writes_gives_the_same_events_as_live(insoles: str, tmp_path: Path) -> None:
     file, out = tmp_path / "walk.jsonl", tmp_path / "out"
-    options = ["--left", "solepath L", "--right", "F0:5E:00:00:00:02", "--via", insoles, "--duration", 7]
+    options = ["--left", "solepath L", "--right", "F0:5E:00:00:00:02", "--via", insoles, "--duration", 12]
     run("live", *options, "--record", file, "--out", out)
     replayed = tmp_path / "replayed"
     run("track", file, "--out", replayed)

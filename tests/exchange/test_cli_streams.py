@@ -89,7 +89,7 @@ def test_what_live_measures_is_served() -> None:
         started("live", "--via", address, *names, "--rsc", "127.0.0.1:0", "--duration", 300) as live,
     ):
         served = line_of(live, "serving running speed").split()[-1]
-        line_of(live, "   5.0 s")
+        line_of(live, "   ")
         done = run("live", "--pod", "solepath RSC", "--via", served, "--duration", 4)
     speeds = [float(line.split()[2]) for line in done.stdout.splitlines()[1:]]
     assert 1.0 < max(speeds) < 1.6
