@@ -51,7 +51,7 @@ def test_what_live_publishes_is_run_by_lsl_and_published_again(tmp_path: Path) -
         emulator("--distance", 120) as (_, address),
         started("live", "--via", address, *names, "--lsl", "lab", "--duration", 300) as live,
     ):
-        line_of(live, "   5.0 s")  # the streams are there since the first sample
+        line_of(live, "   ")  # the streams are there since the first sample
         streams = run("scan", "--lsl").stdout.splitlines()
         assert {f"lab {foot}_foot {content}" for foot in ("left", "right") for content in ("samples", "pose")} <= set(
             streams
