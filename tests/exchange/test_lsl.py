@@ -8,6 +8,7 @@ import time
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 import walks
@@ -48,13 +49,17 @@ sys.stdin.readline()
 """A program that sends numbered samples of both feet, whose angular rate is their own time on LSL's clock."""
 
 
+FOLDER = TemporaryDirectory()
+Path(FOLDER.name, "lsl_api.cfg").write_text(
+    f"[multicast]\nResolveScope = machine\n[lab]\nKnownPeers = {{127.0.0.1}}\nSessionID = {uuid.uuid4().hex}\n"
+)
+# liblsl reads it once, at the first call of any test: so it is there before the first test runs
+os.environ["LSLAPICFG"] = str(Path(FOLDER.name, "lsl_api.cfg"))
+
+
 @pytest.fixture(scope="module", autouse=True)
-def layer(tmp_path_factory) -> None:
-    """Keep the streams of these tests to this machine and apart from others; skip where no stream is found."""
-    config = f"[multicast]\nResolveScope = machine\n[lab]\nKnownPeers = {{127.0.0.1}}\nSessionID = {uuid.uuid4().hex}\n"
-    path = tmp_path_factory.mktemp("lsl") / "lsl_api.cfg"
-    path.write_text(config)
-    os.environ["LSLAPICFG"] = str(path)
+def layer() -> None:
+    """Skip where no stream is found; the streams of these tests stay on this machine and apart from others."""
     outlet = pylsl.StreamOutlet(pylsl.StreamInfo("probe", "Test", 1, 0.0, pylsl.cf_double64, "probe"))
     if not pylsl.resolve_byprop("name", "probe", timeout=30.0):
         pytest.skip("streams of this machine are not found: neither multicast nor loopback works here")

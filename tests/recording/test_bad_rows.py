@@ -173,9 +173,9 @@ def test_a_value_that_is_not_finite_costs_its_row(tmp_path: Path, name: str, qua
     ("row", "t", "complaint"),
     [
         (7, 0.02, "0.02 s after 0.06 s and before 0.08 s"),
-        (7, 5.0, "5.0 s after 0.06 s and before 0.08 s"),
-        (0, 9.0, "9.0 s before 0.01 s"),
-        (19, -3.0, "-3.0 s after 0.18 s"),
+        (7, 5.0, "5 s after 0.06 s and before 0.08 s"),
+        (0, 9.0, "9 s before 0.01 s"),
+        (19, -3.0, "-3 s after 0.18 s"),
     ],
 )
 @pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])
