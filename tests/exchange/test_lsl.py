@@ -49,6 +49,12 @@ sys.stdin.readline()
 """A program that sends numbered samples of both feet, whose angular rate is their own time on LSL's clock."""
 
 
+PROBE = """
+import sys, pylsl
+outlet = pylsl.StreamOutlet(pylsl.StreamInfo("probe", "Test", 1, 0.0, pylsl.cf_double64, "probe"))
+print("ready", flush=True)
+sys.stdin.readline()
+"""
 FOLDER = TemporaryDirectory()
 Path(FOLDER.name, "lsl_api.cfg").write_text(
     f"[multicast]\nResolveScope = machine\n[lab]\nKnownPeers = {{127.0.0.1}}\nSessionID = {uuid.uuid4().hex}\n"
@@ -60,10 +66,14 @@ os.environ["LSLAPICFG"] = str(Path(FOLDER.name, "lsl_api.cfg"))
 @pytest.fixture(scope="module", autouse=True)
 def layer() -> None:
     """Skip where no stream is found; the streams of these tests stay on this machine and apart from others."""
-    outlet = pylsl.StreamOutlet(pylsl.StreamInfo("probe", "Test", 1, 0.0, pylsl.cf_double64, "probe"))
-    if not pylsl.resolve_byprop("name", "probe", timeout=30.0):
-        pytest.skip("streams of this machine are not found: neither multicast nor loopback works here")
-    del outlet
+    with subprocess.Popen(
+        [sys.executable, "-c", PROBE], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as other:
+        assert other.stdout is not None and other.stdout.readline() == "ready\n"
+        found = pylsl.resolve_byprop("name", "probe", timeout=30.0)
+        other.communicate("\n")
+    if not found:
+        pytest.skip("streams of another process are not found: neither multicast nor loopback works here")
 
 
 def exchange(seconds: float) -> tuple[dict[Site, list[Sample]], int]:
