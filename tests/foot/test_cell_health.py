@@ -16,7 +16,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import FULL_SCALE, layout
 from solepath.events import CellFault, CellsFailed, Event, InsoleNeverUnloads, SampleRejected, StrideTaken
 from solepath.foot.pressure.cell_health import CellHealth
-from solepath.foot.pressure.cells import enclosed
+from solepath.foot.pressure.cells import CellSpan, enclosed
 from solepath.types import Cell, Foot, Layout, Phase, Sample
 
 WALK = Route().stand(1.5).walk(30.0, 1.3).stop(1.0)
@@ -233,3 +233,9 @@ def test_a_cell_is_enclosed_when_cells_on_all_its_sides_load() -> None:
 
 
 # --- any input ---
+
+
+def test_cells_that_have_failed_leave_nothing_in_the_sum() -> None:
+    span = CellSpan()
+    span.add((0.0, 0.1, 100.7, 0.3, 0.0), [1, 2, 3])
+    assert (span.low, span.high) == (0.0, 0.0)

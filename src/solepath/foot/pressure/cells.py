@@ -49,9 +49,7 @@ class CellSpan:
 
     def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
         """Add one sample; cells with an index in `excluded` do not count in the sum."""
-        total = add_up(cells)
-        for i in excluded:
-            total -= cells[i]
+        total = add_up(tuple([v for i, v in enumerate(cells) if i not in excluded]) if excluded else cells)
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total

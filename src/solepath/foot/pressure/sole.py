@@ -145,6 +145,6 @@ class Sole:
             self._apply_layout(layout, limitations)
 
     def _forget_layout(self) -> None:
-        self.layout_estimated = False
+        self.layout_estimated, self.highest = False, 0.0
         self.guess = LayoutGuess(self.foot)
         self.insole = evolve(self.insole)  # a copy with the same settings and nothing learnt
