@@ -12,8 +12,10 @@ from typing import Any
 
 import pytest
 from signed import signed
+from walks import samples
 
-from solepath import Session, SnapshotError
+from solepath import Foot, Session, SnapshotError
+from solepath.body.worn.wear import Wear
 from solepath.saving.codec import checksum
 from solepath.saving.limits import MAX_DEPTH, MAX_DIGITS, MAX_SIZE, MAX_VALUES, check_size
 from solepath.saving.streams import HEADER, from_bytes, to_bytes
@@ -161,3 +163,21 @@ def test_a_session_is_far_from_the_limits() -> None:
     state = Session().snapshot()
     check_size(state)
     assert checksum(state) is not None
+
+
+@pytest.mark.parametrize("name", ["moments", "instants"])
+def test_bytes_that_are_no_whole_rows_are_rejected(name: str) -> None:
+    """Rows are read while a foot moves: a state that holds half a row would raise there."""
+    items = samples()  # without a layout, so that the sides of the feet are watched too
+    middle = next(k for k, sample in enumerate(items) if sample.t > items[0].t + 6.3)
+    session = Session()
+    session.feed(items[:middle])
+    tracker = session.feet[Foot.LEFT]
+    sides = next(part.sides for part in session._state.wearer.parts if isinstance(part, Wear))
+    holder: Any = tracker.gait.template if name == "moments" else sides.left.turn_integral
+    assert len(getattr(holder, name)) > 100
+    setattr(holder, name, getattr(holder, name)[:-1])
+    with pytest.raises(SnapshotError, match="no whole rows of"):
+        Session.restore(session.snapshot())
+    with pytest.raises(SnapshotError, match="no whole rows of"):
+        Session.unpack(session.pack())

@@ -57,7 +57,7 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
         or (newest is not None and t - newest < SHORTEST_STEP)
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
-    acc: Vec3 | None = sample.acc
+    acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
     gyro: Vec3 | None = sample.gyro
     vectors_valid = True
     try:

@@ -171,7 +171,7 @@ class FootTracker:
     def feed(self, sample: Sample) -> list[Event]:
         """Return the events of one sample of this foot; one that cannot be used is reported and changes no state."""
         t: float = sample.t
-        acc: Vec3 | None = sample.acc
+        acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
         gyro: Vec3 | None = sample.gyro
         t_last = self.moved_at if (has_inertial := acc is not None and gyro is not None) else self.partial_at
         if (rejection := rejection_reason(sample, t_last)) is not None:

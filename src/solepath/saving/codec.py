@@ -18,7 +18,7 @@ from functools import partial
 from math import isfinite
 from typing import Any, TypeVar
 
-from .limits import check_size, shorten
+from .limits import check_rows, check_size, shorten
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 from .schema import is_record, locate_error, record_of
 
@@ -78,8 +78,8 @@ _CODECS: dict[RecordNode, tuple[_Saver, _Loader]] = {}
 
 def _codec(node: Node) -> tuple[_Saver, _Loader]:
     match node:
-        case ScalarNode(kind):
-            return _scalar_codec(kind)
+        case ScalarNode(kind, row_size):
+            return _scalar_codec(kind, row_size)
         case EnumNode(cls):
             return (lambda word: word.value), partial(_load_enum, cls)
         case MaybeNode(of):
@@ -103,11 +103,11 @@ def _codec(node: Node) -> tuple[_Saver, _Loader]:
             return _CODECS[node]
 
 
-def _scalar_codec(kind: type) -> tuple[_Saver, _Loader]:
+def _scalar_codec(kind: type, size: int) -> tuple[_Saver, _Loader]:
     if kind is float:
         return _save_float, _load_float
     if kind is bytes:
-        return (lambda data: b64encode(data).decode()), (lambda text, _: b64decode(text, validate=True))
+        return (lambda of: b64encode(of).decode()), (lambda text, _: check_rows(b64decode(text, validate=True), size))
 
     def check(value: Any, _: object = None) -> Any:
         if type(value) is not kind:

@@ -164,7 +164,9 @@ class CodeGenerator:
     def read_expression(self, node: Node, t: str) -> str:
         """Return the expression that reads a value; `t` is the expression of this value as its holder made it again."""
         match node:
-            case ScalarNode(kind):
+            case ScalarNode(kind, row_size):
+                if row_size > 1:
+                    return f"check_rows(b(n()), {row_size})"
                 return {float: "f()", int: "n()", bool: "m()", bytes: "b(n())", str: "b(n()).decode()"}[kind]
             case EnumNode(cls):
                 return f"get_word({self.name_object('words', list(cls))}, n())"

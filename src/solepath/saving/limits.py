@@ -19,6 +19,13 @@ _INT_LIMIT = 10**MAX_DIGITS
 _TEXT_LENGTH = 80
 
 
+def check_rows(data: bytes, size: int) -> bytes:
+    """Return the bytes; raise ValueError unless they are whole rows of `size` bytes."""
+    if len(data) % size:
+        raise ValueError(f"{len(data)} bytes are no whole rows of {size}")
+    return data
+
+
 def check_size(value: Any) -> None:
     """Raise ValueError for a JSON value that exceeds a limit; the work is in proportion to the limits at most."""
     count = characters = 0

@@ -13,6 +13,8 @@ class ScalarNode:
     """A float, int, bool, str or bytes."""
 
     kind: type
+    row_size: int = 1
+    """Size of the rows, in bytes, of which bytes hold a whole number."""
 
 
 @frozen(eq=False)

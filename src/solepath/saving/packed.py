@@ -12,7 +12,7 @@ from typing import Any
 from ..types.attrs import frozen
 from .codec import Classes, SnapshotError, check_open, class_in
 from .generator import CodeGenerator
-from .limits import MAX_VALUES, shorten
+from .limits import MAX_VALUES, check_rows, shorten
 from .nodes import OpenNode, RecordNode
 from .schema import describe, record_in, schema_checksum
 
@@ -69,6 +69,7 @@ def _functions_of(record: RecordNode) -> _RecordFunctions:
         "get_word": _get_word,
         "check_presence": _check_presence,
         "check_parts": _check_parts,
+        "check_rows": check_rows,
     }
     return _RecordFunctions(*CodeGenerator(functions, _OpenRecordCodec).generate(record))
 

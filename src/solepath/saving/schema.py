@@ -27,13 +27,13 @@ import types
 import typing
 from binascii import crc32
 from collections import Counter, deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from enum import Enum
 from typing import Any
 
 import attrs
 
-from ..types.attrs import MADE_AGAIN, NOT_SAVED
+from ..types.attrs import MADE_AGAIN, NOT_SAVED, ROW_SIZE
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
 
 SCALARS = (float, int, bool, str, bytes)
@@ -101,7 +101,12 @@ class _DeclaredField:
     hint: Any
     is_setting: bool
     default: Any
-    mark: str | None
+    metadata: Mapping[Any, Any]
+
+    @property
+    def mark(self) -> str | None:
+        """Mark of the field (types/attrs.py); None without one."""
+        return self.metadata.get("saving")
 
 
 def _declared_fields(record: Any) -> Iterator[_DeclaredField]:
@@ -109,12 +114,12 @@ def _declared_fields(record: Any) -> Iterator[_DeclaredField]:
     hints = typing.get_type_hints(cls)
     if attrs.has(cls):
         for field in attrs.fields(cls):
-            yield _DeclaredField(field.name, hints[field.name], field.init, field.default, field.metadata.get("saving"))
+            yield _DeclaredField(field.name, hints[field.name], field.init, field.default, field.metadata)
         return
     parameters = inspect.signature(cls).parameters
     for name, hint in hints.items():
         if typing.get_origin(hint) is not typing.ClassVar and hint is not typing.ClassVar:
-            yield _DeclaredField(name, hint, name in parameters, getattr(cls, name, attrs.NOTHING), None)
+            yield _DeclaredField(name, hint, name in parameters, getattr(cls, name, attrs.NOTHING), {})
 
 
 class _SchemaBuilder:
@@ -143,6 +148,8 @@ class _SchemaBuilder:
                 raise TypeError(locate_error(error, cls, declared.name)) from error
             if node is None:
                 defaults[declared.name] = declared.default
+            elif ROW_SIZE in declared.metadata:
+                fields[declared.name] = ScalarNode(bytes, declared.metadata[ROW_SIZE])
             else:
                 fields[declared.name] = node
         self.enclosing_classes.pop()

@@ -106,7 +106,7 @@ class WearerParts:
             return events
         if known_tracker is None:
             self._add_tracker(tracker)
-        t: float = sample.t
+        t: float = sample.t  # declared, because the fields of a compiled Sample have any type
         known_at: float = sample.known_at if sample.known_at > t else t
         if tracker.viewed_at is None or t > tracker.viewed_at:
             tracker.viewed_at = t

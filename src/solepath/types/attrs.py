@@ -19,6 +19,8 @@ NOT_SAVED = {"saving": "not saved"}
 """Mark of a field that is in no snapshot and no packed state, so that it has its default after loading."""
 MADE_AGAIN = {"saving": "made again"}
 """Mark of a field of state whose parts are created again by the object that has the field."""
+ROW_SIZE = "row size"
+"""Key of the metadata of a field of bytes that holds whole rows; its value is their size, bytes."""
 
 if TYPE_CHECKING:
     from attrs import define, frozen
@@ -61,4 +63,4 @@ else:
     define = partial(_decorate, attrs_decorator=attrs.define, hashed=False)
     frozen = partial(_decorate, attrs_decorator=attrs.frozen, hashed=True)
 
-__all__ = ["MADE_AGAIN", "NOT_SAVED", "astuple", "define", "evolve", "field", "fields", "frozen"]
+__all__ = ["MADE_AGAIN", "NOT_SAVED", "ROW_SIZE", "astuple", "define", "evolve", "field", "fields", "frozen"]

@@ -117,7 +117,7 @@ class Activities(ActivityPart):
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add a sample of a foot with its air pressure and events; return activities, flights and rides."""
         sample = view.sample
-        acc: Vec3 | None = sample.acc
+        acc: Vec3 | None = sample.acc  # declared, because the fields of a compiled Sample have any type
         t, origin = view.t, self.origin
         side = self.left if view.foot is LEFT else self.right
         if origin is None:

@@ -6,7 +6,7 @@ from itertools import accumulate
 from struct import Struct
 
 from ...types import Vec3
-from ...types.attrs import define
+from ...types.attrs import ROW_SIZE, define, field
 from ...types.vector import ZERO
 
 INSTANT = Struct("<i3q")
@@ -25,7 +25,7 @@ class RateIntegral:
     """Time of the newest instant, s; None before any."""
     turn: Vec3 = ZERO
     """Integral up to the newest instant, rad."""
-    instants: bytes = b""
+    instants: bytes = field(default=b"", metadata={ROW_SIZE: INSTANT.size})
     """The newest instants, oldest first, as `INSTANT` packs them."""
 
     def restart(self, t: float) -> None:

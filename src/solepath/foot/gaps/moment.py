@@ -6,7 +6,7 @@ from math import hypot
 from struct import Struct
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, frozen
+from ...types.attrs import ROW_SIZE, define, field, frozen
 from ...types.vector import normalise, sub
 
 MOMENT = Struct("<15f")
@@ -38,7 +38,7 @@ class StrideMoment:
 class RecordedStride:
     """A stride without gaps."""
 
-    moments: bytes
+    moments: bytes = field(metadata={ROW_SIZE: MOMENT.size})
     """Moments from heel-off to just before foot-flat, in order, as `MOMENT` packs them; at least one."""
     toe_off: float
     """Time from heel-off to toe-off, s."""

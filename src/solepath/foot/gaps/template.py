@@ -12,7 +12,7 @@ from math import hypot
 from typing import NamedTuple
 
 from ...types import Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import ROW_SIZE, define, field
 from ...types.vector import ZERO, single, sub, turned
 from .moment import MOMENT, RecordedStride, correction_distance, limit_length
 from .straight import StraightOn, correction_share
@@ -54,7 +54,7 @@ class StrideTemplate:
     """Last stride without a gap; None before any."""
     age: int = field(default=1000, init=False)
     """Number of strides since `last_stride`."""
-    moments: bytes = field(default=b"", init=False)
+    moments: bytes = field(default=b"", init=False, metadata={ROW_SIZE: MOMENT.size})
     """Moments of the current stride, as `MOMENT` packs them."""
     first_position: Vec3 = field(default=ZERO, init=False)
     """Position at the first of `moments`, navigation frame, m; the positions in `moments` are relative to it."""
