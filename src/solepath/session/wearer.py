@@ -110,7 +110,7 @@ class WearerParts:
         known_at: float = sample.known_at if sample.known_at > t else t
         if tracker.viewed_at is None or t > tracker.viewed_at:
             tracker.viewed_at = t
-        if not events and sample.air_pressure is sample.range is None:  # the case of nearly all samples
+        if not events and sample.air_pressure is None and sample.range is None:  # nearly always
             view = tracker.view(sample, known_at, (), False, None)
             for part in self.sampled:
                 if not part.idle and (output := part.feed(view)):  # it may be idle since the sample before
