@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterator, Mapping
 from math import nan
-from typing import Any
+from typing import Any, get_args, get_origin, get_type_hints
 
 import attrs
 import pytest
@@ -14,7 +15,8 @@ from here import PROTOCOL
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.events import HeelStrike, PacketRejected, Rejection
+from solepath.events import Event, HeelStrike, PacketRejected, Rejection
+from solepath.events.happening import Happening
 from solepath.fleet import (
     EVENT_COLUMNS,
     SENT_COLUMNS,
@@ -36,6 +38,7 @@ from solepath.fleet import (
 )
 from solepath.fleet.step.sent import MAX_COUNT, MAX_DATA_LENGTH, MAX_NAME_LENGTH
 from solepath.types import Foot, Packet, Site
+from solepath.types.attrs import frozen
 
 LINES = json.loads((PROTOCOL / "fleet" / "lines.json").read_text())
 NAMES = st.text(st.characters(exclude_categories=["Cs"]), max_size=8)
@@ -118,6 +121,43 @@ def test_a_row_of_an_event_has_what_its_line_in_a_file_has() -> None:
         assert event_row(NumberedEvent("w", 7, event)) == {
             "wearer": "w", "number": 7, **columns, "fields": json.dumps(record)
         }  # fmt: skip
+
+
+@frozen(kw_only=True)
+class Counted(Happening):
+    """An app's own event with mappings, which no event of solepath has."""
+
+    counts: dict[Any, Any]
+    inner: tuple[Any, ...] = ()
+
+
+@settings(max_examples=60)
+@given(counts=st.dictionaries(st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), NAMES), st.floats()))
+def test_a_row_has_the_keys_of_mappings_that_its_line_in_a_file_has(counts: dict[Any, float]) -> None:
+    event = Counted(t=1.0, known_at=1.0, counts=counts, inner=({True: None, None: False, 2: b"a"},))
+    record = event.to_dict()
+    fields = event_row(NumberedEvent("w", 0, event))["fields"]
+    assert fields == json.dumps({"counts": record["counts"], "inner": record["inner"]}, allow_nan=False)
+
+
+def annotations(cls: Any) -> Iterator[Any]:
+    """Yield all types of which a value of this type is made."""
+    yield cls
+    inner = get_type_hints(cls).values() if attrs.has(cls) else get_args(cls)
+    for one in inner:
+        yield from annotations(one)
+
+
+def may_hold_a_mapping(cls: type) -> bool:
+    return any(
+        one in (Any, object) or isinstance(plain := get_origin(one) or one, type) and issubclass(plain, Mapping)
+        for one in annotations(cls)
+    )
+
+
+def test_no_event_of_the_package_has_a_mapping() -> None:
+    assert [cls for cls in (*get_args(Event), *get_args(FleetEvent)) if may_hold_a_mapping(cls)] == []
+    assert may_hold_a_mapping(Counted)
 
 
 def test_a_row_holds_no_more_than_a_phone_sends() -> None:

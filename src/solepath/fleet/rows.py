@@ -26,6 +26,7 @@ EVENT_COLUMNS: Mapping[str, type] = {
 }  # fmt: skip
 """Columns of `event_row` with their types; t, known_at and foot may be None."""
 
+_PACKAGE = __name__.partition(".")[0]
 _SITES = {site.value: site for site in Site}
 MAX_LINE_LENGTH = 65_536
 """Longest line without its line feed, bytes."""
@@ -207,11 +208,13 @@ def event_row(numbered: NumberedEvent) -> dict[str, Any]:
         wearer = wearer.encode("utf-8", "backslashreplace").decode()
     kind: type = type(event)
     other_values = {name: getattr(event, name) for name in _other_names(kind)}
+    if kind.__module__.partition(".")[0] != _PACKAGE:  # an app's event may have mappings, of whose keys JSON differs
+        other_values = json_ready(other_values)
     times = {"t": json_ready(event.t), "known_at": json_ready(event.known_at)}
     columns = {"event": kind.__name__, **times, "final": event.final, "foot": _foot_name(event)}
     try:
         others = _FIELDS_ENCODER.encode(other_values)
-    except (TypeError, ValueError):  # keys that are no text, or a number that is not finite
+    except ValueError:  # a number that is not finite
         others = _FIELDS_ENCODER.encode(json_ready(other_values))
     return {"wearer": wearer, "number": numbered.number, **columns, "fields": others}
 
