@@ -126,7 +126,7 @@ def main() -> None:
     ]
     columns = [measure(plan) for plan in plans]
     rows = [[name, *cells] for name, *cells in zip(ROWS, *columns, strict=True)]
-    print(f"{machine()}, {form()} modules, {options.processes} processes of bytewax\n")
+    print(f"{machine()}, {form()} modules, processes of bytewax: {options.processes}\n")
     print(f"{table(('wearers', *map(str, options.sizes)), rows)}\n")
     walk = "walking with two insoles of 96 cells" if options.walks == "96" else "one of the six walks of the demo"
     print(NOTE.format(every=f"{options.every:g}", seconds=f"{options.seconds:g}", walk=walk))

@@ -2,7 +2,8 @@
 
 A session is packed (`Session.pack`) after every 50 packets of a walk. Then all these states are unpacked and packed
 again, one after the other, as a stream engine does with those of many wearers. Times are processor times in
-microseconds, with the garbage collector off. `--fields N` also prints the N fields that take the most bytes.
+microseconds, with the garbage collector off. `--fields N` also prints the N fields that take the most bytes before
+compression.
 """
 
 from __future__ import annotations
@@ -37,7 +38,6 @@ from solepath.saving.nodes import (
     TupleNode,
 )
 from solepath.saving.schema import record_in
-from solepath.saving.streams import to_bytes
 from solepath.session.packed import STATE
 
 ROUTE = Route().stand(2.0).walk(40.0, 1.3).turn(1.57, radius=1.5).walk(20.0).turn(-0.8, radius=2.0).walk(10.0).stop(2.0)
@@ -118,15 +118,19 @@ def print_row(
     print(f"{name:34}  " + "  ".join(cells), flush=True)
 
 
+WORD, FLAG = 8, 1
+"""Bytes of a number, a count, a word of an enum or a kind, and of a flag, before compression (saving/streams.py)."""
+
+
 class Account:
-    """Sums the bytes of a packed state by field."""
+    """Sums the bytes of a packed state by field, before compression."""
 
     def __init__(self) -> None:
         self.bytes: Counter[str] = Counter()
         self.counts: Counter[str] = Counter()
 
-    def add(self, field_name: str, bits: float) -> None:
-        self.bytes[field_name] += bits / 8.0
+    def add(self, field_name: str, size: int) -> None:
+        self.bytes[field_name] += size
         self.counts[field_name] += 1
 
     def value(self, node: Node, value: Any, field_name: str) -> None:
@@ -135,43 +139,29 @@ class Account:
                 for field, inner in fields.items():
                     self.value(inner, getattr(value, field), f"{cls.__name__}.{field}")
             case ScalarNode(kind):
-                self.scalar(kind, value, field_name)
+                of_text = len(value) if kind in (str, bytes) else 0
+                self.add(field_name, FLAG if kind is bool else WORD + of_text)
             case EnumNode():
-                self.add(field_name, 10)
+                self.add(field_name, WORD)
             case OpenNode():
-                self.add(field_name, 10)
+                self.add(field_name, WORD)
                 self.value(record_in(node, type(value)), value, field_name)
             case MaybeNode(of):
-                self.add(field_name, 1)
+                self.add(field_name, FLAG)
                 if value is not None:
                     self.value(of, value, field_name)
             case TupleNode(items):
                 for item, item_value in zip(items, value, strict=True):
                     self.value(item, item_value, field_name)
             case SequenceNode(_, of):
-                self.add(field_name, 10)
+                self.add(field_name, WORD)
                 for item_value in value:
                     self.value(of, item_value, field_name)
             case DictNode(key, of):
-                self.add(field_name, 10)
+                self.add(field_name, WORD)
                 for name, item_value in value.items():
                     self.value(key, name, field_name)
                     self.value(of, item_value, field_name)
-
-    def scalar(self, kind: type, value: Any, field_name: str) -> None:
-        if kind is float:
-            self.add(
-                field_name, 3 + 8 * (len(to_bytes([value], [], [], [], (0.05000000074505806, 0.0))) - EMPTY_SIZE - 3)
-            )
-        elif kind is int:
-            self.add(field_name, 8 * (len(to_bytes([], [value], [], [], (0.0, 0.0))) - EMPTY_SIZE - 2) + 2)
-        elif kind is bool:
-            self.add(field_name, 1)
-        else:
-            self.add(field_name, 8 * len(value) + 10)
-
-
-EMPTY_SIZE = len(to_bytes([], [], [], [], (0.0, 0.0)))
 
 
 def fields(session: Session, count: int) -> None:
@@ -179,7 +169,7 @@ def fields(session: Session, count: int) -> None:
     account = Account()
     account.value(STATE, session._state, "")
     for field_name, size in account.bytes.most_common(count):
-        print(f"{size:8.0f} bytes, {account.counts[field_name]:4} items   {field_name}")
+        print(f"{size:8} bytes, {account.counts[field_name]:4} items   {field_name}")
 
 
 def main() -> None:
