@@ -103,6 +103,11 @@ def test_a_timed_up_and_go_is_the_time_between_its_marks() -> None:
         timed_up_and_go([], 5.0, 5.0)
 
 
+def test_a_single_step_of_a_wearer_of_two_sensors_is_one() -> None:
+    # contacts: left at 10.9, 11.9 ... s, right at 11.4, 12.4 ... s; from 10.8 to 11.2 s there is the first left one
+    assert timed_up_and_go(walk(10.0, 5), 10.8, 11.2).steps == 1
+
+
 def there_and_back(crossings: int) -> Route:
     """Return a walk along a corridor of 30 m, with an about-turn in a bend of 0.5 m radius after each crossing."""
     route = Route().stand(3.0)

@@ -104,12 +104,12 @@ def walking_bouts(events: Iterable[Event]) -> list[WalkingBout]:
 def count_contacts(cycles: Iterable[GaitCycleMeasured], after: float = -inf, until: float = inf) -> int:
     """Return the number of initial contacts of gait cycles, later than `after` and not later than `until`, s.
 
-    With cycles of one foot only it is twice the number, because a stride has two steps."""
-    found = {foot: set[float]() for foot in Foot}
+    With cycles of one foot only, at any time, it is twice the number, because a stride has two steps."""
+    found: dict[Foot, set[float]] = {}
     for cycle in cycles:
-        found[cycle.foot] |= {t for t in (cycle.t_start, cycle.t) if after < t <= until}
-    counts = [len(times) for times in found.values() if times]
-    return 2 * counts[0] if len(counts) == 1 else sum(counts)  # whole numbers
+        found.setdefault(cycle.foot, set()).update([t for t in (cycle.t_start, cycle.t) if after < t <= until])
+    count = sum([len(times) for times in found.values()])  # whole numbers
+    return 2 * count if len(found) == 1 else count
 
 
 def _bout(number: int, cycles: Sequence[GaitCycleMeasured], turns: Sequence[TurnMade]) -> WalkingBout:
