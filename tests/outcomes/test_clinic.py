@@ -9,7 +9,7 @@ import re
 import subprocess
 import sys
 from contextlib import redirect_stdout
-from math import pi
+from math import inf, nan, pi
 from pathlib import Path
 
 import pytest
@@ -18,7 +18,7 @@ from here import DOCS, ROOT
 from pages import parse_page
 from quoted import PAGES, blocks
 from recordings import recorded
-from strides import cycles
+from strides import cycle, cycles
 from walks import run_session
 
 from solepath import GaitCycleMeasured
@@ -182,6 +182,14 @@ print(json.dumps(sorted(name for name in sys.modules if name.startswith("solepat
 def test_no_session_page_report_or_command_loads_it_before_it_is_needed() -> None:
     done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=True, cwd=ROOT)
     assert json.loads(done.stdout) == []
+
+
+@pytest.mark.parametrize("t", [nan, inf, -inf])
+def test_an_event_without_a_time_is_neither_start_nor_end(t: float) -> None:
+    clinic = Clinic(six_minutes=True, six_minutes_start=-300.0)
+    for event in [cycle(Foot.LEFT, t, 1.0), *cycles(Foot.LEFT, 0.0, [1.0] * 4), cycle(Foot.LEFT, t, 1.0)]:
+        clinic.add(event)
+    assert (clinic.start, clinic.end) == (1.0, 4.0)
 
 
 def test_other_events_are_not_kept() -> None:

@@ -1,13 +1,16 @@
-"""Collects what outcomes need from a session's events, and puts the outcomes into text.
+r"""Collects what outcomes need from a session's events, and puts the outcomes into text.
 
-clinic = Clinic(outcomes=True)
-clinic.add(event)  # each event
-print("\\n".join(clinic.lines()))"""
+    clinic = Clinic(outcomes=True)
+    for event in events:
+        clinic.add(event)
+    print("\n".join(clinic.lines(clinic.results())))
+
+The report (show/report/clinical.py) and the files (files.py) show the same results."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf
+from math import isfinite
 
 from attrs import define, field, frozen
 
@@ -17,7 +20,18 @@ from ..valid import has_valid_numbers
 from .bouts import WalkingBout, walking_bouts
 from .mobility import implausible, mobility_outcomes
 from .references import Person
-from .rows import PARTS, OutcomeRow, mobility_rows, six_minute_rows, stride_rows, up_and_go_rows
+from .rows import (
+    MOBILITY,
+    OF_STRIDES,
+    PARTS,
+    SIX_MINUTE_WALK,
+    UP_AND_GO,
+    OutcomeRow,
+    mobility_rows,
+    six_minute_rows,
+    stride_rows,
+    up_and_go_rows,
+)
 from .walk_tests import SixMinuteWalk, TimedUpAndGo, six_minute_walk, timed_up_and_go
 
 LABEL = (
@@ -94,10 +108,9 @@ class Clinic:
 
     def add(self, event: Event) -> None:
         """Add an event of the session."""
-        if self.end is None or self.end < event.t < inf:
-            self.end = event.t
-        if self.start is None or -inf < event.t < self.start:
-            self.start = event.t
+        if isfinite(event.t):
+            self.start = event.t if self.start is None else min(self.start, event.t)
+            self.end = event.t if self.end is None else max(self.end, event.t)
         if isinstance(event, GaitCycleMeasured | StrideTaken | TurnMade) and event.final and has_valid_numbers(event):
             self.events.append(event)
 
@@ -140,18 +153,18 @@ class Clinic:
         if self.six_minutes:
             walk = results.six_minutes
             lines += ["", walk_sentence(results)]
-            lines += _table("six-minute walk", results.part(PARTS[0])) if walk is not None else []
+            lines += _table(SIX_MINUTE_WALK, results.part(SIX_MINUTE_WALK)) if walk is not None else []
         if results.up_and_go_fault:
             lines += ["", f"There is no timed up and go. {results.up_and_go_fault}"]
         if results.up_and_go is not None:
-            lines += ["", *_table("timed up and go", results.part(PARTS[1])), UP_AND_GO_NOTE]
+            lines += ["", *_table(UP_AND_GO, results.part(UP_AND_GO)), UP_AND_GO_NOTE]
             lines += [NO_STEP] if not results.up_and_go.steps else []
         if self.outcomes:
             lines += ["", *bout_lines(results.bouts), ""]
-            lines += _table("mobility outcomes", results.part(PARTS[2]))
-            for part in PARTS[3:]:
+            lines += _table("mobility outcomes", results.part(MOBILITY))
+            for part in OF_STRIDES:
                 lines += ["", *_interval_table(f"{part} of steady strides", results.part(part))]
-            lines += [*([NEEDED, SENSORS] if results.part(*PARTS[3:]) else []), "", LABEL]
+            lines += [*([NEEDED, SENSORS] if results.part(*OF_STRIDES) else []), "", LABEL]
         return lines + results.sources(*PARTS)
 
 

@@ -43,8 +43,8 @@ def _write(path: Path, columns: tuple[str, ...], rows: list[list[str]]) -> None:
 def _bout_cells(bout: WalkingBout) -> list[str]:
     counts = [str(count) for count in (bout.strides, bout.steps, bout.turns)]
     means = [bout.stride_duration, bout.cadence, bout.stride_length, bout.walking_speed]
-    times = [repr(bout.t_start), repr(bout.t_end), _exact(bout.duration)]
-    cells = [str(bout.number), *times, *counts, *map(_exact, means), str(bout.degraded)]
+    times = [repr(bout.t_start), repr(bout.t_end), _digits(bout.duration)]
+    cells = [str(bout.number), *times, *counts, *map(_digits, means), str(bout.degraded)]
     return [*cells, " ".join(implausible(bout))]
 
 
@@ -53,9 +53,9 @@ def _outcome_cells(row: OutcomeRow) -> list[str]:
     ends = (None, None) if one is None else (one.low, one.high)
     counts = ("", "") if one is None else (str(one.strides), str(one.needed))
     reference = (None, None, None) if band is None else (band.value, band.low, band.high)
-    cells = [row.part, row.name, _exact(row.value), row.unit, *map(_exact, ends), *counts, *map(_exact, reference)]
+    cells = [row.part, row.name, _digits(row.value), row.unit, *map(_digits, ends), *counts, *map(_digits, reference)]
     return [*cells, "" if band is None else band.source]
 
 
-def _exact(value: float | int | None) -> str:
+def _digits(value: float | int | None) -> str:
     return "" if value is None else str(value) if isinstance(value, int) else f"{value:.6f}"

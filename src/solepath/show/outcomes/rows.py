@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from attrs import asdict, frozen
+from attrs import asdict, evolve, frozen
 
 from ...events import Event
 from ..tables.table import number
@@ -14,7 +14,11 @@ from .references import Person, Reference, six_minute_reference, up_and_go_refer
 from .spread import VARIABLE, IntervalEstimate, asymmetry, steady_strides, variability
 from .walk_tests import SixMinuteWalk, TimedUpAndGo
 
-PARTS = ("six-minute walk", "timed up and go", "mobility", "variability", "asymmetry")
+SIX_MINUTE_WALK, UP_AND_GO, MOBILITY = "six-minute walk", "timed up and go", "mobility"
+OF_STRIDES = VARIABILITY, ASYMMETRY = "variability", "asymmetry"
+"""Parts with an interval, of steady strides."""
+PARTS = (SIX_MINUTE_WALK, UP_AND_GO, MOBILITY, *OF_STRIDES)
+"""All parts, in the order of outcomes.csv."""
 KINDS = {
     "walkdur": "walking time", "wbsteps": "initial contacts", "turns": "turns", "wb": "walking bouts",
     "wbdur": "bout duration", "cadence": "cadence", "strdur": "stride duration", "ws": "walking speed",
@@ -28,6 +32,9 @@ DIGITS = {"s": 2, "m": 2, "m/s": 2, "1/min": 1}
 """Digits after the point in tables by unit; a share is shown in percent with one digit."""
 LARGE = 100.0
 """Size from which one digit is enough."""
+
+NamedValue = tuple[str, str, str, float | int | None]
+"""Name, label, unit and value of an outcome."""
 
 
 @frozen(kw_only=True)
@@ -79,7 +86,8 @@ class OutcomeRow:
 def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeRow]:
     """Return the rows of a six-minute walk; the distance has a reference if the whole test was recorded."""
     reference = None if person is None or not walk.complete else six_minute_reference(person)
-    values: list[tuple[str, str, str, float | int | None]] = [
+    values: list[NamedValue] = [
+        ("distance", "distance", "m", walk.distance),
         ("duration", "duration", "s", walk.duration),
         *[(f"distance_{foot}", f"distance of the {foot} foot", "m", d) for foot, d in walk.foot_distances.items()],
         ("speed", "distance / duration", "m/s", walk.speed),
@@ -92,24 +100,25 @@ def six_minute_rows(walk: SixMinuteWalk, person: Person | None) -> list[OutcomeR
         ("about_turns", "turns about", "", walk.about_turns),
         ("degraded", "degraded strides", "", walk.degraded),
     ]  # fmt: skip
-    first = OutcomeRow(
-        part=PARTS[0], name="distance", label="distance", unit="m", value=walk.distance, reference=reference
-    )
-    return [first, *[OutcomeRow(part=PARTS[0], name=n, label=label, unit=u, value=v) for n, label, u, v in values]]
+    return _rows(SIX_MINUTE_WALK, values, reference)
 
 
 def up_and_go_rows(test: TimedUpAndGo, person: Person | None) -> list[OutcomeRow]:
     """Return the rows of a timed up and go."""
     reference = None if person is None else up_and_go_reference(person)
-    values: list[tuple[str, str, str, float | int | None]] = [
+    values: list[NamedValue] = [
+        ("duration", "total time", "s", test.duration),
         ("walking_time", "from the first toe-off to the last contact", "s", test.walking_time),
         ("steps", "steps", "", test.steps),
         ("distance", "distance", "m", test.distance),
     ]
-    first = OutcomeRow(
-        part=PARTS[1], name="duration", label="total time", unit="s", value=test.duration, reference=reference
-    )
-    return [first, *[OutcomeRow(part=PARTS[1], name=n, label=label, unit=u, value=v) for n, label, u, v in values]]
+    return _rows(UP_AND_GO, values, reference)
+
+
+def _rows(part: str, values: Sequence[NamedValue], reference: Reference | None) -> list[OutcomeRow]:
+    """Return the rows of a walk test; the reference is that of the first one, the result of the test."""
+    first, *others = [OutcomeRow(part=part, name=n, label=label, unit=u, value=v) for n, label, u, v in values]
+    return [evolve(first, reference=reference), *others]
 
 
 def mobility_rows(outcomes: MobilityOutcomes) -> list[OutcomeRow]:
@@ -119,7 +128,7 @@ def mobility_rows(outcomes: MobilityOutcomes) -> list[OutcomeRow]:
         kind, of_bouts, how = name.split("_")
         aggregate = ", median" if (kind, how) == ("wbdur", "avg") else AGGREGATES[how]
         label = f"{KINDS[kind]}{CLASSES[of_bouts]}{aggregate}".replace("bouts, bouts", "bouts")
-        rows.append(OutcomeRow(part=PARTS[2], name=name, label=label, unit=unit_of(name), value=value))
+        rows.append(OutcomeRow(part=MOBILITY, name=name, label=label, unit=unit_of(name), value=value))
     return rows
 
 
@@ -129,13 +138,13 @@ def stride_rows(events: Sequence[Event], person: Person | None) -> list[OutcomeR
     reference = None if person is None else walking_speed_reference(person)
     rows = [
         OutcomeRow(
-            part=PARTS[2], name="steady_speed", label="speed of steady strides, mean", unit="m/s", value=speed,
+            part=MOBILITY, name="steady_speed", label="speed of steady strides, mean", unit="m/s", value=speed,
             reference=reference,
         )
     ]  # fmt: skip
     for part, estimates in (
-        (PARTS[3], {name: variability(events, name) for name in VARIABLE}),
-        (PARTS[4], {name: asymmetry(events, name) for name in VARIABLE}),
+        (VARIABILITY, {name: variability(events, name) for name in VARIABLE}),
+        (ASYMMETRY, {name: asymmetry(events, name) for name in VARIABLE}),
     ):
         for name, one in estimates.items():
             value = None if one is None else one.value

@@ -32,6 +32,10 @@ ASYMMETRY_PRECISION = 0.02
 MAX_CORRELATION = 0.95
 """Largest autocorrelation that is used; chosen by hand: nearer to 1 the number of independent strides is below 3 %."""
 
+LEAST_SQUARE = 1e-9
+"""Least value whose root is taken in the interval of a variability; only coefficients for which it does not hold, far
+above 1/3, give less, and their upper end is then as good as unlimited."""
+
 
 @frozen(kw_only=True)
 class IntervalEstimate:
@@ -104,7 +108,7 @@ def variability(events: Iterable[Event], name: str, foot: Foot | None = None) ->
     ends = []
     for share in (0.975, 0.025):
         u = chi_squared_quantile(share, freedom)
-        ends.append(cv / sqrt(max(((u + 2.0) / (freedom + 1.0) - 1.0) * cv * cv + u / freedom, 1e-9)))
+        ends.append(cv / sqrt(max(((u + 2.0) / (freedom + 1.0) - 1.0) * cv * cv + u / freedom, LEAST_SQUARE)))
     count = sum([sample.count for sample in samples])  # whole numbers
     needed = len(samples) + (Z / VARIABILITY_PRECISION) ** 2 / 2.0 * count / (freedom + len(samples))
     return IntervalEstimate(value=cv, low=ends[0], high=ends[1], strides=count, needed=ceil(needed))

@@ -18,7 +18,7 @@ from ..outcomes.clinic import (
     interval_row,
     walk_sentence,
 )
-from ..outcomes.rows import PARTS, OutcomeRow
+from ..outcomes.rows import MOBILITY, OF_STRIDES, SIX_MINUTE_WALK, UP_AND_GO, OutcomeRow
 from .figures.minutes import minutes_figure
 from .markup import add, section, table
 
@@ -40,17 +40,17 @@ def clinical_sections(main: Element, clinic: Clinic) -> None:
         add(parent, "p", walk_sentence(results))
         if walk is not None:
             figures = add(parent, "div", class_="figures")
-            rows = [row for row in results.part(PARTS[0]) if not row.name.startswith("distance_minute")]
+            rows = [row for row in results.part(SIX_MINUTE_WALK) if not row.name.startswith("distance_minute")]
             _table(figures, "Six-minute walk", rows)
             minutes_figure(figures, walk.minutes)
-            _notes(parent, [SIX_MINUTE_NOTE, *results.sources(PARTS[0])])
+            _notes(parent, [SIX_MINUTE_NOTE, *results.sources(SIX_MINUTE_WALK)])
     if results.up_and_go_fault:
         parent = section(main, "up-and-go", "Timed up and go")
         add(parent, "p", f"There is no timed up and go. {results.up_and_go_fault}")
     if results.up_and_go is not None:
         parent = section(main, "up-and-go", "Timed up and go")
-        _table(parent, "Timed up and go", results.part(PARTS[1]))
-        notes = [UP_AND_GO_NOTE, *([] if results.up_and_go.steps else [NO_STEP]), *results.sources(PARTS[1])]
+        _table(parent, "Timed up and go", results.part(UP_AND_GO))
+        notes = [UP_AND_GO_NOTE, *([] if results.up_and_go.steps else [NO_STEP]), *results.sources(UP_AND_GO)]
         _notes(parent, notes)
     if clinic.outcomes:
         parent = section(main, "outcomes", "Walking bouts and mobility outcomes")
@@ -61,13 +61,13 @@ def clinical_sections(main: Element, clinic: Clinic) -> None:
             add(parent, "p", NO_BOUT)
         if len(results.bouts) > MAX_BOUTS:
             add(parent, "p", f"and {len(results.bouts) - MAX_BOUTS} more bouts", class_="note")
-        _table(parent, "Mobility outcomes", results.part(PARTS[2]))
-        for part in PARTS[3:]:
+        _table(parent, "Mobility outcomes", results.part(MOBILITY))
+        for part in OF_STRIDES:
             cells = [interval_row(row) for row in results.part(part)]
             if cells:
                 table(parent, f"{part.capitalize()} of steady strides", (part, *INTERVAL_HEADER), cells)
-        notes = [NEEDED.capitalize(), SENSORS.capitalize()] if results.part(*PARTS[3:]) else [TOO_FEW]
-        _notes(parent, [*notes, *results.sources(PARTS[2])])
+        notes = [NEEDED.capitalize(), SENSORS.capitalize()] if results.part(*OF_STRIDES) else [TOO_FEW]
+        _notes(parent, [*notes, *results.sources(MOBILITY)])
 
 
 def _table(parent: Element, caption: str, rows: Sequence[OutcomeRow]) -> None:
