@@ -31,8 +31,9 @@ def to_frame(
     The columns are the fields, in SI units, in the order of their first occurrence; an event has its class's name in
     the column `event`. A vector has one column for each component (position_x, position_y, position_z, m), and a record
     within an event one for each field (features_clearance, m). Any other tuple is one column of lists. A value that a
-    record does not have is missing in its row. Five columns have a name of their own, because another event has a
-    value of another kind in a field of that name: level_name, phase_name, turn_name and offset_sigma (columns.py).
+    record does not have is missing in its row. Four columns are not named as their fields, because another event has a
+    value of another kind or unit in a field of that name: level_name, phase_name, turn_name and offset_sigma
+    (columns.py).
 
     Units are in `frame.attrs["units"]` of pandas, by column; in the metadata "unit" of a field of Arrow; and in
     `ColumnTable.units`. Polars has no place for them. ImportError when the library is not installed."""

@@ -28,14 +28,13 @@ RENAMED = {
     ("PositionReported", "level"): "level_name",
     ("TurnMade", "turn"): "turn_name",
 }
-"""Columns of fields that have the name, and neither the kind nor the unit, of a field of another event."""
+"""Names of columns, by event and field, where another event has a field of this name with another kind or unit."""
 AXES = {2: ("x", "y"), 3: ("x", "y", "z"), 4: ("w", "x", "y", "z"), 6: ("xx", "xy", "xz", "yy", "yz", "zz")}
 """Components of a tuple of so many floats: vectors, a quaternion, and a symmetric matrix."""
 NO_AXES = {"north": ("", "sigma")}
-"""Components of fields that are no vector."""
-
-
+"""Components of a pair that is no vector: a value, whose column has the field's name, and its standard deviation."""
 SCALARS = {float: ValueKind.FLOAT, int: ValueKind.INT, bool: ValueKind.BOOL, str: ValueKind.TEXT}
+"""Kinds of values that a column holds as they are, by their annotation."""
 
 
 @frozen

@@ -42,7 +42,7 @@ class UnknownRecipe(Exception):
 
 
 PROBLEMS = (RecordingError, CalibrationError, FloorPlanError, SnapshotError, WalkRunning, UnknownRecipe, OSError)
-"""Errors of files, whose texts are sentences for a person."""
+"""Errors whose texts are sentences for a person."""
 ITEMS_PER_STEP = 64
 """Number of packets that a long task handles before the worker may do something else."""
 Task = Generator[float, None, Any]
