@@ -14,8 +14,8 @@ from solepath.foot.settings import DedriftSettings
 from solepath.foot.stance.stance import Load, Stance
 from solepath.papers.kupt_dfpc.kinematics import Sagittal
 from solepath.papers.kupt_dfpc.known_velocity import KnownVelocity
-from solepath.papers.kupt_dfpc.swing_dedrift import SwingDedrift
-from solepath.papers.kupt_dfpc.swing_settings import SwingSettings
+from solepath.papers.kupt_dfpc.swing.dedrift import SwingDedrift
+from solepath.papers.kupt_dfpc.swing.settings import SwingSettings
 from solepath.types import Cell, Foot, Layout, Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 

@@ -20,8 +20,8 @@ from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
 from solepath.papers.kupt_dfpc.cop_cues import CopCues
 from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
-from solepath.papers.kupt_dfpc.swing_dedrift import SwingDedrift
-from solepath.papers.kupt_dfpc.swing_settings import PRINTED
+from solepath.papers.kupt_dfpc.swing.dedrift import SwingDedrift
+from solepath.papers.kupt_dfpc.swing.settings import PRINTED
 from solepath.types import Foot, Phase
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 

@@ -23,11 +23,11 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.events import StrideFeatures, StrideTaken
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
-from solepath.papers.kupt_dfpc.drift_parts import DriftParts
 from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
-from solepath.papers.kupt_dfpc.rolling_errors import DriftTime, RollingError
-from solepath.papers.kupt_dfpc.soft_swing import SoftSwing
-from solepath.papers.kupt_dfpc.swing_settings import SoftSwingSettings
+from solepath.papers.kupt_dfpc.swing.drift_parts import DriftParts
+from solepath.papers.kupt_dfpc.swing.rolling_errors import DriftTime, RollingError
+from solepath.papers.kupt_dfpc.swing.settings import SoftSwingSettings
+from solepath.papers.kupt_dfpc.swing.soft import SoftSwing
 from solepath.types import Foot, Phase, Sample
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 

@@ -11,9 +11,9 @@ from ...types.attrs import evolve
 from .cop_cues import CopCues, CopCuesSettings
 from .fusion import DoubleFoot, FusionSettings
 from .known_velocity import KnownVelocity, KnownVelocitySettings
-from .soft_swing import SoftSwing
-from .swing_dedrift import SwingDedrift
-from .swing_settings import PRINTED
+from .swing.dedrift import SwingDedrift
+from .swing.settings import PRINTED
+from .swing.soft import SoftSwing
 
 BOARD_SHARE = 0.44
 """Place of the circuit board between an insole's two areas, from the heel's end, as a share of its length.

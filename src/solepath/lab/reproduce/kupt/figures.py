@@ -12,8 +12,8 @@ from ....calibration import Calibration
 from ....events import Event, StrideFused
 from ....foot.stance.stance import Stance
 from ....papers.kupt_dfpc.recipe import KUPT_DFPC_PRINTED
-from ....papers.kupt_dfpc.swing_dedrift import LARGEST_ROLLING_SIGMA, SwingDedrift
-from ....papers.kupt_dfpc.swing_settings import PRINTED
+from ....papers.kupt_dfpc.swing.dedrift import LARGEST_ROLLING_SIGMA, SwingDedrift
+from ....papers.kupt_dfpc.swing.settings import PRINTED
 from ....session import Session
 from ....types import Foot, Phase, Sample
 from ....types.attrs import define, evolve, field

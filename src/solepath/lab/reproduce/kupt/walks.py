@@ -22,9 +22,9 @@ from ....papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
 from ....papers.kupt_dfpc.noise import pressure_noise
 from ....papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC
 from ....papers.kupt_dfpc.shoe.fit import fit_shoe
-from ....papers.kupt_dfpc.soft_swing import SoftSwing
-from ....papers.kupt_dfpc.swing_dedrift import SwingDedrift
-from ....papers.kupt_dfpc.swing_settings import PRINTED, SoftSwingSettings
+from ....papers.kupt_dfpc.swing.dedrift import SwingDedrift
+from ....papers.kupt_dfpc.swing.settings import PRINTED, SoftSwingSettings
+from ....papers.kupt_dfpc.swing.soft import SoftSwing
 from ....types import SITE_OF_FOOT, Foot, Vec3
 from ....types.attrs import define
 from ....types.vector import from_rotation_vector

@@ -18,7 +18,7 @@ Nothing here knows a shoe or a sensor. Starting values are wide; their origin is
 
 from __future__ import annotations
 
-from ...types.attrs import define, field
+from ....types.attrs import define, field
 
 PIVOT_SPREAD = 0.02
 """Standard deviation of the pivot's place before the first stride, m: a shoe that is not the measured one."""

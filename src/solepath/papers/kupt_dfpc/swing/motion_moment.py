@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...types import Vec3
-from ...types.attrs import frozen
+from ....types import Vec3
+from ....types.attrs import frozen
 
 
 @frozen

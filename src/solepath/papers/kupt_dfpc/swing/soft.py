@@ -14,15 +14,15 @@ from __future__ import annotations
 
 from math import hypot, sqrt
 
-from ...types import Quat, Vec3
-from ...types.attrs import define, field
-from ...types.vector import GRAVITY
+from ....types import Quat, Vec3
+from ....types.attrs import define, field
+from ....types.vector import GRAVITY
+from ..kinematics import up_direction
+from .dedrift import SwingDedrift
 from .drift_parts import DriftParts, Parts
-from .kinematics import up_direction
 from .motion_moment import MotionMoment
 from .rolling_errors import DriftScale, DriftTime, PivotShift, RollingError
-from .swing_dedrift import SwingDedrift
-from .swing_settings import SoftSwingSettings
+from .settings import SoftSwingSettings
 
 ZERO_VELOCITY_NOISE = 1e-4
 """Variance of the zero velocity of a standing foot, m^2/s^2: that of `KnownVelocitySettings.sigma`."""

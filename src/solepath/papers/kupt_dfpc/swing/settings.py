@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...foot.settings import DedriftSettings
-from ...types.attrs import frozen
+from ....foot.settings import DedriftSettings
+from ....types.attrs import frozen
 
 LARGEST_ROLLING_ERROR = 0.6
 """Horizontal difference of rolling and raw velocity in push-off above which the rolling velocity is not used, m/s.

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from math import hypot
 
-from ...foot.navigate.dedrift import LinearDedrift
-from ...foot.phase import Cue
-from ...foot.stance.stance import Stance
-from ...types import Phase, Quat, Vec3
-from ...types.attrs import define, field
-from ...types.vector import TIE, ZERO
+from ....foot.navigate.dedrift import LinearDedrift
+from ....foot.phase import Cue
+from ....foot.stance.stance import Stance
+from ....types import Phase, Quat, Vec3
+from ....types.attrs import define, field
+from ....types.vector import TIE, ZERO
 from .motion_moment import MotionMoment
-from .swing_settings import SwingSettings
+from .settings import SwingSettings
 
 SHORT_GAP = 0.08
 """Longest gap in a normal motion, s: one lost sample at the paper's 30 Hz leaves 0.067 s."""
