@@ -11,8 +11,9 @@ import pytest
 
 from solepath import Session, StrideTaken, to_frame
 from solepath.emulate import Route, emulate
-from solepath.events.frames.arrow import _ALIVE
+from solepath.events.frames.arrow import _ALIVE, stream_capsule
 from solepath.events.frames.columns import ColumnTable
+from solepath.events.frames.nodes import Node
 
 pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
 polars = pytest.importorskip("polars", reason="polars is not installed")
@@ -79,6 +80,18 @@ def test_a_stream_is_read_once(table: ColumnTable) -> None:
     reader = pyarrow.RecordBatchReader.from_stream(table)
     assert [batch.num_rows for batch in reader] == [len(table)]
     assert reader.read_all().num_rows == 0
+
+
+class Unsound:
+    """A stream of an array whose metadata are no bytes."""
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        return stream_capsule(Node("", "+s", 0, (None,), metadata="text"))  # type: ignore[arg-type]
+
+
+def test_what_a_stream_cannot_give_is_named_to_its_reader() -> None:
+    with pytest.raises(ValueError, match="TypeError.*bytes or integer address expected"):
+        polars.DataFrame(Unsound())
 
 
 EXIT = """

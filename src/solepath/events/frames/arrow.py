@@ -160,15 +160,23 @@ def _get_next(stream: int, out: int) -> int:
 
 
 def _give(stream: int, fill: Callable[[Node, list[bool]], None]) -> int:
-    """Fill a struct of the reader's; no exception may pass through the reader's code."""
+    """Fill a struct of the reader's; an exception may not pass through the reader's code, which asks for its text."""
+    node, done, faults = _ALIVE[ArrowArrayStream.from_address(stream).private_data]
     try:
-        fill(*_ALIVE[ArrowArrayStream.from_address(stream).private_data])
-    except Exception:
+        fill(node, done)
+    except Exception as error:
+        faults.append(ctypes.create_string_buffer(repr(error).encode()))
         return FAILED
     return 0
 
 
-_calls = _forever(_Call(_get_schema)), _forever(_Call(_get_next)), _forever(_LastError(lambda stream: None))
+def _get_last_error(stream: int) -> int | None:
+    """Return the address of the text of the last fault, which is kept until the stream is released."""
+    _, _, faults = _ALIVE[ArrowArrayStream.from_address(stream).private_data]
+    return ctypes.addressof(faults[-1]) if faults else None
+
+
+_calls = _forever(_Call(_get_schema)), _forever(_Call(_get_next)), _forever(_LastError(_get_last_error))
 
 _new_capsule = ctypes.PYFUNCTYPE(ctypes.py_object, ctypes.c_void_p, ctypes.c_char_p, _Destructor)(
     ("PyCapsule_New", ctypes.pythonapi)
@@ -176,7 +184,10 @@ _new_capsule = ctypes.PYFUNCTYPE(ctypes.py_object, ctypes.c_void_p, ctypes.c_cha
 
 
 def _destroy(capsule: int, alive: dict[int, Any] = _ALIVE, address_of: Any = ctypes.addressof) -> None:
-    """Release the struct of a capsule if no reader has taken it; `capsule` is the address of a deleted object."""
+    """Release the struct of a capsule if no reader has taken it; `capsule` is the address of a deleted object.
+
+    A limit of ctypes: where a reader deletes the capsule while it raises an exception, as pyarrow does with a schema
+    that does not fit, Python code cannot run, and the caller sees SystemError in place of the reader's error."""
     one, _ = alive.pop(-capsule)
     if one.release:
         one.release(address_of(one))
@@ -195,7 +206,7 @@ def schema_capsule(node: Node) -> object:
 def stream_capsule(node: Node) -> object:
     """Return a capsule named "arrow_array_stream" with one batch."""
     one = ArrowArrayStream(*_calls)
-    one.private_data, one.release = _keep((node, [])), _release_stream
+    one.private_data, one.release = _keep((node, [], [])), _release_stream
     return _capsule(one, b"arrow_array_stream")
 
 
