@@ -25,7 +25,8 @@ from ...calibration import Calibration, CalibrationError
 from ...emulate.handling import CLUMSY, STEADY, Clumsiness, Handling
 from ...emulate.sensors.device import device_rng
 from ...emulate.sensors.insole_device import Insole
-from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu, TriadErrors
+from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
+from ...emulate.sensors.sensors import mixing, specimen_rng
 from ...emulate.walk import sampled
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Sample
@@ -80,21 +81,17 @@ def specimen(chip: Imu, number: int, bias_change: float = BIAS_CHANGE) -> Imu:
     return Imu(chip.name, acc, evolve(chip.gyro, specimen=2 * number + 1, bias_change=bias_change, g_effect=G_EFFECT))
 
 
-def mixing(chip: TriadErrors) -> Floats:
-    """Return the matrix from true values to those of a specimen, (3, 3), as sensors.py draws it."""
-    rng = np.random.default_rng([chip.specimen or 0, 24])
-    scale, cross = chip.scale * rng.standard_normal(3), chip.cross * rng.standard_normal((3, 3))
-    return np.eye(3) + np.diag(scale) + cross * (1.0 - np.eye(3))
-
-
 def true_corrections(imu: Imu) -> tuple[Floats, Floats]:
     """Return the true corrections of accelerometer and gyroscope, (3, 3), in the frame of the calibration.
 
     The accelerometer's mixing is S Q with a symmetric S and a rotation Q, so that a symmetric correction is the inverse
     of S and the corrected frame is turned by Q from the case."""
-    u, stretch, v = np.linalg.svd(mixing(imu.acc))
+    if imu.acc.specimen is None or imu.gyro.specimen is None:
+        raise ValueError("a chip without the number of a specimen has other errors in every recording")
+    acc, gyro = mixing(imu.acc, specimen_rng(imu.acc.specimen)), mixing(imu.gyro, specimen_rng(imu.gyro.specimen))
+    u, stretch, v = np.linalg.svd(acc)
     symmetric, turn = u @ np.diag(stretch) @ u.T, u @ v
-    return np.linalg.inv(symmetric), turn @ np.linalg.inv(mixing(imu.gyro))
+    return np.linalg.inv(symmetric), turn @ np.linalg.inv(gyro)
 
 
 def handled(imu: Imu, hand: Clumsiness, seed: int, foot: Foot) -> list[Sample]:
