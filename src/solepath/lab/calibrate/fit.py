@@ -28,7 +28,7 @@ from collections.abc import Sequence
 from math import radians, sqrt
 
 import numpy as np
-from attrs import field, frozen
+from attrs import frozen
 
 from ...types.vector import GRAVITY
 from .pauses import Floats, Pause, WayBetween
@@ -102,7 +102,8 @@ class Fit:
     """Angle by which each way does not close, rad."""
     excess: tuple[float, ...]
     """Closure of each way divided by its standard deviation."""
-    converged: bool = field(default=True)
+    converged: bool
+    """True if the iterations have come to an end."""
 
 
 @frozen(eq=False)
@@ -166,11 +167,10 @@ def fit(pauses: Sequence[Pause], ways: Sequence[WayBetween]) -> Fit:
     mean = acc / np.linalg.norm(acc, axis=1, keepdims=True)
     rates = np.array([rest.rate for rest in pauses])
     unknowns = Unknowns(np.eye(3), np.zeros(3), np.eye(3), rates, mean)
-    noise = ASSUMED_NOISE
     short = [way for way in ways if way.angle < SHORT_WAY]
     if short and len(short) < len(ways):
-        unknowns, _, _ = _solve(pauses, short, unknowns, noise)
-    unknowns, noise, converged = _solve(pauses, ways, unknowns, noise)
+        unknowns, _, _ = _solve(pauses, short, unknowns, ASSUMED_NOISE)
+    unknowns, noise, converged = _solve(pauses, ways, unknowns, ASSUMED_NOISE)
     normal, _, residuals, _ = _system(pauses, ways, unknowns, noise)
     first = 3 * len(pauses)
     last = first + 2 * len(ways)
