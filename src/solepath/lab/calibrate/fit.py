@@ -38,8 +38,8 @@ ASSUMED_NOISE, PRIOR_WEIGHT = (0.005, radians(0.03), radians(0.01)), 2.0
 second to the next, rad/s/sqrt(s), and their weight, residuals.
 
 The last is half of that of an MPU-9250 whose temperature varies by 2 K within five minutes (0.12 degrees/s/K)."""
-LARGEST_ERROR, LARGEST_BIAS = 0.3, 10.0
-"""Standard deviations of what is known beforehand: elements of A and G about 1 or 0, no unit, and a, m/s^2."""
+PRIOR_ERROR, PRIOR_BIAS = 0.3, 10.0
+"""Standard deviations before any reading: of the elements of A and G about 1 or 0, no unit, and of a, m/s^2."""
 SHORT_WAY = 7.0
 """Angle of the ways that are fitted first, rad: about one turn, which a scale error of 10 % does not spoil."""
 MOST_ITERATIONS, CONVERGED = 40, 1e-8
@@ -262,9 +262,9 @@ def _system(
         add(weight @ row, weight @ (unknowns.biases[k] - rest.rate), 1.0)
     beforehand = np.zeros((FIRST_NODE, count))
     beforehand[:, :FIRST_NODE] = np.eye(FIRST_NODE)
-    beforehand[ACC] /= LARGEST_ERROR
-    beforehand[ACC_BIAS] /= LARGEST_BIAS
-    beforehand[GYRO] /= LARGEST_ERROR
+    beforehand[ACC] /= PRIOR_ERROR
+    beforehand[ACC_BIAS] /= PRIOR_BIAS
+    beforehand[GYRO] /= PRIOR_ERROR
     differences = np.concatenate(
         ([unknowns.acc[i, j] - (i == j) for i, j in SYMMETRIC], unknowns.acc_bias, (unknowns.gyro - np.eye(3)).ravel())
     )
