@@ -1,4 +1,4 @@
-"""Calibration of wearer, shoes, insoles and sensors: records, their limits, their file, and how two are merged."""
+"""Calibration of wearer, shoes, insoles and sensors: records; their limits, file and merging are modules."""
 
 from .records import (
     Calibration,

@@ -24,7 +24,7 @@ from attrs import field, frozen
 from ..types import Foot, Layout
 from ..types.vector import GRAVITY
 from .sensors.magnetic_field import UNDISTURBED
-from .wearers.curves import Array, Rng
+from .wearers.curves import BUMP, Array, Rng, evaluate, join
 from .wearers.gait import Wearer
 from .wearers.motion import Kinematics
 from .wearers.shoe import IN_SOLE, Mounting
@@ -35,6 +35,8 @@ STEP = 1e-5
 """Half of the time over which the motion is differentiated, s."""
 TREMOR_RATES = (8.0, 12.0)
 """Least and largest frequency of physiological tremor, Hz (Elble and Koller 1990, Tremor)."""
+PROGRESS = join((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), 1.0)
+"""Share of a move that is done, over the share of its time: slope and curvature are 0 at both ends."""
 GRIP = radians(150.0)
 """Mean angle by which a hand turns before it grips again, rad (assumed)."""
 FACES = np.concatenate((np.eye(3), -np.eye(3)))
@@ -91,7 +93,7 @@ class HandMove:
     before: Array
     """Attitude at the start, w x y z, sensor to world, (4)."""
     turn: Array
-    """Rotation vector of the whole piece, world frame, rad, (3)."""
+    """Rotation vector of the whole move, world frame, rad, (3)."""
     wobble: Array
     """Rotation vectors of the wobble's two sines, world frame, rad, (2, 3)."""
     place: Array
@@ -99,21 +101,24 @@ class HandMove:
     travel: Array
     """Displacement of the hand, m, (3)."""
     tremor: float
-    """Share of the tremor of a moving hand in the middle of the piece, beyond that at rest."""
+    """Share of the tremor of a moving hand in the middle of the move, beyond that at rest."""
+
+    def share(self, t: Array) -> Array:
+        """Return the share of the move's time that has passed at times `t`, s, (N)."""
+        return np.clip((t - self.start) / self.duration, 0.0, 1.0)
 
     def attitude(self, t: Array) -> Array:
         """Return the attitude without tremor at times `t`, s, (N, 4)."""
-        s = np.clip((t - self.start) / self.duration, 0.0, 1.0)
-        way = from_rotation_vectors(_progress(s)[:, None] * self.turn)
-        window = (64.0 * (s * (1.0 - s)) ** 3)[:, None]
+        s = self.share(t)
+        way = from_rotation_vectors(evaluate(PROGRESS, s)[:, None] * self.turn)
+        window = evaluate(BUMP, s)[:, None]
         sines = np.stack((np.sin(pi * s), np.sin(3.0 * pi * s)), axis=1)
         aside = from_rotation_vectors(window * (sines @ self.wobble))
         return multiply_quaternions(aside, multiply_quaternions(way, self.before[None, :]))
 
     def hand(self, t: Array) -> Array:
         """Return the position of the hand at times `t`, s, (N, 3), m."""
-        s = np.clip((t - self.start) / self.duration, 0.0, 1.0)
-        return np.asarray(self.place + _progress(s)[:, None] * self.travel)
+        return np.asarray(self.place + evaluate(PROGRESS, self.share(t))[:, None] * self.travel)
 
     @property
     def after(self) -> Array:
@@ -124,7 +129,7 @@ class HandMove:
 class Handling(Walker):
     """A sensor in a hand: any device of `emulate` measures this motion in place of that of a foot.
 
-    There are `rests` rests, then `turns` turns about a horizontal axis for each direction of the sensor in `axes`, each
+    There are `pauses` rests, then for each direction of the sensor in `axes` `turns` turns about it, held horizontal,
     between two more rests. With `orientations`, (N, 3), the rests have these directions of the sensor upwards;
     otherwise they are faces and edges of a box in a random order. Cells bear no load."""
 
@@ -146,9 +151,9 @@ class Handling(Walker):
             composing.lie()
         for axis in axes if turns else ():
             composing.turn(np.array(axis), turns)
-        self.pieces = composing.pieces
+        self.moves = composing.moves
         self._least_tremor = clumsiness.resting_share
-        self._starts = np.array([piece.start for piece in self.pieces])
+        self._starts = np.array([move.start for move in self.moves])
         self._tremor = clumsiness.tremor * rng.standard_normal((3, 3)), clumsiness.shake * rng.standard_normal((3, 3))
         self._pulses = 2.0 * pi * rng.uniform(*TREMOR_RATES, 3), rng.uniform(0.0, 2.0 * pi, 3)
         self._place = 0.04 * rng.standard_normal(3)  # m: the sensor is not where the hand turns
@@ -156,7 +161,7 @@ class Handling(Walker):
     @property
     def duration(self) -> float:
         """Duration of the handling, s."""
-        return self.pieces[-1].start + self.pieces[-1].duration
+        return self.moves[-1].start + self.moves[-1].duration
 
     def cell_loads(self, layout: Layout, t: Array) -> Array:
         """Return no load on any cell."""
@@ -179,11 +184,10 @@ class Handling(Walker):
         """Return attitude, (N, 4), and position, m, (N, 3), of the sensor at increasing times `t`, s."""
         attitude, place, share = np.empty((len(t), 4)), np.empty((len(t), 3)), np.empty(len(t))
         edges = [0, *np.searchsorted(t, self._starts[1:]).tolist(), len(t)]
-        for piece, first, end in zip(self.pieces, edges, edges[1:], strict=False):
+        for move, first, end in zip(self.moves, edges, edges[1:], strict=False):
             rows = slice(first, end)
-            attitude[rows], place[rows] = piece.attitude(t[rows]), piece.hand(t[rows])
-            s = np.clip((t[rows] - piece.start) / piece.duration, 0.0, 1.0)
-            share[rows] = self._least_tremor + piece.tremor * 64.0 * (s * (1.0 - s)) ** 3
+            attitude[rows], place[rows] = move.attitude(t[rows]), move.hand(t[rows])
+            share[rows] = self._least_tremor + move.tremor * evaluate(BUMP, move.share(t[rows]))
         pulses, phases = self._pulses
         sines = np.sin(t[:, None] * pulses + phases) * share[:, None]
         attitude = multiply_quaternions(attitude, from_rotation_vectors(sines @ self._tremor[0]))
@@ -193,19 +197,19 @@ class Handling(Walker):
 
 @frozen(eq=False)
 class _Composing:
-    """A motion that is composed piece by piece."""
+    """A motion that is composed move by move."""
 
     rng: Rng
     clumsiness: Clumsiness
-    pieces: list[HandMove] = field(factory=list)
+    moves: list[HandMove] = field(factory=list)
 
     def go(self, up: Array) -> None:
         """Turn the sensor until its direction `up` points upwards, with any heading and an error."""
         clumsy, rng = self.clumsiness, self.rng
-        if not self.pieces:
+        if not self.moves:
             self._first(up)
             return
-        attitude = self.pieces[-1].after
+        attitude = self.moves[-1].after
         here = matrices(attitude[None, :])[0] @ up  # where the direction points now, world frame
         axis, angle = np.cross(here, (0.0, 0.0, 1.0)), float(np.arctan2(sqrt(here[0] ** 2 + here[1] ** 2), here[2]))
         length = float(np.linalg.norm(axis))
@@ -233,7 +237,7 @@ class _Composing:
         while abs(left) > 1e-9:
             grip = float(np.clip(GRIP * rng.uniform(0.6, 1.4), 0.0, abs(left))) * (1.0 if left > 0.0 else -1.0)
             left -= grip
-            pointing = matrices(self.pieces[-1].after[None, :])[0] @ axis
+            pointing = matrices(self.moves[-1].after[None, :])[0] @ axis
             level = np.array([pointing[0], pointing[1], 0.0]) / sqrt(pointing[0] ** 2 + pointing[1] ** 2)
             about = level * cos(tilt) + np.array([0.0, 0.0, sin(tilt)])
             about = about + clumsy.off_axis * rng.standard_normal(3)
@@ -250,14 +254,14 @@ class _Composing:
         half = up / np.linalg.norm(up) + z
         half = np.array([1.0, 0.0, 0.0]) if np.linalg.norm(half) < 1e-6 else half / np.linalg.norm(half)
         attitude = np.concatenate(([0.0], half))  # half a turn about the middle of both directions
-        self.pieces.append(HandMove(0.0, 0.5, attitude, np.zeros(3), np.zeros((2, 3)), np.zeros(3), np.zeros(3), 0.0))
+        self.moves.append(HandMove(0.0, 0.5, attitude, np.zeros(3), np.zeros((2, 3)), np.zeros(3), np.zeros(3), 0.0))
 
     def _add(self, turn: Array, duration: float, wobble: float, travel: float, tremor: float) -> None:
-        last = self.pieces[-1]
+        last = self.moves[-1]
         sides = wobble * self.rng.standard_normal((2, 3)) * np.array([[1.0], [0.4]])
         way = travel * self.rng.standard_normal(3)
         start = last.start + last.duration
-        self.pieces.append(HandMove(start, duration, last.after, turn, sides, last.place + last.travel, way, tremor))
+        self.moves.append(HandMove(start, duration, last.after, turn, sides, last.place + last.travel, way, tremor))
 
 
 def _rotation_vector(q: Array) -> Array:
@@ -266,11 +270,6 @@ def _rotation_vector(q: Array) -> Array:
     sine = float(np.linalg.norm(vector))
     angle = 2.0 * float(np.arctan2(sine, abs(scalar)))
     return np.asarray(np.sign(scalar) * vector * (2.0 if sine < 1e-9 else angle / sine))
-
-
-def _progress(s: Array) -> Array:
-    """Return the quintic from 0 to 1 whose slope and curvature are 0 at both ends."""
-    return np.asarray(s**3 * (10.0 - 15.0 * s + 6.0 * s * s))
 
 
 def _orientations(count: int, rng: Rng) -> Array:

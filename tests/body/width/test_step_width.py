@@ -52,7 +52,7 @@ def test_without_ranges_nothing_is_reported() -> None:
 
 
 def test_the_command_prints_a_row_for_each_sensor(capsys: pytest.CaptureFixture[str]) -> None:
-    main(["--walks", "1", "--seed", "305"])
+    main(["--walks", "1", "--seed", "305", "--bias", "0.02"])
     lines = capsys.readouterr().out.splitlines()
     assert [line.split(" | ")[0].strip("| ") for line in lines[2:]] == [
         "constant guess",

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import run, run_failing
+from quoted import below, nearly_the_same
 from recordings import recorded
 
 from solepath import Calibration, Foot, Packet, Site
@@ -18,7 +19,7 @@ from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import MPU9250
-from solepath.lab.calibrate.table import specimen, true_corrections
+from solepath.lab.calibrate.table import main, specimen, true_corrections
 from solepath.recording.mapping.units import GRAVITY
 
 IMU = specimen(MPU9250, 81)
@@ -43,6 +44,13 @@ def test_a_recording_of_packets_becomes_a_calibration_that_track_takes(tmp_path:
     _, gyro = true_corrections(IMU)
     assert np.abs(np.array(learnt.sensors[Foot.LEFT].gyro.matrix).reshape(3, 3) - gyro).max() < 0.0035  # 0.2 degrees
     assert run("track", file, "--calibration", out).returncode == 0
+
+
+def test_the_example_of_the_page_is_what_the_command_prints(tmp_path: Path) -> None:
+    main(["--record", str(tmp_path / "turns.jsonl"), "--seed", "7"])
+    printed = run("calibrate", "sensor", tmp_path / "turns.jsonl", "--out", tmp_path / "me.json").stdout
+    shown = printed.replace(str(tmp_path / "me.json"), "me.json")
+    nearly_the_same(below("calibrate-sensor"), shown.splitlines())
 
 
 @pytest.mark.parametrize(("turns", "status"), [(5.0, 0), (0.0, 2)])

@@ -55,8 +55,8 @@ def test_the_same_seed_gives_the_same_hand_and_another_another() -> None:
 def test_the_hand_goes_to_the_orientations_that_are_given() -> None:
     ups = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
     hand = Handling(10, evolve(CLUMSY, off_face=0.0, wobble=0.0), turns=0.0, orientations=ups)
-    for up, piece in zip(ups, hand.pieces[1::2], strict=True):
-        pointing = matrices(piece.attitude(np.array([piece.start])))[0] @ up
+    for up, move in zip(ups, hand.moves[1::2], strict=True):
+        pointing = matrices(move.attitude(np.array([move.start])))[0] @ up
         assert pointing == pytest.approx((0.0, 0.0, 1.0), abs=1e-9)
 
 

@@ -15,7 +15,7 @@ from solepath.lab.calibrate.coverage import open_questions
 from solepath.lab.calibrate.fit import fit
 from solepath.lab.calibrate.pauses import find_pauses, find_ways, recorded_of
 from solepath.lab.calibrate.sensor import fit_sensors, sensor_calibration
-from solepath.lab.calibrate.table import HandJob, hand_errors, hand_table, handled, main, specimen
+from solepath.lab.calibrate.table import HandJob, hand_errors, hand_table, handled, main, specimen, true_corrections
 
 APART = ~np.eye(3, dtype=np.bool_)
 
@@ -146,6 +146,11 @@ def test_a_knock_that_no_sensor_shows_is_found_because_the_way_does_not_close(sa
 def test_a_recording_without_sensors_of_a_foot_is_rejected() -> None:
     with pytest.raises(CalibrationError, match="no foot's accelerations"):
         fit_sensors([])
+
+
+def test_true_corrections_are_those_of_a_specimen_only() -> None:
+    with pytest.raises(ValueError, match="without the number of a specimen"):
+        true_corrections(LSM6DSOX)
 
 
 def test_the_table_has_a_row_for_each_chip_and_hand() -> None:

@@ -46,11 +46,9 @@ def running_cycle(cycle: GaitCycleMeasured) -> Running | None:
     """Return the measures of a runner's gait cycle; None for a cycle of walking."""
     if not cycle.running:
         return None
-    terminal, rise, length = cycle.terminal_double_support, cycle.rise, cycle.stride_length
-    flight = None if terminal is None or terminal > 0.0 else -terminal
+    rise, length = cycle.rise, cycle.stride_length
     level = rise is None or length is None or abs(rise) <= MAX_SLOPE * length
-    oscillation = None if flight is None or not level else vertical_oscillation(cycle.stance_time, flight)
-    return Running(cycle.stance_time, flight, cycle.heel_strike_angle, oscillation)
+    return _running(cycle.stance_time, cycle.terminal_double_support, cycle.heel_strike_angle, level)
 
 
 def running_means(parameters: GaitParameters) -> Running | None:
@@ -60,10 +58,7 @@ def running_means(parameters: GaitParameters) -> Running | None:
     both = parameters.both
     if not parameters.running or both.stance_time is None:
         return None
-    terminal, contact = _mean(both.terminal_double_support), both.stance_time.mean
-    flight = None if terminal is None or terminal > 0.0 else -terminal
-    oscillation = None if flight is None else vertical_oscillation(contact, flight)
-    return Running(contact, flight, _mean(both.heel_strike_angle), oscillation)
+    return _running(both.stance_time.mean, _mean(both.terminal_double_support), _mean(both.heel_strike_angle), True)
 
 
 def vertical_oscillation(contact_time: float, flight_time: float) -> float:
@@ -76,6 +71,13 @@ def vertical_oscillation(contact_time: float, flight_time: float) -> float:
     force = 0.5 * pi * GRAVITY * (flight_time / contact_time + 1.0)
     sinking = force * contact_time * contact_time / (pi * pi) - 0.125 * GRAVITY * contact_time * contact_time
     return sinking + 0.125 * GRAVITY * flight_time * flight_time
+
+
+def _running(contact_time: float, double_support: float | None, strike_angle: float | None, level: bool) -> Running:
+    """Return the measures; a negative terminal double support, s, is a flight."""
+    flight = None if double_support is None or double_support > 0.0 else -double_support
+    oscillation = None if flight is None or not level else vertical_oscillation(contact_time, flight)
+    return Running(contact_time, flight, strike_angle, oscillation)
 
 
 def _mean(figure: Figure | None) -> float | None:

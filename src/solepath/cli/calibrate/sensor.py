@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from math import degrees
+from math import degrees, hypot
 from typing import Any
 
 from ...calibration import Calibration
@@ -74,8 +74,7 @@ def _rows(foot: str, name: str, triad: TriadCalibration, factor: float) -> list[
     for k, axis in enumerate(AXES):
         row, sigma = triad.matrix[3 * k : 3 * k + 3], triad.matrix_sigma[3 * k : 3 * k + 3]
         others = [j for j in range(3) if j != k]
-        off = sum(row[j] ** 2 for j in others) ** 0.5
-        off_sigma = sum(sigma[j] ** 2 for j in others) ** 0.5
+        off, off_sigma = (hypot(*[values[j] for j in others]) for values in (row, sigma))
         rows.append(
             [
                 foot, name, axis, number(100.0 * (1.0 / row[k] - 1.0), 2), number(100.0 * sigma[k], 2),

@@ -93,10 +93,8 @@ def to_counts(measured: Array, chip: TriadErrors, count: float) -> CountReading:
 
 def add_errors(true: Array, sampling: Sampling, chip: TriadErrors, rng: Rng, force: Array | None = None) -> Array:
     """Return the true values with scale error, misalignment, bias, bias drift and white noise, not yet filtered."""
-    specimen = rng if chip.specimen is None else np.random.default_rng([chip.specimen, 24])
-    mixing = np.eye(3) + np.diag(chip.scale * specimen.standard_normal(3))
-    mixing += chip.cross * specimen.standard_normal((3, 3)) * (1.0 - np.eye(3))
-    signal = true @ mixing.T
+    specimen = rng if chip.specimen is None else specimen_rng(chip.specimen)
+    signal = true @ mixing(chip, specimen).T
     bias = rng.standard_normal(3)
     if chip.specimen is not None and chip.bias_change < 1.0:
         own = np.random.default_rng([chip.specimen, 25]).standard_normal(3)
@@ -108,6 +106,17 @@ def add_errors(true: Array, sampling: Sampling, chip: TriadErrors, rng: Rng, for
     # White noise of density d has sigma d sqrt(rate / 2) when it fills the band up to half of the fine rate.
     signal += chip.density * sqrt(0.5 * sampling.rate) * rng.standard_normal(true.shape)
     return np.asarray(signal)
+
+
+def specimen_rng(number: int) -> Rng:
+    """Return the random numbers from which the scale, axes and signs of `g_effect` of a specimen are drawn."""
+    return np.random.default_rng([number, 24])
+
+
+def mixing(chip: TriadErrors, specimen: Rng) -> Array:
+    """Return the matrix from true values to those with scale error and misalignment, (3, 3)."""
+    scale, cross = chip.scale * specimen.standard_normal(3), chip.cross * specimen.standard_normal((3, 3))
+    return np.asarray(np.eye(3) + np.diag(scale) + cross * (1.0 - np.eye(3)))
 
 
 def low_pass(signal: Array, rate: float, bandwidth: float) -> Array:

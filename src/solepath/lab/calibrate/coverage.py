@@ -34,14 +34,18 @@ def open_questions(fit: Fit) -> list[str]:
     acc, acc_bias, gyro = sigmas(fit)
     apart = ~np.eye(3, dtype=np.bool_)
     sentences = []
+    acc_scale, acc_axis = float(np.diag(acc).max()), float(acc[apart].max())
     poor = [
-        f"its scale to {100.0 * np.diag(acc).max():.2g} %" * bool(np.diag(acc).max() > LARGEST_SCALE_SIGMA),
-        f"its axes to {degrees(acc[apart].max()):.2g} degrees" * bool(acc[apart].max() > LARGEST_AXIS_SIGMA),
-        f"its bias to {acc_bias.max():.2g} m/s^2" * bool(acc_bias.max() > LARGEST_BIAS_SIGMA),
+        text
+        for text, value, limit in (
+            (f"its scale to {100.0 * acc_scale:.2g} %", acc_scale, LARGEST_SCALE_SIGMA),
+            (f"its axes to {degrees(acc_axis):.2g} degrees", acc_axis, LARGEST_AXIS_SIGMA),
+            (f"its bias to {acc_bias.max():.2g} m/s^2", acc_bias.max(), LARGEST_BIAS_SIGMA),
+        )
+        if value > limit
     ]
-    if any(poor):
-        known = ", ".join([part for part in poor if part])
-        sentences.append(f"the accelerometer is not known: {known}; {missing_orientation(fit)}")
+    if poor:
+        sentences.append(f"the accelerometer is not known well enough: {', '.join(poor)}; {missing_orientation(fit)}")
     scale, axis = np.diag(gyro), np.where(apart, gyro, 0.0)
     if scale.max() > LARGEST_SCALE_SIGMA:
         name = AXES[int(np.argmax(scale))]
@@ -59,21 +63,22 @@ def open_questions(fit: Fit) -> list[str]:
 
 
 def missing_orientation(fit: Fit) -> str:
-    """Return in words the rest that would help the accelerometer most: of 26 orientations, the one with the least sum.
+    """Return in words the rest that would help the accelerometer most, one of 26 orientations.
 
-    The sum is of the squares of all standard deviations, each divided by the largest that is good enough."""
+    It is the one after which the variances, each divided by the square of the largest standard deviation that is good
+    enough, have the least sum."""
     covariance = fit.covariance[:9, :9]
     limits = np.array([LARGEST_SCALE_SIGMA] * 3 + [LARGEST_AXIS_SIGMA] * 3 + [LARGEST_BIAS_SIGMA] * 3)
-    best, best_gain = np.zeros(3), -1.0
+    best: tuple[int, ...] = ()
+    best_gain = -1.0
     for signs in product((0, 1, -1), repeat=3):
         if not any(signs):
             continue
-        up = np.array(signs, dtype=np.float64)
-        up /= np.linalg.norm(up)
-        elements = [GRAVITY * up[i] * up[j] * (1.0 if i == j else 2.0) for i, j in SYMMETRIC]
-        seen = covariance @ np.array([*elements, *-up])
-        gain = float(np.sum((seen / limits) ** 2)) / (fit.noise[0] ** 2 + float(np.array([*elements, *-up]) @ seen))
+        up = np.array(signs) / np.linalg.norm(signs)
+        row = np.array([*[GRAVITY * up[i] * up[j] * (1.0 if i == j else 2.0) for i, j in SYMMETRIC], *-up])
+        seen = covariance @ row
+        gain = float(np.sum((seen / limits) ** 2)) / (fit.noise[0] ** 2 + float(row @ seen))
         if gain > best_gain * (1.0 + 1e-9):
-            best, best_gain = np.array(signs), gain
-    parts = [f"{AXES[k]} axis {'up' if sign > 0 else 'down'}" for k, sign in enumerate(best.tolist()) if sign]
+            best, best_gain = signs, gain
+    parts = [f"{AXES[k]} axis {'up' if sign > 0 else 'down'}" for k, sign in enumerate(best) if sign]
     return f"a rest with the sensor's {' and '.join(parts)} is missing"

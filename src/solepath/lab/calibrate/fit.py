@@ -28,7 +28,7 @@ from collections.abc import Sequence
 from math import radians, sqrt
 
 import numpy as np
-from attrs import field, frozen
+from attrs import frozen
 
 from ...types.vector import GRAVITY
 from .pauses import Floats, Pause, WayBetween
@@ -38,8 +38,8 @@ ASSUMED_NOISE, PRIOR_WEIGHT = (0.005, radians(0.03), radians(0.01)), 2.0
 second to the next, rad/s/sqrt(s), and their weight, residuals.
 
 The last is half of that of an MPU-9250 whose temperature varies by 2 K within five minutes (0.12 degrees/s/K)."""
-LARGEST_ERROR, LARGEST_BIAS = 0.3, 10.0
-"""Standard deviations of what is known beforehand: elements of A and G about 1 or 0, no unit, and a, m/s^2."""
+PRIOR_ERROR, PRIOR_BIAS = 0.3, 10.0
+"""Standard deviations before any reading: of the elements of A and G about 1 or 0, no unit, and of a, m/s^2."""
 SHORT_WAY = 7.0
 """Angle of the ways that are fitted first, rad: about one turn, which a scale error of 10 % does not spoil."""
 MOST_ITERATIONS, CONVERGED = 40, 1e-8
@@ -102,7 +102,8 @@ class Fit:
     """Angle by which each way does not close, rad."""
     excess: tuple[float, ...]
     """Closure of each way divided by its standard deviation."""
-    converged: bool = field(default=True)
+    converged: bool
+    """True if the iterations have come to an end."""
 
 
 @frozen(eq=False)
@@ -166,11 +167,10 @@ def fit(pauses: Sequence[Pause], ways: Sequence[WayBetween]) -> Fit:
     mean = acc / np.linalg.norm(acc, axis=1, keepdims=True)
     rates = np.array([rest.rate for rest in pauses])
     unknowns = Unknowns(np.eye(3), np.zeros(3), np.eye(3), rates, mean)
-    noise = ASSUMED_NOISE
     short = [way for way in ways if way.angle < SHORT_WAY]
     if short and len(short) < len(ways):
-        unknowns, _, _ = _solve(pauses, short, unknowns, noise)
-    unknowns, noise, converged = _solve(pauses, ways, unknowns, noise)
+        unknowns, _, _ = _solve(pauses, short, unknowns, ASSUMED_NOISE)
+    unknowns, noise, converged = _solve(pauses, ways, unknowns, ASSUMED_NOISE)
     normal, _, residuals, _ = _system(pauses, ways, unknowns, noise)
     first = 3 * len(pauses)
     last = first + 2 * len(ways)
@@ -262,9 +262,9 @@ def _system(
         add(weight @ row, weight @ (unknowns.biases[k] - rest.rate), 1.0)
     beforehand = np.zeros((FIRST_NODE, count))
     beforehand[:, :FIRST_NODE] = np.eye(FIRST_NODE)
-    beforehand[ACC] /= LARGEST_ERROR
-    beforehand[ACC_BIAS] /= LARGEST_BIAS
-    beforehand[GYRO] /= LARGEST_ERROR
+    beforehand[ACC] /= PRIOR_ERROR
+    beforehand[ACC_BIAS] /= PRIOR_BIAS
+    beforehand[GYRO] /= PRIOR_ERROR
     differences = np.concatenate(
         ([unknowns.acc[i, j] - (i == j) for i, j in SYMMETRIC], unknowns.acc_bias, (unknowns.gyro - np.eye(3)).ravel())
     )

@@ -122,10 +122,15 @@ def _clipped(gyro: Floats) -> NDArray[np.bool_]:
     for axis in (*gyro.T, *-gyro.T):
         if axis.max() < CLIPPED_RATE:
             continue
-        edges = np.flatnonzero(np.diff(np.concatenate(([0], (axis >= axis.max() * (1.0 - SAME)).astype(np.int8), [0]))))
-        for first, end in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        for first, end in _runs(axis >= axis.max() * (1.0 - SAME)):
             clipped[first:end] |= end - first >= LEAST_CLIPPED
     return clipped
+
+
+def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return the first index of every run of true flags, and the index after its last."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))).tolist()
+    return list(zip(edges[::2], edges[1::2], strict=True))
 
 
 def find_pauses(recorded: Recorded) -> list[Pause]:
@@ -141,13 +146,12 @@ def find_pauses(recorded: Recorded) -> list[Pause]:
         bias = np.median(rate[still], axis=0)
         slow = still & (np.linalg.norm(rate - bias, axis=1) < STILL_RATE)
         still = slow if slow.any() else still
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], slow.astype(np.int8), [0]))))
     step = _smallest_step(recorded.gyro)
     middles = recorded.t[count // 2 : count // 2 + len(slow)]
     pauses = []
-    for first, last in zip(edges[::2].tolist(), (edges[1::2] - 1).tolist(), strict=True):
-        if middles[last] - middles[first] >= SHORTEST_PAUSE:
-            rows = slice(first + count // 2, last + count // 2 + 1)
+    for first, end in _runs(slow):
+        if middles[end - 1] - middles[first] >= SHORTEST_PAUSE:
+            rows = slice(first + count // 2, end + count // 2)
             pauses.append(_pause(recorded.t[rows], recorded.acc[rows], recorded.gyro[rows], step))
     # a hand that creeps in one rest does so in others, and seldom about a level axis alone
     usual = 0.5 * float(np.mean([rest.creep**2 for rest in pauses])) if pauses else 0.0
@@ -186,9 +190,8 @@ def _pause(t: Floats, acc: Floats, gyro: Floats, step: float) -> Pause:
     change = acc[half:].mean(axis=0) - acc[:half].mean(axis=0)
     creep = -np.cross(mean, change) / (size * size) / (0.5 * duration)
     variance = _block_variance(gyro) or step * step / 12.0
-    level = (
-        variance + (4.0 * sigma / (size * duration)) ** 2
-    ) ** 0.5  # both halves have twice the variance of the mean
+    # the mean of a half has twice the variance of the whole mean
+    level = (variance + (4.0 * sigma / (size * duration)) ** 2) ** 0.5
     slow = float(np.linalg.norm(creep))
     return Pause(
         float(t[0]), float(t[-1]), mean, sigma, rate - creep, slow, level, (variance + 0.5 * slow * slow) ** 0.5

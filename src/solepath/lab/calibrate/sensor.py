@@ -23,7 +23,7 @@ LARGEST_EXCESS = 4.0
 MOST_LEFT_OUT = 0.2
 """Largest share of the ways that may be left out because they do not close with the others."""
 LARGEST_WAY_NOISE = 0.01
-"""Largest noise of a way per root of its angle, rad; hands show 0.0005, and mirrored axes 0.1 and more."""
+"""Largest noise of a way per root of its angle, rad; emulated hands show 0.0005, and mirrored axes 0.1 and more."""
 LEAST_GRAVITY, LARGEST_GRAVITY, LARGEST_RATE = 7.5, 12.5, 70.0
 """Least and largest specific force at rest, m/s^2, and largest rate, rad/s, of sensors whose units are right."""
 TURNS = 2.0

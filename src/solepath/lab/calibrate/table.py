@@ -8,7 +8,11 @@ deviations, which is 68 and 95 % for errors that are normal.
 
 The second is of walks of 250 m along corridors (emulated/heading_walks.py) by wearers whose two sensors were calibrated
 by a clumsy hand the day before. Bias and noise are other ones on the day of the walk: a tenth of the bias of the sheet
-is new (assumed; with `--bias-change 1` all of it). The error at the end is a share of the path."""
+is new (assumed; with `--bias-change 1` all of it). The error at the end is a share of the path.
+
+    python -m solepath.lab.calibrate.table --record FILE [--seed S]
+
+prints nothing and records an insole in the clumsy hand, which `solepath calibrate sensor` takes."""
 
 from __future__ import annotations
 
@@ -16,6 +20,7 @@ import argparse
 import os
 from collections.abc import Sequence
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 from attrs import evolve, frozen
@@ -23,12 +28,15 @@ from attrs import evolve, frozen
 from ... import recipes
 from ...calibration import Calibration, CalibrationError
 from ...emulate.handling import CLUMSY, STEADY, Clumsiness, Handling
+from ...emulate.radio import Radio
 from ...emulate.sensors.device import device_rng
 from ...emulate.sensors.insole_device import Insole
-from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu, TriadErrors
+from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
+from ...emulate.sensors.sensors import mixing, specimen_rng
 from ...emulate.walk import sampled
+from ...recording import PacketWriter
 from ...session import Session
-from ...types import SITE_OF_FOOT, Foot, Sample
+from ...types import SITE_OF_FOOT, Foot, Sample, Site
 from ..emulated.heading import follow, heading_figures
 from ..emulated.heading_walks import G_EFFECT, OTHER_DAY, heading_route, wearer_of
 from ..processes import run_jobs
@@ -80,27 +88,32 @@ def specimen(chip: Imu, number: int, bias_change: float = BIAS_CHANGE) -> Imu:
     return Imu(chip.name, acc, evolve(chip.gyro, specimen=2 * number + 1, bias_change=bias_change, g_effect=G_EFFECT))
 
 
-def mixing(chip: TriadErrors) -> Floats:
-    """Return the matrix from true values to those of a specimen, (3, 3), as sensors.py draws it."""
-    rng = np.random.default_rng([chip.specimen or 0, 24])
-    scale, cross = chip.scale * rng.standard_normal(3), chip.cross * rng.standard_normal((3, 3))
-    return np.eye(3) + np.diag(scale) + cross * (1.0 - np.eye(3))
-
-
 def true_corrections(imu: Imu) -> tuple[Floats, Floats]:
     """Return the true corrections of accelerometer and gyroscope, (3, 3), in the frame of the calibration.
 
     The accelerometer's mixing is S Q with a symmetric S and a rotation Q, so that a symmetric correction is the inverse
     of S and the corrected frame is turned by Q from the case."""
-    u, stretch, v = np.linalg.svd(mixing(imu.acc))
+    if imu.acc.specimen is None or imu.gyro.specimen is None:
+        raise ValueError("a chip without the number of a specimen has other errors in every recording")
+    acc, gyro = mixing(imu.acc, specimen_rng(imu.acc.specimen)), mixing(imu.gyro, specimen_rng(imu.gyro.specimen))
+    u, stretch, v = np.linalg.svd(acc)
     symmetric, turn = u @ np.diag(stretch) @ u.T, u @ v
-    return np.linalg.inv(symmetric), turn @ np.linalg.inv(mixing(imu.gyro))
+    return np.linalg.inv(symmetric), turn @ np.linalg.inv(gyro)
 
 
 def handled(imu: Imu, hand: Clumsiness, seed: int, foot: Foot) -> list[Sample]:
     """Return the samples of a sensor in a hand."""
     site = SITE_OF_FOOT[foot]
     return Insole(cells=8, chip=imu).samples(Handling(seed, hand), site, device_rng(seed, site))
+
+
+def record_hand(path: Path, seed: int) -> None:
+    """Record the packets of an insole on the left foot's site in a clumsy hand."""
+    rng = device_rng(seed, Site.LEFT_FOOT)
+    sent = Insole().emit(Handling(seed, CLUMSY), Site.LEFT_FOOT, rng)
+    with PacketWriter(path) as writer:
+        for packet in Radio().transmit(sent, Site.LEFT_FOOT, rng):
+            writer.write(packet)
 
 
 def hand_errors(job: HandJob) -> HandErrors:
@@ -211,7 +224,7 @@ def _both(values: Floats) -> str:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Print the tables."""
+    """Print the tables, or record a sensor in a hand."""
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.calibrate.table", description=__doc__)
     parser.add_argument("--sensors", metavar="N", type=int, default=SENSORS, help="of each kind in each hand; or 0")
     parser.add_argument("--walks", metavar="N", type=int, default=WALKS, help="with each chip and recipe; or 0")
@@ -221,7 +234,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--length", metavar="M", type=float, default=LENGTH, help="of each walk, m")
     parser.add_argument("--bias-change", metavar="X", type=float, default=BIAS_CHANGE, help="share that is new")
     parser.add_argument("--processes", metavar="N", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--record", metavar="FILE", type=Path, help="record a sensor in a hand instead")
     options = parser.parse_args(arguments)
+    if options.record is not None:
+        record_hand(options.record, options.seed)
+        return
     hands = [
         HandJob(chip, hand, options.seed + k) for chip in CHIPS for hand in HANDS for k in range(options.sensors)
     ]  # fmt: skip

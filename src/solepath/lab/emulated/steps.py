@@ -1,10 +1,11 @@
 """Step width and step length by ranges between the feet, on emulated walks whose widths are known.
 
-    python -m solepath.lab.emulated.steps [--walks N] [--seed S]
+    python -m solepath.lab.emulated.steps [--walks N] [--seed S] [--bias M]
 
 prints the table of docs/gait.md as Markdown. The ankles of the wearers walk 5 to 18 cm apart, in equal parts. The true
 values are those of the sensors at the foot-flats. The constant guess is the best one in hindsight, the median of all
-true widths; no wearer's width is known to the estimate."""
+true widths; no wearer's width is known to the estimate. `--bias` is for sensors whose constant error is another one
+than the emulated sensors have."""
 
 from __future__ import annotations
 
@@ -164,11 +165,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.emulated.steps", description=__doc__)
     parser.add_argument("--walks", metavar="N", type=int, default=WALKS, help="number of walks")
     parser.add_argument("--seed", metavar="S", type=int, default=FIRST_SEED, help="first seed")
+    parser.add_argument("--bias", metavar="M", type=float, help="standard deviation of the constant error, m")
     options = parser.parse_args(arguments)
     scores: dict[str, list[StepScore]] = {name: [] for name in KINDS}
     for number in range(options.walks):
         walk = walk_of(options.seed + number, width_of(number, options.walks))
         for name, errors in KINDS.items():
+            if errors is not None and options.bias is not None:
+                errors = evolve(errors, bias=options.bias)
             scores[name].append(score_steps(walk, errors))
     print("| range sensor | steps known | width of a walk | worst walk | of a step | in 1/2 sigma | length of a step |")
     print("|---|---:|---:|---:|---:|---:|---:|")
