@@ -65,6 +65,9 @@ def load_samples(
     mean, as far as the files do not say it. `report` receives one sentence about an incomplete last line, and about
     each of the first rows that are left out. RecordingError, with all that is wrong, when something cannot be used."""
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
+    for number, path in enumerate(paths):
+        if path.resolve() in [earlier.resolve() for earlier in paths[:number]]:
+            raise RecordingError(path, "is given twice")
     mapping = mapping or TableMapping()
     problems: list[RecordingError] = []
     feet: list[Foot | None] = list(feet_of_files(paths, mapping.feet))
