@@ -119,41 +119,25 @@ def _read_file(
     *,
     is_alone: bool,
 ) -> list[FootTable]:
-    """Return the tables of the feet in one file, of which only the cells were read."""
+    """Return the tables of the feet in one file, of which only the cells were read.
+
+    There are none for a sheet whose columns have faults, which `headers` then holds."""
     if path.suffix.lower() == ".npz":
         tables = read_npz(path, foot, mapping)
     else:
-        found = _read_sheet(path, foot, mapping, bad_rows, headers, is_alone=is_alone)
-        if found is None:
-            return []
-        tables = found
+        with open_sheet(path, mapping) as (layout, rows):
+            found = find_columns(path, layout, mapping, foot, is_alone=is_alone)
+            if not found.feet and not found.faults:
+                raise guess_mapping(path, layout, rows)
+            headers.append(found)
+            if found.is_empty or found.list_problems(found.elsewhere):
+                return []
+            tables = read_rows(path, layout, rows, found, bad_rows)
+        for flaw in [] if found.export is None else found.export.flaws(found.header):
+            bad_rows.report(f"{printable(str(path))}: {flaw}")
     if not tables:
         bad_rows.finish()
         raise RecordingError(path, "holds no samples")
-    return tables
-
-
-def _read_sheet(
-    path: Path,
-    foot: Foot | None,
-    mapping: TableMapping,
-    bad_rows: BadRows,
-    headers: list[TableColumns],
-    *,
-    is_alone: bool,
-) -> list[FootTable] | None:
-    """Return the tables in a sheet; None for one whose columns have faults, which `headers` then holds."""
-    with open_sheet(path, mapping) as (layout, rows):
-        found = find_columns(path, layout, mapping, foot, is_alone=is_alone)
-        if not found.feet and not found.faults:
-            raise guess_mapping(path, layout, rows)
-        headers.append(found)
-        if found.is_empty or found.list_problems(found.elsewhere):
-            return None
-        tables = read_rows(path, layout, rows, found, bad_rows)
-    if found.export is not None:
-        for flaw in found.export.flaws(found.header):
-            bad_rows.report(f"{printable(str(path))}: {flaw}")
     return tables
 
 
