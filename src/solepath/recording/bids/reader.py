@@ -7,7 +7,6 @@ the folders above (BIDS, "The Inheritance Principle")."""
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping
 from datetime import datetime
@@ -24,7 +23,7 @@ from ..errors import RecordingError, Report, os_error_text, printable, warn
 from ..mapping.units import UNITS, factor_of
 from ..samples.reader import SampleRecording, use_tables
 from ..samples.table import Floats, FootTable
-from .columns import read_table
+from .columns import read_json, read_table
 from .names import MOTION_END, TSV_MISSING, recording_of
 
 CELL_UNITS = ("N", TSV_MISSING)
@@ -201,11 +200,7 @@ def _inherited(path: Path) -> dict[str, Any]:
     for folder in path.parents:
         for one in sorted(folder.glob("*motion.json"), key=lambda file: -len(file.name)):
             if set(one.name.removesuffix("motion.json").strip("_").split("_")) - {""} <= entities:
-                try:
-                    content = json.loads(one.read_text(encoding="utf-8-sig"))
-                except (OSError, ValueError) as error:
-                    raise RecordingError(one, f"is not JSON: {printable(str(error))}") from None
-                found.append(content if isinstance(content, dict) else {})
+                found.append(read_json(one))
         if (folder / "dataset_description.json").is_file():
             break
     merged: dict[str, Any] = {}
