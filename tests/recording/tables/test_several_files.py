@@ -60,7 +60,7 @@ def test_files_whose_names_lack_the_foot_need_the_feet_in_their_order(tmp_path: 
         load_samples(files, [Foot.RIGHT])
 
 
-def test_a_file_that_is_given_twice_is_said_to_be(tmp_path: Path) -> None:
+def test_a_file_that_is_given_twice_is_an_error(tmp_path: Path) -> None:
     file = acc_file(tmp_path / "one.csv", np.arange(20) / 100.0)
     (tmp_path / "folder").mkdir()
     again = tmp_path / "folder" / ".." / "one.csv"
