@@ -263,6 +263,16 @@ def test_damaged_files_of_a_dataset_are_named_in_one_line(tmp_path):
     assert run("track", path).stderr == ""
 
 
+def test_a_damaged_description_of_a_dataset_is_one_sentence_and_nothing_is_written(tmp_path):
+    description = tmp_path / "study" / "dataset_description.json"
+    description.parent.mkdir()
+    for text, what in {"{": "is not JSON: ", "[]": "is no JSON object", "[" * 100_000: "is not JSON: "}.items():
+        description.write_text(text)
+        with pytest.raises(RecordingError, match=f"dataset_description.json: {what}"):
+            MotionWriter(tmp_path / "study", FIRST)
+        assert [path.name for path in description.parent.iterdir()] == [description.name]
+
+
 def test_all_files_of_a_recording_may_be_named_and_none_of_another(tmp_path):
     files = dataset(tmp_path / "study")
     both = [motion_file(files, "left"), motion_file(files, "right")]

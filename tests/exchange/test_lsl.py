@@ -221,6 +221,8 @@ def test_what_is_wrong_with_a_stream_is_one_sentence() -> None:
         LslInlet(LEFT, "bare")
     with pytest.raises(LslError, match="the unit of acc of the stream 'unitless' is none, not one of m/s\\^2"):
         LslInlet(LEFT, "unitless")
+    with pytest.raises(LslError, match="the unit of gyro is furlong, not one of rad/s, deg/s"):
+        LslInlet(LEFT, "of no stream", units={"acc": "g", "gyro": "furlong"})
     units = {"acc": "g", "gyro": "dps"}
     assert LslInlet(LEFT, "unitless", units=units).received == 0
     assert LslInlet(LEFT, "bare", channels=["-", *[f"{q}_{a}" for q in ("acc", "gyro") for a in "xyz"]], units=units)

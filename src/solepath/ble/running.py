@@ -60,7 +60,6 @@ class RunningSensor:
         self.rejected = 0
         self._device, self._backend, self._search_time = device, backend, search_time
         self._queue: asyncio.Queue[tuple[float, RscMeasurement] | None] = asyncio.Queue()
-        self._responses: asyncio.Queue[RscResponse] = asyncio.Queue()
         self._stack = AsyncExitStack()
         self._client: BleakClient | None = None
 
@@ -132,16 +131,18 @@ class RunningSensor:
         if client is None or client.services.get_characteristic(CONTROL) is None:
             raise BluetoothError(f"{self.name or self.address} has no control point, so that its distance stays")
 
+        responses: asyncio.Queue[RscResponse] = asyncio.Queue()
+
         def take(_: BleakGATTCharacteristic, data: bytearray) -> None:
             with suppress(WireError):
-                self._responses.put_nowait(parse_response(bytes(data)))
+                responses.put_nowait(parse_response(bytes(data)))
 
         request = RscRequest(RscOperation.SET_DISTANCE, round(distance * DISTANCE_UNIT))
         try:
             async with bleak_call(ANSWER_TIME):
                 await client.start_notify(CONTROL, take)
                 await client.write_gatt_char(CONTROL, build_request(request), response=True)
-                response = await self._responses.get()
+                response = await responses.get()
                 await client.stop_notify(CONTROL)
         except FAILURES as error:
             raise BluetoothError(f"{self.name or self.address}: {describe_error(error)}") from error

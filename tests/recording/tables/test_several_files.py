@@ -60,6 +60,15 @@ def test_files_whose_names_lack_the_foot_need_the_feet_in_their_order(tmp_path: 
         load_samples(files, [Foot.RIGHT])
 
 
+def test_a_file_that_is_given_twice_is_an_error(tmp_path: Path) -> None:
+    file = acc_file(tmp_path / "one.csv", np.arange(20) / 100.0)
+    (tmp_path / "folder").mkdir()
+    again = tmp_path / "folder" / ".." / "one.csv"
+    for feet in (None, [Foot.LEFT, Foot.RIGHT]):
+        with pytest.raises(RecordingError, match=r"one\.csv: is given twice$"):
+            read_samples([file, again], feet)
+
+
 def test_a_pattern_of_a_mapping_gives_the_foot(tmp_path: Path) -> None:
     files = [acc_file(tmp_path / name, np.arange(20) / 100.0) for name in ("s1_li.csv", "s1_re.csv")]
     mapping = TableMapping(feet={"left": "*_li.csv", "right": "*_re.csv"})

@@ -29,6 +29,8 @@ def stream_names_of(options: argparse.Namespace) -> dict[Site, str]:
     names = {site: text.removeprefix(PREFIX) for site, text in given.items() if text and text.startswith(PREFIX)}
     if names and len(names) < len([text for text in (*given.values(), *options.at) if text]):
         raise Failure("streams of LSL and devices cannot be mixed: sensors of both feet come the same way")
+    if "" in names.values():
+        raise Failure(f"{PREFIX} names no stream: `solepath scan --lsl` lists those in the network")
     return names
 
 

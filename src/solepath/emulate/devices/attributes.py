@@ -8,7 +8,7 @@ from math import ceil, floor, inf
 
 from attrs import frozen
 
-from ...link.profile import Profile, standard_uuid
+from ...link.profile import FIRMWARE, Profile, standard_uuid
 from ...wire.device import build_battery, build_firmware
 
 
@@ -96,7 +96,11 @@ BATTERY_STEP = 600.0
 """Time in which the battery loses one percent, s (assumed)."""
 
 _INFORMATION_NUMBERS = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
-_DEVICE_INFORMATION = 0x180A
+
+
+def information(*names: str) -> tuple[Characteristic, ...]:
+    """Return the characteristics of Device Information with these names of `_INFORMATION_NUMBERS`."""
+    return tuple(Characteristic(standard_uuid(_INFORMATION_NUMBERS[one]), f"device/{one}", READ) for one in names)
 
 
 def services(
@@ -111,9 +115,7 @@ def services(
     characteristic) of `more`, and the characteristics of Device Information with the names `information_names`."""
     table = [(c.service, Characteristic(c.characteristic, c.name, properties[c.name])) for c in profile.channels]
     table += more
-    for name in information_names:
-        characteristic = Characteristic(standard_uuid(_INFORMATION_NUMBERS[name]), f"device/{name}", READ)
-        table.append((standard_uuid(_DEVICE_INFORMATION), characteristic))
+    table += [(FIRMWARE.service, characteristic) for characteristic in information(*information_names)]
     found: dict[str, list[Characteristic]] = {}
     for service, characteristic in table:
         found.setdefault(service, []).append(characteristic)

@@ -7,9 +7,10 @@ from math import ceil, inf
 
 from attrs import Factory, define, evolve
 
-from ...link.profile import standard_uuid
+from ...link.profile import FIRMWARE, standard_uuid
 from ...wire.error import WireError
 from ...wire.running import (
+    DISTANCE_UNIT,
     RscFeature,
     RscMeasurement,
     RscOperation,
@@ -22,7 +23,7 @@ from ...wire.running import (
     build_response,
     parse_request,
 )
-from .attributes import NOTIFY, READ, AttCode, AttError, Characteristic, Service, device_information
+from .attributes import NOTIFY, READ, AttCode, AttError, Characteristic, Service, device_information, information
 from .peripheral import Peripheral, Placement
 from .running_meter import RunningSource
 
@@ -32,9 +33,6 @@ TOP_OF_SHOE = 1
 """Location of the emulated sensor."""
 INTERVAL = 1.0
 """Time between two measurements, s."""
-DISTANCE_STEPS = 10
-"""Steps of the distance in one metre."""
-_INFORMATION = standard_uuid(0x180A)
 _SERVICES = (
     Service(
         SERVICE,
@@ -46,12 +44,8 @@ _SERVICES = (
         ),
     ),
     Service(
-        _INFORMATION,
-        (
-            Characteristic(standard_uuid(0x2A29), "device/manufacturer", READ),
-            Characteristic(standard_uuid(0x2A24), "device/model", READ),
-            Characteristic(standard_uuid(0x2A26), "device/firmware", READ),
-        ),
+        FIRMWARE.service,
+        (*information("manufacturer", "model"), Characteristic(FIRMWARE.characteristic, FIRMWARE.name, READ)),
     ),
 )
 
@@ -124,7 +118,7 @@ class RunningPeripheral(Peripheral):
     def _apply(self, request: RscRequest, t: float) -> RscResult:
         if request.operation != RscOperation.SET_DISTANCE or request.value is None:
             return RscResult.NOT_SUPPORTED
-        self.distance_offset += request.value / DISTANCE_STEPS - (self.measure(t).distance or 0.0)
+        self.distance_offset += request.value / DISTANCE_UNIT - (self.measure(t).distance or 0.0)
         return RscResult.SUCCESS
 
     # the ValueSource of the measurements

@@ -13,6 +13,7 @@ from typing import Any
 from attrs import define, field
 
 from ...types import Site
+from ..errors import RecordingError, os_error_text, printable
 from ..posed import PosedSample
 from .names import CHANNEL_TYPES, CHANNELS, FRAMES, SCALAR, TSV_MISSING
 
@@ -124,6 +125,19 @@ def frames_json() -> str:
 def to_json(value: Any) -> str:
     """Return a value as the text of a metadata file."""
     return json.dumps(value, indent=2, allow_nan=False) + "\n"
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """Return the content of a metadata file; RecordingError when it is no JSON object."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise RecordingError(path, os_error_text(error)) from error
+    except (ValueError, RecursionError) as error:
+        raise RecordingError(path, f"is not JSON: {printable(str(error))}") from None
+    if not isinstance(content, dict):
+        raise RecordingError(path, "is no JSON object")
+    return content
 
 
 def write_table(path: Path, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:

@@ -7,7 +7,6 @@ the folders above (BIDS, "The Inheritance Principle")."""
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping
 from datetime import datetime
@@ -21,17 +20,14 @@ from attrs import define, field
 from ...types import Foot
 from ..bad_rows import BadRows
 from ..errors import RecordingError, Report, os_error_text, printable, warn
+from ..mapping.units import UNITS, factor_of
 from ..samples.reader import SampleRecording, use_tables
 from ..samples.table import Floats, FootTable
-from .columns import read_table
+from .columns import read_json, read_table
 from .names import MOTION_END, TSV_MISSING, recording_of
 
-UNITS: dict[str, dict[str, float]] = {
-    "acc": {"m/s^2": 1.0, "m/s2": 1.0, "m/s²": 1.0, "m/s/s": 1.0, "g": 9.80665},
-    "gyro": {"rad/s": 1.0, "rad/sec": 1.0, "deg/s": np.pi / 180, "deg/sec": np.pi / 180, "°/s": np.pi / 180},
-    "pressure": {"N": 1.0, TSV_MISSING: 1.0},
-}
-"""Value in SI units of each unit of a quantity."""
+CELL_UNITS = ("N", TSV_MISSING)
+"""Units of pressure cells, whose values are taken as they are."""
 _QUANTITY_OF_TYPE = {"ACCEL": "acc", "GYRO": "gyro"}
 _SIDE = re.compile(r"(?:^|[^a-z])(left|right|l|r)(?=[^a-z]|$)|(left|right)")
 _ON_FOOT = re.compile(r"foot|shoe|ankle|heel|toe|insole|instep|calcn|lf\b|rf\b")
@@ -120,13 +116,13 @@ class _TrackingSystem:
         names = {"t": "latency"}
         for quantity, numbers in self._columns(point).items():
             units = {self.channels[number].get("units", "") for number in numbers}
-            scales = {UNITS[quantity].get(unit.strip()) for unit in units}
-            if len(scales) != 1 or (scale := scales.pop()) is None:
-                known = ", ".join(UNITS[quantity])
+            factors = {_factor_of(unit, quantity) for unit in units}
+            if len(factors) != 1 or (factor := factors.pop()) is None:
+                known = ", ".join(CELL_UNITS if quantity == "pressure" else UNITS[quantity])
                 raise RecordingError(
                     self.path, f"{quantity} is in {printable(', '.join(units))}, not in one of {known}"
                 )
-            columns[quantity] = rows[:, numbers] * scale
+            columns[quantity] = rows[:, numbers] * factor
             names[quantity] = f"{quantity}_{foot.value}"
         t = self._times(rows) + delay
         given = np.zeros(len(t), dtype=bool)
@@ -186,6 +182,12 @@ class _TrackingSystem:
         return np.arange(len(rows), dtype=np.float64) / rate
 
 
+def _factor_of(unit: str, quantity: str) -> float | None:
+    if quantity == "pressure":
+        return 1.0 if unit.strip() in CELL_UNITS else None
+    return factor_of(unit, quantity)
+
+
 def _numeric(lines: Iterator[str]) -> Iterator[str]:
     for line in lines:
         yield line.replace(TSV_MISSING, "nan")
@@ -198,11 +200,7 @@ def _inherited(path: Path) -> dict[str, Any]:
     for folder in path.parents:
         for one in sorted(folder.glob("*motion.json"), key=lambda file: -len(file.name)):
             if set(one.name.removesuffix("motion.json").strip("_").split("_")) - {""} <= entities:
-                try:
-                    content = json.loads(one.read_text(encoding="utf-8-sig"))
-                except (OSError, ValueError) as error:
-                    raise RecordingError(one, f"is not JSON: {printable(str(error))}") from None
-                found.append(content if isinstance(content, dict) else {})
+                found.append(read_json(one))
         if (folder / "dataset_description.json").is_file():
             break
     merged: dict[str, Any] = {}

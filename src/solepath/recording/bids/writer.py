@@ -27,7 +27,7 @@ from ...types import Site
 from ..errors import RecordingError
 from ..packets import read_start_time
 from ..posed import PosedSample
-from .columns import MotionColumns, frames_json, read_table, to_json, write_table
+from .columns import MotionColumns, frames_json, read_json, read_table, to_json, write_table
 from .gait_rows import EVENT_COLUMNS, EVENT_METADATA, event_row
 from .names import BIDS_VERSION, TSV_MISSING, Entities
 
@@ -45,7 +45,8 @@ class MotionWriter:
     """Collects a recording for the dataset in folder `root`, and writes it at the end.
 
     `header`: header of the recording of packets, for its start time. RecordingError for a folder that has other files
-    but no dataset, and when the dataset has this recording already, unless `replace` is True."""
+    but no dataset, for a dataset whose description is damaged, and when the dataset has this recording already, unless
+    `replace` is True."""
 
     def __init__(
         self, root: Path | str, entities: Entities, header: Mapping[str, Any] = {}, *, replace: bool = False
@@ -58,6 +59,8 @@ class MotionWriter:
             raise RecordingError(self.root, "is a file, not the folder of a dataset")
         if self.root.is_dir() and any(self.root.iterdir()) and not (self.root / DESCRIPTION).is_file():
             raise RecordingError(self.root, f"has other files and no {DESCRIPTION}: it is no BIDS dataset")
+        if (self.root / DESCRIPTION).is_file():
+            read_json(self.root / DESCRIPTION)  # a dataset with a damaged description is not added to
         self._earlier = self._list_earlier()
         if self._earlier and not replace:
             raise RecordingError(self._earlier[0], "the dataset has this recording already")

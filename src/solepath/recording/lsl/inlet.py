@@ -13,26 +13,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from math import pi
 
 from pylsl import StreamInfo, StreamInlet, local_clock, proc_clocksync, resolve_byprop, resolve_streams
 from pylsl.util import LostError
 from pylsl.util import TimeoutError as LslTimeout
 
 from ...types import Sample, Site, Vec3
+from ..mapping.units import UNITS, factor_of
 
 SEARCH_TIME = 15.0
 """Time of the search for a stream, s; streams of an idle machine answer within 0.1 s, of a busy one in seconds."""
 MAX_CHUNK = 1024
 """Number of samples that are taken from the queue at a time."""
-UNITS: dict[str, dict[str, float]] = {
-    "acc": {"m/s^2": 1.0, "m/s2": 1.0, "m/s²": 1.0, "meters/second^2": 1.0, "g": 9.80665, "mg": 0.00980665},
-    "gyro": {
-        "rad/s": 1.0, "radians/second": 1.0, "deg/s": pi / 180.0, "dps": pi / 180.0, "°/s": pi / 180.0,
-        "degrees/second": pi / 180.0, "mdps": pi / 180_000.0,
-    },
-}  # fmt: skip
-"""Value in SI units of each unit of a quantity."""
 _LABEL = re.compile(r"(acc|gyr)[a-z]*[^a-z0-9]*([xyz]|[123])$")
 _AXES = {"x": 0, "y": 1, "z": 2, "1": 0, "2": 1, "3": 2}
 
@@ -62,6 +54,8 @@ class LslInlet:
         self.site, self.name, self.offset = site, name, offset
         self.received = 0
         """Number of samples that were received."""
+        for quantity, unit in (units or {}).items():
+            _find_factor(quantity, unit, quantity)
         found = resolve_byprop("name", name, minimum=1, timeout=timeout)
         if not found:
             others = ", ".join(sorted({info.name() for info in resolve_streams()})) or "none"
@@ -131,9 +125,14 @@ def _find_columns(
             raise LslError(f"the stream {info.name()!r} has no {quantity}_x, _y and _z; its channels are: {texts}")
         stated = [given_units[number] for number in numbers.values()] if given_units else []
         unit = units.get(quantity) or next((one for one in stated if one), None) or "none"
-        scale = UNITS[quantity].get(unit.strip().lower() if unit != "°/s" else unit)
-        if scale is None:
-            known = ", ".join(UNITS[quantity])
-            raise LslError(f"the unit of {quantity} of the stream {info.name()!r} is {unit}, not one of {known}")
-        columns[quantity] = ([numbers[axis] for axis in range(3)], scale)
+        factor = _find_factor(quantity, unit, f"{quantity} of the stream {info.name()!r}")
+        columns[quantity] = ([numbers[axis] for axis in range(3)], factor)
     return columns
+
+
+def _find_factor(quantity: str, unit: str, whose: str) -> float:
+    """Return the value of a unit in SI units; raise LslError, which says whose unit it is, when it is not known."""
+    factor = factor_of(unit, quantity)
+    if factor is None:
+        raise LslError(f"the unit of {whose} is {unit}, not one of {', '.join(UNITS[quantity])}")
+    return factor

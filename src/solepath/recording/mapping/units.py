@@ -1,4 +1,4 @@
-"""Units in which tables hold times, specific force, angular rate and pressure, and their factors to SI units."""
+"""Units of times, specific force, angular rate and pressure in tables, streams and datasets, and their factors."""
 
 from __future__ import annotations
 
@@ -21,9 +21,11 @@ UNITS = {
 ALIASES = {
     "sec": "s", "second": "s", "seconds": "s", "msec": "ms", "milliseconds": "ms", "\u00b5s": "us", "\u03bcs": "us",
     "usec": "us", "microseconds": "us", "nanoseconds": "ns", "iso": DATETIME,
-    "m/s2": "m/s^2", "m/s\u00b2": "m/s^2", "ms-2": "m/s^2", "m/s/s": "m/s^2", "milli-g": "mg",
+    "m/s2": "m/s^2", "m/s\u00b2": "m/s^2", "ms-2": "m/s^2", "m/s/s": "m/s^2", "meters/second^2": "m/s^2",
+    "milli-g": "mg", "rad/sec": "rad/s", "radians/second": "rad/s",
     "rads/s": "rad/s", "dps": "deg/s", "\u00b0/s": "deg/s", "degree/s": "deg/s", "degrees/s": "deg/s",
-    "deg/sec": "deg/s", "mdps": "mdeg/s", "n": "N", "n/cm2": "N/cm^2", "n/cm\u00b2": "N/cm^2",
+    "deg/sec": "deg/s", "degrees/second": "deg/s", "mdps": "mdeg/s",
+    "n": "N", "n/cm2": "N/cm^2", "n/cm\u00b2": "N/cm^2",
 }  # fmt: skip
 """Other spellings of these units, in lower case."""
 
@@ -40,6 +42,12 @@ def find_unit(text: str) -> tuple[str, str] | None:
             if spelling == unit or (spelling.lower() == unit and unit != "mg"):
                 return quantity, unit
     return None
+
+
+def factor_of(unit: str, quantity: str) -> float | None:
+    """Return the value of a unit of a quantity in SI units; None for any other text."""
+    found = find_unit(unit)
+    return UNITS[quantity][found[1]] if found is not None and found[0] == quantity else None
 
 
 def unit_of_name(name: str, quantity: str) -> str | None:

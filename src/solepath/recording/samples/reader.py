@@ -65,6 +65,9 @@ def load_samples(
     mean, as far as the files do not say it. `report` receives one sentence about an incomplete last line, and about
     each of the first rows that are left out. RecordingError, with all that is wrong, when something cannot be used."""
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
+    for number, path in enumerate(paths):
+        if path.resolve() in [earlier.resolve() for earlier in paths[:number]]:
+            raise RecordingError(path, "is given twice")
     mapping = mapping or TableMapping()
     problems: list[RecordingError] = []
     feet: list[Foot | None] = list(feet_of_files(paths, mapping.feet))
@@ -116,41 +119,25 @@ def _read_file(
     *,
     is_alone: bool,
 ) -> list[FootTable]:
-    """Return the tables of the feet in one file, of which only the cells were read."""
+    """Return the tables of the feet in one file, of which only the cells were read.
+
+    There are none for a sheet whose columns have faults, which `headers` then holds."""
     if path.suffix.lower() == ".npz":
         tables = read_npz(path, foot, mapping)
     else:
-        found = _read_sheet(path, foot, mapping, bad_rows, headers, is_alone=is_alone)
-        if found is None:
-            return []
-        tables = found
+        with open_sheet(path, mapping) as (layout, rows):
+            found = find_columns(path, layout, mapping, foot, is_alone=is_alone)
+            if not found.feet and not found.faults:
+                raise guess_mapping(path, layout, rows)
+            headers.append(found)
+            if found.is_empty or found.list_problems(found.elsewhere):
+                return []
+            tables = read_rows(path, layout, rows, found, bad_rows)
+        for flaw in [] if found.export is None else found.export.flaws(found.header):
+            bad_rows.report(f"{printable(str(path))}: {flaw}")
     if not tables:
         bad_rows.finish()
         raise RecordingError(path, "holds no samples")
-    return tables
-
-
-def _read_sheet(
-    path: Path,
-    foot: Foot | None,
-    mapping: TableMapping,
-    bad_rows: BadRows,
-    headers: list[TableColumns],
-    *,
-    is_alone: bool,
-) -> list[FootTable] | None:
-    """Return the tables in a sheet; None for one whose columns have faults, which `headers` then holds."""
-    with open_sheet(path, mapping) as (layout, rows):
-        found = find_columns(path, layout, mapping, foot, is_alone=is_alone)
-        if not found.feet and not found.faults:
-            raise guess_mapping(path, layout, rows)
-        headers.append(found)
-        if found.is_empty or found.list_problems(found.elsewhere):
-            return None
-        tables = read_rows(path, layout, rows, found, bad_rows)
-    if found.export is not None:
-        for flaw in found.export.flaws(found.header):
-            bad_rows.report(f"{printable(str(path))}: {flaw}")
     return tables
 
 
