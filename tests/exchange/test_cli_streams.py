@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import uuid
@@ -94,3 +95,15 @@ def test_what_live_measures_is_served() -> None:
         done = run("live", "--pod", "solepath RSC", "--via", served, "--duration", 4)
     speeds = [float(line.split()[2]) for line in done.stdout.splitlines()[1:]]
     assert 1.0 < max(speeds) < 1.6
+
+
+def test_a_reader_of_running_speed_ends_cleanly_on_a_signal() -> None:
+    with (
+        emulator("--distance", 120, "--rsc") as (_, address),
+        started("live", "--pod", "--via", address, "--duration", 60) as live,
+    ):
+        line_of(live, "connected to solepath RSC")
+        line_of(live, "   ")
+        live.send_signal(signal.SIGINT)
+        _, errors = live.communicate(timeout=20.0)
+        assert (live.returncode, errors) == (0, "")

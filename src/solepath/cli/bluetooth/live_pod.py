@@ -27,7 +27,7 @@ async def _listen(options: argparse.Namespace, stop: asyncio.Event) -> int:
 
     from ...ble.running import RunningSensor
     from ...wire.running import RscMeasurement
-    from ..common.loop import unless_stopped
+    from ..common.loop import StoppedEarly, unless_stopped
     from .backend import backend_of
     from .devices import listening_time
 
@@ -45,12 +45,10 @@ async def _listen(options: argparse.Namespace, stop: asyncio.Event) -> int:
             print(f"connected to {printable(sensor.name)} ({sensor.address})", flush=True)
             start = asyncio.get_running_loop().time()
             try:
-                async with asyncio.timeout(seconds):
+                async with asyncio.timeout(seconds), unless_stopped(stop):
                     async for t, measurement in sensor:
                         print(line(t - start, measurement), flush=True)
-                        if stop.is_set():
-                            break
-            except TimeoutError:
+            except (TimeoutError, StoppedEarly):
                 pass
         finally:
             await sensor.__aexit__()
