@@ -12,6 +12,7 @@ from typing import Any
 
 from ..recording import printable
 from ..saving.files import replace_whole
+from .common.closest import unknown
 from .common.failure import Failure, parse_count, parse_whole_number, require
 from .common.files import EXPERIMENT, FIGURE, OutputFile, add_force, check_outputs, check_writable, write_json
 
@@ -63,7 +64,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Repeat the experiment and print its table; return the exit status."""
     if options.name not in NAMES:
-        raise Failure(f"there is no experiment {options.name!r}; there are: {', '.join(NAMES)}")
+        raise Failure(unknown("experiment", options.name, NAMES))
     figure = _figure(options)
     table = None if options.json is None else OutputFile(options.json, EXPERIMENT)
     picture = None if figure is None else OutputFile(figure, FIGURE)

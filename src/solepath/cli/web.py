@@ -12,7 +12,8 @@ from time import sleep
 from typing import Any
 
 from ..recording import printable
-from .common.failure import Failure, address_error_text, note, parse_whole_number
+from .common.failure import Failure, note, parse_whole_number
+from .common.os_errors import address_error_text
 from .common.view import open_browser
 
 DEFAULT_PORT = 8766

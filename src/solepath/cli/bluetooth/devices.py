@@ -8,6 +8,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from ...types import Site
+from ..common.closest import unknown
 from ..common.failure import Failure, has_terminal, note, parse_positive, require
 
 if TYPE_CHECKING:
@@ -72,10 +73,11 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
     for text in options.at:
         site, _, device = text.partition("=")
         if site not in sites or not device:
-            raise Failure(f"--at {text}: that is not SITE=DEVICE, SITE one of {', '.join(sites)}")
+            meant = f"SITE one of {', '.join(sites)}" if not device else unknown("site", site, sites)
+            raise Failure(f"--at {text}: that is not SITE=DEVICE, {meant}")
         named.append((sites[site], device))
     if options.profile is not None and options.profile not in BY_NAME:
-        raise Failure(f"there is no profile {options.profile!r}; there are: {', '.join(BY_NAME)}")
+        raise Failure(unknown("profile", options.profile, BY_NAME))
     profile = BY_NAME.get(options.profile)
     devices = [DeviceConfig(site, device, profile) for site, device in named if device]
     try:

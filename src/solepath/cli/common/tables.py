@@ -7,7 +7,9 @@ from pathlib import Path
 
 from ...events import DefectFound
 from ...recording import Source, TableMapping, printable, read_mapping
+from ...recording.mapping.mapping import FORMATS
 from ...types import Foot
+from .closest import closest, unknown
 from .failure import Failure, parse_positive
 
 MAPPING_OPTIONS = ("columns", "units", "mapping", "format", "rate")
@@ -47,7 +49,10 @@ def feet_of(options: argparse.Namespace) -> Foot | tuple[Foot, ...] | None:
         return None
     words = [word.strip().lower() for word in options.foot.split(",")]
     if not set(words) <= {"left", "right"}:
-        raise Failure(f"--foot {printable(options.foot, 80)}: each foot is left or right, with commas between them")
+        wrong = next(word for word in words if word not in ("left", "right"))
+        meant = closest(wrong, ("left", "right"))
+        hint = f"did you mean {meant}?" if meant else "each foot is left or right, with commas between them"
+        raise Failure(f"--foot {printable(options.foot, 80)}: {hint}")
     feet = tuple(map(Foot, words))
     if len(feet) == 1:
         return feet[0]
@@ -62,6 +67,8 @@ def mapping_of(options: argparse.Namespace) -> TableMapping | None:
     What options say goes before what the file says. Failure or RecordingError is raised for a malformed one."""
     if all(getattr(options, name) is None for name in MAPPING_OPTIONS):
         return None
+    if options.format is not None and options.format not in FORMATS:
+        raise Failure(f"--format: {unknown('format', options.format, FORMATS)}")
     saved = TableMapping() if options.mapping is None else read_mapping(options.mapping)
     try:
         given = TableMapping.parse(options.columns or "", options.units or "", rate=options.rate)

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 from attrs import frozen
 
 from ...recording import printable
-from .failure import Failure, address_error_text, has_terminal, host_and_port, note, parse_positive, require
+from .failure import Failure, has_terminal, host_and_port, note, parse_positive, require
+from .os_errors import address_error_text
 
 if TYPE_CHECKING:
     from ...show.page.messages import Command
