@@ -73,7 +73,9 @@ def test_evaluate_runs_with_a_calibration_and_rejects_a_file_that_is_none(folder
         ends.append(scores["end_error_2d"])
     # 5 cm/s taken off for the 7 s that the foot does not stand: another end, by decimetres
     assert abs(ends[1] - ends[0]) > 0.1
-    assert "none.json: there is no such file" in run_failing("evaluate", tmp_path, "--calibration", tmp_path / "none.json")
+    assert "none.json: there is no such file" in run_failing(
+        "evaluate", tmp_path, "--calibration", tmp_path / "none.json"
+    )
 
 
 def test_a_file_that_is_no_calibration_is_rejected_in_one_line(packets, tmp_path):
@@ -211,9 +213,7 @@ def test_a_file_that_is_no_calibration_is_not_overwritten(tmp_path):
     gauge.write_text(GAUGE)
     assert "notes.txt: is not JSON" in run_failing("calibrate", "newton", gauge, "--out", out)
     assert out.read_text() == "my notes"
-    assert "there is no folder" in run_failing(
-        "calibrate", "newton", gauge, "--out", tmp_path / "none" / "me.json"
-    )
+    assert "there is no folder" in run_failing("calibrate", "newton", gauge, "--out", tmp_path / "none" / "me.json")
 
 
 def test_every_kind_of_calibration_is_in_the_help():

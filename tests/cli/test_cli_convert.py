@@ -156,7 +156,9 @@ def test_impossible_file_names_are_rejected(log, tmp_path):
     same.write_bytes(log.read_bytes())
     assert complaint(same, same).endswith("is what this command reads; write to another file")
     assert same.read_bytes() == log.read_bytes()
-    assert complaint(log, tmp_path / "none" / "walk.jsonl").endswith(f"there is no folder {tmp_path / 'none'}: make it first")
+    assert complaint(log, tmp_path / "none" / "walk.jsonl").endswith(
+        f"there is no folder {tmp_path / 'none'}: make it first"
+    )
 
 
 def test_no_file_is_touched_but_the_one_that_is_named(log, tmp_path):

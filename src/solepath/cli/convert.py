@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
     from ..recording.mcap import McapWriter
 
-MIN_PROGRESS_SIZE = 4_000_000
-"""Size of a file above which there is a progress bar, bytes; chosen by hand."""
 RECORDING, MCAP = ".jsonl", ".mcap"
 
 
@@ -113,7 +111,7 @@ def run(options: argparse.Namespace) -> int:
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
     total = source.stat().st_size if source.is_file() else 0
-    with progress_bar(printable(source.name), total, enabled=total > MIN_PROGRESS_SIZE) as show:
+    with progress_bar(printable(source.name), total) as show:
         if is_btsnoop(source):
             log = _open_log(options)
             packets, header = _with_progress(log, show), log.header

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from .common.failure import Failure, note, recipe_named
 from .common.files import SCORES, OutputFile, add_force, check_outputs, check_writable, write_json
-from .common.inputs import add_calibration, calibration_of
+from .common.inputs import add_calibration, add_recipe_name, calibration_of
 
 if TYPE_CHECKING:
     from ..lab.evaluate.report import Result
@@ -32,9 +32,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--only", metavar="DATASET", action="append", default=[], help="this data set only; may be given again"
     )
-    command.add_argument(
-        "--recipe", metavar="NAME", action="append", default=[], help="this recipe only; may be given again"
-    )
+    add_recipe_name(command, action="append", default=[], help="this recipe only; may be given again")
     add_calibration(command)
     command.add_argument(
         "--emulated",

@@ -48,6 +48,7 @@ def run(options: argparse.Namespace) -> int:
     """Write the site, and show it; return the exit status."""
     from ..emulate import emulate
     from ..emulate.demo import SITE_ROUTE
+    from ..show.tables.progress import progress_bar
     from ..show.web.pyodide import BuildError
     from ..show.web.site import build_site
 
@@ -59,7 +60,8 @@ def run(options: argparse.Namespace) -> int:
         out = options.out or Path(stack.enter_context(TemporaryDirectory()), "site")
         print("building the site: about half a minute ...", flush=True)
         try:
-            files = build_site(out, emulate(SITE_ROUTE).packets)
+            with progress_bar("building"):
+                files = build_site(out, emulate(SITE_ROUTE).packets)
         except BuildError as error:
             raise Failure(str(error)) from None
         print("\n".join(size_lines(files)), flush=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ from ...calibration import Calibration
 from ...calibration.merging import merged
 from ...recording import printable
 from ...saving.files import identity
+from ...show.tables.progress import progress_bar
 from ..common.failure import Failure
 from ..common.files import CALIBRATION, OutputFile, check_outputs, check_writable
 from .kinds import KINDS
@@ -40,7 +42,8 @@ def run(options: argparse.Namespace) -> int:
     inputs = [*getattr(options, "files", []), getattr(options, "file", None), getattr(options, "marks", None)]
     check_outputs([OutputFile(options.out, CALIBRATION)], inputs, force=False)
     check_writable(options.out)
-    learnt, lines = options.learn(options, _read(options.out))
+    with progress_bar("calibrating") if not getattr(options, "live", False) else nullcontext():
+        learnt, lines = options.learn(options, _read(options.out))
     while not _try_to_complete(options.out, learnt):
         pass
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))

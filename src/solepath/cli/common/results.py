@@ -22,7 +22,7 @@ from ...types import Packet, Sample
 from .files import OutputFile, replacements
 
 if TYPE_CHECKING:
-    from ...show.outcomes.clinic import Clinic
+    from ...show.outcomes.clinic import Clinic, ClinicalResults
 
 
 @define
@@ -88,18 +88,7 @@ class Results:
 
     def write_and_print(self, seconds: float) -> None:
         """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
-        self._open.close()
-        if self._picture is not None and self._picture_path is not None and self.out is not None:
-            with os_errors_naming(self.out):
-                self._picture.write(self._picture_path, self.title)
-        results = None if self.clinic is None else self.clinic.results()
-        if results is not None and self.out is not None:
-            from ...show.outcomes.files import BOUTS_FILE, OUTCOMES_FILE, write_bouts, write_outcomes
-
-            with os_errors_naming(self.out):
-                write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
-                write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
-        self._file_replacements.move_to_targets()
+        results = self.write_files()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
@@ -112,6 +101,22 @@ class Results:
                 self._report.write(self._report_path)
             self._report_replacement.move_to_targets()
             print(f"report in {printable(str(self.report))}")
+
+    def write_files(self) -> ClinicalResults | None:
+        """Complete the files of `out`; return the clinical outcomes, None without any."""
+        self._open.close()
+        if self._picture is not None and self._picture_path is not None and self.out is not None:
+            with os_errors_naming(self.out):
+                self._picture.write(self._picture_path, self.title)
+        results = None if self.clinic is None else self.clinic.results()
+        if results is not None and self.out is not None:
+            from ...show.outcomes.files import BOUTS_FILE, OUTCOMES_FILE, write_bouts, write_outcomes
+
+            with os_errors_naming(self.out):
+                write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
+                write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
+        self._file_replacements.move_to_targets()
+        return results
 
     def __enter__(self) -> Results:
         return self

@@ -23,10 +23,8 @@ if TYPE_CHECKING:
     from ...show.page.server.server import Page
 
 DEFAULT_ADDRESS = "127.0.0.1:8765"
-MIN_PROGRESS_ITEMS = 40_000
-"""Number of items (packets or samples) above which there is a progress bar."""
 ITEMS_PER_UPDATE = 1000
-"""Number of items between two updates of the progress bar."""
+"""Number of items (packets or samples) between two updates of the progress."""
 
 
 @frozen
@@ -143,10 +141,7 @@ def compute_rest(player: Player, what: str) -> None:
 
     items = player.items
     remaining = len(items) - player.delivered_count
-    with (
-        progress_bar("computing", len(items), enabled=remaining > MIN_PROGRESS_ITEMS) as show,
-        stop_flag() as stop_requested,
-    ):
+    with progress_bar("computing", len(items)) as show, stop_flag() as stop_requested:
         if remaining > 0:
             print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
         counter = count(1)
