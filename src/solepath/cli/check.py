@@ -95,6 +95,7 @@ def add_to(commands: Any) -> None:
         description="Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
         " Parquet, .npz), in sentences. The exit status is 1 if something must be mended, also if the values are in"
         " another unit, and 2 if the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
+        epilog="example: solepath check walk.csv",
     )
     add_tables(command)
     add_recipe_name(command)

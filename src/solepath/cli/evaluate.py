@@ -27,6 +27,7 @@ def add_to(commands: Any) -> None:
         help="score recipes on recorded data with a truth, and on emulated walks",
         description="Score recipes on a directory of recorded data with a truth, on long emulated walks, or on both, "
         "and print the tables.",
+        epilog="example: solepath evaluate --emulated --walks 1",
     )
     command.add_argument("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})")
     command.add_argument(
@@ -41,7 +42,7 @@ def add_to(commands: Any) -> None:
         "recipe default where no --recipe is named",
     )
     command.add_argument(
-        "--walks", metavar="N", type=int, default=3, help="so many emulated walks of each kind (default: 3)"
+        "--walks", metavar="N", type=int, default=3, help="number of emulated walks of each kind (default: 3)"
     )
     command.add_argument("--seed", metavar="K", type=int, default=1, help="the first one's seed (default: 1)")
     command.add_argument(
@@ -61,7 +62,11 @@ def add_to(commands: Any) -> None:
         help="the JSON of an earlier evaluation: say of every figure what it was, and whether it is better or worse",
     )
     command.add_argument(
-        "--processes", metavar="N", type=int, default=os.cpu_count() or 1, help="how many recordings at a time"
+        "--processes",
+        metavar="N",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="recordings at a time (default: one for each processor)",
     )
     command.set_defaults(run=run)
 

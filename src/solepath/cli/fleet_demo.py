@@ -49,7 +49,7 @@ def add_to(commands: Any) -> None:
         "--seconds",
         metavar="S",
         type=parse_positive,
-        help=f"how long each wearer walks (default: {MIN_DEFAULT_TIME:g} for "
+        help=f"how long each wearer walks, s (default: {MIN_DEFAULT_TIME:g} for "
         f"{DEFAULT_TOTAL_TIME / MIN_DEFAULT_TIME:.0f} wearers and more, up to {MAX_DEFAULT_TIME:g} for fewer)",
     )
     add_recipe_name(command, "recipe of the sessions")

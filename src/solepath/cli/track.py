@@ -42,6 +42,9 @@ def add_to(commands: Any) -> None:
         help="run a recording and print a summary",
         description="Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and"
         " print a summary.",
+        epilog="example: solepath track walk.csv --report walk.html\n"
+        "solepath track left.csv right.csv --units g,deg/s,ms --out walk\n"
+        "solepath track walk.jsonl --recipe default --recipe kupt-dfpc",
     )
     add_tables(command)
     add_recipe(command, several=True)

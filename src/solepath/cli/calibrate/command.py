@@ -26,6 +26,7 @@ def add_to(commands: Any) -> None:
         "calibrate",
         help="learn about a wearer, shoes and insoles",
         description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGE_NOTE}",
+        epilog="example: solepath calibrate walk corridor.jsonl --out me.json\nsolepath calibrate walk --help",
     )
     kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
     for add in KINDS:

@@ -6,7 +6,7 @@ import argparse
 import re
 import shutil
 from collections.abc import Iterable, Sequence
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
 
 from .closest import closest, unknown
 from .failure import note
@@ -17,9 +17,25 @@ NAME_WIDTH = 26
 """Largest number of characters in the left column of the help."""
 EXAMPLE = "example: "
 """Start of the text at the end of a help, which is printed as it is."""
+OPTION_GROUPS = {
+    "how to compute": ("--recipe", "--heading", "--calibration"),
+    "floor plan": ("--floorplan", "--start"),
+    "feet with separate clocks": ("--clock-offset", "--shared-event"),
+    "clinical outcomes": ("--outcomes", "--six-minute-walk", "--timed-up-and-go", "--reference"),
+    "sensors": ("--left", "--right", "--at", "--profile", "--pair", "--via", "--live"),
+    "what is written": ("--out", "--record", "--report", "--json", "--figure", "--resume", "--force"),
+    "page": ("--view", "--no-browser", "--speed", "--terminal"),
+    "other programs": ("--lsl", "live --channels", "live --units", "--pod", "live --rsc"),
+    "phone's log": ("--site", "--handle"),
+    "OpenSim and Motion-BIDS": ("--positions", "convert --subject", "--session", "--task", "--run", "--validate"),
+}
+"""Headings of the help, and the options below each; where a name has several meanings, with its command."""
 OPTION = re.compile(r"--?[A-Za-z]\S*")
 DASHED_VALUE = re.compile(r"-[\d.]\S*,\S*")
 """A value such as -1,2 that argparse takes for an option."""
+
+
+_Action = TypeVar("_Action", bound=argparse.Action)
 
 
 class _Once(argparse.Action):
@@ -75,6 +91,15 @@ class Parser(argparse.ArgumentParser):
         self.register("action", None, _Once)
         self.register("action", "store", _Once)
         self.register("action", "parsers", _Commands)
+
+    def _add_action(self, action: _Action) -> _Action:
+        command = self.prog.rpartition(" ")[2]
+        names = {text for name in action.option_strings for text in (name, f"{command} {name}")}
+        title = next((title for title, options in OPTION_GROUPS.items() if not names.isdisjoint(options)), None)
+        if title is None:
+            return super()._add_action(action)
+        found = next((group for group in self._action_groups if group.title == title), None)
+        return (found or self.add_argument_group(title))._add_action(action)
 
     def add_subparsers(self, **kwargs: Any) -> Any:
         """Add commands, or kinds, to the parser."""
