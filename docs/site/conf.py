@@ -43,7 +43,7 @@ GO_ON = f"""<!doctype html>
 
 
 def tables_of_contents() -> str:
-    groups = {"Start": ["docs/start"]}
+    groups, title = {"Start": ["docs/start"]}, ""
     _, index = (ROOT / "docs" / "start.md").read_text("utf-8").split("\n## All pages\n", 1)
     for group in index.split("\n\n"):  # the order of the pages is the one of the index there
         if pages := dict.fromkeys(PAGE.findall(group)):

@@ -1,4 +1,4 @@
-"""The README and the pages that it leads to first are true: programs run, tables are complete, figures are printed ones."""
+"""The README is true: its program runs, its results are printed ones, and the pages behind it leave nothing out."""
 
 import io
 import re

@@ -141,7 +141,7 @@ HEADLINES = (
         None,
     ),
 )
-"""Rows of the README's table of results: title, sentence, data set, where its figures are, and a factor for the unit."""
+"""Rows of the README's table of results: title, sentence, data set, where its figures are, and their factor."""
 
 
 def headlines(short: list[Row], bench: str) -> list[str]:
