@@ -51,7 +51,7 @@ first steps:
   solepath demo                watch an emulated walk: no sensor is needed
   solepath track walk.csv      see how somebody walked, from your recording
   solepath live                see how you walk, with sensors on your feet"""
-"""What a newcomer can do, which the help shows first."""
+"""Three commands for a newcomer, with which the help starts."""
 
 
 class _TopParser(Parser):

@@ -61,11 +61,11 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
 
         def feed(item: Packet | Sample | None) -> None:
             for walk, session, results in runs:
-                begin = perf_counter()
+                start_time = perf_counter()
                 events = session.finish() if item is None else session.feed(item)
                 results.open_files()
                 results.add(item, events)
-                walk.add(events, perf_counter() - begin)
+                walk.add(events, perf_counter() - start_time)
 
         with progress_bar(name, source.total) as show:
             try:

@@ -107,7 +107,7 @@ def here(tmp_path: Path, recording: Path, monkeypatch: pytest.MonkeyPatch) -> Pa
 
 
 @pytest.mark.parametrize(("words", "answer"), [*NAMES, *MISSING, *FILES], ids=lambda text: text[:60])
-def test_a_mistake_gets_one_line_that_says_what_to_do(here: Path, words: str, answer: str) -> None:
+def test_a_mistake_gets_one_line_with_its_repair(here: Path, words: str, answer: str) -> None:
     before = sorted(here.rglob("*"))
     done = run(*words.split())
     assert answer in one_line(done) and done.stdout == ""

@@ -40,14 +40,14 @@ def test_on_a_terminal_progress_comes_and_goes_and_the_result_stays(recording: P
         assert process.wait(TAKES) in (0, 1)
     assert "walk.jsonl: " in text and " %, about " in text
     shown, _, rest = text.rpartition(ERASE)
-    assert shown and "about" not in rest and "left" in rest
+    assert shown and " %, " not in rest and "left" in rest
     assert no_control_codes(rest.replace("\r\n", "\n"))
 
 
 def test_what_is_printed_meanwhile_is_above_the_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(progress, "FIRST_UPDATE", 0.0)
     with (tmp_path / "screen").open("w+", newline="") as screen:
-        line = progress._Line(screen, "walk.csv", 100)
+        line = progress._ProgressLine(screen, "walk.csv", 100)
         while not line._is_drawn:
             time.sleep(0.001)
         line.print_above(screen, "a result\n")

@@ -23,7 +23,7 @@ WORDS = {
     errno.EMFILE: "too many files are open",
     errno.ENXIO: "nobody reads or writes the other end of this pipe",
 }
-"""What is wrong with a file, by the number of the error; other numbers keep the words of the system."""
+"""Fault of a file by the number of the error; other numbers keep the words of the system."""
 ADDRESS_WORDS = {
     errno.EADDRINUSE: "another program has this port: name another one, or 0 for any that is free",
     errno.EADDRNOTAVAIL: "this machine has no such address",
@@ -33,7 +33,7 @@ ADDRESS_WORDS = {
     errno.EHOSTUNREACH: "there is no way to this machine",
     errno.ENETUNREACH: "there is no way to this machine",
 }
-"""What is wrong with an address of the network."""
+"""Fault of an address of the network by the number of the error."""
 
 
 def file_error_text(error: OSError, path: Path | str | None = None) -> str:

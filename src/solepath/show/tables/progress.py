@@ -21,7 +21,7 @@ ERASE = "\r\x1b[K"
 """Code that removes the line of the cursor."""
 
 
-class _Line:
+class _ProgressLine:
     """The line of progress at the bottom of a terminal, which a thread of its own redraws."""
 
     def __init__(self, terminal: TextIO, what: str, total: int) -> None:
@@ -75,7 +75,7 @@ class _Line:
 class _Above(TextIOBase):
     """A stream of text whose output appears above the line of progress."""
 
-    def __init__(self, line: _Line, stream: TextIO) -> None:
+    def __init__(self, line: _ProgressLine, stream: TextIO) -> None:
         self._line, self._stream = line, stream
 
     def write(self, text: str) -> int:
@@ -110,7 +110,7 @@ def progress_bar(what: str, total: int = 0) -> Iterator[Callable[[int], None]]:
         yield _ignore
         return
     stdout, stderr = sys.stdout, sys.stderr
-    line = _Line(stderr, what, total)
+    line = _ProgressLine(stderr, what, total)
 
     def show(done: int) -> None:
         line.done = done

@@ -21,7 +21,7 @@ NO_GAIT = "-"
 
 @define
 class RecipeWalk:
-    """What one recipe made of a recording."""
+    """The counts and the computing time of one recipe on a recording."""
 
     recipe: str
     observer: Observer
