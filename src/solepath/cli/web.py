@@ -56,6 +56,10 @@ def run(options: argparse.Namespace) -> int:
         raise Failure("--port and --no-browser are for --serve")
     if options.out is None and not options.serve:
         raise Failure("name the folder of the site, or show it with --serve")
+    if options.port is not None and options.port > 65535:
+        raise Failure(f"--port {options.port}: there is no such port: ports are 0 to 65535")
+    if options.out is not None and options.out.exists() and not options.out.is_dir():
+        raise Failure(f"{printable(str(options.out))}: is a file; the site needs a folder")
     with ExitStack() as stack:
         out = options.out or Path(stack.enter_context(TemporaryDirectory()), "site")
         print("building the site: about half a minute ...", flush=True)
@@ -96,9 +100,8 @@ def _serve(folder: Path, options: argparse.Namespace) -> None:
     with stop_flag() as stop_requested, ExitStack() as stack:
         try:
             address = stack.enter_context(serving(folder, port))
-        except (OSError, OverflowError) as error:
-            reason = address_error_text(error) if isinstance(error, OSError) else "there is no such port"
-            raise Failure(f"--port {port}: {reason}") from None
+        except OSError as error:
+            raise Failure(f"--port {port}: {address_error_text(error)}") from None
         print(f"the site: {address}", flush=True)
         note("only this machine can reach it; a phone needs the files on a server with https (docs/web.md)")
         if sys.stdout.isatty() and not options.no_browser:

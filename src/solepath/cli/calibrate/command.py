@@ -11,7 +11,6 @@ from ...calibration import Calibration
 from ...calibration.merging import merged
 from ...recording import printable
 from ...saving.files import identity
-from ...show.tables.progress import progress_bar
 from ..common.failure import Failure
 from ..common.files import CALIBRATION, OutputFile, check_outputs, check_writable
 from .kinds import KINDS
@@ -38,6 +37,8 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Make the calibration and write it; return the exit status."""
+    from ...show.tables.progress import progress_bar
+
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # a folder gets an OSError
         raise Failure(f"{options.out}: is no regular file")
     inputs = [*getattr(options, "files", []), getattr(options, "file", None), getattr(options, "marks", None)]

@@ -30,14 +30,18 @@ def add_foot(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_recipe_name(command: argparse.ArgumentParser, what: str = "how to compute", **more: Any) -> None:
-    """Add --recipe to a command; `what` says what the recipe is for."""
+def _recipe_names() -> Sequence[str]:
     from ...recipes import NAMES
 
+    return NAMES
+
+
+def add_recipe_name(command: argparse.ArgumentParser, what: str = "how to compute", **more: Any) -> None:
+    """Add --recipe to a command; `what` says what the recipe is for."""
     action = command.add_argument(
         "--recipe", metavar="NAME", **{"default": "default", "help": f"{what} (default: default)"} | more
     )
-    complete_with(action, lambda: NAMES)
+    complete_with(action, _recipe_names)
 
 
 def add_recipe(command: argparse.ArgumentParser, *, several: bool = False) -> None:

@@ -30,6 +30,7 @@ OPTION_GROUPS = {
     "OpenSim and Motion-BIDS": ("--positions", "convert --subject", "--session", "--task", "--run", "--validate"),
 }
 """Headings of the help, and the options below each; where a name has several meanings, with its command."""
+_TITLES = {option: title for title, options in OPTION_GROUPS.items() for option in options}
 OPTION = re.compile(r"--?[A-Za-z]\S*")
 DASHED_VALUE = re.compile(r"-[\d.]\S*,\S*")
 """A value such as -1,2 that argparse takes for an option."""
@@ -94,8 +95,8 @@ class Parser(argparse.ArgumentParser):
 
     def _add_action(self, action: _Action) -> _Action:
         command = self.prog.rpartition(" ")[2]
-        names = {text for name in action.option_strings for text in (name, f"{command} {name}")}
-        title = next((title for title, options in OPTION_GROUPS.items() if not names.isdisjoint(options)), None)
+        name = action.option_strings[0] if action.option_strings else ""
+        title = _TITLES.get(name) or _TITLES.get(f"{command} {name}")
         if title is None:
             return super()._add_action(action)
         found = next((group for group in self._action_groups if group.title == title), None)
