@@ -9,6 +9,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .common.closest import unknown
 from .common.failure import Failure, note, recipe_named
 from .common.files import SCORES, OutputFile, add_force, check_outputs, check_writable, write_json
 from .common.inputs import add_calibration, add_recipe_name, calibration_of
@@ -75,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
     """Evaluate and print the tables; return the exit status."""
     from ..lab.evaluate import ablation
     from ..lab.evaluate.changes import read_scores
-    from ..lab.evaluate.datasets import EMULATED
+    from ..lab.evaluate.datasets import DATASETS, EMULATED
     from ..lab.evaluate.jobs import evaluate, evaluate_emulated, find_data_sets
     from ..lab.evaluate.report import as_json
     from ..lab.tables.markdown import accuracy_table
@@ -84,6 +85,9 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.progress import progress_bar
 
     emulated_names = [data_set.name for data_set in EMULATED]
+    known_names = [*emulated_names, *(data_set.name for data_set in DATASETS)]
+    if wrong := [name for name in options.only if name not in known_names]:
+        raise Failure(f"--only: {unknown('data set', wrong[0], known_names)}")
     recorded, walked = (
         [name for name in options.only if (name in emulated_names) is is_emulated] for is_emulated in (False, True)
     )

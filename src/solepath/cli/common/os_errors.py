@@ -61,7 +61,11 @@ def in_words(error: Exception) -> str:
 
 
 def address_error_text(error: OSError) -> str:
-    """Return what is wrong with an address, of which the system or the name server says so."""
+    """Return what is wrong with an address, by the error of the system or of the name server."""
+    from socket import gaierror
+
+    if isinstance(error, gaierror):
+        return "no machine of this name is found"
     if error.errno in ADDRESS_WORDS:
         return ADDRESS_WORDS[error.errno]
     has_number = error.errno is not None and error.errno > 0
