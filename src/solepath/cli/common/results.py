@@ -22,7 +22,7 @@ from ...types import Packet, Sample
 from .files import OutputFile, replacements
 
 if TYPE_CHECKING:
-    from ...show.outcomes.clinic import Clinic, ClinicalResults
+    from ...show.outcomes.clinic import Clinic
 
 
 @define
@@ -88,12 +88,12 @@ class Results:
 
     def write_and_print(self, seconds: float) -> None:
         """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
-        results = self.write_files()
+        clinical_lines = self.write_files()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
-        if self.clinic is not None and results is not None:
-            print("\n".join(self.clinic.lines(results)))
+        if clinical_lines:
+            print("\n".join(clinical_lines))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
         if self._report is not None and self._report_path is not None and self.report is not None:
@@ -102,8 +102,8 @@ class Results:
             self._report_replacement.move_to_targets()
             print(f"report in {printable(str(self.report))}")
 
-    def write_files(self) -> ClinicalResults | None:
-        """Complete the files of `out`; return the clinical outcomes, None without any."""
+    def write_files(self) -> list[str]:
+        """Complete the files of `out`; return the lines of the clinical outcomes."""
         self._open.close()
         if self._picture is not None and self._picture_path is not None and self.out is not None:
             with os_errors_naming(self.out):
@@ -116,7 +116,7 @@ class Results:
                 write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
                 write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
         self._file_replacements.move_to_targets()
-        return results
+        return [] if self.clinic is None or results is None else self.clinic.lines(results)
 
     def __enter__(self) -> Results:
         return self

@@ -188,17 +188,7 @@ def bout_lines(bouts: Sequence[WalkingBout]) -> list[str]:
     """Return a table of the first bouts as lines of text."""
     if not bouts:
         return ["no walking bout: none has four strides without a break of more than 3 s"]
-    header = [
-        "walking bout",
-        "start s",
-        "duration s",
-        "strides",
-        "steps",
-        "turns",
-        "steps/min",
-        "length m",
-        "speed m/s",
-    ]
+    header = ["walking bout", "start s", "duration s", "strides", "steps", "turns", "cadence", "length m", "speed m/s"]
     lines = table(header, [bout_row(bout) for bout in bouts[:MAX_BOUTS]]).splitlines()
     return lines + ([f"and {len(bouts) - MAX_BOUTS} more"] if len(bouts) > MAX_BOUTS else [])
 
