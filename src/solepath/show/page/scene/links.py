@@ -31,14 +31,14 @@ FAULTS = {
 }
 """Words for a fault of one cell, and of several."""
 UNLOADS_NEVER = (
-    "The insole is never without load, so the phases come from the inertial sensor. Loosen the shoe, or lay the insole "
+    "the insole is never without load, so the phases come from the inertial sensor. Loosen the shoe, or lay the insole "
     "in again."
 )
 SWAPPED = (
-    "The insoles may be swapped: what comes as the left foot looks like a right one. Stop, and put each sensor on its "
+    "the insoles may be swapped: what comes as the left foot looks like a right one. Stop, and put each sensor on its "
     "own foot."
 )
-SILENT = "Nothing comes while the other foot walks on. See whether the sensor is switched on, charged and near."
+SILENT = "nothing comes while the other foot walks on. See whether the sensor is switched on, charged and near."
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
