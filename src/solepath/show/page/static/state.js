@@ -304,6 +304,13 @@ function playback(value) {
   return { start, end, t, state: text(value.state), speed: number(value.speed) ?? 1, seeking: number(value.seeking) };
 }
 
+// Outlines of rooms, and their names in the same order.
+function rooms(level, ring) {
+  const named = list(level?.rooms).map((room, i) => [ring(room), text(list(level.room_names)[i])]);
+  const sound = named.filter(([room]) => room.length > 2);
+  return { rooms: sound.map(([room]) => room), names: sound.map(([, name]) => name) };
+}
+
 function plan(value) {
   if (value === null || typeof value !== "object") return null;
   const ring = (points) => list(points).filter((point) => numbers(point, 2));
@@ -314,9 +321,7 @@ function plan(value) {
     elevation: number(level?.elevation),
     walls: lines(level?.walls),
     doors: lines(level?.doors),
-    rooms: list(level?.rooms)
-      .map(ring)
-      .filter((room) => room.length > 2),
+    ...rooms(level, ring),
   }));
   const connectors = list(value.connectors).map((one) => ({
     kind: text(one?.kind),
