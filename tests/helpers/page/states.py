@@ -1,7 +1,7 @@
 """Eight states of the page, each of a session that was fed an emulated walk: for pictures, and for what measures them.
 
-A state is first made up to LAST before its moment. The rest comes while its page is open, because a page draws the newest
-paths of the feet from what arrives."""
+A state is first made up to LAST before its moment. The rest comes while its page is open, because a page draws the
+newest paths of the feet from what arrives."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def mirrored_walk() -> Iterator[Sample]:
 
 @frozen
 class Shown:
-    """A state LAST before its moment: its scene, what executes commands of its page, and what comes until the moment."""
+    """A state LAST before its moment: its scene, what executes commands of its page, and what comes until then."""
 
     scene: Scene
     execute: Callable[[Command], None]
