@@ -18,7 +18,7 @@ from attrs import evolve, frozen
 from browsers import Browser, Window
 from declared import THINGY
 from declared import walked as worn_walk
-from shown import PacketEvents, open_page, packet_events, show
+from shown import PacketEvents, meanwhile, open_page, packet_events, show
 
 from solepath import Packet, Sample, Session
 from solepath.emulate import case_study, emulate, sampled
@@ -90,13 +90,22 @@ def mirrored_walk() -> Iterator[Sample]:
         yield evolve(sample, gyro=gyro, pressure=None)
 
 
+@cache
+def reversed_walk() -> tuple[PacketEvents, ...]:
+    """Return the walk with the reversed axis as a live session gets it."""
+    return packet_events(mirrored_walk())
+
+
 @frozen
 class Shown:
-    """A state LAST before its moment: its scene, what executes commands of its page, and what comes until then."""
+    """A state LAST before its moment: its scene, what executes commands of its page, and what comes until then.
+
+    After that, `idle` runs as long as the page is open."""
 
     scene: Scene
     execute: Callable[[Command], None]
     rest: Callable[[Page], Coroutine[Any, Any, None]]
+    idle: Callable[[Page], Coroutine[Any, Any, None]]
 
 
 def live(walk: tuple[PacketEvents, ...], moment: float, plan: FloorPlan | None = None) -> Shown:
@@ -106,7 +115,7 @@ def live(walk: tuple[PacketEvents, ...], moment: float, plan: FloorPlan | None =
         if packet.t <= moment - LAST:
             scene.take(packet, events)
     rest = [one for one in walk if moment - LAST < one[0].t <= moment]
-    return Shown(scene, lambda command: None, lambda page: show(scene, rest))
+    return Shown(scene, lambda command: None, lambda page: show(scene, rest), lambda page: asyncio.sleep(0.0))
 
 
 def played(title: str, items: Iterable[Packet | Sample], moment: float = inf) -> Shown:
@@ -124,7 +133,7 @@ def played(title: str, items: Iterable[Packet | Sample], moment: float = inf) ->
         await loop.run(page, stop, once=True)
         player.pause()
 
-    return Shown(scene, loop.command, rest)
+    return Shown(scene, loop.command, rest, lambda page: loop.run(page, asyncio.Event()))
 
 
 @frozen
@@ -141,8 +150,9 @@ class State:
         shown = self.make()
         async with open_page(chromium, shown.scene, shown.execute, **given) as (view, page):
             await shown.rest(page)
-            await asyncio.sleep(SETTLING)
-            yield view
+            async with meanwhile(shown.idle(page)):
+                await asyncio.sleep(SETTLING)
+                yield view
 
 
 STATES = {
