@@ -48,7 +48,7 @@ export class ActivityPanel {
     this.#figure("cadence", fixed(cadence ?? NaN));
     this.#figure("symmetry", stance === null ? "–" : even ? "even" : shares);
     write(this["symmetry-words"], stance === null ? "" : even ? `${shares} apart` : `${stance < 0 ? "left" : "right"} longer`);
-    this.#figure("distance", strides > 0 ? fixed(state.distance, 1) : "–");
+    this.#figure("distance", strides > 0 ? fixed(state.distance, state.distance < 99.95 ? 1 : 0) : "–");
     write(this.strides, strides === null ? "–" : String(strides));
     for (const what of ["speed", "cadence"]) write(this[`${what}-label`], finished ? `mean ${what}` : what);
   }

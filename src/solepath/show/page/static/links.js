@@ -27,7 +27,7 @@ export function linksText({ links, source, finished }) {
   const broken = names.filter((name) => isBroken(links[name]));
   if (broken.length > 0 && !finished) return `${capital(broken.join(" and "))}: no data`;
   const faulty = names.filter((name) => troubleOf(links[name]) !== "");
-  if (faulty.length > 0) return `${capital(faulty.join(" and "))}: needs attention`;
+  if (faulty.length > 0) return `${capital(faulty.join(" and "))}: attention is needed`;
   const waiting = names.filter((name) => links[name].state === "waiting");
   if (waiting.length > 0) return `${capital(waiting.join(" and "))}: waiting for data`;
   const all = names.length === 1 ? capital(names[0]) : names.length === 2 ? "Both sensors" : `All ${names.length} sensors`;
