@@ -3,7 +3,7 @@
 import { whereOf } from "./position.js";
 import { ACTIVITIES, SUPPORTS, describe, activityText, capital, fixed, wordOf, show, span, setData, write } from "./words.js";
 
-const EVEN = 0.02; // asymmetry of the time on the ground that errors of 5 ms at heel-strike and toe-off make (docs/page.md)
+const EVEN = 0.02; // asymmetry of the time on the ground below which the feet are alike, as far as is known (docs/page.md)
 const FIGURES = ["speed", "cadence", "symmetry", "distance"];
 
 export class ActivityPanel {
@@ -71,7 +71,7 @@ function where(state) {
   if (strides === null) return Object.keys(links).length > 0 ? "for the first data" : "for the sensors";
   if (finished) return summary(state);
   if (plan !== null && place !== null) {
-    return place.decided ? capital(whereOf(plan, place)) : `${place.candidates.length} possible places on the plan`;
+    return place.decided ? capital(whereOf(plan, place)) : `${place.candidates.length} possible places`;
   }
   if (strides === 0) return "at the start";
   return wearer === null ? "" : `${fixed(Math.hypot(wearer.position[0], wearer.position[1]))} m from the start`;
