@@ -156,7 +156,7 @@ function playback(value) {
 // Outlines of rooms, and their names in the same order.
 function rooms(level, ring) {
   const named = list(level?.rooms).map((room, i) => [ring(room), text(list(level.room_names)[i])]);
-  const sound = named.filter(([room]) => room.length > 2);
+  const known = named.filter(([room]) => room.length > 2);
   return { rooms: sound.map(([room]) => room), names: sound.map(([, name]) => name) };
 }
 
