@@ -224,7 +224,7 @@ async def test_each_foot_has_its_path_only_when_it_is_asked_for(chromium: Browse
     async with open_page(chromium, scene_after(20.0)) as (view, _):
         await view.until("Number(document.getElementById('track').dataset.points) > 20")
         await view.until("solepath.track.view.settled")
-        assert await view.tab.evaluate(blue) == 0
+        assert await view.tab.evaluate(blue) < 5
         await view.tab.evaluate("solepath.track.feetShown = true; document.getElementById('zoom-fit').click()")
         await view.until("document.getElementById('track-note').innerText.startsWith('Each foot’s own path')")
-        assert await view.tab.evaluate(blue) > 20
+        assert await view.tab.evaluate(blue) > 50

@@ -157,7 +157,7 @@ function playback(value) {
 function rooms(level, ring) {
   const named = list(level?.rooms).map((room, i) => [ring(room), text(list(level.room_names)[i])]);
   const known = named.filter(([room]) => room.length > 2);
-  return { rooms: sound.map(([room]) => room), names: sound.map(([, name]) => name) };
+  return { rooms: known.map(([room]) => room), names: known.map(([, name]) => name) };
 }
 
 export function plan(value) {
