@@ -20,8 +20,8 @@ from .common.tables import feet_of, mapping_of
 if TYPE_CHECKING:
     from ..recipes import Recipe
 
-OF_ONE_RECIPE = ("report", "view")
-"""Options that show one walk, so that they go with one recipe."""
+OF_ONE_RECIPE = ("report", "title", "subject", "date", "device", "compare", "reference", "view", "no_browser", "speed")
+"""Options of the report and of the page, which show one walk, so that they go with one recipe."""
 
 
 def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> int:
@@ -98,8 +98,9 @@ def _check_options(options: argparse.Namespace, recipes: Sequence[Recipe]) -> No
     if twice := [name for name in names if names.count(name) > 1]:
         raise Failure(f"--recipe {twice[0]} was given twice")
     for option in OF_ONE_RECIPE:
-        if getattr(options, option) is not None:
-            raise Failure(f"--{option} shows one walk: give one --recipe with it, or leave it out to compare recipes")
+        if getattr(options, option, None) not in (None, False):
+            name = option.replace("_", "-")
+            raise Failure(f"--{name} is for one walk: give one --recipe with it, or leave it out to compare recipes")
     if has_outcomes(options):
         raise Failure("clinical outcomes are of one walk: give one --recipe with them")
 

@@ -63,8 +63,8 @@ MISSING = [
     ("track walk.jsonl --view 8765", "--view 8765: that is not HOST:PORT, as in 127.0.0.1:8765"),
     ("track walk.jsonl --speed 2", "--speed is for the page: it goes with --view"),
     ("track walk.jsonl --start 0,1,2", "--start is a place on a floor plan: give --floorplan, too"),
-    ("track walk.jsonl --recipe default --recipe zupt --report r.html", "--report shows one walk: give one --recipe"),
-    ("track walk.jsonl --recipe default --recipe zupt --view", "--view shows one walk: give one --recipe"),
+    ("track walk.jsonl --recipe default --recipe zupt --report r.html", "--report is for one walk: give one --recipe"),
+    ("track walk.jsonl --recipe default --recipe zupt --view", "--view is for one walk: give one --recipe"),
     ("track walk.jsonl --recipe default --recipe zupt --outcomes", "clinical outcomes are of one walk"),
     ("web", "name the folder of the site, or show it with --serve"),
 ]
