@@ -4,15 +4,18 @@ The limits below were chosen by hand and not swept."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING
-from xml.etree.ElementTree import Element, tostring
+from xml.etree.ElementTree import tostring
 
 from attrs import define, evolve, field
 
 from ...events import (
+    Defect,
+    DefectFound,
     Event,
     FootMoved,
     FootPressed,
@@ -24,21 +27,14 @@ from ...events import (
     WearerMoved,
 )
 from ...floorplan.plan import FloorPlan
-from ...types import Foot, Packet, Phase, Sample
+from ...types import Foot, Packet, Phase, Sample, Site
 from ..observer import Observer
 from ..output import os_errors_naming
+from .bands import Band
 from .bounded import T, ThinnedList
 from .clock import ReportClock
-from .figures.activity import activity_figure
-from .figures.cycle import cycle_figure
-from .figures.pressure import pressure_figures
-from .figures.space import space_figure
-from .figures.stride import stride_figures
-from .figures.track import TimedPosition, height_figure, plan_figure, track_figure
-from .gait_table import gait_tables
-from .markup import add, section, sentences, skeleton, table, terms
+from .sections.heading import ReportDetails
 from .soles import ReportSole
-from .words import CAUTION, defects, limitations, link_rows, overview, problems, sensors
 
 if TYPE_CHECKING:
     from ..outcomes.clinic import Clinic
@@ -49,12 +45,6 @@ MAX_CANDIDATES = 40
 """Largest number of candidates of a place; those with the largest weights are kept."""
 HEIGHT_INTERVAL = 0.5
 """Shortest time between two kept heights of a stationary foot, s."""
-
-NO_STRIDE = "No stride was measured, so that there are no gait parameters."
-NO_STEADY = (
-    "No stride was steady, so that there are no means: steady strides are neither first nor last of a walk, nor in a "
-    "turn, on stairs or with samples missing."
-)
 
 
 def _installed() -> str:
@@ -72,20 +62,33 @@ def _list_of_each_foot() -> dict[Foot, ThinnedList[T]]:
 class Report:
     """Collects the events of a session with `poses` and `pressures`, in bounded memory, then writes the report.
 
-    `title` is the title of the page, such as the recording's name. `plan` is the session's floor plan. `recipe` is the
-    name of the recipe. `when` is the date and time of the walk, as text. `version` is that of solepath. The report
-    feeds `observer`, which counts the session. An event with a number that is not finite is left out."""
+    `source` is the recording's name. `plan` is the session's floor plan. `recipe` is the name of the recipe. `when` is
+    the date and time of the walk, as in "2026-11-26 09:40 UTC". `version` is that of solepath. The report feeds
+    `observer`, which counts the session. An event with a number that is not finite is left out."""
 
-    title: str
+    source: str = ""
     plan: FloorPlan | None = None
     recipe: str = ""
     when: str = ""
     version: str = field(factory=_installed)
     observer: Observer = field(factory=Observer)
+    details: ReportDetails = field(factory=ReportDetails)
+    bands: Mapping[str, Band] = field(factory=dict)
+    """Bands of reference by the names of the measures (measures.py)."""
+    calibrated: bool = False
+    """True if the session has a calibration."""
+    before: Report | None = None
+    """Earlier walk with which this one is compared."""
     clinic: Clinic | None = field(default=None, init=False)
     """Clinical outcomes, which the report shows before the gait; None without any."""
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
     strides: dict[Foot, ThinnedList[GaitCycleMeasured]] = field(factory=_list_of_each_foot, init=False)
+    newest: deque[GaitCycleMeasured] = field(factory=lambda: deque(maxlen=2 * MAX_STRIDES), init=False)
+    """Newest gait cycles of both feet, from which the differences between the feet follow."""
+    defects: dict[tuple[Site, Defect], DefectFound] = field(factory=dict, init=False)
+    """Newest report of each defect of each site."""
+    distances: dict[Foot, ThinnedList[tuple[float, float]]] = field(factory=_list_of_each_foot, init=False)
+    """Pairs of the end of a stride, s, and the distance that the foot has gone until then, m."""
     footprints: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_list_of_each_foot, init=False)
     heights: dict[Foot, ThinnedList[FootMoved]] = field(factory=_list_of_each_foot, init=False)
     wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList, init=False)
@@ -115,9 +118,11 @@ class Report:
                 self._sole(event.foot).add_sample(event)
             case GaitCycleMeasured():
                 self.strides[event.foot].add(event, MAX_STRIDES)
+                self.newest.append(event)
                 self._sole(event.foot).add_cycle(event)
             case StrideTaken(final=True):
                 self.footprints[event.foot].add(event, MAX_POINTS)
+                self.distances[event.foot].add((event.t, self.observer.feet[event.foot].distance), MAX_POINTS)
             case WearerMoved():
                 self.wearer_track.add(event, MAX_POINTS)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None:
@@ -126,6 +131,8 @@ class Report:
                 self.places.add(evolve(event, candidates=candidates[:MAX_CANDIDATES]), MAX_PLACES)
             case PlaceLost():
                 self.places.add(event, MAX_PLACES)
+            case DefectFound(site=site, defect=defect):
+                self.defects[site, defect] = event
             case _:
                 pass
 
@@ -150,71 +157,9 @@ class Report:
 
     def text(self) -> str:
         """Return the page as HTML."""
-        html, main = skeleton(self.title)
-        clock = self.clock
-        add(main, "h1", self.title)
-        self._facts(main, clock)
-        parent = section(main, "summary", "Summary")
-        if self.observer.defects:
-            add(parent, "h3", "What cannot be right")
-            sentences(parent, defects(self.observer))
-        stride_counts = {foot: strides.count for foot, strides in self.strides.items()}
-        sentences(parent, overview(self.observer, clock, self.event_span is not None, stride_counts))
-        if self.clinic is not None:
-            from .clinical import clinical_sections
+        from .sections.page import page_of
 
-            clinical_sections(main, self.clinic)
-        parent = section(main, "gait", "Gait")
-        if not gait_tables(parent, self.observer.gait):
-            add(parent, "p", NO_STRIDE if not any(stride_counts.values()) else NO_STEADY)
-        figures = add(parent, "div", class_="figures")
-        for running in (False, True):
-            parameters = self.observer.gait.of(running)
-            if parameters is not None:
-                cycle_figure(figures, parameters)
-        stride_figures(figures, {foot: list(strides) for foot, strides in self.strides.items()}, clock)
-        self._track(section(main, "track-part", "Track"), clock)
-        parent = section(main, "pressure", "Pressure")
-        if not pressure_figures(add(parent, "div", class_="figures"), self.soles):
-            add(parent, "p", "There is no pressure in this recording.")
-        parent = section(main, "activity", "Activities")
-        if not activity_figure(add(parent, "div", class_="figures"), self.observer.timeline.spans(clock.end), clock):
-            add(parent, "p", "No activity was reported.")
-        self._health(section(main, "health", "Sensors and links"))
-        return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
-
-    def _facts(self, main: Element, clock: ReportClock) -> None:
-        when = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if self.event_span else ""
-        facts = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
-        facts += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
-        terms(main, [(name, words) for name, words in facts if words], class_="facts")
-        add(main, "p", CAUTION, class_="caution")
-
-    def _track(self, parent: Element, clock: ReportClock) -> None:
-        figures = add(parent, "div", class_="figures")
-        if self.plan is not None and not plan_figure(figures, self.plan, list(self.places)):
-            add(figures, "p", "Where on the floor plan the wearer was is not known.")
-        footprints = {foot: list(strides) for foot, strides in self.footprints.items() if len(strides)}
-        wearer_track: Sequence[TimedPosition] = list(self.wearer_track) or max(footprints.values(), key=len, default=[])
-        if not track_figure(figures, wearer_track, footprints, clock):
-            add(figures, "p", "There is no track: no foot with a motion sensor took two strides.")
-        space_figure(figures, wearer_track)
-        height_figure(figures, {foot: list(heights) for foot, heights in self.heights.items()}, clock)
-
-    def _health(self, parent: Element) -> None:
-        header, *rows = link_rows(self.observer)
-        if rows:
-            table(parent, "What came from each sensor", header, rows, "numbers links")
-        faults = problems(self.observer)
-        if faults:
-            add(parent, "h3", "What was wrong")
-            sentences(parent, faults)
-        else:
-            add(parent, "p", "Nothing was wrong with the sensors and their links.")
-        limits = limitations(self.observer)
-        if limits:
-            add(parent, "h3", "What had to be done without")
-            sentences(parent, limits)
+        return "<!DOCTYPE html>\n" + tostring(page_of(self), encoding="unicode", method="html") + "\n"
 
 
 def _extend(span: tuple[float, float] | None, t: float) -> tuple[float, float]:

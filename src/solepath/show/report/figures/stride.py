@@ -93,7 +93,8 @@ def _panel(
     if degraded:
         add(svg, "path", class_="missing", d="".join([f"M{px(chart.x.at(t))} {px(chart.y.end)}v5" for t in degraded]))
     legend(svg, [foot for foot in Foot if pairs.get(foot)])
-    figure(parent, svg, f"{title} over time")
+    element = figure(parent, svg, f"{title} over time")
+    element.set("class", f"stride-{title.split()[-1].lower()}")
 
 
 def legend(svg: Element, feet: Sequence[Foot], *, lines: bool = False) -> None:

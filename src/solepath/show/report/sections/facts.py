@@ -1,0 +1,115 @@
+"""Gathers what the head of a report says: the words of the first sentence, the large figures, the quality."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from attrs import frozen
+
+from ....types import Activity, Foot
+from ...tables.gait import strides_of
+from ..measures import Measure, run_measures, walk_measures
+from ..walk_summary import SWING_TIME, FootDifference, activity_distance, foot_differences
+from .headline import Bout, WalkFacts
+from .quality import Judgement, MeasuredWalk, judgements
+
+if TYPE_CHECKING:
+    from ..report import Report
+
+
+@frozen(kw_only=True)
+class Facts:
+    """What the head of a report shows."""
+
+    walk: WalkFacts
+    measures: list[Measure]
+    """Large figures, of walking, or of running if the wearer only ran."""
+    all_measures: list[Measure]
+    """Measures of walking and of running."""
+    judgements: list[Judgement]
+    kind: str
+    """Word of the title: "Walk", "Run" or "Recording"."""
+    difference_words: str
+    """Asymmetry in words; "" if it is not known."""
+
+
+def facts_of(report: Report) -> Facts:
+    """Return what the head of a report shows."""
+    observer = report.observer
+    walking, running = observer.gait.of(False), observer.gait.of(True)
+    differences = foot_differences(list(report.newest), walking)
+    swing = differences.get(SWING_TIME)
+    interval = None if swing is None else (swing.value, swing.half_width)
+    walk_figures = [] if walking is None else walk_measures(walking, interval)
+    run_figures = [] if running is None else run_measures(running)
+    walk, run = (
+        _bout(report, Activity.WALKING, walk_figures, running=False),
+        _bout(report, Activity.RUNNING, run_figures, running=True),
+    )
+    parameters = [one for one in (walking, running) if one is not None]
+    feet = observer.known_feet
+    went = walk is not None or run is not None
+    judged = MeasuredWalk(
+        observer=observer,
+        found=sum([strides.count for strides in report.strides.values()]),  # whole numbers
+        used=sum([strides_of(one, foot) or 0 for one in parameters for foot in Foot]),  # whole numbers
+        duration=observer.covered_time.total or report.clock.end - report.clock.start,
+        defects=report.defects,
+        clocks_compared=any(one.both.step_time is not None for one in parameters),
+        calibrated=report.calibrated,
+    )
+    facts = WalkFacts(
+        has_data=report.event_span is not None,
+        duration=judged.duration,
+        stood=Activity.STANDING in observer.timeline.durations(report.clock.end),
+        walk=walk,
+        run=run,
+        flights=observer.flights,
+        rides=observer.elevator_rides,
+        only_foot=feet[0].value if len(feet) == 1 and went else "",
+        differences=differences,
+    )
+    return Facts(
+        walk=facts,
+        measures=(walk_figures or run_figures)[:5],
+        all_measures=walk_figures + run_figures,
+        judgements=judgements(judged),
+        kind="Walk" if walk is not None else "Run" if run is not None else "Recording",
+        difference_words=_difference_words(swing),
+    )
+
+
+def _difference_words(swing: FootDifference | None) -> str:
+    if swing is None:
+        return ""
+    interval = f"of swing time, \N{PLUS-MINUS SIGN} {100.0 * swing.half_width:.1f}"
+    if not swing.is_certain:
+        return f"{interval}; within the error of measurement"
+    return f"{interval}; {'right' if swing.value > 0.0 else 'left'} longer"
+
+
+def _bout(report: Report, activity: Activity, measures: list[Measure], *, running: bool) -> Bout | None:
+    """Return what the wearer went in an activity; None if there was none.
+
+    Without activities, as with some recipes, all gait cycles of the kind count, with the distance of the feet."""
+    cycles = [one for strides in report.strides.values() for one in strides if one.running is running]
+    spans = report.observer.timeline.spans(report.clock.end)
+    distances = {foot: list(pairs) for foot, pairs in report.distances.items() if len(pairs)}
+    if any(spanned is not Activity.UNKNOWN for _, _, spanned in spans):
+        duration, distance = activity_distance(spans, distances, [activity])
+        cycles = [one for one in cycles if report.observer.timeline.at(one.t) is activity] if duration else []
+        if duration <= 0.0:
+            return None
+    elif cycles:
+        ends = (min([one.t_start for one in cycles]), max([one.t for one in cycles]))
+        whole = [(*ends, activity)]
+        duration, distance = activity_distance(whole, distances, [activity])
+    else:
+        return None
+    return Bout(
+        duration=duration,
+        distance=distance if distance else None,
+        strides=len(cycles),
+        measures={measure.name: measure for measure in measures},
+        prefix="run_" if running else "",
+    )
