@@ -113,13 +113,13 @@ svg.plan { font-family: system-ui, sans-serif; }
   thead th { font-size: .75rem; } tbody th { font-weight: 600; }
   td span { display: block; } td span + span { margin-left: 0; }
   table.gait tr { grid-template-columns: 1fr 1fr 1.3fr .8fr 1.3fr; }
-  table.links tr { --columns: 4; } table.thirds tr { --columns: 2; }
+  table.links tr { --columns: 4; } table.thirds tr { --columns: 3; }
 }
 @media print {
-  @page { size: A4; margin: 12mm 14mm; }
+  @page { size: A4; margin: 10mm 14mm; }
   html { font-size: 9pt; }
   body { padding: 0; max-width: none; line-height: 1.35; }
-  h1 { font-size: 17pt; } h2 { margin: 3.5mm 0 1.5mm; padding-bottom: .5mm; break-after: avoid; }
+  h1 { font-size: 17pt; } h2 { font-size: 10.5pt; margin: 2.8mm 0 1.2mm; padding-bottom: .5mm; break-after: avoid; }
   .headline { font-size: 12.5pt; margin: 2mm 0 1mm; }
   .cards { grid-template-columns: repeat(5, 1fr); gap: 2.5mm; } .card { padding: 2mm; border: .5pt solid #ccc; }
   .card .note { font-size: 7.5pt; } .value span { font-size: 19pt; }
@@ -128,20 +128,25 @@ svg.plan { font-family: system-ui, sans-serif; }
   svg.narrow.narrow { display: block; } svg.wide ~ svg.narrow { display: none; }
   .figures { grid-template-columns: repeat(3, 1fr); gap: 2mm; margin-top: 1.5mm; }
   .figures svg text, .figures svg.narrow text { font-size: 17px; } .figures > p { margin: 0; }
-  .figures .stride-speed { display: none; } .ways svg { max-height: 86mm; }
-  .thirds figure:nth-child(-n+2) { grid-row: span 2; } .thirds svg { max-height: 43mm; }
-  .thirds .note { display: none; }
-  #health ~ ul { columns: 2; }
+  .figures .stride-speed { display: none; } .ways svg { max-height: 82mm; }
+  .figures.thirds { grid-template-columns: 1fr 1fr 1.35fr 1fr; } .thirds svg { max-height: 32mm; }
+  .figures.thirds svg text { font-size: 19px; }
+  .figures.thirds .note, #gait ~ .figures figcaption .note { display: none; }
+  #course ~ .figures { display: flex; flex-wrap: wrap; } #course ~ .figures > figure { flex: 0 1 calc(25% - 1.5mm); }
+  #course ~ .figures > ul { flex: 1 0 100%; columns: 3; margin: 0; } #course ~ .figures svg { max-height: 28mm; }
+  #course ~ .figures .note { display: none; }
+  #health ~ ul { columns: 2; } ul { padding-left: 3.5mm; font-size: 7.5pt; line-height: 1.25; }
   dl.quality { grid-template-columns: 1fr 1fr; } dl.quality div { padding: 1mm 0; font-size: 8pt; }
   .verdict { font-size: 7.5pt; }
   .details { break-before: page; } .details > section:first-child h2 { margin-top: 0; }
-  table { margin: 1mm 0; font-size: 7.5pt; line-height: 1.2; break-inside: auto; } th, td { padding: .4mm 1.5mm; }
+  table { margin: 1mm 0; font-size: 7.5pt; line-height: 1.2; break-inside: auto; } th, td { padding: .28mm 1.5mm; }
   thead th { font-size: 7pt; } h3 { margin: 1.5mm 0 .5mm; }
   tr, li { break-inside: avoid; } p, ul { margin: 1mm 0; max-width: none; }
   .note, .caution { font-size: 7.5pt; }
-  dl.definitions { columns: 3; column-gap: 5mm; font-size: 6.5pt; line-height: 1.2; margin: 1mm 0; }
+  dl.definitions { columns: 3; column-gap: 5mm; font-size: 6.5pt; line-height: 1.17; margin: 1mm 0; }
   dl.definitions div { margin-bottom: .3mm; }
-  dl.facts { font-size: 7.5pt; margin: 1mm 0; columns: 2; } header dl.facts { font-size: 9pt; }
+  dl.facts { font-size: 7.5pt; margin: 1mm 0; columns: 2; } table.links caption { display: none; }
+  dl.facts div { grid-template-columns: 15mm 1fr; gap: 0 2mm; } header dl.facts { font-size: 9pt; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 }
 """

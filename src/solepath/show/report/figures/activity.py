@@ -5,7 +5,7 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from ....types import Activity
-from ...tables.plan import px
+from ...tables.svg import px
 from ..clock import ReportClock, duration_text
 from ..markup import add, figure
 from .axes import AxisScale, drawing, grid, ticks, write
@@ -16,7 +16,7 @@ LEFT = 104.0
 
 def activity_words(activity: Activity) -> str:
     """Return an activity in words, such as "stairs up"."""
-    return activity.value.replace("_", " ").lower()
+    return activity.value.replace("_", " ").lower().replace("elevator", "lift")
 
 
 def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: ReportClock) -> bool:

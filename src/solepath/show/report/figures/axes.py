@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 
 from attrs import define, frozen
 
-from ...tables.plan import px
+from ...tables.svg import px
 from ..markup import add
 
 WIDTH = 400.0

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from ....body.gait.means import GaitParameters
 from ....types import Foot
-from ...tables.plan import px
+from ...tables.svg import px
 from ..markup import add, figure
 from .axes import AxisScale, drawing, write
 

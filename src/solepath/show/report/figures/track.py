@@ -14,7 +14,8 @@ from attrs import evolve
 from ....events import FootMoved, Placed, PlaceLost, StrideTaken, WearerMoved
 from ....floorplan.plan import FloorPlan
 from ....types import Foot
-from ...tables.plan import PANEL_GAP, PlanPicture, px
+from ...tables.plan import PANEL_GAP, PlanPicture
+from ...tables.svg import px
 from ..clock import ReportClock
 from ..markup import add, figure
 from .axes import WIDTH, AxisScale, Chart, Point, drawing, grid, line, marks, padded_range, tick_labels, ticks, write
@@ -26,6 +27,8 @@ MAX_HEIGHT = 420.0
 """Largest height of the drawing of a track, px."""
 WIDE_WIDTH, MAX_WIDE_HEIGHT = 840.0, 440.0
 """Width and largest height of the drawing for wide screens and paper, px."""
+MAX_ROOMS = 12
+"""Largest number of rooms that are named below the plan."""
 MIN_RISE = 0.5
 """Least range of heights that is drawn over time, m; below it the way is level."""
 MAX_OFFSET = 1.2
@@ -196,6 +199,10 @@ def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | Plac
     wide.set("class", "plan wide")
     narrow.set("class", "plan narrow")
     notes = ["Colours go from the start to the end; dots are candidates, the fainter the less likely."]
+    rooms = list(dict.fromkeys([place.room for place in places if place.room and len(place.candidates) == 1]))
+    if rooms:
+        more = f" and {len(rooms) - MAX_ROOMS} more" if len(rooms) > MAX_ROOMS else ""
+        notes.append(f"On the way: {', '.join(rooms[:MAX_ROOMS])}{more}.")
     if len(levels) < len(plan.levels):
         notes.append("Levels where the wearer was not are left out.")
     figure(parent, narrow, "Track on the floor plan", *notes).insert(0, wide)

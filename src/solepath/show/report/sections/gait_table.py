@@ -82,7 +82,8 @@ def _table(parent: Element, parameters: GaitParameters) -> None:
     caption = f"{what}: means of steady strides, of both feet \N{PLUS-MINUS SIGN} standard deviation"
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
-        add(parent, "p", f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007).")
+        index = percent(parameters.coordination)
+        add(parent, "p", f"Phase coordination index: {index} % (Plotnik et al. 2007).", class_="note")
     count = sum([foot_count for foot_count in strides if foot_count is not None])  # whole numbers
     if count < MIN_STRIDES:
         text = f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from attrs import field, frozen
 
-from ...tables.table import counted, number
+from ...tables.table import counted, number, times
 from ..clock import duration_text
 from ..measures import Measure
 from ..walk_summary import STEP_TIME, STRIDE_LENGTH, SWING_TIME, FootDifference
@@ -77,9 +77,11 @@ def headline(facts: WalkFacts) -> str:
     clauses = [] if facts.walk is None else [facts.walk.clause("walked")]
     clauses += [] if facts.run is None else [facts.run.clause("ran")]
     if flights := _directions(facts.flights):
-        clauses.append(f"climbed {flights} of stairs")
-    if rides := _directions(facts.rides, "lift ride"):
-        clauses.append(f"took {rides}")
+        several = sum(facts.flights.values()) > 1  # whole numbers
+        clauses.append(f"went {flights} flight{'s' * several} of stairs")
+    rides = [f"{word} {times(facts.rides[up])}" for up, word in ((True, "up"), (False, "down")) if facts.rides.get(up)]
+    if rides:
+        clauses.append(f"rode a lift {' and '.join(rides)}")
     if not clauses:
         what = "Stood" if facts.stood else "Recorded"
         return f"{what} for {duration_text(facts.duration)}; no stride was taken."
@@ -121,8 +123,5 @@ def warning(judgements: list[Judgement]) -> str:
     return f"Check before use: {', '.join(looks)}." if looks else ""
 
 
-def _directions(counts: Mapping[bool, int], noun: str = "flight") -> str:
-    up, down = counts.get(True, 0), counts.get(False, 0)
-    texts = [f"{counted(up, noun)} up"] if up else []
-    texts += [f"{down if up else counted(down, noun)} down"] if down else []
-    return " and ".join(texts)
+def _directions(counts: Mapping[bool, int]) -> str:
+    return " and ".join([f"{word} {counts[up]}" for up, word in ((True, "up"), (False, "down")) if counts.get(up)])

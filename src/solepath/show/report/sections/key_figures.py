@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from xml.etree.ElementTree import Element
 
-from ...tables.plan import px
+from ...tables.svg import px
 from ..bands import Band
 from ..figures.axes import AxisScale, drawing, tick_labels, write
 from ..markup import add
