@@ -32,8 +32,8 @@ suppress_warnings = [
     "misc.highlighting_failure",  # byte tables of protocol/ are no JSON, though they say so
 ]
 
-START = ("session", "frames", "site", "gait", "activities", "floorplans", "bluetooth", "commands", "page")
-"""Pages of docs/ that come first; the others follow by their names."""
+PAGE = re.compile(r"\]\((\w[\w-]*)\.md\)")
+"""A link from docs/start.md to another page of docs/."""
 LINK = re.compile(r"\[([^]]+)\]\(([^)\s#:]+)\)")
 
 
@@ -43,11 +43,14 @@ GO_ON = f"""<!doctype html>
 
 
 def tables_of_contents() -> str:
-    names = [path.stem for path in sorted((ROOT / "docs").glob("*.md"))]
-    start = [name for name in START if name in names]
-    groups = {
-        "Use": [f"docs/{name}" for name in start],
-        "More": [f"docs/{name}" for name in names if name not in start],
+    groups, title = {"Start": ["docs/start"]}, ""
+    _, index = (ROOT / "docs" / "start.md").read_text("utf-8").split("\n## All pages\n", 1)
+    for group in index.split("\n\n"):  # the order of the pages is the one of the index there
+        if pages := dict.fromkeys(PAGE.findall(group)):
+            groups[title] = [f"docs/{page}" for page in pages]
+        else:
+            title = group.strip().rstrip(":")
+    groups |= {
         "Papers": [f"docs/papers/{path.stem}" for path in sorted((ROOT / "docs" / "papers").glob("*.md"))],
         "Protocol": [f"protocol/{path.stem}" for path in sorted((ROOT / "protocol").glob("*.md"))],
         "Project": ["CHANGELOG"],

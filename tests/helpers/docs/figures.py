@@ -47,7 +47,7 @@ EXPERIMENTS = ("walking-modes",)
 """Experiments whose output docs/papers.md holds; the pages of the others have tables of several seeds."""
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
 IN_SHORT = {
-    "pyshoe_vicon": ("the same / sqrt 2 (ARMSE2d)", "strides", "stride length error"),
+    "pyshoe_vicon": ("position error RMS, horizontal", "the same / sqrt 2 (ARMSE2d)", "strides", "stride length error"),
     "gumushane_surveyed": ("position error at the footprints", "strides", "stride length error"),
     "gumushane_counted": ("from end to start, horizontal", "strides", "length of a leg, by each foot's track"),
     "xio_closed_walks": ("from end to start, in space",),
@@ -118,28 +118,48 @@ def walked(printed: str) -> list[Row]:
     ]
 
 
-def measured(printed: str) -> list[Row]:
-    """Return the rows of the output of BENCH."""
+HEADLINES = (
+    (
+        "position",
+        "28 walks filmed by a motion-capture lab, one sensor on one shoe: off by {:.0f} cm (RMS, mean of the walks)",
+        "pyshoe_vicon",
+        r"RMS, horizontal: mean ([\d.]+) m",
+        100.0,
+    ),
+    (
+        "strides",
+        "footprints measured on the floor: {} strides found, {} invented, lengths off by {} %",
+        "gumushane_surveyed",
+        r"strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+) %",
+        None,
+    ),
+    (
+        "contacts",
+        "60 walks with radio losses, checked by hand: heel-strikes F1 {}, median offset {} ms; toe-offs F1 {}, {} ms",
+        "ipol_10m_uturn",
+        r"heel-strikes: F1 ([\d.]+), median offset (-?\d+) ms.*toe-offs: F1 ([\d.]+), median offset (-?\d+) ms",
+        None,
+    ),
+)
+"""Rows of the README's table of results: title, sentence, data set, where its figures are, and their factor."""
 
-    def found(pattern: str) -> str:
-        match = re.search(pattern, printed, re.MULTILINE)
-        if match is None:
-            raise ValueError(f"the benchmark does not print {pattern!r}")
-        return match[1]
 
-    sample, decode = (
-        found(rf"^{re.escape(what)} +([\d.]+) us ")
-        for what in ("foot sample, inertial", "insole frame, 96 cells: decode")
-    )
-    python, cores = found(r"^Python ([\d.]+)"), found(r"(\d+) cores")
-    factor, memory = found(r"^real-time factor.*: (.+)$"), found(r"^memory of a session: (.+)$")
-    return [
-        ("machine", f"one of {cores} cores, Python {python}"),
-        ("a sample of a foot, recipe `default`", f"{sample} us"),
-        ("an insole frame of 96 cells, decoded", f"{decode} us"),
-        ("both feet with 96 cells at 100 Hz", f"{factor} times real time"),
-        ("memory of a session", memory),
-    ]
+def headlines(short: list[Row], bench: str) -> list[str]:
+    """Return the README's table of results, from the rows of `in_short` and the output of BENCH."""
+    table = ["| result | measured | command |", "|---|---|---|"]
+    for title, sentence, data, pattern, factor in HEADLINES:
+        (row,) = (result for name, result in short if f"`{data}`" in name)
+        found = re.search(pattern, row)
+        if found is None:
+            raise ValueError(f"{data}: {row!r} has no {pattern!r}")
+        values = [float(value) * factor for value in found.groups()] if factor else found.groups()
+        command = f"`solepath evaluate DIR --only {data} --recipe default`"
+        table.append(f"| {title} | {sentence.format(*values)} | {command} |")
+    found = re.search(r"^real-time factor.*: (.+)$", bench, re.MULTILINE)
+    if found is None:
+        raise ValueError("the benchmark prints no real-time factor")
+    cost = f"two insoles of 96 cells at 100 Hz: {found[1]} times real time on one core, in plain Python"
+    return [*table, f"| cost | {cost} | `python {BENCH}` |"]
 
 
 def lines(what: str, rows: list[Row]) -> list[str]:
