@@ -104,7 +104,7 @@ svg.plan { font-family: system-ui, sans-serif; }
   .cards { grid-template-columns: 1fr 1fr; gap: .6rem; } .card { padding: .6rem; }
   .value span { font-size: 1.7rem; }
   figure { padding: .5rem; }
-  figure svg text, figure svg.plan.narrow text { font-size: 15.6px; }
+  figure svg text { font-size: 15.6px; } figure svg.plan.narrow text { font-size: 16.6px; }
   table, tbody, thead, caption { display: block; }
   tr { display: grid; grid-template-columns: repeat(var(--columns, 5), 1fr); border-bottom: 1px solid var(--rule);
     padding: .25rem 0; }
@@ -133,8 +133,10 @@ svg.plan { font-family: system-ui, sans-serif; }
   .figures.thirds svg text { font-size: 19px; }
   .figures.thirds .note, #gait ~ .figures figcaption .note { display: none; }
   #course ~ .figures { display: flex; flex-wrap: wrap; } #course ~ .figures > figure { flex: 0 1 calc(25% - 1.5mm); }
+  #course ~ .figures > figure:only-of-type { flex-basis: 65mm; }
   #course ~ .figures > ul { flex: 1 0 100%; columns: 3; margin: 0; } #course ~ .figures svg { max-height: 28mm; }
   #course ~ .figures .note { display: none; }
+  #comparison ~ .figures svg { max-height: 24mm; } #comparison ~ .figures .note { display: none; }
   #health ~ ul { columns: 2; } ul { padding-left: 3.5mm; font-size: 7.5pt; line-height: 1.25; }
   dl.quality { grid-template-columns: 1fr 1fr; } dl.quality div { padding: 1mm 0; font-size: 8pt; }
   .verdict { font-size: 7.5pt; }

@@ -102,23 +102,33 @@ def paired_difference(strides: Sequence[GaitCycleMeasured], name: str) -> tuple[
     return sample.mean, student_quantile(independent - 1.0) * sqrt(sample.variance / independent)
 
 
-def activity_distance(
-    spans: Sequence[tuple[float, float, Activity]],
-    distances: Mapping[Foot, Sequence[tuple[float, float]]],
-    activities: Sequence[Activity],
-) -> tuple[float, float | None]:
-    """Return how long, s, and how far, m, the wearer went in some activities.
+def gait_spans(
+    spans: Sequence[tuple[float, float, Activity]], strides: Sequence[GaitCycleMeasured]
+) -> dict[bool, list[tuple[float, float]]]:
+    """Return the spans of time in which the wearer walked (False) and ran (True), as (start, end), s.
 
-    `distances` has pairs of a time, s, and the distance that the foot has gone until then, m; the distance is the mean
-    of the feet, and None without any."""
-    chosen = [(start, end) for start, end, activity in spans if activity in activities]
-    duration = fsum([end - start for start, end in chosen])
+    Whether it was a run is known best from the strides: a runner's foot is on the ground for less than half of the gait
+    cycle. In spans of walking and running the majority of the strides counts, and without strides the activity."""
+    found: dict[bool, list[tuple[float, float]]] = {False: [], True: []}
+    for start, end, activity in spans:
+        if activity in (Activity.WALKING, Activity.RUNNING):
+            runs = [stride.running for stride in strides if start <= stride.t < end]
+            found[2 * runs.count(True) > len(runs) if runs else activity is Activity.RUNNING].append((start, end))
+    return found
+
+
+def distance_in(
+    spans: Sequence[tuple[float, float]], distances: Mapping[Foot, Sequence[tuple[float, float]]]
+) -> float | None:
+    """Return how far the wearer went in some spans of time, m: the mean of the feet; None without any.
+
+    `distances` has pairs of a time, s, and the distance that the foot has gone until then, m."""
     lengths = [
-        fsum([_until(pairs, end) - _until(pairs, start) for start, end in chosen])
+        fsum([_until(pairs, end) - _until(pairs, start) for start, end in spans])
         for pairs in distances.values()
         if pairs
     ]
-    return duration, fsum(lengths) / len(lengths) if lengths else None
+    return fsum(lengths) / len(lengths) if lengths else None
 
 
 def _until(pairs: Sequence[tuple[float, float]], t: float) -> float:

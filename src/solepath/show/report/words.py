@@ -6,7 +6,7 @@ from ...recording import printable
 from ...types import Foot, Site, Turn
 from ..links import LinkLedger
 from ..observer import Observer
-from ..tables.summary import NO_DATA, link_health, sample_lines, wear_lines
+from ..tables.summary import link_health, sample_lines, wear_lines
 from ..tables.table import number
 from .clock import ReportClock, duration_text
 from .figures.activity import activity_words
@@ -17,13 +17,11 @@ MAX_NAME_LENGTH = 60
 TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
 
-def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_counts: dict[Foot, int]) -> list[str]:
-    """Return the sentences of the summary.
+def overview(observer: Observer, clock: ReportClock, cycle_counts: dict[Foot, int]) -> list[str]:
+    """Return the sentences on the course of the recording.
 
-    `has_data` says that there was any event. `cycle_counts`, the number of gait cycles of each foot, is used for a foot
+    `cycle_counts`, the number of gait cycles of each foot, is used for a foot
     without a track."""
-    if not has_data:
-        return whole_sentences([NO_DATA])
     time = observer.covered_time
     lines = [f"The recording lasts {duration_text(time.total if time.span_count else clock.end - clock.start)}."]
     if time.span_count > 1:

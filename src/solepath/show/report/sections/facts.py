@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import fsum
 from typing import TYPE_CHECKING
 
 from attrs import frozen
@@ -9,7 +10,7 @@ from attrs import frozen
 from ....types import Activity, Foot
 from ...tables.gait import strides_of
 from ..measures import Measure, run_measures, walk_measures
-from ..walk_summary import SWING_TIME, FootDifference, activity_distance, foot_differences
+from ..walk_summary import SWING_TIME, FootDifference, distance_in, foot_differences, gait_spans
 from .headline import Bout, WalkFacts
 from .quality import Judgement, MeasuredWalk, judgements
 
@@ -42,10 +43,9 @@ def facts_of(report: Report) -> Facts:
     interval = None if swing is None else (swing.value, swing.half_width)
     walk_figures = [] if walking is None else walk_measures(walking, interval)
     run_figures = [] if running is None else run_measures(running)
-    walk, run = (
-        _bout(report, Activity.WALKING, walk_figures, running=False),
-        _bout(report, Activity.RUNNING, run_figures, running=True),
-    )
+    bouts = _bouts(report, {False: walk_figures, True: run_figures})
+    kind = _kind(bouts.get(False), bouts.get(True))
+    walk, run = bouts.get(False), bouts.get(True)
     parameters = [one for one in (walking, running) if one is not None]
     feet = observer.known_feet
     went = walk is not None or run is not None
@@ -71,12 +71,19 @@ def facts_of(report: Report) -> Facts:
     )
     return Facts(
         walk=facts,
-        measures=(walk_figures or run_figures)[:5],
+        measures=((run_figures or walk_figures) if kind == "Run" else (walk_figures or run_figures))[:5],
         all_measures=walk_figures + run_figures,
         judgements=judgements(judged),
-        kind="Walk" if walk is not None else "Run" if run is not None else "Recording",
+        kind=kind,
         difference_words=_difference_words(swing),
     )
+
+
+def _kind(walk: Bout | None, run: Bout | None) -> str:
+    """Return the word of the title: what the wearer did for longer."""
+    if walk is None or (run is not None and run.duration > walk.duration):
+        return "Recording" if run is None else "Run"
+    return "Walk"
 
 
 def _difference_words(swing: FootDifference | None) -> str:
@@ -88,28 +95,32 @@ def _difference_words(swing: FootDifference | None) -> str:
     return f"{interval}; {'right' if swing.value > 0.0 else 'left'} longer"
 
 
-def _bout(report: Report, activity: Activity, measures: list[Measure], *, running: bool) -> Bout | None:
-    """Return what the wearer went in an activity; None if there was none.
+def _bouts(report: Report, measures: dict[bool, list[Measure]]) -> dict[bool, Bout]:
+    """Return what the wearer walked (False) and ran (True), of those that there were.
 
-    Without activities, as with some recipes, all gait cycles of the kind count, with the distance of the feet."""
-    cycles = [one for strides in report.strides.values() for one in strides if one.running is running]
-    spans = report.observer.timeline.spans(report.clock.end)
+    Without activities, as with some recipes, it is from the first to the last gait cycle of the kind."""
+    cycles = [one for strides in report.strides.values() for one in strides]
+    activities = report.observer.timeline.spans(report.clock.end)
     distances = {foot: list(pairs) for foot, pairs in report.distances.items() if len(pairs)}
-    if any(spanned is not Activity.UNKNOWN for _, _, spanned in spans):
-        duration, distance = activity_distance(spans, distances, [activity])
-        cycles = [one for one in cycles if report.observer.timeline.at(one.t) is activity] if duration else []
-        if duration <= 0.0:
-            return None
-    elif cycles:
-        ends = (min([one.t_start for one in cycles]), max([one.t for one in cycles]))
-        whole = [(*ends, activity)]
-        duration, distance = activity_distance(whole, distances, [activity])
+    if any(activity is not Activity.UNKNOWN for _, _, activity in activities):
+        spans = gait_spans(activities, cycles)
     else:
-        return None
-    return Bout(
-        duration=duration,
-        distance=distance if distance else None,
-        strides=len(cycles),
-        measures={measure.name: measure for measure in measures},
-        prefix="run_" if running else "",
-    )
+        ends = {kind: [one for one in cycles if one.running is kind] for kind in (False, True)}
+        spans = {
+            kind: [(min([one.t_start for one in found]), max([one.t for one in found]))] if found else []
+            for kind, found in ends.items()
+        }
+    bouts = {}
+    for running, found_spans in spans.items():
+        duration = fsum([end - start for start, end in found_spans])
+        strides = [one for one in cycles if any(start <= one.t <= end for start, end in found_spans)]
+        distance = distance_in(found_spans, distances)
+        if duration > 0.0 and (strides or distance):
+            bouts[running] = Bout(
+                duration=duration,
+                distance=distance or None,
+                strides=len(strides),
+                measures={measure.name: measure for measure in measures[running]},
+                prefix="run_" if running else "",
+            )
+    return bouts

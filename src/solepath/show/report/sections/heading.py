@@ -19,7 +19,7 @@ MONTHS = (
 )  # fmt: skip
 
 
-@frozen(kw_only=True)
+@frozen
 class ReportDetails:
     """What a person gives for the head of a report; all may be empty."""
 

@@ -8,14 +8,17 @@ from collections.abc import Mapping
 
 from attrs import field, frozen
 
+from ...tables.summary import NO_DATA
 from ...tables.table import counted, number, times
 from ..clock import duration_text
+from ..markup import whole_sentences
 from ..measures import Measure
 from ..walk_summary import STEP_TIME, STRIDE_LENGTH, SWING_TIME, FootDifference
 from .quality import Judgement, Verdict
 
-NO_DATA = "No sensor sent data."
 SENSOR_DIFFERENCE = "check the sensors, for both feet of a walker go equally far"
+MIN_BOUT_SHARE = 0.1
+"""Least duration of a run or a walk that is mentioned, as a share of that of the other; chosen by hand."""
 CLOCK_DIFFERENCE = "check the sensors' clocks, for the swings do not differ"
 
 
@@ -73,9 +76,10 @@ class WalkFacts:
 def headline(facts: WalkFacts) -> str:
     """Return one sentence that says how the walk was."""
     if not facts.has_data:
-        return NO_DATA
-    clauses = [] if facts.walk is None else [facts.walk.clause("walked")]
-    clauses += [] if facts.run is None else [facts.run.clause("ran")]
+        return whole_sentences([NO_DATA])[0]
+    ways = [(bout, verb) for bout, verb in ((facts.walk, "walked"), (facts.run, "ran")) if bout is not None]
+    longest = max([bout.duration for bout, _ in ways], default=0.0)
+    clauses = [bout.clause(verb) for bout, verb in ways if bout.duration >= MIN_BOUT_SHARE * longest]
     if flights := _directions(facts.flights):
         several = sum(facts.flights.values()) > 1  # whole numbers
         clauses.append(f"went {flights} flight{'s' * several} of stairs")
@@ -119,7 +123,7 @@ def warning(judgements: list[Judgement]) -> str:
     stops = [one.concern for one in judgements if one.verdict is Verdict.STOP]
     looks = [one.concern for one in judgements if one.verdict is Verdict.LOOK]
     if stops:
-        return f"Do not use the figures before this is checked: {', '.join([*stops, *looks])}."
+        return f"Do not use the figures before this is checked: {', '.join(stops)}."
     return f"Check before use: {', '.join(looks)}." if looks else ""
 
 

@@ -47,7 +47,8 @@ def page_of(report: Report) -> Element:
         parent = section(main, "quality", f"Quality: {overall(facts.judgements)}")
         quality_box(parent, facts.judgements)
     _ways(main, report)
-    _course(main, report)
+    if facts.walk.has_data:
+        _course(main, report)
     details = add(main, "div", class_="details")
     if report.before is not None:
         comparison(details, report.before, report, facts)
@@ -113,7 +114,7 @@ def _course(parent: Element, report: Report) -> None:
     parent = section(parent, "course", "Course of the recording")
     counts = {foot: strides.count for foot, strides in report.strides.items()}
     figures = add(parent, "div", class_="figures")
-    sentences(figures, overview(report.observer, report.clock, report.event_span is not None, counts))
+    sentences(figures, overview(report.observer, report.clock, counts))
     activity_figure(figures, report.observer.timeline.spans(report.clock.end), report.clock)
     track = track_of(report)
     if report.places.count:

@@ -120,7 +120,8 @@ def _clocks(walk: MeasuredWalk) -> Judgement | None:
     part = "clocks"
     for (_, defect), event in walk.defects.items():
         if defect is Defect.CLOCKS:
-            return Judgement(part, Verdict.STOP, " ".join(whole_sentences([event.what])), "the clocks of the feet")
+            words = " ".join(whole_sentences([f"{event.site.words}: {event.what}"]))
+            return Judgement(part, Verdict.LOOK, words, "the clocks of the feet")
     resets = sum([link.clock_resets for link in walk.observer.links.values()])  # whole numbers
     if resets:
         return Judgement(part, Verdict.LOOK, f"A sensor's clock restarted {times(resets)}.", "restarted clocks")
