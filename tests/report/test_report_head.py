@@ -62,7 +62,7 @@ def test_the_head_names_subject_date_and_device() -> None:
     assert "Subject P 017" in facts and "Date 2 January 2026" in facts and "Device insoles, size 42" in facts
 
 
-def test_the_first_sentence_says_how_far_how_long_and_how_fast() -> None:
+def test_the_first_sentence_has_distance_time_speed_and_cadence() -> None:
     facts = facts_of(report_of(events_of("walk")))
     walk = facts.walk.walk
     assert walk is not None and walk.distance == pytest.approx(40.0, abs=1.0)
@@ -202,8 +202,8 @@ def test_two_walks_are_compared_with_signs_and_with_the_variation_of_the_strides
     rows = {row.first("th").text: [cell.text for cell in row.all("td")] for row in page.named("comparison").all("tr")}
     old, new, change, spread, words = rows["speed, m/s"]
     assert float(new) - float(old) == pytest.approx(float(change.split()[0]), abs=0.011) and change.startswith("+0.")
-    assert words == "larger" and 0.0 < float(spread) < float(change.split()[0])
-    assert rows["asymmetry, %"][-1] == "within"
+    assert words == "yes" and 0.0 < float(spread) < float(change.split()[0])
+    assert rows["asymmetry, %"][-1] == "no"
     assert "Before (walk.jsonl, 1 October 2026, 08:00 UTC): Walked 25 m" in page.text
     assert {"Track before", "Track after"} <= {one.first("strong").text for one in page.all("figcaption")}
 

@@ -102,6 +102,7 @@ svg.plan { font-family: system-ui, sans-serif; }
   body { padding: 1rem .75rem 2rem; }
   h1 { font-size: 1.35rem; } .headline { font-size: 1.125rem; }
   .cards { grid-template-columns: 1fr 1fr; gap: .6rem; } .card { padding: .6rem; }
+  .card:last-child:nth-child(odd) { grid-column: 1 / -1; }
   .value span { font-size: 1.7rem; }
   figure { padding: .5rem; }
   figure svg text { font-size: 15.6px; } figure svg.plan.narrow text { font-size: 16.6px; }
@@ -113,6 +114,7 @@ svg.plan { font-family: system-ui, sans-serif; }
   thead th { font-size: .75rem; } tbody th { font-weight: 600; }
   td span { display: block; } td span + span { margin-left: 0; }
   table.gait tr { grid-template-columns: 1fr 1fr 1.3fr .8fr 1.3fr; }
+  table.comparison tr { grid-template-columns: .8fr .8fr 1.7fr .8fr .8fr; }
   table.links tr { --columns: 4; } table.thirds tr { --columns: 3; }
 }
 @media print {
@@ -140,7 +142,8 @@ svg.plan { font-family: system-ui, sans-serif; }
   #health ~ ul { columns: 2; } ul { padding-left: 3.5mm; font-size: 7.5pt; line-height: 1.25; }
   dl.quality { grid-template-columns: 1fr 1fr; } dl.quality div { padding: 1mm 0; font-size: 8pt; }
   .verdict { font-size: 7.5pt; }
-  .details { break-before: page; } .details > section:first-child h2 { margin-top: 0; }
+  .details { break-before: page; } .details.compared { break-before: auto; }
+  .details > section:first-child h2 { margin-top: 0; }
   table { margin: 1mm 0; font-size: 7.5pt; line-height: 1.2; break-inside: auto; } th, td { padding: .28mm 1.5mm; }
   thead th { font-size: 7pt; } h3 { margin: 1.5mm 0 .5mm; }
   tr, li { break-inside: avoid; } p, ul { margin: 1mm 0; max-width: none; }

@@ -19,6 +19,7 @@ def write_text(
     anchor: str = "start",
     halo: bool = False,
 ) -> None:
+    """Write words at (x, y), px; with `halo`, in an edge of the colour of paper."""
     look = {"x": px(x), "y": px(y), "font-size": px(size), "font-weight": weight, "text-anchor": anchor}
     plain = plain_text(words)
     if halo:

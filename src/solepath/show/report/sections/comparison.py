@@ -6,20 +6,17 @@ strides, the root of the mean of both variances (Cohen 1988). It does not say ho
 from __future__ import annotations
 
 from math import hypot, sqrt
-from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element
 
+from ..collected import CollectedWalk
 from ..figures.track import track_figure
 from ..markup import add, section, table
 from ..measures import SWING_DIFFERENCE, Measure
+from .facts import Facts, facts_of
 from .heading import date_words, moment_words
 from .headline import headline
 
-if TYPE_CHECKING:
-    from ..report import Report
-    from .facts import Facts
-
-HEADER = ("measure", "before", "after", "change", "strides vary by", "the change is")
+HEADER = ("measure", "before", "after", "change", "strides vary by", "beyond that")
 NOTE = (
     "Strides vary by the pooled standard deviation of both walks. A larger change is not yet a change of the person: "
     "people differ from day to day. For the asymmetry, both 95 % intervals count instead."
@@ -27,11 +24,8 @@ NOTE = (
 NO_COMMON = "The two walks have no measure in common."
 
 
-def comparison(parent: Element, before: Report, after: Report, facts: Facts) -> None:
+def comparison(parent: Element, before: CollectedWalk, after: CollectedWalk, facts: Facts) -> None:
     """Add the section that compares two walks."""
-    from .facts import facts_of
-    from .page import footprints_of, track_of
-
     earlier = facts_of(before)
     parent = section(parent, "comparison", "Compared with the walk before")
     day, time = moment_words(before.when)
@@ -47,8 +41,8 @@ def comparison(parent: Element, before: Report, after: Report, facts: Facts) -> 
     for name, report in (("before", before), ("after", after)):
         track_figure(
             figures,
-            track_of(report),
-            footprints_of(report),
+            report.track,
+            report.foot_tracks,
             report.clock,
             wide=False,
             name=f"track-{name}",
@@ -65,11 +59,11 @@ def _row(before: Measure, after: Measure) -> list[str]:
     label = f"{'running: ' if is_of_run(after) else ''}{after.label.lower()}, {after.unit}"
     spread = words = "-"
     if after.name == SWING_DIFFERENCE and before.spread is not None and after.spread is not None:
-        words = "larger" if abs(change) > hypot(before.spread, after.spread) else "within"
+        words = "yes" if abs(change) > hypot(before.spread, after.spread) else "no"
     elif before.spread is not None and after.spread is not None:
         pooled = sqrt(0.5 * (before.spread**2 + after.spread**2))
         spread = f"{pooled:.{max(digits, 1)}f}"
-        words = "larger" if abs(change) > pooled else "within"
+        words = "yes" if abs(change) > pooled else "no"
     return [label, before.text, after.text, f"{change:+.{digits}f}{share}", spread, words]
 
 

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from math import fsum
-from typing import TYPE_CHECKING
 
 from attrs import frozen
 
 from ....types import Activity, Foot
 from ...tables.gait import strides_of
+from ..collected import CollectedWalk
 from ..measures import Measure, run_measures, walk_measures
 from ..walk_summary import SWING_TIME, FootDifference, distance_in, foot_differences, gait_spans
 from .headline import Bout, WalkFacts
 from .quality import Judgement, MeasuredWalk, judgements
 
-if TYPE_CHECKING:
-    from ..report import Report
-
 
 @frozen(kw_only=True)
 class Facts:
-    """What the head of a report shows."""
+    """Facts of a walk that the head of its report shows."""
 
     walk: WalkFacts
     measures: list[Measure]
@@ -34,7 +31,7 @@ class Facts:
     """Asymmetry in words; "" if it is not known."""
 
 
-def facts_of(report: Report) -> Facts:
+def facts_of(report: CollectedWalk) -> Facts:
     """Return what the head of a report shows."""
     observer = report.observer
     walking, running = observer.gait.of(False), observer.gait.of(True)
@@ -95,7 +92,7 @@ def _difference_words(swing: FootDifference | None) -> str:
     return f"{interval}; {'right' if swing.value > 0.0 else 'left'} longer"
 
 
-def _bouts(report: Report, measures: dict[bool, list[Measure]]) -> dict[bool, Bout]:
+def _bouts(report: CollectedWalk, measures: dict[bool, list[Measure]]) -> dict[bool, Bout]:
     """Return what the wearer walked (False) and ran (True), of those that there were.
 
     Without activities, as with some recipes, it is from the first to the last gait cycle of the kind."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import degrees
 from xml.etree.ElementTree import Element
 
 from ....body.gait.means import GaitMeans, GaitParameters, StrideFigures
@@ -28,7 +27,7 @@ DEFINITIONS = {
     "speed": "stride length / stride time",
     "clearance": "highest rise of the sensor above the foot-flats; not the minimum toe clearance",
     "toe_off_angle": "how far the heel is up at toe-off, against flat",
-    "heel_strike_angle": "how far the toe is up at the contact, against flat",
+    "heel_strike_angle": "how far the toe is up at the contact, against flat (Altman and Davis 2012)",
     "stance_time": "from contact to toe-off, of the stride time (Whittle 2007)",
     "single_support": "only this foot is on the ground",
     "initial_double_support": "from this foot's contact to the other's toe-off; below zero a flight (Novacheck 1998)",
@@ -49,7 +48,6 @@ DIFFERENCE_DEFINITION = (
 RUNNING_DEFINITIONS = [
     ("contact time", "from contact to toe-off of a foot (Novacheck 1998)"),
     ("flight time", "from toe-off to the other foot's contact (Novacheck 1998)"),
-    ("strike angle", "pitch of the foot at contact, positive toe up (Altman and Davis 2012)"),
     (
         "vertical oscillation",
         "of the centre of mass, from contact and flight by a spring-mass model (Morin et al. 2005)",
@@ -99,8 +97,6 @@ def _running_rows(parameters: GaitParameters) -> list[list[str]]:
     feet = [milliseconds(None if contact is None else contact.mean) for contact in contacts]
     rows = [["contact time, ms", *feet, milliseconds(run.contact_time), "-", "-"]]
     rows.append(["flight time, ms", "-", "-", milliseconds(run.flight_time), "-", "-"])
-    angle = None if run.strike_angle is None else degrees(run.strike_angle)
-    rows.append(["strike angle, deg", "-", "-", number(angle, 1), "-", "-"])
     rows.append(["vertical oscillation, mm", "-", "-", milliseconds(run.vertical_oscillation), "-", "-"])
     return rows
 

@@ -21,7 +21,7 @@ MONTHS = (
 
 @frozen
 class ReportDetails:
-    """What a person gives for the head of a report; all may be empty."""
+    """Texts that a person gives for the head of a report; all may be empty."""
 
     title: str = ""
     subject: str = ""

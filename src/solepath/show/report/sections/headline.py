@@ -14,7 +14,7 @@ from ..clock import duration_text
 from ..markup import whole_sentences
 from ..measures import Measure
 from ..walk_summary import STEP_TIME, STRIDE_LENGTH, SWING_TIME, FootDifference
-from .quality import Judgement, Verdict
+from .quality import Judgement, QualityVerdict
 
 SENSOR_DIFFERENCE = "check the sensors, for both feet of a walker go equally far"
 MIN_BOUT_SHARE = 0.1
@@ -24,7 +24,7 @@ CLOCK_DIFFERENCE = "check the sensors' clocks, for the swings do not differ"
 
 @frozen(kw_only=True)
 class Bout:
-    """How long and how far the wearer went in one way, with its measures by their names."""
+    """A walk or a run of a recording: its duration and distance, with its measures by their names."""
 
     duration: float
     """Duration, s; 0 if it is not known."""
@@ -120,8 +120,8 @@ def difference_clauses(differences: Mapping[str, FootDifference]) -> list[str]:
 
 def warning(judgements: list[Judgement]) -> str:
     """Return a sentence on what to check before the figures are used; "" if nothing is wrong."""
-    stops = [one.concern for one in judgements if one.verdict is Verdict.STOP]
-    looks = [one.concern for one in judgements if one.verdict is Verdict.LOOK]
+    stops = [one.concern for one in judgements if one.verdict is QualityVerdict.STOP]
+    looks = [one.concern for one in judgements if one.verdict is QualityVerdict.LOOK]
     if stops:
         return f"Do not use the figures before this is checked: {', '.join(stops)}."
     return f"Check before use: {', '.join(looks)}." if looks else ""

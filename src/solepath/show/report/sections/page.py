@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element
 
-from ....types import Foot
+from ..collected import CollectedWalk
 from ..figures.activity import activity_figure
 from ..figures.cycle import cycle_figure
 from ..figures.pressure import pressure_figures
 from ..figures.space import space_figure
 from ..figures.stride import stride_figures
-from ..figures.track import TimedPosition, height_figure, plan_figure, track_figure
+from ..figures.track import height_figure, plan_figure, track_figure
 from ..markup import add, section, sentences, skeleton, table, whole_sentences
 from ..words import defects, limitations, link_rows, overview, problems, sensors
 from .comparison import comparison
@@ -21,16 +19,13 @@ from .gait_table import NO_STEADY, NO_STRIDE, definitions, gait_tables
 from .heading import add_heading, add_making, title_of
 from .headline import headline, warning
 from .key_figures import key_figures
-from .quality import Verdict, overall, quality_box
-
-if TYPE_CHECKING:
-    from ..report import Report
+from .quality import QualityVerdict, overall, quality_box
 
 NO_PLACE = "Where on the floor plan the wearer was is not known."
 NO_TRACK = "There is no track: no foot with a motion sensor took two strides."
 
 
-def page_of(report: Report) -> Element:
+def page_of(report: CollectedWalk) -> Element:
     """Return the page of a report as an <html> element."""
     facts = facts_of(report)
     title = title_of(report.details, report.when, facts.kind)
@@ -38,7 +33,7 @@ def page_of(report: Report) -> Element:
     add_heading(main, title, report.details, report.when)
     add(main, "p", headline(facts.walk), class_="headline")
     if words := warning(facts.judgements):
-        stops = any(one.verdict is Verdict.STOP for one in facts.judgements)
+        stops = any(one.verdict is QualityVerdict.STOP for one in facts.judgements)
         add(main, "p", words, class_="warning" if stops else "warning look")
     if facts.measures:
         parent = section(main, "figures", "Figures")
@@ -49,7 +44,7 @@ def page_of(report: Report) -> Element:
     _ways(main, report)
     if facts.walk.has_data:
         _course(main, report)
-    details = add(main, "div", class_="details")
+    details = add(main, "div", class_="details" if report.before is None else "details compared")
     if report.before is not None:
         comparison(details, report.before, report, facts)
     if report.clinic is not None:
@@ -69,9 +64,9 @@ def page_of(report: Report) -> Element:
     return html
 
 
-def _ways(main: Element, report: Report) -> None:
+def _ways(main: Element, report: CollectedWalk) -> None:
     """Add the section with plan, track and heights, over the whole width."""
-    track = track_of(report)
+    track = report.track
     places = list(report.places)
     if len(track) < 2 and report.plan is None:
         return
@@ -80,21 +75,11 @@ def _ways(main: Element, report: Report) -> None:
     has_plan = report.plan is not None and plan_figure(figures, report.plan, places)
     if report.plan is not None and not has_plan:
         add(figures, "p", NO_PLACE)
-    if not has_plan and not track_figure(figures, track, footprints_of(report), report.clock):
+    if not has_plan and not track_figure(figures, track, report.foot_tracks, report.clock):
         add(figures, "p", NO_TRACK)
 
 
-def footprints_of(report: Report) -> dict[Foot, list[TimedPosition]]:
-    """Return the ends of the strides of each foot that took any."""
-    return {foot: list(strides) for foot, strides in report.footprints.items() if len(strides)}
-
-
-def track_of(report: Report) -> Sequence[TimedPosition]:
-    """Return the wearer's track or, if it is not known, that of the foot with the most strides."""
-    return list(report.wearer_track) or max(footprints_of(report).values(), key=len, default=[])
-
-
-def _gait(parent: Element, report: Report) -> None:
+def _gait(parent: Element, report: CollectedWalk) -> None:
     if not any(strides.count for strides in report.strides.values()):
         return
     parent = section(parent, "gait", "Gait")
@@ -109,21 +94,21 @@ def _gait(parent: Element, report: Report) -> None:
     stride_figures(figures, {foot: list(strides) for foot, strides in report.strides.items()}, report.clock)
 
 
-def _course(parent: Element, report: Report) -> None:
+def _course(parent: Element, report: CollectedWalk) -> None:
     """Add the course of the recording: its sentences, and the activities."""
     parent = section(parent, "course", "Course of the recording")
     counts = {foot: strides.count for foot, strides in report.strides.items()}
     figures = add(parent, "div", class_="figures")
     sentences(figures, overview(report.observer, report.clock, counts))
     activity_figure(figures, report.observer.timeline.spans(report.clock.end), report.clock)
-    track = track_of(report)
+    track = report.track
     if report.places.count:
-        track_figure(figures, track, footprints_of(report), report.clock, wide=False)
+        track_figure(figures, track, report.foot_tracks, report.clock, wide=False)
     space_figure(figures, track)
     height_figure(figures, {foot: list(heights) for foot, heights in report.heights.items()}, report.clock)
 
 
-def _health(parent: Element, report: Report) -> None:
+def _health(parent: Element, report: CollectedWalk) -> None:
     observer = report.observer
     header, *rows = link_rows(observer)
     if not rows:
@@ -145,7 +130,7 @@ def _health(parent: Element, report: Report) -> None:
         sentences(parent, limits)
 
 
-def _making(report: Report) -> list[tuple[str, str]]:
+def _making(report: CollectedWalk) -> list[tuple[str, str]]:
     clock = report.clock
     times = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if report.event_span else ""
     return [

@@ -22,7 +22,7 @@ GOOD_GAP_SHARE, MAX_GAP_SHARE = 0.01, 0.25
 """Share of time without samples up to which a recording is complete, and above which its figures should not be used."""
 
 
-class Verdict(Enum):
+class QualityVerdict(Enum):
     """A judgement of one part of the measurement; the value is its word."""
 
     GOOD = "good"
@@ -36,10 +36,10 @@ class Judgement:
     """The verdict on one part of the measurement, and what was found."""
 
     part: str
-    verdict: Verdict
+    verdict: QualityVerdict
     words: str
     concern: str = ""
-    """What to check before the figures are used; "" if the part is good."""
+    """Concern to check before the figures are used; "" if the part is good."""
 
 
 @frozen(kw_only=True)
@@ -70,9 +70,9 @@ def judgements(walk: MeasuredWalk) -> list[Judgement]:
 def overall(parts: Sequence[Judgement]) -> str:
     """Return the worst verdict in words."""
     verdicts = [part.verdict for part in parts]
-    if Verdict.STOP in verdicts:
+    if QualityVerdict.STOP in verdicts:
         return "do not use before it is checked"
-    looks = verdicts.count(Verdict.LOOK)
+    looks = verdicts.count(QualityVerdict.LOOK)
     return f"look at {counted(looks, 'point')}" if looks else "good"
 
 
@@ -89,12 +89,12 @@ def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
 
 def _strides(walk: MeasuredWalk) -> Judgement:
     if not walk.found:
-        return Judgement("strides", Verdict.LOOK, "No stride was found.", "no strides")
+        return Judgement("strides", QualityVerdict.LOOK, "No stride was found.", "no strides")
     words = f"{walk.used} of {counted(walk.found, 'stride')} are steady and count."
     if walk.used >= MIN_STRIDES:
-        return Judgement("strides", Verdict.GOOD, words)
+        return Judgement("strides", QualityVerdict.GOOD, words)
     words += f" Figures settle with {MIN_STRIDES} (Galna et al. 2013)."
-    return Judgement("strides", Verdict.LOOK, words, "few strides")
+    return Judgement("strides", QualityVerdict.LOOK, words, "few strides")
 
 
 def _samples(walk: MeasuredWalk) -> Judgement:
@@ -110,9 +110,15 @@ def _samples(walk: MeasuredWalk) -> Judgement:
     if silences:
         missing.append(f"a foot was silent {times(silences)} while the other walked on")
     if not missing:
-        return Judgement("samples", Verdict.GOOD, "None is missing.")
-    verdict = Verdict.GOOD if worst <= GOOD_GAP_SHARE else Verdict.LOOK if worst <= MAX_GAP_SHARE else Verdict.STOP
-    verdict = Verdict.LOOK if silences and verdict is Verdict.GOOD else verdict
+        return Judgement("samples", QualityVerdict.GOOD, "None is missing.")
+    verdict = (
+        QualityVerdict.GOOD
+        if worst <= GOOD_GAP_SHARE
+        else QualityVerdict.LOOK
+        if worst <= MAX_GAP_SHARE
+        else QualityVerdict.STOP
+    )
+    verdict = QualityVerdict.LOOK if silences and verdict is QualityVerdict.GOOD else verdict
     return Judgement("samples", verdict, f"Missing: {'; '.join(missing)}.", "missing samples")
 
 
@@ -121,31 +127,33 @@ def _clocks(walk: MeasuredWalk) -> Judgement | None:
     for (_, defect), event in walk.defects.items():
         if defect is Defect.CLOCKS:
             words = " ".join(whole_sentences([f"{event.site.words}: {event.what}"]))
-            return Judgement(part, Verdict.LOOK, words, "the clocks of the feet")
+            return Judgement(part, QualityVerdict.LOOK, words, "the clocks of the feet")
     resets = sum([link.clock_resets for link in walk.observer.links.values()])  # whole numbers
     if resets:
-        return Judgement(part, Verdict.LOOK, f"A sensor's clock restarted {times(resets)}.", "restarted clocks")
+        return Judgement(part, QualityVerdict.LOOK, f"A sensor's clock restarted {times(resets)}.", "restarted clocks")
     if len(walk.observer.known_feet) < len(Foot) or not walk.found:
         return None
     if walk.clocks_compared:
-        return Judgement(part, Verdict.GOOD, "The times of both feet fit together.")
-    return Judgement(part, Verdict.LOOK, "The times of the feet could not be compared.", "the clocks of the feet")
+        return Judgement(part, QualityVerdict.GOOD, "The times of both feet fit together.")
+    return Judgement(
+        part, QualityVerdict.LOOK, "The times of the feet could not be compared.", "the clocks of the feet"
+    )
 
 
 def _plausibility(walk: MeasuredWalk) -> Judgement:
     part, found = "plausibility", [one for key, one in walk.defects.items() if key[1] is not Defect.CLOCKS]
     if not found:
-        return Judgement(part, Verdict.GOOD, "Nothing contradicts itself or physics.")
-    verdict = Verdict.STOP if any(one.spoils for one in found) else Verdict.LOOK
+        return Judgement(part, QualityVerdict.GOOD, "Nothing contradicts itself or physics.")
+    verdict = QualityVerdict.STOP if any(one.spoils for one in found) else QualityVerdict.LOOK
     words = whole_sentences([f"{one.site.words}: {one.defect.value}" for one in found])
-    concern = "data that cannot be right" if verdict is Verdict.STOP else "data that are less accurate"
+    concern = "data that cannot be right" if verdict is QualityVerdict.STOP else "data that are less accurate"
     return Judgement(part, verdict, f"{' '.join(words)} What to do is under Sensors and links.", concern)
 
 
 def _wear(walk: MeasuredWalk) -> Judgement | None:
     lines = [line for line in walk.observer.wear_problems if line in wear_lines(walk.observer)]
     return (
-        Judgement("wearing", Verdict.LOOK, " ".join(whole_sentences(lines)), "how the sensors are worn")
+        Judgement("wearing", QualityVerdict.LOOK, " ".join(whole_sentences(lines)), "how the sensors are worn")
         if lines
         else None
     )
@@ -153,5 +161,5 @@ def _wear(walk: MeasuredWalk) -> Judgement | None:
 
 def _calibration(walk: MeasuredWalk) -> Judgement:
     if walk.calibrated:
-        return Judgement("calibration", Verdict.GOOD, "One of this wearer, these shoes or sensors was used.")
-    return Judgement("calibration", Verdict.NOTE, "None was used: the sensors are taken as they are sold.")
+        return Judgement("calibration", QualityVerdict.GOOD, "One of this wearer, these shoes or sensors was used.")
+    return Judgement("calibration", QualityVerdict.NOTE, "None was used: the sensors are taken as they are sold.")
