@@ -111,14 +111,8 @@ def _samples(walk: MeasuredWalk) -> Judgement:
         missing.append(f"a foot was silent {times(silences)} while the other walked on")
     if not missing:
         return Judgement("samples", QualityVerdict.GOOD, "None is missing.")
-    verdict = (
-        QualityVerdict.GOOD
-        if worst <= GOOD_GAP_SHARE
-        else QualityVerdict.LOOK
-        if worst <= MAX_GAP_SHARE
-        else QualityVerdict.STOP
-    )
-    verdict = QualityVerdict.LOOK if silences and verdict is QualityVerdict.GOOD else verdict
+    verdict = QualityVerdict.GOOD if worst <= GOOD_GAP_SHARE and not silences else QualityVerdict.LOOK
+    verdict = QualityVerdict.STOP if worst > MAX_GAP_SHARE else verdict
     return Judgement("samples", verdict, f"Missing: {'; '.join(missing)}.", "missing samples")
 
 
@@ -135,9 +129,8 @@ def _clocks(walk: MeasuredWalk) -> Judgement | None:
         return None
     if walk.clocks_compared:
         return Judgement(part, QualityVerdict.GOOD, "The times of both feet fit together.")
-    return Judgement(
-        part, QualityVerdict.LOOK, "The times of the feet could not be compared.", "the clocks of the feet"
-    )
+    words = "The times of the feet could not be compared."
+    return Judgement(part, QualityVerdict.LOOK, words, "the clocks of the feet")
 
 
 def _plausibility(walk: MeasuredWalk) -> Judgement:
