@@ -67,7 +67,9 @@ def test_a_walk_that_was_saved_half_way_goes_on_as_if_nothing_had_happened():
 
 def test_the_tables_of_a_lab_become_strides_and_a_report(tmp_path):
     lines = run("researcher", tmp_path).splitlines()
-    left, right = (sum(line.split()[:1] == [foot] and len(line.split()) == 6 for line in lines) for foot in ("left", "right"))
+    left, right = (
+        sum(line.split()[:1] == [foot] and len(line.split()) == 6 for line in lines) for foot in ("left", "right")
+    )
     walker = Walker(Route().stand(3).walk(12, speed=1.3).turn(pi, radius=1).walk(12).stop(2))
     assert (left, right) == tuple(len(walker.truth().strides(foot)) for foot in Foot)
     assert "left foot took" in (tmp_path / "report.html").read_text()
