@@ -1,4 +1,4 @@
-"""For the developer of an app: a walk is saved in the middle, and goes on in another process as if nothing had happened.
+"""For the developer of an app: a walk is saved in the middle, and goes on as if nothing had happened.
 
     python examples/save_and_resume.py
 

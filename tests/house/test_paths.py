@@ -1,4 +1,4 @@
-"""The readers' paths (docs/app.md, researcher.md, indoor.md, device.md): each is short, and its programs and commands run."""
+"""Paths of readers (docs/app.md, researcher.md, indoor.md, device.md): each is short, its programs and commands run."""
 
 from __future__ import annotations
 

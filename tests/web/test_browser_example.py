@@ -1,4 +1,4 @@
-"""examples/browser: the page as a reader makes it, with a recording and with two sensors that are a script of the page."""
+"""examples/browser as a reader makes it, with a recording, and with two sensors that are a script of the page."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ import pytest
 from browsers import Browser, window
 from here import EXAMPLES, ROOT
 from recordings import recorded
-from web_pages import PATIENCE
 from walks import insoles
+from web_pages import PATIENCE
 
 from solepath.show.web.pyodide import VERSION, BuildError, package_files
 from solepath.show.web.serve import serving
