@@ -7,12 +7,12 @@ You see the strides of both feet as a table, their means, and FOLDER/report.html
 what one foot does from lying flat on the floor to lying flat again. Needs `pip install '.[frames,arrays]'`.
 """
 
+import subprocess
 import sys
 from math import degrees, radians
 from pathlib import Path
 
 from solepath import Foot, Session, StrideTaken, to_frame
-from solepath.cli.main import main
 from solepath.recording import RecordingError, TableMapping, read_samples
 
 # t, acc and gyro are solepath's names; on the right are those of the files, in the order x, y, z; "-" turns an axis
@@ -49,5 +49,5 @@ session = Session()
 strides = to_frame(session.feed(samples) + session.finish(), StrideTaken)
 print(strides[["foot", "number", "t_start", "t_end", "length", "degraded"]].to_string(index=False))
 print(strides.groupby("foot").length.agg(["count", "mean", "std"]).round(3))
-report = ["--columns", COLUMNS, "--units", UNITS, "--report", str(folder / "report.html")]
-sys.exit(main(["track", *map(str, files), *report, "--out", str(folder)]))
+report = ["--columns", COLUMNS, "--units", UNITS, "--report", folder / "report.html"]
+subprocess.run([sys.executable, "-m", "solepath", "track", *files, *report, "--out", folder], check=True)

@@ -24,7 +24,7 @@ def run(name: str, *arguments: object) -> str:
     return done.stdout
 
 
-def test_every_example_is_run_by_a_test_is_short_and_says_what_is_seen():
+def test_every_example_is_run_by_a_test_and_is_short():
     others = ("fleet/test_spark_job.py", "life/test_edge_box.py", "house/test_toga_app.py")
     here = "".join(path.read_text() for path in (Path(__file__), *map(TESTS.joinpath, others)))
     for path in EXAMPLES.rglob("*.py"):
@@ -36,7 +36,7 @@ def test_every_example_is_run_by_a_test_is_short_and_says_what_is_seen():
         assert first.startswith("For ") and f"{path.name}" in docstring, "for whom it is, what is seen, how it is run"
 
 
-def test_the_loop_says_where_the_wearer_of_an_emulated_walk_stands():
+def test_the_loop_ends_where_an_emulated_route_ends():
     lines = run("own_loop").splitlines()
     assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff"} <= {line.split()[3] for line in lines if " known " in line}
     (end,) = [line.split() for line in lines if line.startswith("The route ends")]

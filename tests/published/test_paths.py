@@ -50,7 +50,7 @@ def typed(page: str, start: str) -> None:
 
 
 @pytest.mark.parametrize("page", PATHS)
-def test_a_path_is_short_and_says_at_once_for_whom_it_is(page: str) -> None:
+def test_a_path_is_short_and_names_its_readers_at_once(page: str) -> None:
     lines = PAGES[page].splitlines()
     assert len(lines) <= 120 and lines[2].startswith("For ")
     assert re.search(r"A (stride|heel-strike|\*\*stride\*\*).{1,60}is|goes from", PAGES[page]), "terms are explained"
@@ -58,10 +58,10 @@ def test_a_path_is_short_and_says_at_once_for_whom_it_is(page: str) -> None:
 
 def test_an_app_counts_saves_and_goes_on(here: Path) -> None:
     typed("docs/app.md", "demo")
-    (loop, asked, channels, live, _), names = played("docs/app.md")
+    (loop, answers, channels, live, _), names = played("docs/app.md")
     assert "the left foot touches the floor" in loop and "the right foot has gone" in loop
     assert names["strides"] == loop.count("has gone") > 20
-    assert "m ahead" in asked and "steps a minute" in asked
+    assert "m ahead" in answers and "steps a minute" in answers
     assert "insole/frame notify" in channels and "insole/control" in channels and "then write: (Write(" in channels
     assert "'event': 'PacketRejected'" in live
     assert names["session"].position == names["session"].restore(names["saved"]["session"]).position
