@@ -5,10 +5,13 @@ The times below were chosen by hand and not swept."""
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ...types import Site
+from ..common.closest import unknown
 from ..common.failure import Failure, has_terminal, note, parse_positive, require
+from ..completion import complete_with
 
 if TYPE_CHECKING:
     from ...ble import Advertisement, DeviceConfig
@@ -36,10 +39,17 @@ def add_feet(command: argparse.ArgumentParser) -> None:
     command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
     command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
     command.set_defaults(at=[])
-    command.add_argument(
+    kind = command.add_argument(
         "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
     )
+    complete_with(kind, _profile_names)
     command.add_argument("--pair", action="store_true", help="pair with the devices")
+
+
+def _profile_names() -> Iterable[str]:
+    from ...link.catalogue import BY_NAME
+
+    return BY_NAME
 
 
 def add_devices(command: argparse.ArgumentParser) -> None:
@@ -57,7 +67,7 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
         "--duration",
         metavar="S",
         type=parse_positive,
-        help=f"end by itself after so long (default: at Ctrl-C; {unattended:g} s without a terminal)",
+        help=f"end by itself after so many seconds (default: at Ctrl-C; {unattended:g} s without a terminal)",
     )
 
 
@@ -72,10 +82,11 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
     for text in options.at:
         site, _, device = text.partition("=")
         if site not in sites or not device:
-            raise Failure(f"--at {text}: that is not SITE=DEVICE, SITE one of {', '.join(sites)}")
+            meant = f"SITE one of {', '.join(sites)}" if not device else unknown("site", site, sites)
+            raise Failure(f"--at {text}: that is not SITE=DEVICE, {meant}")
         named.append((sites[site], device))
     if options.profile is not None and options.profile not in BY_NAME:
-        raise Failure(f"there is no profile {options.profile!r}; there are: {', '.join(BY_NAME)}")
+        raise Failure(unknown("profile", options.profile, BY_NAME))
     profile = BY_NAME.get(options.profile)
     devices = [DeviceConfig(site, device, profile) for site, device in named if device]
     try:
