@@ -211,7 +211,7 @@ async def test_the_mark_goes_from_place_to_place(chromium: Browser) -> None:
         assert await view.tab.evaluate(glide) == [0, 0.5, 1, 1, 9]
 
 
-async def test_each_foot_has_its_path_only_when_it_is_asked_for(chromium: Browser) -> None:
+async def test_each_foot_has_its_path_only_on_request(chromium: Browser) -> None:
     blue = """() => {
         const { width, height } = solepath.track.canvas;
         const copy = Object.assign(document.createElement('canvas'), { width, height }).getContext('2d');
