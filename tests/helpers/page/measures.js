@@ -17,7 +17,21 @@ globalThis.measured = (() => {
   };
   const box = (left, top, right, bottom) => ({ left, top, right, bottom });
 
-  const write = (context, text, x, y) => {
+  let reads = false; // whether the ground of texts is read when they are drawn, which is slow
+  const groundOf = (context, { left, top, right, bottom }) => {
+    const [width, height] = [Math.max(1, Math.ceil(right - left)), Math.max(1, Math.ceil(bottom - top))];
+    const { data } = context.getImageData(Math.floor(left), Math.floor(top), width, height);
+    const counts = new Map();
+    for (let i = 0; i < data.length; i += 4) {
+      const key = data.slice(i, i + 4).join();
+      counts.set(key, (counts.get(key) ?? 0) + 1);
+    }
+    const [r, g, b, a] = [...counts].sort((one, other) => other[1] - one[1])[0][0].split(",").map(Number);
+    return over({ rgb: [r, g, b], opacity: a / 255 }, context.canvas.isConnected ? ground(context.canvas) : [255, 255, 255]);
+  };
+  const over = ({ rgb, opacity }, below) => rgb.map((value, i) => opacity * value + (1 - opacity) * below[i]);
+
+  const write = (filled) => (context, text, x, y) => {
     if (String(text).trim() === "" || context.globalAlpha < 0.02) return;
     const m = context.getTransform();
     const at = context.measureText(text);
@@ -28,8 +42,14 @@ globalThis.measured = (() => {
     const where = corners(m, x - at.actualBoundingBoxLeft, y - at.actualBoundingBoxAscent, width, height);
     const size = parseFloat(/([\d.]+)px/.exec(context.font)[1]) * Math.hypot(m.a, m.b);
     const texts = written.get(context.canvas) ?? [];
+    let contrasts = null;
+    if (reads && filled) {
+      const below = groundOf(context, where);
+      const { rgb, opacity } = channels(context.fillStyle);
+      contrasts = contrast(over({ rgb, opacity: opacity * context.globalAlpha }, below), below);
+    }
     const same = (one) => one.text === String(text) && Math.hypot(one.left - where.left, one.top - where.top) < 4;
-    written.set(context.canvas, [...texts.filter((one) => !same(one)), { text: String(text), size, ...where }]);
+    written.set(context.canvas, [...texts.filter((one) => !same(one)), { text: String(text), size, contrasts, ...where }]);
   };
   const erase = (canvas, area) => {
     const texts = written.get(canvas) ?? [];
@@ -43,8 +63,8 @@ globalThis.measured = (() => {
     };
   };
   for (const kind of [CanvasRenderingContext2D, OffscreenCanvasRenderingContext2D]) {
-    before(kind.prototype, "fillText", write);
-    before(kind.prototype, "strokeText", write);
+    before(kind.prototype, "fillText", write(true));
+    before(kind.prototype, "strokeText", write(false));
     before(kind.prototype, "clearRect", (context, ...area) =>
       erase(context.canvas, corners(context.getTransform(), ...area)),
     );
@@ -53,8 +73,9 @@ globalThis.measured = (() => {
       const m = context.getTransform();
       const [across, down] = [(width ?? image.width) / image.width, (height ?? image.height) / image.height];
       const texts = written.get(context.canvas) ?? [];
-      const copies = (written.get(image) ?? []).map(({ text, size, left, top, right, bottom }) => ({
+      const copies = (written.get(image) ?? []).map(({ text, size, contrasts, left, top, right, bottom }) => ({
         text,
+        contrasts,
         size: size * down * Math.hypot(m.a, m.b),
         ...corners(m, x + left * across, y + top * down, (right - left) * across, (bottom - top) * down),
       }));
@@ -79,6 +100,7 @@ globalThis.measured = (() => {
       return (written.get(canvas) ?? []).map((one) => ({
         text: one.text,
         size: one.size * scale,
+        contrasts: one.contrasts,
         of: canvas,
         layer: layer(canvas),
         cut: one.left < -1 || one.top < -1 || one.right > canvas.width + 1 || one.bottom > canvas.height + 1,
@@ -190,6 +212,12 @@ globalThis.measured = (() => {
     return found;
   };
 
+  // Texts of canvases whose contrast was read and is too small; those of the document are axe's.
+  const pale = (least) =>
+    canvasTexts()
+      .filter(({ contrasts }) => contrasts !== null && contrasts < least)
+      .map((one) => `contrast ${one.contrasts.toFixed(1)}: ${place(one)}`);
+
   const cut = () => texts().filter(({ cut }) => cut).map(place);
 
   const wide = () => {
@@ -256,5 +284,8 @@ globalThis.measured = (() => {
     };
   };
 
-  return { texts, small, overlapping, cut, wide, shifts, controls, name, focus };
+  const read = () => {
+    reads = true;
+  };
+  return { texts, small, overlapping, pale, cut, wide, shifts, controls, name, focus, read };
 })();

@@ -79,6 +79,20 @@ async def test_a_fault_of_a_text_is_found(chromium: Browser, name: str) -> None:
         assert any(one.startswith(fault) for one in found), found
 
 
+async def test_a_pale_label_is_found_by_its_ground(chromium: Browser) -> None:
+    """Dark text is clear on the page and pale on a dark patch."""
+    script = """measured.read();
+        const context = document.querySelector("canvas").getContext("2d");
+        context.clearRect(0, 0, 200, 80);
+        write("five metres", 10, 20);
+        context.fillStyle = "#333";
+        context.fillRect(0, 40, 200, 40);
+        context.fillStyle = "#000";
+        write("start", 10, 60);"""
+    async with small_page(chromium, with_script(script)) as view:
+        assert await text_faults(view) == ['pale: contrast 1.7: "start" in canvas ""']
+
+
 async def test_an_erased_label_does_not_count(chromium: Browser) -> None:
     erased = "write('six metres', 30, 22); document.querySelector('canvas').getContext('2d').clearRect(0, 0, 200, 80);"
     async with small_page(chromium, with_script(f"{erased} write('four metres', 30, 22)")) as view:
