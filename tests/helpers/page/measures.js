@@ -18,16 +18,29 @@ globalThis.measured = (() => {
   const box = (left, top, right, bottom) => ({ left, top, right, bottom });
 
   let reads = false; // whether the ground of texts is read when they are drawn, which is slow
-  const groundOf = (context, { left, top, right, bottom }) => {
-    const [width, height] = [Math.max(1, Math.ceil(right - left)), Math.max(1, Math.ceil(bottom - top))];
-    const { data } = context.getImageData(Math.floor(left), Math.floor(top), width, height);
+  const copy = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+  // The most frequent colour around a text, without its own.
+  const groundOf = (canvas, { left, top, right, bottom }, own) => {
+    const [x, y] = [Math.floor(left) - 2, Math.floor(top) - 2];
+    const [width, height] = [Math.ceil(right) + 2 - x, Math.ceil(bottom) + 2 - y];
+    Object.assign(copy.canvas, { width, height });
+    copy.drawImage(canvas, x, y, width, height, 0, 0, width, height);
+    const { data } = copy.getImageData(0, 0, width, height);
     const counts = new Map();
     for (let i = 0; i < data.length; i += 4) {
+      if ([0, 1, 2].every((k) => Math.abs(data[i + k] - own[k]) < 8)) continue;
       const key = data.slice(i, i + 4).join();
       counts.set(key, (counts.get(key) ?? 0) + 1);
     }
-    const [r, g, b, a] = [...counts].sort((one, other) => other[1] - one[1])[0][0].split(",").map(Number);
-    return over({ rgb: [r, g, b], opacity: a / 255 }, context.canvas.isConnected ? ground(context.canvas) : [255, 255, 255]);
+    const [found] = [...counts].sort((one, other) => other[1] - one[1]);
+    if (found === undefined) return own; // all is as the text
+    const [r, g, b, a] = found[0].split(",").map(Number);
+    return over({ rgb: [r, g, b], opacity: a / 255 }, ground(canvas));
+  };
+  const contrastOn = ({ canvas }, where, colour) => {
+    if (!reads || !canvas.isConnected) return null;
+    const below = groundOf(canvas, where, colour.rgb);
+    return contrast(over(colour, below), below);
   };
   const over = ({ rgb, opacity }, below) => rgb.map((value, i) => opacity * value + (1 - opacity) * below[i]);
 
@@ -42,14 +55,11 @@ globalThis.measured = (() => {
     const where = corners(m, x - at.actualBoundingBoxLeft, y - at.actualBoundingBoxAscent, width, height);
     const size = parseFloat(/([\d.]+)px/.exec(context.font)[1]) * Math.hypot(m.a, m.b);
     const texts = written.get(context.canvas) ?? [];
-    let contrasts = null;
-    if (reads && filled) {
-      const below = groundOf(context, where);
-      const { rgb, opacity } = channels(context.fillStyle);
-      contrasts = contrast(over({ rgb, opacity: opacity * context.globalAlpha }, below), below);
-    }
+    const { rgb, opacity } = channels(context.fillStyle);
+    const colour = { rgb, opacity: opacity * context.globalAlpha };
+    const contrasts = filled ? contrastOn(context, where, colour) : null;
     const same = (one) => one.text === String(text) && Math.hypot(one.left - where.left, one.top - where.top) < 4;
-    written.set(context.canvas, [...texts.filter((one) => !same(one)), { text: String(text), size, contrasts, ...where }]);
+    written.set(context.canvas, [...texts.filter((one) => !same(one)), { text: String(text), size, colour, contrasts, ...where }]);
   };
   const erase = (canvas, area) => {
     const texts = written.get(canvas) ?? [];
@@ -62,24 +72,29 @@ globalThis.measured = (() => {
       return own.apply(this, given);
     };
   };
+  const after = (prototype, name, action) => {
+    const own = prototype[name];
+    prototype[name] = function (...given) {
+      own.apply(this, given);
+      action(this, ...given);
+    };
+  };
   for (const kind of [CanvasRenderingContext2D, OffscreenCanvasRenderingContext2D]) {
     before(kind.prototype, "fillText", write(true));
     before(kind.prototype, "strokeText", write(false));
     before(kind.prototype, "clearRect", (context, ...area) =>
       erase(context.canvas, corners(context.getTransform(), ...area)),
     );
-    before(kind.prototype, "drawImage", (context, image, x, y, width, height, ...more) => {
+    after(kind.prototype, "drawImage", (context, image, x, y, width, height, ...more) => {
       if (more.length > 0) return; // a part of an image
       const m = context.getTransform();
       const [across, down] = [(width ?? image.width) / image.width, (height ?? image.height) / image.height];
-      const texts = written.get(context.canvas) ?? [];
-      const copies = (written.get(image) ?? []).map(({ text, size, contrasts, left, top, right, bottom }) => ({
-        text,
-        contrasts,
-        size: size * down * Math.hypot(m.a, m.b),
-        ...corners(m, x + left * across, y + top * down, (right - left) * across, (bottom - top) * down),
-      }));
-      written.set(context.canvas, [...texts, ...copies]);
+      const copies = (written.get(image) ?? []).map(({ text, size, colour, left, top, right, bottom }) => {
+        const where = corners(m, x + left * across, y + top * down, (right - left) * across, (bottom - top) * down);
+        const scale = down * Math.hypot(m.a, m.b);
+        return { text, size: size * scale, colour, contrasts: contrastOn(context, where, colour), ...where };
+      });
+      written.set(context.canvas, [...(written.get(context.canvas) ?? []), ...copies]);
     });
   }
   for (const name of ["width", "height"]) {
