@@ -77,7 +77,7 @@ def fault_words(event: CellsFailed) -> str:
 
 @define
 class SceneFindings:
-    """What the checks found and still holds, at most one finding of each kind for each sensor."""
+    """Findings of the checks that still hold, at most one of each kind for each sensor."""
 
     found: dict[str, tuple[float, str, str, bool]] = field(factory=dict)
     """(t, site in words or "" for both feet, sentences, whether results are wrong until somebody acts), by site and
@@ -89,7 +89,7 @@ class SceneFindings:
             case DefectFound(site=site, defect=defect, what=what):
                 self._add(event, site, defect.value, what, event.needs_action)
             case CellsFailed(site=site, fault=fault):
-                words = f"{fault_words(event)}; left out from now on. Have the insole seen to: others carry on alone."
+                words = f"{fault_words(event)}; left out from now on. The other cells are used; have the insole repaired."
                 self._add(event, site, fault.value, words, False)
             case InsoleNeverUnloads(site=site):
                 self._add(event, site, "load", UNLOADS_NEVER, False)

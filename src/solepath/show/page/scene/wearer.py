@@ -15,7 +15,7 @@ from .lists import ThinnedTrack, WalkedTrack
 
 MAX_CANDIDATES = 40
 DECIDED_WEIGHT = 0.995
-"""Share from which on the likeliest candidate is where the wearer is; less likely ones would only make the mark flicker."""
+"""Share from which on the likeliest candidate is where the wearer is: unlikely ones would make the mark flicker."""
 
 PlacePoint = tuple[float | None, str, float | None, float | None, float | None]
 """(t, level, x, y, z) in s and m."""

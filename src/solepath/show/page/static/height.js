@@ -40,7 +40,7 @@ export class Height {
     for (const { z } of lines) if (z > low - NEAR && z < high + NEAR) [low, high] = [Math.min(low, z), Math.max(high, z)];
     const lacks = Math.max(0, MIN_RANGE - (high - low)) / 2;
     [low, high] = [low - lacks, high + lacks];
-    const [top, bottom] = [lines.length > 0 ? 20 : 10, height - TIME_SPACE - 6];
+    const [top, bottom] = [lines.length > 0 ? 22 : 10, height - TIME_SPACE - 6];
     const y = (z) => bottom - ((z - low) / (high - low)) * (bottom - top);
     const [from, to] = last ? [points[0][0], Math.max(last[0], points[0][0] + 10)] : [0, 10];
     const side = lines.length > 0 ? 0 : LABEL_WIDTH;
@@ -103,10 +103,10 @@ export class Height {
 
 // Above the line of a level, at that end at which the track does not run there, or else below it.
 function levelSpots(points, x, y, z, width) {
-  const near = (from, to) => points.some(([t, at]) => x(t) >= from && x(t) <= to && Math.abs(y(at) + 9 - y(z)) < 8);
+  const near = (from, to) => points.some(([t, at]) => x(t) >= from && x(t) <= to && Math.abs(y(at) + 11 - y(z)) < 8);
   const ends = [[2, "left", 0, 110], [width - 12, "right", width - 110, width]];
   const free = ends.filter(([, , from, to]) => !near(from, to));
-  return [...free, ...ends].map(([at, align]) => [at, y(z) - 9, align]);
+  return [...free, ...ends].map(([at, align]) => [at, y(z) - 11, align]);
 }
 
 // [t, z] of the known points, and the elevations of the levels if the points are in the plan frame.

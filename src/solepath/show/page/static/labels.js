@@ -49,13 +49,13 @@ export class Labels {
     this.taken.push([x, y, width, height]);
   }
 
-  // A label lies over this rectangle, px, only if it has no other spot.
+  // A label lies over this rectangle, px, only if it has no other spot and is not strict.
   avoid(x, y, width, height) {
     this.avoided.push([x, y, width, height]);
   }
 
   // spots: [x, y, align] each, best first, px: y is the middle of the words, x their left, middle or right ("left",
-  // "center", "right"). style: weight, colour (by name), size (px), bold, upright (read from below), ground.
+  // "center", "right"). style: weight, colour (by name), size (px), bold, upright (read from below), strict, ground.
   add(words, spots, style = {}) {
     this.wanted.push({ words, spots, style });
   }
@@ -69,7 +69,8 @@ export class Labels {
       const [width, height] = style.upright ? [across, along] : [along, across];
       const boxes = spots.map((spot) => this.#box(spot, width, height)).filter((one) => this.#free(one));
       if (boxes.length === 0) continue;
-      const box = boxes.find((one) => !this.avoided.some((other) => overlap(one, other, 0))) ?? boxes[0];
+      const box = boxes.find((one) => !this.avoided.some((other) => overlap(one, other, 0))) ?? (style.strict ? null : boxes[0]);
+      if (box === null) continue;
       this.taken.push(box);
       this.#placed.push([words, ...box]);
       const picture = sprite(words, style, style.ground ?? this.ground, this.ratio);

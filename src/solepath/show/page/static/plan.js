@@ -81,14 +81,18 @@ export function nameLevel(labels, plan, level, px, scale, here) {
     const spots = w > h ? [[x + badge / 2 + 5, y, "left"]] : [[x, y + badge / 2 + 9]];
     labels.add(words, spots, { size: NAME_SIZE, weight: 4, ground: "room" });
   }
-  const kind = usualKind(level.names);
+  const kind = usualKind(level);
   level.rooms.forEach((room, i) => {
     const name = level.names[i];
     if (!name || !seesRing(room, px, labels)) return;
     const style = { size: NAME_SIZE, ground: "room", weight: 5, ...(i === here ? HERE : {}) };
     const found = nameIn(room, name, scale, style, kind);
     if (!found) return;
-    labels.add(found.words, spotsOf(found, px(found.at), style).filter(onScreen), { ...style, upright: found.upright });
+    labels.add(found.words, spotsOf(found, px(found.at), style).filter(onScreen), {
+      ...style,
+      upright: found.upright,
+      strict: found.upright || i === here, // in a corridor there is no place beside the track, and a note names the room
+    });
   });
 }
 
@@ -100,7 +104,8 @@ function spotsOf({ words, upright, slack }, [x, y], style) {
   const way = Math.max(LEAST_WAY, (lying === upright ? high : wide) + 20);
   const [along, across] = lying ? slack : [slack[1], slack[0]];
   const count = Math.min(MAX_PLACES, Math.floor(along / way));
-  const ways = Array.from({ length: 2 * count + 1 }, (_, i) => (i % 2 ? 1 : -1) * Math.ceil(i / 2) * way);
+  const step = count > 0 ? way : along;
+  const ways = Array.from({ length: 2 * Math.max(1, count) + 1 }, (_, i) => (i % 2 ? 1 : -1) * Math.ceil(i / 2) * step);
   return ways.flatMap((a) => ASIDE.map((share) => (lying ? [x + a, y + share * across] : [x + share * across, y + a])));
 }
 

@@ -156,8 +156,8 @@ function playback(value) {
 // Outlines of rooms, and their names in the same order.
 function rooms(level, ring) {
   const named = list(level?.rooms).map((room, i) => [ring(room), text(list(level.room_names)[i])]);
-  const sound = named.filter(([room]) => room.length > 2);
-  return { rooms: sound.map(([room]) => room), names: sound.map(([, name]) => name) };
+  const known = named.filter(([room]) => room.length > 2);
+  return { rooms: known.map(([room]) => room), names: known.map(([, name]) => name) };
 }
 
 export function plan(value) {

@@ -98,6 +98,10 @@ export class Ribbon {
     for (const [shade, path] of Object.entries(paths)) {
       context.fillStyle = theme.colours[foot + shade];
       context.fill(path);
+      if (shade === "") continue;
+      context.lineWidth = 1; // the pale shapes by themselves are hard to see
+      context.strokeStyle = theme.colours[foot];
+      context.stroke(path);
     }
     return ground;
   }

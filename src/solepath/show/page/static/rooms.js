@@ -10,6 +10,7 @@ const TALL = 2; // height by width from which on a name is rather read from belo
 const PADDING = [4, 1.5]; // px between the ends of a name and the walls, and above and below it
 
 const known = new WeakMap(); // what was computed of a room, by its outline
+const kinds = new WeakMap(); // what most rooms are called, by level
 
 function facts(ring) {
   if (!known.has(ring)) {
@@ -48,6 +49,12 @@ function within(ring, x, y) {
 // moved to either side, and up or down} or null. scale: px per m; kind: what most rooms are called, as in "room 12".
 export function nameIn(ring, name, scale, style, kind = null) {
   const one = facts(ring);
+  const key = `${name} ${scale} ${style.bold}`;
+  if (one.named?.key !== key) one.named = { key, found: fitted(one, ring, name, scale, style, kind) };
+  return one.named.found;
+}
+
+function fitted(one, ring, name, scale, style, kind) {
   const [x0, x1, y0, y1] = one.ends;
   if (Math.max(x1 - x0, y1 - y0) * scale < 20) return null; // no text is that small
   one.boxes ??= ASPECTS.map((aspect) => largestBox(ring, one.ends, aspect));
@@ -65,15 +72,13 @@ export function nameIn(ring, name, scale, style, kind = null) {
   return null;
 }
 
-// The name on one line, on two and on three, as the number at its end alone, and read from below; with upright lines
-// early in a tall room.
+// The name on one line, in a tall room read from below, on two lines and on three, and the number at its end alone.
 function* forms(name, tall, kind) {
   yield [name, false];
   if (tall) yield [name, true];
   const words = name.split(" ");
   for (const count of [2, 3]) if (words.length >= count && name.length > 9) yield [wrapped(words, count), false];
   if (words.length > 1 && kindOf(name) === kind) yield [words.at(-1), false];
-  if (!tall) yield [name, true];
 }
 
 // The words on so many lines, so that the longest line is short.
@@ -88,7 +93,12 @@ function wrapped(words, count) {
 const kindOf = (name) => /^(.+) \S{0,3}\d\S{0,3}$/.exec(name)?.[1] ?? "";
 
 // What most of the numbered rooms of a level are called: their numbers alone say enough. null if none is numbered.
-export function usualKind(names) {
+export function usualKind(level) {
+  if (!kinds.has(level)) kinds.set(level, mostUsual(level.names));
+  return kinds.get(level);
+}
+
+function mostUsual(names) {
   const counts = new Map();
   for (const kind of names.map(kindOf).filter(Boolean)) counts.set(kind, (counts.get(kind) ?? 0) + 1);
   return [...counts].sort((a, b) => b[1] - a[1])[0]?.[0] ?? null;

@@ -33,6 +33,7 @@ import { show, setData, write } from "./words.js";
 
 const [EDGE_MARGIN, BUTTON_MARGIN] = [20, 56]; // px around the fitted part, and at the buttons
 const SLOW_INTERVAL = 200; // ms between pictures with reduced motion
+const CALM_INTERVAL = 25; // ms between pictures while the wearer's mark moves, and the view with it
 const LINE_WIDTHS = { left: 1.5, right: 1.5, wearer: 4 };
 
 export class Track {
@@ -103,6 +104,8 @@ export class Track {
 
   draw(state, now, changed) {
     if (reducedMotion.matches && now - this.drawnAt < SLOW_INTERVAL && !changed.has("theme")) return "later";
+    const calm = this.view.scaled && (this.following || this.view.settled); // no person moves the view
+    if (calm && now - this.drawnAt < CALM_INTERVAL && !changed.has("theme") && !changed.has("scene")) return "later";
     this.drawnAt = now;
     if (changed.has("scene") && state.generation !== this.generation) this.#scene(state);
     const onPlan = this.onPlan(state);
@@ -179,16 +182,15 @@ export class Track {
     return this.glide.at(now);
   }
 
-  // Moves the view, unless a person points at a place in it. Returns its middle, px.
+  // Moves the view; it does not follow while a person points at a place. Returns its middle, px.
   #look(state, level, wearer, now) {
     const { width, height } = this.surface;
-    if (this.pointing && this.shownPart) return this.shownPart.middle;
     const target = level && this.#follower.target(state.place, level, wearer, now);
     this.following = Boolean(target && this.extent) && !this.whole && this.level === null && this.view.follows;
     if (!this.following) {
       const box = level && this.extent ? this.extent : boxOf(state, this.feetShown);
       this.view.fit(box, width - this.margins[0], height - this.margins[1], level ? 0 : 0.14);
-    } else if (width > 0 && height > 0) {
+    } else if (width > 0 && height > 0 && !(this.pointing && this.shownPart)) {
       this.view.follow(this.#follower.part(target, this.extent, this.surface));
     }
     return [width / 2 - this.view.aside, height / 2 - this.view.above];

@@ -70,8 +70,8 @@ export function avoidPlaces(labels, places, level, px) {
   }
 }
 
-// Places [t, level, x, y, ...] from the index `from` on. Only a line between two places on this level is solid. Before the
-// index `since` the track of a rejected candidate is dashed.
+// Places [t, level, x, y, ...] from the index `from` on. Only a line between two places on this level is solid; on others it
+// is dotted. Before the index `since` the track of a rejected candidate is dashed.
 export function drawPlaces(context, places, from, since, level, px, width) {
   const paths = { here: new Path2D(), elsewhere: new Path2D(), before: new Path2D() };
   for (let i = Math.max(1, from); i < places.length; i++) {
@@ -82,9 +82,10 @@ export function drawPlaces(context, places, from, since, level, px, width) {
     path.moveTo(...px([x1, y1]));
     path.lineTo(...px([x2, y2]));
   }
-  context.setLineDash([3, 5]);
-  stroke(context, paths.before, FAINT_WIDTH, theme.colours["strong-line"]);
+  context.setLineDash([4, 6]);
+  stroke(context, paths.before, FAINT_WIDTH, theme.colours.muted);
+  context.setLineDash([0.1, 5]);
+  stroke(context, paths.elsewhere, 1.5 * FAINT_WIDTH, theme.colours.wearer);
   context.setLineDash([]);
-  stroke(context, paths.elsewhere, FAINT_WIDTH, theme.colours["strong-line"]);
   stroke(context, paths.here, width, theme.colours.wearer);
 }

@@ -28,7 +28,7 @@ async def visible(view: Window, name: str) -> bool:
     return found
 
 
-async def test_the_first_seconds_say_what_is_missing_and_show_no_dashes(chromium: Browser) -> None:
+async def test_the_first_seconds_have_words_on_what_is_missing_and_no_dashes(chromium: Browser) -> None:
     scene = empty_scene()
     async with open_page(chromium, scene) as (view, _):
         await view.until(f"{text_is('activity', 'Waiting')} && {text_is('where', 'for the sensors')}")
@@ -47,7 +47,7 @@ async def test_the_first_seconds_say_what_is_missing_and_show_no_dashes(chromium
         assert all([await visible(view, name) for name in FIGURES])
 
 
-async def test_the_figures_are_large_and_say_left_and_right_in_words(chromium: Browser) -> None:
+async def test_the_figures_are_large_and_compare_left_and_right_in_words(chromium: Browser) -> None:
     for width, least in ((1280, 32.0), (360, 24.0)):
         async with open_page(chromium, scene_after(40.0), width=width, height=740) as (view, _):
             await view.until("document.getElementById('where').textContent.endsWith(' m from the start')")
@@ -67,7 +67,7 @@ async def test_on_a_plan_the_place_is_in_words(chromium: Browser) -> None:
         await view.until("document.getElementById('where').textContent.startsWith('Ground floor, ')")
 
 
-async def test_a_recording_at_its_end_says_so_with_the_means_of_the_whole_walk(chromium: Browser) -> None:
+async def test_a_recording_at_its_end_is_shown_as_finished_with_the_means_of_the_whole_walk(chromium: Browser) -> None:
     scene = scene_after(1e9)
     end = square_walk()[-1][0].t
     scene.playback = Playback(0.0, end, end, "ended")
@@ -86,7 +86,7 @@ async def test_a_recording_at_its_end_says_so_with_the_means_of_the_whole_walk(c
         await view.until(f"{text_is('speed-label', 'speed')} && !({text_is('activity', 'Finished')})")
 
 
-async def test_a_live_session_that_has_ended_says_so(chromium: Browser) -> None:
+async def test_a_live_session_that_has_ended_is_shown_as_finished(chromium: Browser) -> None:
     async with open_page(chromium, scene_after(20.0)) as (view, page):
         await view.until(text_is("activity", "Walking"))
         await page.__aexit__(None, None, None)
