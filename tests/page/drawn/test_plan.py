@@ -7,6 +7,7 @@ import json
 from typing import Any
 
 import pytest
+from attrs import evolve
 from browsers import Browser, Window
 from shown import frame, open_page, scene_after, shown
 
@@ -58,13 +59,15 @@ NAME = """([ring, name, scale, kind]) => import('./rooms.js').then(({ nameIn }) 
 })"""
 
 
-def placed(t: float, x: float, y: float, *others: tuple[float, float, float], level: str = "0") -> list[Any]:
+def placed(
+    t: float, x: float, y: float, *others: tuple[float, float, float], level: str = "0", z: float = 0.0
+) -> list[Any]:
     """Return the events of a wearer at (x, y), m, with other candidates (x, y, weight)."""
     weights = 1.0 - sum(weight for *_, weight in others)
     candidates = [Candidate(level, (a, b, 0.0), 0.0, weight, "stairs") for a, b, weight in ((x, y, weights), *others)]
     return [
-        WearerMoved(t=t, known_at=t, position=(x, y, 0.0), covariance=(0.01,) * 6),
-        Placed(t=t, known_at=t, level=level, position=(x, y, 0.0), spread=0.5, candidates=tuple(candidates)),
+        WearerMoved(t=t, known_at=t, position=(x, y, z), covariance=(0.01,) * 6),
+        Placed(t=t, known_at=t, level=level, position=(x, y, z), spread=0.5, candidates=tuple(candidates)),
     ]
 
 
@@ -211,7 +214,7 @@ async def test_the_mark_goes_from_place_to_place(chromium: Browser) -> None:
         assert await view.tab.evaluate(glide) == [0, 0.5, 1, 1, 9]
 
 
-async def test_each_foot_has_its_path_only_when_it_is_asked_for(chromium: Browser) -> None:
+async def test_each_foot_has_its_path_only_on_request(chromium: Browser) -> None:
     blue = """() => {
         const { width, height } = solepath.track.canvas;
         const copy = Object.assign(document.createElement('canvas'), { width, height }).getContext('2d');
@@ -228,3 +231,20 @@ async def test_each_foot_has_its_path_only_when_it_is_asked_for(chromium: Browse
         await view.tab.evaluate("solepath.track.feetShown = true; document.getElementById('zoom-fit').click()")
         await view.until("document.getElementById('track-note').innerText.startsWith('Each foot’s own path')")
         assert await view.tab.evaluate(blue) > 50
+
+
+@pytest.mark.parametrize("width", [1280, 360])
+async def test_no_label_of_the_other_drawings_lies_over_another(chromium: Browser, width: int) -> None:
+    storeys = tuple(evolve(BUILDING.levels[0], id=f"{k}", name=f"storey {k}", elevation=1.2 * k) for k in range(4))
+    plan = evolve(BUILDING, levels=storeys, connectors=())
+    climb = [
+        event for k in range(60) for event in placed(1.0 + k, 20.0 + 0.1 * k, 20.0, level=f"{k // 15}", z=0.08 * k)
+    ]
+    scene = shown(climb, Scene("upstairs", "default", "live", plan=plan))
+    async with open_page(chromium, scene, width=width, height=800) as (view, _):
+        for name, least in (("height", 5), ("space", 4), ("ribbon", 2)):
+            found = f"JSON.parse(document.getElementById('{name}').dataset.labels ?? '[]')"
+            await view.until(f"{found}.length >= {least}")
+            labels = await view.tab.evaluate(found)
+            assert not overlapping(labels), name
+        assert {"start", "now"} <= {words for words, *_ in await view.tab.evaluate(found.replace("ribbon", "space"))}

@@ -8,7 +8,7 @@ const CONFIDENCE_FACTOR = Math.sqrt(5.991); // 95 % quantile of chi squared with
 const MAX_RADIUS = 4000; // px; a larger circle goes beyond every screen
 const MIN_SHOWN_WEIGHT = 0.05; // share from which a candidate has its weight beside it
 
-const LEAST_RULER = 40; // px; the ruler is up to 2.5 times as long
+const LEAST_RULER = [56, 0.13]; // px, and share of the canvas: the lesser; the ruler is up to 2.5 times as long
 
 // Half axis of the 95 % ellipse for a variance, m.
 export const sure = (variance) => CONFIDENCE_FACTOR * Math.sqrt(Math.max(0, variance));
@@ -53,8 +53,8 @@ export function nameStart(labels, [x, y]) {
   labels.add("start", [[x, y + 18], [x, y - 18], [x - 12, y, "right"], [x + 12, y, "left"]], { weight: 8 });
 }
 
-export function drawRuler(context, labels, { height }, scale) {
-  const metres = round(LEAST_RULER / scale);
+export function drawRuler(context, labels, { width, height }, scale) {
+  const metres = round(Math.min(LEAST_RULER[0], LEAST_RULER[1] * width) / scale);
   const [x, y, length] = [14, height - 14, metres * scale];
   const path = new Path2D();
   path.moveTo(x, y - 5);

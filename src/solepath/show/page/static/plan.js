@@ -12,6 +12,7 @@ const NAME_SIZE = 12; // px
 const HERE = { bold: true, colour: "ink", ground: "here", weight: 6 }; // name of the wearer's room
 const ASIDE = [0, -0.5, 0.5, -1, 1]; // where a name may be across its room: shares of the way from its middle to the walls
 const LEAST_WAY = 90; // px between two places for a name along its room
+const NARROW = 8; // px; where a name has no more space to each side it is left out rather than put on the track
 const MAX_PLACES = 12; // places for a name along its room, to each side of its middle
 
 // [least x, least y, greatest x, greatest y] of all levels, m; null for an empty plan.
@@ -91,7 +92,7 @@ export function nameLevel(labels, plan, level, px, scale, here) {
     labels.add(found.words, spotsOf(found, px(found.at), style).filter(onScreen), {
       ...style,
       upright: found.upright,
-      strict: found.upright || i === here, // in a corridor there is no place beside the track, and a note names the room
+      strict: Math.min(...found.slack) < NARROW || i === here, // a note names the wearer's room
     });
   });
 }

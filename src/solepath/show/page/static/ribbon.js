@@ -8,7 +8,7 @@ import { theme } from "./theme.js";
 import { LINKS, PHASES, SUPPORTS, capital, clock, wordOf } from "./words.js";
 
 const TIME_WINDOW = 8; // s
-const NAMED_WIDTH = 400; // px from which on the feet have their whole names
+const NAMED_WIDTH = 340; // px from which on the feet have their whole names
 const LABEL_WIDTHS = [20, 44]; // px for the letters of the feet, and for their names
 const [TIMES_HEIGHT, BETWEEN] = [20, 12]; // px for the times below, and for the times with both feet on the ground
 // Height of a phase at its start and at its end, as shares of the row.
