@@ -26,16 +26,14 @@ globalThis.measured = (() => {
     Object.assign(copy.canvas, { width, height });
     copy.drawImage(canvas, x, y, width, height, 0, 0, width, height);
     const { data } = copy.getImageData(0, 0, width, height);
-    const counts = new Map();
+    const [below, counts] = [ground(canvas), new Map()];
     for (let i = 0; i < data.length; i += 4) {
-      if ([0, 1, 2].every((k) => Math.abs(data[i + k] - own[k]) < 8)) continue;
-      const key = data.slice(i, i + 4).join();
-      counts.set(key, (counts.get(key) ?? 0) + 1);
+      const colour = over({ rgb: [...data.slice(i, i + 3)], opacity: data[i + 3] / 255 }, below).map(Math.round);
+      if (colour.every((value, k) => Math.abs(value - own[k]) < 8)) continue;
+      counts.set(colour.join(), (counts.get(colour.join()) ?? 0) + 1);
     }
     const [found] = [...counts].sort((one, other) => other[1] - one[1]);
-    if (found === undefined) return own; // all is as the text
-    const [r, g, b, a] = found[0].split(",").map(Number);
-    return over({ rgb: [r, g, b], opacity: a / 255 }, ground(canvas));
+    return found === undefined ? own : found[0].split(",").map(Number);
   };
   const contrastOn = ({ canvas }, where, colour) => {
     if (!reads || !canvas.isConnected) return null;
@@ -235,6 +233,13 @@ globalThis.measured = (() => {
 
   const cut = () => texts().filter(({ cut }) => cut).map(place);
 
+  // Texts that end in an ellipsis, but for those of several lines, whose rest is shown on request.
+  const shortened = () =>
+    [...document.querySelectorAll("body *")]
+      .filter((one) => one.scrollWidth > one.clientWidth + 1 && getComputedStyle(one).textOverflow === "ellipsis")
+      .filter((one) => isShown(one) && one.clientWidth > 0)
+      .map((of) => place({ text: of.textContent.trim(), of }));
+
   const wide = () => {
     const { scrollWidth } = document.scrollingElement;
     const found = texts().filter(({ boxes }) => boxes.some(({ left, right }) => right > innerWidth + 0.5 || left < -0.5));
@@ -302,5 +307,5 @@ globalThis.measured = (() => {
   const read = () => {
     reads = true;
   };
-  return { texts, small, overlapping, pale, cut, wide, shifts, controls, name, focus, read };
+  return { texts, small, overlapping, pale, cut, shortened, wide, shifts, controls, name, focus, read };
 })();

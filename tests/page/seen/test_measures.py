@@ -54,6 +54,10 @@ TEXT_FAULTS = {
         'over: "five metres" in canvas',
     ),
     "a label beyond its canvas": (with_script("write('far away', 180, 60)"), 'cut: "far away"'),
+    "a shortened line": (
+        with_style("p { width: 50px; overflow: hidden; text-overflow: ellipsis; white-space: nowrap }"),
+        'short: "A first line"',
+    ),
     "a line that is too long": (with_style("p { width: 400px; text-align: right }"), "wide: the page is 408 px wide"),
     "a word beyond the screen": (
         with_style("body { overflow-x: hidden } h1 { margin-left: 350px }"),

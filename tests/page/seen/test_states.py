@@ -6,7 +6,7 @@ import asyncio
 
 import pytest
 from browsers import Browser, Window
-from measures import OPEN_ALL, SCREENS, SCRIPT, THEMES, axe_faults, text_faults
+from measures import NARROWEST, OPEN_ALL, SCREENS, SCRIPT, THEMES, axe_faults, text_faults
 from states import STATES
 
 REDRAWING = 0.3
@@ -15,7 +15,7 @@ REDRAWING = 0.3
 
 async def resize(view: Window, width: int, theme: str) -> str:
     """Show the page at a width in a theme, and return words for both."""
-    await view.tab.set_viewport_size({"width": width, "height": SCREENS[width]})
+    await view.tab.set_viewport_size({"width": width, "height": (SCREENS | NARROWEST)[width]})
     await view.tab.emulate_media(color_scheme=theme)
     await asyncio.sleep(REDRAWING)
     return f"{width} px, {theme}"
@@ -29,6 +29,8 @@ async def test_texts_are_large_apart_clear_and_within_the_screen(chromium: Brows
         for width in SCREENS:
             for theme in THEMES:
                 found[await resize(view, width, theme)] = await text_faults(view)
+        for width in NARROWEST:
+            found[await resize(view, width, "light")] = await text_faults(view)
         await view.tab.evaluate(OPEN_ALL)
         await asyncio.sleep(REDRAWING)
         found["all is open"] = await text_faults(view)
