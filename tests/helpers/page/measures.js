@@ -17,7 +17,32 @@ globalThis.measured = (() => {
   };
   const box = (left, top, right, bottom) => ({ left, top, right, bottom });
 
-  const write = (context, text, x, y) => {
+  let reads = false; // whether the ground of texts is read when they are drawn, which is slow
+  const copy = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+  // The most frequent colour around a text, without its own.
+  const groundOf = (canvas, { left, top, right, bottom }, own) => {
+    const [x, y] = [Math.floor(left) - 2, Math.floor(top) - 2];
+    const [width, height] = [Math.ceil(right) + 2 - x, Math.ceil(bottom) + 2 - y];
+    Object.assign(copy.canvas, { width, height });
+    copy.drawImage(canvas, x, y, width, height, 0, 0, width, height);
+    const { data } = copy.getImageData(0, 0, width, height);
+    const [below, counts] = [ground(canvas), new Map()];
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = over({ rgb: [...data.slice(i, i + 3)], opacity: data[i + 3] / 255 }, below).map(Math.round);
+      if (colour.every((value, k) => Math.abs(value - own[k]) < 8)) continue;
+      counts.set(colour.join(), (counts.get(colour.join()) ?? 0) + 1);
+    }
+    const [found] = [...counts].sort((one, other) => other[1] - one[1]);
+    return found === undefined ? own : found[0].split(",").map(Number);
+  };
+  const contrastOn = ({ canvas }, where, colour) => {
+    if (!reads || !canvas.isConnected) return null;
+    const below = groundOf(canvas, where, colour.rgb);
+    return contrast(over(colour, below), below);
+  };
+  const over = ({ rgb, opacity }, below) => rgb.map((value, i) => opacity * value + (1 - opacity) * below[i]);
+
+  const write = (filled) => (context, text, x, y) => {
     if (String(text).trim() === "" || context.globalAlpha < 0.02) return;
     const m = context.getTransform();
     const at = context.measureText(text);
@@ -28,8 +53,11 @@ globalThis.measured = (() => {
     const where = corners(m, x - at.actualBoundingBoxLeft, y - at.actualBoundingBoxAscent, width, height);
     const size = parseFloat(/([\d.]+)px/.exec(context.font)[1]) * Math.hypot(m.a, m.b);
     const texts = written.get(context.canvas) ?? [];
+    const { rgb, opacity } = channels(context.fillStyle);
+    const colour = { rgb, opacity: opacity * context.globalAlpha };
+    const contrasts = filled ? contrastOn(context, where, colour) : null;
     const same = (one) => one.text === String(text) && Math.hypot(one.left - where.left, one.top - where.top) < 4;
-    written.set(context.canvas, [...texts.filter((one) => !same(one)), { text: String(text), size, ...where }]);
+    written.set(context.canvas, [...texts.filter((one) => !same(one)), { text: String(text), size, colour, contrasts, ...where }]);
   };
   const erase = (canvas, area) => {
     const texts = written.get(canvas) ?? [];
@@ -42,23 +70,29 @@ globalThis.measured = (() => {
       return own.apply(this, given);
     };
   };
+  const after = (prototype, name, action) => {
+    const own = prototype[name];
+    prototype[name] = function (...given) {
+      own.apply(this, given);
+      action(this, ...given);
+    };
+  };
   for (const kind of [CanvasRenderingContext2D, OffscreenCanvasRenderingContext2D]) {
-    before(kind.prototype, "fillText", write);
-    before(kind.prototype, "strokeText", write);
+    before(kind.prototype, "fillText", write(true));
+    before(kind.prototype, "strokeText", write(false));
     before(kind.prototype, "clearRect", (context, ...area) =>
       erase(context.canvas, corners(context.getTransform(), ...area)),
     );
-    before(kind.prototype, "drawImage", (context, image, x, y, width, height, ...more) => {
+    after(kind.prototype, "drawImage", (context, image, x, y, width, height, ...more) => {
       if (more.length > 0) return; // a part of an image
       const m = context.getTransform();
       const [across, down] = [(width ?? image.width) / image.width, (height ?? image.height) / image.height];
-      const texts = written.get(context.canvas) ?? [];
-      const copies = (written.get(image) ?? []).map(({ text, size, left, top, right, bottom }) => ({
-        text,
-        size: size * down * Math.hypot(m.a, m.b),
-        ...corners(m, x + left * across, y + top * down, (right - left) * across, (bottom - top) * down),
-      }));
-      written.set(context.canvas, [...texts, ...copies]);
+      const copies = (written.get(image) ?? []).map(({ text, size, colour, left, top, right, bottom }) => {
+        const where = corners(m, x + left * across, y + top * down, (right - left) * across, (bottom - top) * down);
+        const scale = down * Math.hypot(m.a, m.b);
+        return { text, size: size * scale, colour, contrasts: contrastOn(context, where, colour), ...where };
+      });
+      written.set(context.canvas, [...(written.get(context.canvas) ?? []), ...copies]);
     });
   }
   for (const name of ["width", "height"]) {
@@ -79,6 +113,7 @@ globalThis.measured = (() => {
       return (written.get(canvas) ?? []).map((one) => ({
         text: one.text,
         size: one.size * scale,
+        contrasts: one.contrasts,
         of: canvas,
         layer: layer(canvas),
         cut: one.left < -1 || one.top < -1 || one.right > canvas.width + 1 || one.bottom > canvas.height + 1,
@@ -190,7 +225,20 @@ globalThis.measured = (() => {
     return found;
   };
 
+  // Texts of canvases whose contrast was read and is too small; those of the document are axe's.
+  const pale = (least) =>
+    canvasTexts()
+      .filter(({ contrasts }) => contrasts !== null && contrasts < least)
+      .map((one) => `contrast ${one.contrasts.toFixed(1)}: ${place(one)}`);
+
   const cut = () => texts().filter(({ cut }) => cut).map(place);
+
+  // Texts that end in an ellipsis, but for those of several lines, whose rest is shown on request.
+  const shortened = () =>
+    [...document.querySelectorAll("body *")]
+      .filter((one) => one.scrollWidth > one.clientWidth + 1 && getComputedStyle(one).textOverflow === "ellipsis")
+      .filter((one) => isShown(one) && one.clientWidth > 0)
+      .map((of) => place({ text: of.textContent.trim(), of }));
 
   const wide = () => {
     const { scrollWidth } = document.scrollingElement;
@@ -256,5 +304,8 @@ globalThis.measured = (() => {
     };
   };
 
-  return { texts, small, overlapping, cut, wide, shifts, controls, name, focus };
+  const read = () => {
+    reads = true;
+  };
+  return { texts, small, overlapping, pale, cut, shortened, wide, shifts, controls, name, focus, read };
 })();

@@ -13,19 +13,27 @@ SCRIPT = (Path(__file__).parent / "measures.js").read_text(encoding="utf-8")
 """Script that a page must run before any other to be measured."""
 LEAST_SIZE = 12
 """Smallest size of text, px."""
+LEAST_CONTRAST = 4.5
+"""Smallest contrast of text against its ground (WCAG 2.2, 1.4.3, AA)."""
 LEAST_RING = 3.0
 """Smallest contrast of the ring round what has the focus (WCAG 2.2, 1.4.11)."""
 SCREENS = {360: 740, 768: 1024, 1280: 900}
 """Height of a screen of each width, px."""
+NARROWEST = {640: 900, 1000: 700}
+"""Height of the narrowest screens on which the page has its two wider layouts, by width, px."""
 THEMES = ("light", "dark")
 
 
 async def text_faults(view: Window) -> list[str]:
-    """Return texts that are too small, over another text or a button, cut by their canvas, or beyond the screen."""
+    """Return texts that are too small, over another text or a button, cut or shortened, or beyond the screen.
+
+    Those of canvases must also stand out of their ground, if they were drawn since `measured.read()` was called."""
     measure = f"""() => ({{
         small: measured.small({LEAST_SIZE}),
         over: measured.overlapping(),
+        pale: measured.pale({LEAST_CONTRAST}),
         cut: measured.cut(),
+        short: measured.shortened(),
         wide: measured.wide(),
     }})"""
     found = await view.tab.evaluate(measure)

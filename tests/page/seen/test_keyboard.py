@@ -1,4 +1,4 @@
-"""Tests the page with nothing but a keyboard, as a live session on a plan and as a recording."""
+"""Tests the page with nothing but a keyboard."""
 
 from __future__ import annotations
 
@@ -11,10 +11,13 @@ from states import STATES
 
 REDRAWING = 0.3
 """Time in which the page is drawn again in another size or theme, s."""
-NAMES = ("plan", "finished")
+OPERATED = ("plan", "finished")
+"""States with all controls that there are."""
+REACHED = (*OPERATED, "lost-link", "no-insole")
+"""States with other controls, and with regions at other places."""
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", REACHED)
 async def test_tab_reaches_every_control_in_visual_order_and_shows_where_it_is(chromium: Browser, name: str) -> None:
     found: dict[str, list[str]] = {}
     async with STATES[name].open(chromium, script=SCRIPT) as view:
@@ -30,7 +33,7 @@ async def test_tab_reaches_every_control_in_visual_order_and_shows_where_it_is(c
     assert {where: faults for where, faults in found.items() if faults} == {}
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", OPERATED)
 async def test_keys_operate_every_control(chromium: Browser, name: str) -> None:
     async with STATES[name].open(chromium, script=SCRIPT) as view:
         assert await key_faults(view) == []

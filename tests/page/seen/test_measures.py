@@ -54,6 +54,10 @@ TEXT_FAULTS = {
         'over: "five metres" in canvas',
     ),
     "a label beyond its canvas": (with_script("write('far away', 180, 60)"), 'cut: "far away"'),
+    "a shortened line": (
+        with_style("p { width: 50px; overflow: hidden; text-overflow: ellipsis; white-space: nowrap }"),
+        'short: "A first line"',
+    ),
     "a line that is too long": (with_style("p { width: 400px; text-align: right }"), "wide: the page is 408 px wide"),
     "a word beyond the screen": (
         with_style("body { overflow-x: hidden } h1 { margin-left: 350px }"),
@@ -77,6 +81,20 @@ async def test_a_fault_of_a_text_is_found(chromium: Browser, name: str) -> None:
         found = await text_faults(view)
         assert found and all(one.startswith((fault, fault.partition(":")[0])) for one in found)
         assert any(one.startswith(fault) for one in found), found
+
+
+async def test_a_pale_label_is_found_by_its_ground(chromium: Browser) -> None:
+    """Dark text is clear on the page and pale on a dark patch."""
+    script = """measured.read();
+        const context = document.querySelector("canvas").getContext("2d");
+        context.clearRect(0, 0, 200, 80);
+        write("five metres", 10, 20);
+        context.fillStyle = "#333";
+        context.fillRect(0, 40, 200, 40);
+        context.fillStyle = "#000";
+        write("start", 10, 60);"""
+    async with small_page(chromium, with_script(script)) as view:
+        assert await text_faults(view) == ['pale: contrast 1.7: "start" in canvas ""']
 
 
 async def test_an_erased_label_does_not_count(chromium: Browser) -> None:

@@ -5,23 +5,36 @@ from __future__ import annotations
 import asyncio
 
 import pytest
-from browsers import Browser
-from measures import SCREENS, SCRIPT, THEMES, axe_faults, text_faults
+from browsers import Browser, Window
+from measures import NARROWEST, OPEN_ALL, SCREENS, SCRIPT, THEMES, axe_faults, text_faults
 from states import STATES
 
 REDRAWING = 0.3
 """Time in which the page is drawn again in another size or theme, s."""
 
 
+async def resize(view: Window, width: int, theme: str) -> str:
+    """Show the page at a width in a theme, and return words for both."""
+    await view.tab.set_viewport_size({"width": width, "height": (SCREENS | NARROWEST)[width]})
+    await view.tab.emulate_media(color_scheme=theme)
+    await asyncio.sleep(REDRAWING)
+    return f"{width} px, {theme}"
+
+
 @pytest.mark.parametrize("name", STATES)
-async def test_texts_are_large_enough_and_apart_and_within_the_screen(chromium: Browser, name: str) -> None:
-    found: dict[int, list[str]] = {}
+async def test_texts_are_large_apart_clear_and_within_the_screen(chromium: Browser, name: str) -> None:
+    found: dict[str, list[str]] = {}
     async with STATES[name].open(chromium, script=SCRIPT) as view:
-        for width, height in SCREENS.items():
-            await view.tab.set_viewport_size({"width": width, "height": height})
-            await asyncio.sleep(REDRAWING)
-            found[width] = await text_faults(view)
-    assert {width: faults for width, faults in found.items() if faults} == {}
+        await view.tab.evaluate("measured.read()")
+        for width in SCREENS:
+            for theme in THEMES:
+                found[await resize(view, width, theme)] = await text_faults(view)
+        for width in NARROWEST:
+            found[await resize(view, width, "light")] = await text_faults(view)
+        await view.tab.evaluate(OPEN_ALL)
+        await asyncio.sleep(REDRAWING)
+        found["all is open"] = await text_faults(view)
+    assert {where: faults for where, faults in found.items() if faults} == {}
 
 
 @pytest.mark.parametrize("name", STATES)
@@ -29,10 +42,11 @@ async def test_axe_finds_no_violation(chromium: Browser, name: str) -> None:
     pytest.importorskip("axe_playwright_python", reason="axe-playwright-python is not installed")
     found: dict[str, list[str]] = {}
     async with STATES[name].open(chromium) as view:
-        for width in (min(SCREENS), max(SCREENS)):
-            await view.tab.set_viewport_size({"width": width, "height": SCREENS[width]})
+        for width in (max(SCREENS), min(SCREENS)):
             for theme in THEMES:
-                await view.tab.emulate_media(color_scheme=theme)
-                await asyncio.sleep(REDRAWING)
-                found[f"{width} {theme}"] = await axe_faults(view)
+                found[await resize(view, width, theme)] = await axe_faults(view)
+        await view.tab.evaluate(OPEN_ALL)
+        found["all is open"] = await axe_faults(view)
+        await view.tab.evaluate("document.getElementById('notice-list').showPopover()")
+        found["the list of findings is open"] = await axe_faults(view)
     assert {where: faults for where, faults in found.items() if faults} == {}

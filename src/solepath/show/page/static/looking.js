@@ -37,7 +37,8 @@ export class Looking {
     const onPlan = track.onPlan(state);
     press(this.fit, track.view.follows && !track.following);
     press(this.follow, track.following);
-    show(this.follow, onPlan);
+    show(this.follow, state.plan !== null); // before there is a place on it as well, so that no button moves
+    this.follow.disabled = !onPlan;
     show(this.choice, state.plan !== null);
     press(this.onPlan, onPlan);
     press(this.alone, !onPlan);
