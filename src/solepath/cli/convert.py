@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -14,10 +15,12 @@ from ..types import Packet, Site
 from .common.failure import Failure, note
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs, replacements
+from .common.own_devices import add_own_devices, drivers_of
 from .common.tables import add_tables
 from .exchange import STORAGE, add_exchange, convert_computed
 
 if TYPE_CHECKING:
+    from ..link.driver import Driver
     from ..recording.btsnoop import BtsnoopLog
     from ..recording.mcap import McapWriter
 
@@ -37,6 +40,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
     add_tables(command, "IN")
+    add_own_devices(command)
     command.add_argument(
         "out",
         metavar="OUT",
@@ -103,7 +107,8 @@ def run(options: argparse.Namespace) -> int:
     source, out = options.files[0], options.out
     if options.subject is not None or out.suffix.lower() == STORAGE:
         return convert_computed(options)
-    open_writer = _writer_class(out)
+    drivers = drivers_of(options)
+    open_writer = _writer_class(out, drivers)
     if len(options.files) > 1:
         raise Failure(f"{printable(str(out))}: is made of one log or recording, not of {len(options.files)}")
     output = OutputFile(out, RECORDING_KIND)
@@ -166,8 +171,8 @@ def _with_progress(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Pac
 OpenWriter = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
 
 
-def _writer_class(out: Path) -> OpenWriter:
-    """Return the class that writes a file of this name; raise Failure when there is none."""
+def _writer_class(out: Path, own: Iterable[Driver]) -> OpenWriter:
+    """Return what opens a writer of a file of this name; raise Failure when there is none."""
     suffix = out.suffix.lower()
     if suffix == RECORDING:
         return PacketWriter
@@ -182,7 +187,7 @@ def _writer_class(out: Path) -> OpenWriter:
         if error.name is None or error.name.partition(".")[0] != "mcap":
             raise
         raise Failure("writing MCAP needs the package mcap: pip install 'solepath[mcap]'") from None
-    return McapWriter
+    return partial(McapWriter, profiles=own)
 
 
 def _write(

@@ -26,6 +26,7 @@ from .common.inputs import (
     undo_clocks,
 )
 from .common.outcomes import add_outcomes, clinic_of, has_outcomes
+from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
 from .common.tables import add_tables, feet_of, mapping_of
 from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
 
@@ -49,6 +50,7 @@ def add_to(commands: Any) -> None:
         " print a summary.",
     )
     add_tables(command)
+    add_own_devices(command)
     add_recipe(command)
     add_calibration(command)
     add_floorplan(command)
@@ -72,6 +74,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the recording; return the exit status."""
+    from ..link.kinds import make_kinds
     from ..session import Session
     from .common.loop import stop_signals_raise
     from .common.results import Results
@@ -79,19 +82,20 @@ def run(options: argparse.Namespace) -> int:
     recipe = recipe_of(options)
     clinic = clinic_of(options)
     outputs = _check_outputs(options)
-    calibration = calibration_of(options)
+    calibration, drivers = calibration_of(options), drivers_of(options)
     need_page(options, options.view is not None)
     address = page_address_of(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
     source = source_of(options.files, feet_of(options), mapping_of(options))
     undo_clocks(source, options)
-    check_pressure(recipe, source)
+    check_pressure(recipe, source, drivers)
     plan, start = floorplan_of(options)
     session = Session(
         recipe,
         calibration=calibration,
         poses=True,
         pressures=address is not None or options.report is not None,
+        profiles=drivers,
         floorplan=plan,
         start=start,
     )
@@ -105,6 +109,7 @@ def run(options: argparse.Namespace) -> int:
         when=_start_text(source),
         outputs=outputs,
         clinic=clinic,
+        unused=UnusedPackets(make_kinds(drivers)),
     )
     seconds, shown = 0.0, False
     with stop_signals_raise(), results:

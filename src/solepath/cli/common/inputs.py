@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import isfinite, nan, radians
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...calibration import Calibration
 from ...link.decoder import Decoder
+from ...link.kinds import DeviceKinds, make_kinds
 from ...recording import RecordingError, Source, TableMapping, open_source, printable
 from ...types import Foot, Sample, Site
 from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
@@ -17,6 +18,7 @@ from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
 if TYPE_CHECKING:
     from ...floorplan.index import IndexedPlan
     from ...floorplan.plan import Start
+    from ...link.driver import Driver
     from ...recipes import Recipe
 
 
@@ -93,10 +95,17 @@ def undo_clocks(source: Source, options: argparse.Namespace) -> None:
 
 
 def source_of(
-    files: Path | Sequence[Path], foot: Foot | Sequence[Foot] | None = None, mapping: TableMapping | None = None
+    files: Path | Sequence[Path],
+    foot: Foot | Sequence[Foot] | None = None,
+    mapping: TableMapping | None = None,
+    own: Iterable[Driver] = (),
 ) -> Source:
-    """Open a recording and print its flaws on stderr; raise RecordingError when it cannot be used."""
-    return open_source(files, foot, mapping=mapping, report=note)
+    """Open a recording and print its flaws on stderr; raise RecordingError when it cannot be used.
+
+    Packets of devices of one's `own` become samples, for what computes with the built-in devices only."""
+    source = open_source(files, foot, mapping=mapping, report=note)
+    source.own_kinds = make_kinds(own)
+    return source
 
 
 def assumed_foot(source: Source) -> str | None:
@@ -108,13 +117,15 @@ def assumed_foot(source: Source) -> str | None:
     return f"{why}: taken as the {tables[0].foot} one; --foot says otherwise"
 
 
-def check_pressure(recipe: Recipe, source: Source) -> None:
-    """Raise Failure when the recipe needs pressure cells and the recording has none."""
-    if recipe.needs_pressure and not _has_pressure(source):
+def check_pressure(recipe: Recipe, source: Source, own: Iterable[Driver] = ()) -> None:
+    """Raise Failure when the recipe needs pressure cells and the recording has none.
+
+    `own` are the drivers of devices of one's own."""
+    if recipe.needs_pressure and not _has_pressure(source, make_kinds(own)):
         raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
 
 
-def _has_pressure(source: Source) -> bool:
+def _has_pressure(source: Source, kinds: DeviceKinds) -> bool:
     """Return whether the recording has pressure; True if it cannot be read."""
     if source.samples is not None:
         return any("pressure" in table.columns for table in source.samples.tables)
@@ -122,7 +133,7 @@ def _has_pressure(source: Source) -> bool:
     try:
         for packet in source.look_ahead():
             if source.foot is None or packet.site.foot in (None, source.foot):
-                records = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet)
+                records = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet, kinds)
                 if any(isinstance(record, Sample) and record.pressure for record in records):
                     return True
     except RecordingError:

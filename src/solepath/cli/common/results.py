@@ -19,7 +19,9 @@ from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
+from .failure import Failure, note
 from .files import OutputFile, replacements
+from .own_devices import UnusedPackets
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import Clinic
@@ -44,6 +46,7 @@ class Results:
     """All files of `out`, and `report`, as they were before the run."""
     clinic: Clinic | None = None
     """Collects the clinical outcomes; None without any."""
+    unused: UnusedPackets = field(factory=UnusedPackets)
     observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
     _report: Report | None = field(init=False)
@@ -78,6 +81,7 @@ class Results:
         """Add a packet or sample and its events, or None and the last events at the end of the recording."""
         collector = self.observer if self._report is None else self._report
         collector.take(item, events)
+        self.unused.take(item, events)
         for event in events:
             if self._files is not None:
                 self._files.write(event)
@@ -87,8 +91,12 @@ class Results:
                 self.clinic.add(event)
 
     def write_and_print(self, seconds: float) -> None:
-        """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
+        """Complete files and report, and print the summary; `seconds` is the wall time that computing took.
+
+        Raises Failure, and writes nothing, if no packet of the recording could be used."""
         self._open.close()
+        if self.unused.is_all:
+            raise Failure(f"{self.title}: {'; '.join(self.unused.sentences())}")
         if self._picture is not None and self._picture_path is not None and self.out is not None:
             with os_errors_naming(self.out):
                 self._picture.write(self._picture_path, self.title)
@@ -112,6 +120,8 @@ class Results:
                 self._report.write(self._report_path)
             self._report_replacement.move_to_targets()
             print(f"report in {printable(str(self.report))}")
+        for sentence in self.unused.sentences():
+            note(sentence)
 
     def __enter__(self) -> Results:
         return self
