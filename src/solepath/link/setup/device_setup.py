@@ -279,14 +279,17 @@ def may_be_silent(site: Site, written: Sequence[Value]) -> bool:
     return decoder.link is not None and decoder.link.may_be_silent
 
 
-def find_profile(name: str, characteristics: Iterable[GattCharacteristic]) -> Profile | None:
+def find_profile(
+    name: str, characteristics: Iterable[GattCharacteristic], own: Iterable[Profile] = ()
+) -> Profile | None:
     """Return the profile of a connected device that advertises `name` ("" when unknown); None for an unknown device.
 
-    It is one whose streams the device can send, and of several the one whose name the device has."""
+    It is one whose streams the device can send, and of several the one whose name the device has. Profiles of an app's
+    `own` devices go before the built-in ones."""
     notifying = {(one.service, one.uuid) for one in characteristics if one.can_notify}
     fitting = [
         profile
-        for profile in PROFILES
+        for profile in (*own, *PROFILES)
         if notifying.issuperset([(one.service, one.characteristic) for one in map(profile.channel, profile.streams)])
     ]
     return next((profile for profile in fitting if profile.matches_name(name)), fitting[0] if fitting else None)
