@@ -133,8 +133,9 @@ def open_source(
     """Return a recording: samples if a name ends as those of tables or BIDS do or there is a mapping, else packets.
 
     `files`: a file of packets; or one or more files of samples, of both feet or of several sensors. `foot`: for samples
-    that name no foot, the foot that wore the sensor (None: what the name of the file says, else the right foot); for
-    any other recording, the only foot to read (None: all); a sequence has the foot of each file. `mapping`: what the
+    that name no foot, the foot that wore the sensor (None: what the name of the file says; else the right foot for one
+    file, and an error for the files of both feet); for any other recording, the only foot to read (None: all); a
+    sequence has the foot of each file, as in `open_source([left, right], [Foot.LEFT, Foot.RIGHT])`. `mapping`: what the
     columns of tables mean, as far as they do not say it themselves. RecordingError, with all problems, when something
     cannot be used."""
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
