@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ..recording import PacketWriter, RecordingError, os_error_text, printable
 from ..recording.packets import open_packets
 from ..types import Packet, Site
+from ..types.extras import install_hint
 from .common.failure import Failure, note
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs, replacements
@@ -186,7 +187,7 @@ def _writer_class(out: Path, own: Iterable[Driver]) -> OpenWriter:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.partition(".")[0] != "mcap":
             raise
-        raise Failure("writing MCAP needs the package mcap: pip install 'solepath[mcap]'") from None
+        raise Failure(f"writing MCAP needs the package mcap: {install_hint('mcap')}") from None
     return partial(McapWriter, profiles=own)
 
 

@@ -16,6 +16,7 @@ from typing import Any
 
 from ..calibration import CalibrationError
 from ..recording import RecordingError
+from ..types.extras import install_hint
 from . import check, convert, demo, evaluate, fleet_demo, reproduce, track, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
@@ -112,7 +113,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ModuleNotFoundError as error:
         if error.name != "numpy":
             raise
-        note("this needs numpy: pip install 'solepath[arrays]'")
+        note(f"this needs numpy: {install_hint('arrays')}")
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
