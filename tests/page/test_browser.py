@@ -111,7 +111,7 @@ def link(site: str, state: str) -> str:
 async def test_the_page_connects_and_names_what_it_shows(chromium: Browser) -> None:
     async with open_page(chromium, empty_scene("Ward 3, corridor")) as (view, _):
         assert await view.text("title") == "Ward 3, corridor"
-        assert await view.text("recipe") == "default"
+        assert await view.tab.locator("#recipe").text_content() == "default"
         assert "Ward 3, corridor" in await view.tab.title()
 
 

@@ -31,6 +31,7 @@ async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser
     async with open_page(chromium, scene) as (view, _):
         await view.until("document.getElementById('activity').textContent === 'Walking'")
         assert all([float(await view.text(name)) > 0.0 for name in FIGURES])
+        await view.open_folds()
         rows = await view.tab.locator("#gait-rows tr").all_inner_texts()
         assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.whole_message()[0]["frame"]["gait"])]]
         angle = next(row for row in rows if row.startswith("toe-off"))
@@ -45,7 +46,7 @@ async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser
         assert int(await view.text("strides")) > 10, "what was walked is still known"
         await view.until("document.getElementById('announcer').textContent.includes('Not known, last: walking')")
         links = await view.text("links")
-        assert "loss" not in links and "lost" in links
+        assert "packets lost" not in links and "lost" in links
 
 
 async def test_all_see_the_colours_that_the_session_chose(chromium: Browser) -> None:

@@ -10,7 +10,7 @@ from page_events import events_of_all_kinds, feed_session
 from shown import later, shown
 from walks import insoles
 
-from solepath import PlaceLost
+from solepath import FeetSwapped, PlaceLost
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.show.page.messages import MAX_SPEED, MIN_SPEED, encode, parse_command
@@ -31,6 +31,7 @@ def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
     scene = shown(events, Scene("a walk", "default", "recording", BUILDING, Playback(0.0, 1.0, 0.0)))
     for event in feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3)).packets)[1]:
         scene.take(None, [later(event, 100.0)])
+    scene.take(None, [FeetSwapped(t=scene.now, known_at=scene.now)])
     message = json.loads(encode(scene.whole_message()[0]))
     frame = message["frame"]
     assert message.keys() == keys("`scene`")
@@ -38,9 +39,10 @@ def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
     assert frame["feet"]["left"].keys() == frame["feet"]["right"].keys() == keys("foot")
     assert frame["gait"].keys() == keys("gait")
     assert all(row.keys() == keys("row") for row in frame["gait"]["rows"])
+    assert all(one.keys() == keys("finding") for one in frame["findings"]) and frame["findings"]
     assert all(link.keys() == keys("link") for link in frame["links"].values())
     assert all(scale.keys() == keys("scale") for scale in frame["scales"].values()) and frame["scales"]
-    for name in ("wearer", "place", "activity", "pace", "playback"):
+    for name in ("wearer", "place", "activity", "pace", "total", "playback"):
         (row,) = re.findall(rf"^\| `{name}` \| (.*) \|$", PAGE, re.MULTILINE)
         assert frame[name].keys() <= set(re.findall(r"`([a-z]+)`", row)), name
     prose = PAGE.replace("\n", " ")

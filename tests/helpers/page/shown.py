@@ -16,7 +16,7 @@ import attrs
 from attrs import evolve
 from browsers import Browser, Window, window
 
-from solepath import Event, Packet, Session
+from solepath import Event, Packet, Sample, Session
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.emulate.routes.ways import corridor
@@ -34,8 +34,8 @@ TIMES = frozenset({"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_str
 """Fields of events that hold a time, s."""
 CONNECTED = "document.getElementById('connection').dataset.state === 'open'"
 
-PacketEvents = tuple[Packet, tuple[Event, ...]]
-"""Packet that a session was fed, and the events that it returned for it."""
+PacketEvents = tuple[Packet | Sample, tuple[Event, ...]]
+"""Packet or sample that a session was fed, and the events that it returned for it."""
 
 
 def squares(count: int) -> Route:
@@ -51,10 +51,10 @@ def walked(route: Route, cells: int = 96) -> tuple[Packet, ...]:
     return emulate(route, devices={SITE_OF_FOOT[foot]: Insole(cells=cells) for foot in Foot}).packets
 
 
-def packet_events(packets: Iterable[Packet], session: Session | None = None) -> tuple[PacketEvents, ...]:
-    """Return each packet with the events that a session, by default a new one, returns for it."""
+def packet_events(items: Iterable[Packet | Sample], session: Session | None = None) -> tuple[PacketEvents, ...]:
+    """Return each packet or sample with the events that a session, by default a new one, returns for it."""
     feeding = Session(poses=True, pressures=True) if session is None else session
-    return tuple((packet, tuple(feeding.feed(packet))) for packet in packets)
+    return tuple((item, tuple(feeding.feed(item))) for item in items)
 
 
 def shown(events: Iterable[Event], scene: Scene | None = None) -> Scene:

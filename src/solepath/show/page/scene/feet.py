@@ -11,6 +11,7 @@ from typing import Any
 from attrs import define, field
 
 from ....events import FootMoved, FootPressed, StrideTaken
+from ....foot.phase import EVENT_OF_PHASE
 from ....types import Foot, Layout, Phase, Vec3
 from ....types.attrs import NOT_SAVED
 from ...observer import FootCounts
@@ -24,6 +25,11 @@ MAX_PHASES = 500
 """Largest number of phases that are kept; a foot has fewer in PHASE_HISTORY."""
 MIN_PEAK_SHARE = 0.002
 """Least value of the brightest colour, as a share of a cell's full scale: noise of an unloaded sole stays dark."""
+
+NO_COUNTS = FootCounts()
+"""Counts of a foot without any event."""
+PHASE_OF_EVENT: dict[type, Phase] = {event: phase for phase, event in EVENT_OF_PHASE.items()}
+"""Phase that starts with each gait event."""
 
 
 @define

@@ -79,16 +79,28 @@ class SceneGaitMeans:
     """The means that a page shows: those of running if the newest stride was one of running, else those of walking."""
 
     _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = field(default=(None, None), metadata=NOT_SAVED)
-    _frame: dict[str, Any] | None = field(default=None, metadata=NOT_SAVED)
+    _frames: tuple[dict[str, Any] | None, dict[str, Any] | None] = field(default=(None, None), metadata=NOT_SAVED)
 
-    def frame(self, means: GaitMeans) -> dict[str, Any] | None:
-        """Return the member "gait" of a frame; None before any steady stride."""
-        newest = (means.left, means.right)
+    def frames(self, recent: GaitMeans, total: GaitMeans) -> dict[str, Any]:
+        """Return the members "gait", of recent means, and "total", of those since the start; None before any stride."""
+        newest = (recent.left, recent.right)
         if newest[0] is not self._newest[0] or newest[1] is not self._newest[1]:
             self._newest = newest
-            parameters = means.parameters
-            self._frame = None if parameters is None else _gait_frame(parameters)
-        return self._frame
+            near, all_strides = recent.parameters, total.parameters
+            self._frames = (
+                None if near is None else _gait_frame(near),
+                None if all_strides is None else _total_frame(all_strides),
+            )
+        return dict(zip(("gait", "total"), self._frames, strict=True))
+
+
+def _total_frame(parameters: GaitParameters) -> dict[str, Any]:
+    speed = parameters.both.speed
+    return {
+        "cadence": rounded(parameters.cadence, 1),
+        "speed": None if speed is None else rounded(speed.mean, 2),
+        "stance": rounded(parameters.asymmetry("stance_time"), 4),
+    }
 
 
 def _gait_frame(parameters: GaitParameters) -> dict[str, Any]:

@@ -1,12 +1,44 @@
-"""Computes what a page shows of the links."""
+"""Computes what a page shows of the links, and of what the checks found in the data that came over them."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from ....types import Site
+from attrs import define, field
+
+from ....events import (
+    CellFault,
+    CellsFailed,
+    ClockReset,
+    Connected,
+    DefectFound,
+    Event,
+    FeetSwapped,
+    FootResumed,
+    FootSilent,
+    InsoleNeverUnloads,
+)
+from ....recording import printable
+from ....types import SITE_OF_FOOT, Site
 from ...links import LinkLedger
 from ..messages import rounded
+
+FAULTS = {
+    CellFault.DEAD: ("cell shows no load", "cells show no load"),
+    CellFault.STUCK: ("cell shows one value all the time", "cells show one value all the time"),
+    CellFault.SATURATED: ("cell stays at the end of its range", "cells stay at the end of their range"),
+    CellFault.MISSING: ("cell sends no number", "cells send no number"),
+}
+"""Words for a fault of one cell, and of several."""
+UNLOADS_NEVER = (
+    "the insole is never without load, so the phases come from the inertial sensor. Loosen the shoe, or lay the insole "
+    "in again."
+)
+SWAPPED = (
+    "the insoles may be swapped: what comes as the left foot looks like a right one. Stop, and put each sensor on its "
+    "own foot."
+)
+SILENT = "nothing comes while the other foot walks on. See whether the sensor is switched on, charged and near."
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
@@ -36,3 +68,52 @@ def feet_silent_since(links: dict[Site, LinkLedger], now: float) -> float | None
     feet = [link for site, link in links.items() if site.foot is not None]
     last = max([link.last_sample_at for link in feet if link.last_sample_at is not None], default=None)
     return None if any([link.state(now) == "ok" for link in feet]) else last
+
+
+def fault_words(event: CellsFailed) -> str:
+    """Return how many cells of an insole have failed and how, in words, such as "2 cells show no load"."""
+    return f"{len(event.cells)} {FAULTS[event.fault][len(event.cells) != 1]}"
+
+
+@define
+class SceneFindings:
+    """Findings of the checks that still hold, at most one of each kind for each sensor."""
+
+    found: dict[str, tuple[float, str, str, bool]] = field(factory=dict)
+    """(t, site in words or "" for both feet, sentences, whether results are wrong until somebody acts), by site and
+    kind; t in s."""
+
+    def add_event(self, event: Event) -> None:
+        """Add what an event found, or remove what no longer holds; other events change nothing."""
+        match event:
+            case DefectFound(site=site, defect=defect, what=what):
+                self._add(event, site, defect.value, what, event.needs_action)
+            case CellsFailed(site=site, fault=fault):
+                words = f"{fault_words(event)}; left out from now on. The other cells are used; have the insole repaired."
+                self._add(event, site, fault.value, words, False)
+            case InsoleNeverUnloads(site=site):
+                self._add(event, site, "load", UNLOADS_NEVER, False)
+            case FeetSwapped():
+                self._add(event, None, "swapped", SWAPPED, True)
+            case FootSilent(foot=foot):
+                self._add(event, SITE_OF_FOOT[foot], "silent", SILENT, True)
+            case FootResumed(foot=foot):
+                self.found.pop(_key(SITE_OF_FOOT[foot], "silent"), None)
+            case Connected(site=site) | ClockReset(site=site, restarted=True):
+                start = _key(site, "")
+                self.found = {key: one for key, one in self.found.items() if not key.startswith(start)}
+            case _:
+                pass
+
+    def _add(self, event: Event, site: Site | None, kind: str, what: str, act: bool) -> None:
+        words = "" if site is None else site.words
+        self.found[_key(site, kind)] = (rounded(event.t) or 0.0, words, printable(what, 300), act)
+
+    def frame(self) -> list[dict[str, Any]]:
+        """Return the member "findings" of a frame: those that somebody must act on first, then the newest first."""
+        ordered = sorted(self.found.values(), key=lambda one: (not one[3], -one[0]))
+        return [{"t": t, "site": site, "what": what, "act": act} for t, site, what, act in ordered]
+
+
+def _key(site: Site | None, kind: str) -> str:
+    return f"{'' if site is None else site.words}: {kind}"

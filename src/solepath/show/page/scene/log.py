@@ -8,7 +8,6 @@ from attrs import define, field
 
 from ....events import (
     BatteryLevel,
-    CellFault,
     CellsFailed,
     ClockReset,
     Connected,
@@ -37,19 +36,13 @@ from ....recording import printable
 from ....types import SITE_OF_FOOT, Turn
 from ...observer import Observer
 from ..messages import rounded
+from .links import fault_words
 from .lists import RecentItems
 from .reports import outcome_words
 
 MAX_LINES = 50
 LOW_BATTERY = 0.15
 """Charge, 0 to 1, at or below which the log reports the battery; chosen by hand."""
-FAULTS = {
-    CellFault.DEAD: ("cell shows no load", "cells show no load"),
-    CellFault.STUCK: ("cell shows one value all the time", "cells show one value all the time"),
-    CellFault.SATURATED: ("cell stays at the end of its range", "cells stay at the end of their range"),
-    CellFault.MISSING: ("cell sends no number", "cells send no number"),
-}
-"""Words for a fault of one cell, and of several."""
 TURNS = {Turn.LEFT: "turned left", Turn.RIGHT: "turned right", Turn.ABOUT: "turned about"}
 
 LogLine = tuple[float | None, str, str]
@@ -120,8 +113,8 @@ def _wear(event: Event) -> tuple[str, str] | None:
             return "wear", f"{site.words}: {what}"
         case Limitation(site=site, what=what):
             return "wear", what if site is None else f"{site.words}: {what}"
-        case CellsFailed(site=site, fault=fault, cells=cells):
-            return "wear", f"{site.words}: {len(cells)} {FAULTS[fault][len(cells) != 1]}; left out from now on"
+        case CellsFailed(site=site):
+            return "wear", f"{site.words}: {fault_words(event)}; left out from now on"
         case InsoleNeverUnloads(site=site):
             return "wear", f"{site.words}: the insole is never without load; the shoe may be too tight for it"
         case FeetSwapped():

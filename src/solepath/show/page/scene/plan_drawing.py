@@ -28,6 +28,7 @@ def _level(level: Level) -> dict[str, Any]:
         "walls": [_line(wall) for wall in level.walls],
         "doors": [_line(door) for door in level.doors],
         "rooms": [[rounded_all(point) for point in room] for room in level.rooms],
+        "room_names": list(level.room_names),
     }
 
 

@@ -30,11 +30,10 @@ from ....events import (
     WearerMoved,
 )
 from ....floorplan.plan import FloorPlan
-from ....foot.phase import EVENT_OF_PHASE
 from ....recording import printable
-from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
+from ....types import SITE_OF_FOOT, Foot, Packet, Sample, Site
 from ....types.attrs import NOT_SAVED
-from ...observer import REJECTIONS, FootCounts, Observer
+from ...observer import REJECTIONS, Observer
 from ...valid import has_valid_numbers
 from ..body import LiveBody
 from ..guide import Guide, guide_frame
@@ -42,10 +41,10 @@ from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
 from .bending import bend_of
 from .both_feet import both_feet_frame
-from .feet import FootScene
+from .feet import NO_COUNTS, PHASE_OF_EVENT, FootScene
 from .gait import SceneGaitMeans, ScenePace, activity_frame
 from .growing import GrowingLists
-from .links import feet_silent_since, link_frame
+from .links import SceneFindings, feet_silent_since, link_frame
 from .log import SceneLog
 from .plan_drawing import draw_plan
 from .reports import SceneReports, report_words
@@ -93,6 +92,7 @@ class Scene:
     pace: ScenePace = field(factory=ScenePace, init=False)
     scales: Scales = field(factory=Scales, init=False)
     log: SceneLog = field(factory=SceneLog, init=False)
+    findings: SceneFindings = field(factory=SceneFindings, init=False)
     reports: SceneReports = field(factory=SceneReports, init=False)
     whole_count: int = field(default=0, init=False)
     """Number of layouts that became known and of revised tracks; after each a watcher needs the whole scene again."""
@@ -129,6 +129,7 @@ class Scene:
 
     def _show(self, event: Event) -> None:
         self.log.add_event(event, self.observer)
+        self.findings.add_event(event)
         self.observer.add(event)
         handle = HANDLERS.get(type(event))
         if handle is not None:
@@ -268,16 +269,13 @@ class Scene:
             "pace": None if silent_since is not None else self.pace.frame(now, activity, since),
             **both_feet_frame(self.feet, observer, self.body),
             "scales": self.scales.frame(),
-            "gait": self.gait_means.frame(observer.recent_gait),
+            **self.gait_means.frames(observer.recent_gait, observer.gait),
+            "findings": self.findings.frame(),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
             **guide_frame(self.guide),
         }
 
-
-NO_COUNTS = FootCounts()
-"""Counts of a foot without any event."""
-PHASE_OF_EVENT: dict[type, Phase] = {event: phase for phase, event in EVENT_OF_PHASE.items()}
 
 HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
     FootMoved: Scene._moved,

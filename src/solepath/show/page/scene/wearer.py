@@ -14,6 +14,8 @@ from .bending import Bend
 from .lists import ThinnedTrack, WalkedTrack
 
 MAX_CANDIDATES = 40
+DECIDED_WEIGHT = 0.995
+"""Share from which on the likeliest candidate is where the wearer is: unlikely ones would make the mark flicker."""
 
 PlacePoint = tuple[float | None, str, float | None, float | None, float | None]
 """(t, level, x, y, z) in s and m."""
@@ -87,7 +89,7 @@ def _place(place: Placed) -> dict[str, Any]:
         "room": None if place.room is None else printable(place.room),
         "door": None if place.door is None else printable(place.door),
         "position": rounded_all(place.position),
-        "decided": len(place.candidates) <= 1,
+        "decided": len(place.candidates) <= 1 or place.candidates[0].weight >= DECIDED_WEIGHT,
         "spread": rounded(place.spread, 2),
         "candidates": [_candidate(candidate) for candidate in place.candidates[:MAX_CANDIDATES]],
     }

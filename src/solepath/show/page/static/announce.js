@@ -1,6 +1,7 @@
-// Announcements for a screen reader: activity, lost and restored links, the level, reported positions and what came of
-// them, and the page's own connection.
+// Announcements for a screen reader: activity, the end of a walk, lost and restored links, what the checks found, the
+// level, reported positions and what came of them, and the page's own connection.
 
+import { summary } from "./activity.js";
 import { whereOf } from "./position.js";
 import { capital, activityText } from "./words.js";
 
@@ -14,6 +15,8 @@ export class Announcer {
   #activity = null;
   #level = null;
   #decided = false;
+  #found = new Set(); // what the checks found so far
+  #finished = false;
   #report = null; // newest line of the log on a reported position; "" for none, null before the first log
 
   constructor() {
@@ -45,6 +48,17 @@ export class Announcer {
         if (broken) this.#broken.add(site);
         if (how === "ok") this.#broken.delete(site);
       }
+    }
+    if (changed.has("findings")) {
+      for (const { site, what } of state.findings) {
+        const words = capital(site ? `${site}: ${what}` : what);
+        if (!this.#found.has(words)) announce(words);
+        this.#found.add(words);
+      }
+    }
+    if (state.finished !== this.#finished && state.strides !== null) {
+      this.#finished = state.finished;
+      if (this.#finished) announce(`Finished: ${summary(state)}`);
     }
     if (changed.has("log")) this.#reports(state, announce);
     if (changed.has("place") && state.place) {

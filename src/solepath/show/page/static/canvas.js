@@ -80,5 +80,6 @@ export function round(value) {
   return [1, 2, 5, 10].find((step) => step * power >= value * 0.999) * power;
 }
 
-export const FONT = '11px system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif';
+export const TEXT_SIZE = 12; // px, least size of a text
+export const FONT_FAMILY = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif';
 export const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");

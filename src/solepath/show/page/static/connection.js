@@ -18,6 +18,7 @@ export const WORDS = {
   lost: "The connection to solepath is lost",
   again: "Connected again",
   retry: "Try now",
+  finishes: true, // with the program the session has ended
   watchOnly: "This page may watch only. To report where you are, open the whole address that solepath printed: it holds the key.",
 };
 

@@ -1,11 +1,14 @@
 // The wearer's height over time, with the levels of the plan if there is one.
 
-import { Alternative, FONT, Surface, round } from "./canvas.js";
+import { Alternative, Surface, round } from "./canvas.js";
+import { Labels } from "./labels.js";
 import { theme } from "./theme.js";
 import { clock, fixed, signed, write } from "./words.js";
 
 const MIN_RANGE = 1; // m, least range of heights that is shown
 const LABEL_WIDTH = 44; // px, for heights as numbers; names of levels are on their lines
+const TIME_SPACE = 20; // px, for the times below
+const NEAR = 5; // m by which a level may be above or below the track and still be shown
 const REDRAW_INTERVAL = 250; // ms between two pictures
 
 export class Height {
@@ -15,6 +18,7 @@ export class Height {
     const canvas = document.getElementById("height");
     this.surface = new Surface(canvas, redraw);
     this.alternative = new Alternative(canvas);
+    this.labels = new Labels(canvas, "card");
     this.now = document.getElementById("height-now");
     this.drawn = 0;
   }
@@ -33,17 +37,16 @@ export class Height {
     );
     let [low, high] = points.reduce(([a, b], [, z]) => [Math.min(a, z), Math.max(b, z)], [Infinity, -Infinity]);
     if (!last) [low, high] = [0, 0];
-    for (const { z } of lines) if (z > low - 5 && z < high + 5) [low, high] = [Math.min(low, z), Math.max(high, z)];
+    for (const { z } of lines) if (z > low - NEAR && z < high + NEAR) [low, high] = [Math.min(low, z), Math.max(high, z)];
     const lacks = Math.max(0, MIN_RANGE - (high - low)) / 2;
     [low, high] = [low - lacks, high + lacks];
-    const [top, bottom] = [lines.length > 0 ? 16 : 10, height - 20];
+    const [top, bottom] = [lines.length > 0 ? 22 : 10, height - TIME_SPACE - 6];
     const y = (z) => bottom - ((z - low) / (high - low)) * (bottom - top);
     const [from, to] = last ? [points[0][0], Math.max(last[0], points[0][0] + 10)] : [0, 10];
     const side = lines.length > 0 ? 0 : LABEL_WIDTH;
-    const x = (t) => side + ((t - from) / (to - from)) * (width - side - 6);
+    const x = (t) => side + ((t - from) / (to - from)) * (width - side - 8);
 
-    context.font = FONT;
-    context.textAlign = lines.length > 0 ? "left" : "right";
+    this.labels.start(this.surface);
     const step = round((high - low) / 2.5);
     const marks =
       lines.length > 0
@@ -52,19 +55,22 @@ export class Height {
             .filter((z) => z <= high)
             .map((z) => ({ z, name: `${fixed(z, step < 1 ? 1 : 0)} m` }));
     for (const { z, name } of marks) {
-      if (y(z) < 2 || y(z) > height - 14) continue;
-      context.strokeStyle = lines.length > 0 ? theme.colours["sole-line"] : theme.colours.grid;
+      if (y(z) < 2 || y(z) > height - TIME_SPACE) continue;
+      context.strokeStyle = theme.colours["strong-line"];
       context.lineWidth = 1;
+      context.setLineDash([2, 4]);
       context.beginPath();
       context.moveTo(side, Math.round(y(z)) + 0.5);
       context.lineTo(width, Math.round(y(z)) + 0.5);
       context.stroke();
-      context.fillStyle = theme.colours.muted;
-      if (lines.length > 0) context.fillText(name, 2, y(z) - 4);
-      else context.fillText(name, side - 6, y(z) + 4);
+      context.setLineDash([]);
+      // the level at which the wearer is has its name first
+      const weight = 5 - Math.min(4, last ? Math.abs(z - last[1]) : 0);
+      const spots = lines.length > 0 ? levelSpots(points, x, y, z, width) : [[side - 8, y(z), "right"]];
+      this.labels.add(name, spots, { weight });
     }
-    this.#times(context, from, to, x, side, state.start);
-    if (!last) return "done";
+    this.#times(from, to, x, side, state.start);
+    if (!last) return this.labels.finish(context) ?? "done";
     context.beginPath();
     let shown = -Infinity;
     points.forEach(([t, z], i) => {
@@ -72,29 +78,35 @@ export class Height {
       shown = x(t);
       context.lineTo(shown, y(z));
     });
-    context.lineWidth = 2;
+    context.lineWidth = 2.5;
     context.lineJoin = "round";
     context.strokeStyle = theme.colours.wearer;
     context.stroke();
     context.beginPath();
-    context.arc(x(last[0]), y(last[1]), 3.5, 0, 2 * Math.PI);
+    context.arc(x(last[0]), y(last[1]), 5, 0, 2 * Math.PI);
     context.fillStyle = theme.colours.wearer;
     context.fill();
+    this.labels.finish(context);
     return "done";
   }
 
-  #times(context, from, to, x, side, start) {
+  #times(from, to, x, side, start) {
+    const { width, height } = this.surface;
     const step =
-      [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200].find(
-        (s) => ((to - from) / s) * 52 < this.surface.width - side,
-      ) ?? round((to - from) / 4);
-    context.textAlign = "center";
-    context.fillStyle = theme.colours.muted;
+      [5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200].find((s) => ((to - from) / s) * 64 < width - side) ??
+      round((to - from) / 4);
     for (let t = Math.ceil((from - start) / step) * step; t <= to - start; t += step) {
-      const at = x(start + t);
-      if (at > side + 12 && at < this.surface.width - 14) context.fillText(clock(t), at, this.surface.height - 4);
+      if (x(start + t) > side) this.labels.add(clock(t), [[x(start + t), height - 8]], { weight: 6 });
     }
   }
+}
+
+// Above the line of a level, at that end at which the track does not run there, or else below it.
+function levelSpots(points, x, y, z, width) {
+  const near = (from, to) => points.some(([t, at]) => x(t) >= from && x(t) <= to && Math.abs(y(at) + 11 - y(z)) < 8);
+  const ends = [[2, "left", 0, 110], [width - 12, "right", width - 110, width]];
+  const free = ends.filter(([, , from, to]) => !near(from, to));
+  return [...free, ...ends].map(([at, align]) => [at, y(z) - 11, align]);
 }
 
 // [t, z] of the known points, and the elevations of the levels if the points are in the plan frame.

@@ -1,38 +1,80 @@
-// State of each sensor's link. A lost link, and what a person must mend, are also shown at the top of the page.
+// State of each sensor's link: one sentence, and what is known of each below it, which opens when something is wrong.
 
 import { LINKS, capital, child, fixed, percent, wordOf, show, span, setData, write } from "./words.js";
 
+const RECORDED = { ok: "recorded", silent: "no data", lost: "lost", waiting: "no data yet" };
+const isBroken = ({ state }) => state === "lost" || state === "silent";
+const troubleOf = ({ trouble }) => (typeof trouble === "string" ? trouble : "");
+
+// What is wrong with the links: a sentence each, for the person who can repair it.
+export function problems({ links, finished, source }) {
+  if (finished) return [];
+  const names = Object.keys(links).sort();
+  const lost = names.filter((name) => isBroken(links[name])).map((name) => {
+    const { silent_for } = links[name];
+    const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
+    const todo = source === "live" ? " Is the sensor near, switched on and charged?" : "";
+    return `${capital(name)}: no data${since}.${todo}`;
+  });
+  const faulty = names.filter((name) => troubleOf(links[name]) !== "");
+  return [...lost, ...faulty.map((name) => `${capital(name)}: ${troubleOf(links[name])}.`)];
+}
+
+// One sentence on all links.
+export function linksText({ links, source, finished }) {
+  const names = Object.keys(links).sort();
+  if (names.length === 0) return "No data from any sensor yet";
+  const broken = names.filter((name) => isBroken(links[name]));
+  if (broken.length > 0 && !finished) return `${capital(broken.join(" and "))}: no data`;
+  const faulty = names.filter((name) => troubleOf(links[name]) !== "");
+  if (faulty.length > 0) return `${capital(faulty.join(" and "))}: attention is needed`;
+  const waiting = names.filter((name) => links[name].state === "waiting");
+  if (waiting.length > 0) return `${capital(waiting.join(" and "))}: waiting for data`;
+  const all = names.length === 1 ? capital(names[0]) : names.length === 2 ? "Both sensors" : `All ${names.length} sensors`;
+  const verb = source === "recording" || finished ? "recorded" : source === "demo" ? "emulated" : "connected";
+  const some = names.map((name) => links[name]);
+  const most = Math.max(0, ...some.map(({ loss }) => (Number.isFinite(loss) ? loss : 0)));
+  if (!finished && most > 0) return `${all} ${verb}, ${percent(most, most < 0.0995 ? 1 : 0)} of packets lost`;
+  const ever = some.reduce((sum, { lost, gaps }) => sum + (lost > 0) + (gaps > 0), 0);
+  return ever === 0 ? `${all} ${verb}, no data lost` : `${all} ${verb}${finished ? ", with some data lost" : ", no data lost now"}`;
+}
+
 export class Links {
-  uses = ["links", "scene"];
+  uses = ["links", "playback", "scene"];
+  #opened = false; // by itself
 
   constructor() {
     this.list = document.getElementById("links");
-    this.waiting = document.getElementById("links-waiting");
-    this.banner = document.getElementById("link-banner");
+    this.fold = document.getElementById("links-fold");
+    this.summary = document.getElementById("links-summary");
     this.sites = new Map();
   }
 
-  draw({ links }) {
+  draw(state) {
+    const { links, source } = state;
     const names = Object.keys(links).sort();
-    show(this.waiting, names.length === 0);
     if (names.join("\n") !== [...this.sites.keys()].join("\n")) {
       this.sites = new Map(names.map((name) => [name, new Link(name)]));
       this.list.replaceChildren(...[...this.sites.values()].map((link) => link.element));
     }
-    for (const [name, link] of this.sites) link.show(links[name]);
-    const broken = names.filter((name) => ["lost", "silent"].includes(links[name].state));
-    const lost = broken.map((name) => {
-      const { state, silent_for } = links[name];
-      const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
-      return `${capital(name)} ${wordOf(LINKS, state)}: no data${since}.`;
-    });
-    const faulty = names.filter((name) => typeof links[name].trouble === "string" && links[name].trouble);
-    const words = [...lost, ...faulty.map((name) => `${capital(name)}: ${links[name].trouble}.`)];
-    show(this.banner, words.length > 0);
-    write(this.banner, words.join(" "));
+    for (const [name, link] of this.sites) link.show(links[name], source === "live" ? LINKS : RECORDED);
+    write(this.summary, linksText(state));
+    const wrong = problems(state).length > 0;
+    setData(this.summary, { wrong });
+    if (wrong !== this.#opened) this.fold.open = this.#opened = wrong;
     return "done";
   }
 }
+
+const FIGURES = {
+  rate: "samples a second",
+  loss: "packets lost",
+  lost: "lost since the start",
+  battery: "battery",
+  signal: "signal",
+  gaps: "interruptions",
+  rejected: "rejected",
+};
 
 class Link {
   constructor(name) {
@@ -44,9 +86,9 @@ class Link {
     this.device = child(head, "span", "link-device");
     const figures = child(this.element, "dl", "link-figures");
     this.figures = Object.fromEntries(
-      ["rate", "loss", "lost", "battery", "signal", "gaps", "rejected"].map((title) => {
+      Object.entries(FIGURES).map(([title, words]) => {
         const pair = child(figures, "div");
-        child(pair, "dt").textContent = title;
+        child(pair, "dt").textContent = words;
         pair.dataset.figure = title;
         return [title, { pair, value: child(pair, "dd") }];
       }),
@@ -54,19 +96,19 @@ class Link {
     this.trouble = child(this.element, "p", "trouble");
   }
 
-  show(link) {
+  show(link, words) {
     setData(this.element, { state: link.state ?? "waiting" });
     const silent = Number.isFinite(link.silent_for) && link.state !== "ok" ? `, ${span(link.silent_for)}` : "";
-    write(this.state, wordOf(LINKS, link.state ?? "waiting") + silent);
+    write(this.state, wordOf(words, link.state ?? "waiting") + silent);
     write(this.device, typeof link.name === "string" ? link.name : "");
-    this.#figure("rate", `${fixed(link.rate)} Hz`, Number.isFinite(link.rate));
+    this.#figure("rate", fixed(link.rate), Number.isFinite(link.rate));
     this.#figure("loss", percent(link.loss, 1), Number.isFinite(link.loss)); // recent loss
     this.#figure("lost", fixed(link.lost), link.lost > 0);
     this.#figure("battery", percent(link.battery), Number.isFinite(link.battery));
     this.#figure("signal", `${fixed(link.signal)} dBm`, Number.isFinite(link.signal));
     this.#figure("gaps", fixed(link.gaps), link.gaps > 0);
     this.#figure("rejected", fixed(link.rejected), link.rejected > 0);
-    write(this.trouble, typeof link.trouble === "string" ? link.trouble : "");
+    write(this.trouble, troubleOf(link));
     show(this.trouble, this.trouble.textContent !== "");
   }
 

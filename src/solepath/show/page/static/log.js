@@ -8,12 +8,10 @@ export class Log {
   constructor() {
     this.list = document.getElementById("log");
     this.waiting = document.getElementById("log-waiting");
-    this.scroll = document.getElementById("log-scroll");
   }
 
   draw({ log, start }) {
     this.waiting.hidden = log.length > 0;
-    this.scroll.hidden = log.length === 0;
     this.list.replaceChildren(
       ...log
         .map(([t, kind, words]) => {

@@ -1,4 +1,5 @@
-// Buttons and keys that move the view of the track: nearer, farther, another level, plan or track alone.
+// Buttons and keys that move the view of the track: nearer, farther, around the wearer, all of it, another level, plan or
+// track alone.
 
 import { describe, show } from "./words.js";
 
@@ -11,9 +12,11 @@ export class Looking {
     this.choice = document.getElementById("track-choice");
     this.onPlan = document.getElementById("show-plan");
     this.alone = document.getElementById("show-track");
-    document.getElementById("zoom-in").addEventListener("click", () => track.view.zoom(true));
-    document.getElementById("zoom-out").addEventListener("click", () => track.view.zoom(false));
-    this.fit.addEventListener("click", () => track.view.all());
+    this.follow = document.getElementById("zoom-follow") ?? followButton(this.fit);
+    document.getElementById("zoom-in").addEventListener("click", () => track.nearer(true));
+    document.getElementById("zoom-out").addEventListener("click", () => track.nearer(false));
+    this.fit.addEventListener("click", () => track.all());
+    this.follow.addEventListener("click", () => track.follow());
     this.onPlan.addEventListener("click", () => this.#show(false));
     this.alone.addEventListener("click", () => this.#show(true));
     document.getElementById("track-section").addEventListener("keydown", (event) => this.#arrow(event));
@@ -21,19 +24,21 @@ export class Looking {
 
   // Returns true when the key was one of these.
   key(key) {
-    const { view } = this.track;
-    if (key === "+" || key === "=") view.zoom(true);
-    else if (key === "-" || key === "_") view.zoom(false);
-    else if (key === "0") view.all();
+    const { track } = this;
+    if (key === "+" || key === "=") track.nearer(true);
+    else if (key === "-" || key === "_") track.nearer(false);
+    else if (key === "0") track.all();
     else return false;
     return true;
   }
 
   draw(state) {
     const { track } = this;
-    press(this.fit, track.view.follows);
-    show(this.choice, state.plan !== null);
     const onPlan = track.onPlan(state);
+    press(this.fit, track.view.follows && !track.following);
+    press(this.follow, track.following);
+    show(this.follow, onPlan);
+    show(this.choice, state.plan !== null);
     press(this.onPlan, onPlan);
     press(this.alone, !onPlan);
     const levels = onPlan && state.plan.levels.length > 1 ? state.plan.levels : [];
@@ -42,14 +47,13 @@ export class Looking {
     if (key !== this.listed) this.#list(levels, key);
     if (levels.length === 0) return;
     const shown = track.shown(state).id;
-    press(this.levels.firstChild, track.level === null);
-    levels.forEach((level, i) => press(this.levels.children[i + 1], level.id === shown));
+    levels.forEach((level, i) => press(this.levels.children[i], level.id === shown));
   }
 
   #list(levels, key) {
     this.listed = key;
     this.levels.replaceChildren();
-    for (const [id, name] of [[null, "Follow"], ...levels.map((level) => [level.id, level.name])]) {
+    for (const { id, name } of levels) {
       const button = document.createElement("button");
       button.type = "button";
       button.textContent = name;
@@ -62,8 +66,8 @@ export class Looking {
   }
 
   #show(byItself) {
-    this.track.byItself = byItself;
-    this.track.view.all();
+    Object.assign(this.track, { byItself, whole: false });
+    this.track.view.all(true);
   }
 
   #arrow(event) {
@@ -73,6 +77,23 @@ export class Looking {
     event.stopPropagation();
     this.track.view.push(...way);
   }
+}
+
+// A button that shows the part of the plan around the wearer again.
+function followButton(fit) {
+  const button = document.createElement("button");
+  Object.assign(button, { type: "button", id: "zoom-follow", title: "Follow the wearer" });
+  button.setAttribute("aria-label", "Follow the wearer");
+  const space = "http://www.w3.org/2000/svg";
+  const picture = document.createElementNS(space, "svg");
+  const path = document.createElementNS(space, "path");
+  const given = { viewBox: "0 0 24 24", width: 20, height: 20, fill: "none", stroke: "currentColor", "stroke-width": 2, "aria-hidden": true };
+  for (const [name, value] of Object.entries(given)) picture.setAttribute(name, value);
+  path.setAttribute("d", "M12 6a6 6 0 1 0 0 12 6 6 0 1 0 0-12M12 2v4M12 18v4M2 12h4M18 12h4M12 11.5v1");
+  picture.append(path);
+  button.append(picture);
+  fit.before(button);
+  return button;
 }
 
 const press = (button, pressed) => describe(button, "aria-pressed", String(pressed));

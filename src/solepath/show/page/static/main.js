@@ -14,6 +14,7 @@ import { Here } from "./here.js";
 import { Links } from "./links.js";
 import { Log } from "./log.js";
 import { Looking } from "./looking.js";
+import { Notice } from "./notice.js";
 import { Pace } from "./pace.js";
 import { Playback } from "./playback.js";
 import { PosturePanel, ToeOutPanel } from "./guides.js";
@@ -24,14 +25,14 @@ import { Space } from "./space.js";
 import { State } from "./state.js";
 import { startTheme } from "./theme.js";
 import { Track } from "./track.js";
-import { write } from "./words.js";
+import { capital, wordOf, write } from "./words.js";
 
 const element = (id) => document.getElementById(id);
 const state = new State();
 const seen = { frames: 0, messages: 0, state };
 window.solepath = seen;
 
-const WHILE_GUIDING = [PosturePanel, ToeOutPanel, Links, Log]; // what is shown while a shoe or a walk is measured
+const WHILE_GUIDING = [Notice, PosturePanel, ToeOutPanel, Links, Log]; // what is shown while a shoe or a walk is measured
 
 let changed = new Set();
 let frameRequested = false;
@@ -40,6 +41,7 @@ const redraw = () => mark("theme");
 
 const pace = new Pace();
 const announcer = new Announcer();
+const notice = new Notice();
 const track = (seen.track = new Track(redraw));
 const ribbon = new Ribbon(redraw);
 const playback = new Playback((command) => connection.send(command));
@@ -52,6 +54,7 @@ const here = new Here(
   WORDS.watchOnly,
 );
 const panels = [
+  notice,
   new Soles(redraw),
   ribbon,
   track,
@@ -91,6 +94,7 @@ function draw(now) {
   }
   looking.draw(state);
   if (news.has("scene")) heading();
+  arrange();
   if (drew) seen.frames += 1;
   if (pace.moving || track.moving || changed.size > 0) mark();
 }
@@ -104,15 +108,23 @@ function later(panel, news) {
   for (const name of news) if (panel.uses.includes(name)) changed.add(name);
 }
 
+const SOURCES = { live: "live sensors", demo: "an emulated walk", recording: "a recording" };
+
 function heading() {
   write(element("title"), state.title);
+  write(element("source"), wordOf(SOURCES, state.source));
+  write(element("recipe"), state.recipe);
   document.body.classList.toggle("measuring", isGuided(state));
   document.body.classList.toggle("has-plan", state.plan !== null);
+  document.body.classList.toggle("has-levels", (state.plan?.levels.length ?? 0) > 1);
   document.title = state.title ? `${state.title} – solepath` : "solepath";
-  for (const name of ["source", "recipe"]) {
-    write(element(name), state[name]);
-    element(name).hidden = state[name] === "";
-  }
+}
+
+// Which regions there are follows from the sensors; what was shown once stays, so that nothing moves.
+function arrange() {
+  const { soles } = document.body.dataset;
+  if (state.known) document.body.dataset.known = "";
+  if (state.soles !== "unknown" && soles !== "cells" && soles !== state.soles) document.body.dataset.soles = state.soles;
 }
 
 const connection = new Connection(
@@ -132,7 +144,9 @@ const connection = new Connection(
       const at = performance.now() + 1000 * wait;
       const show = () => {
         element("connection").dataset.state = how;
-        write(element("connection-word"), WORDS[how]);
+        notice.connection = how === "open" ? "" : capital(WORDS[how]);
+        if (how === "open" || how === "ended") state.over = how === "ended" && WORDS.finishes;
+        mark("links", "activity");
         // while the first connection is tried, no alarm is needed
         element("offline").hidden = how === "open" || (how === "connecting" && was === "");
         const left = Math.ceil((at - performance.now()) / 1000);
@@ -161,6 +175,12 @@ const connection = new Connection(
   })(),
 );
 
+element("show-feet").addEventListener("click", ({ currentTarget: button }) => {
+  track.feetShown = !track.feetShown;
+  button.setAttribute("aria-pressed", String(track.feetShown));
+  element("track-section").dataset.feet = track.feetShown ? "shown" : "";
+  mark("scene");
+});
 write(element("retry"), WORDS.retry);
 element("retry").addEventListener("click", () => connection.retry());
 document.addEventListener("visibilitychange", () => {

@@ -1,13 +1,14 @@
 // Marks on the plane of the track: grid, ruler, feet, the wearer, and their uncertainty. Positions are in px.
 
 import { round } from "./canvas.js";
-import { label } from "./plan.js";
 import { theme } from "./theme.js";
 import { fixed, percent } from "./words.js";
 
 const CONFIDENCE_FACTOR = Math.sqrt(5.991); // 95 % quantile of chi squared with 2 degrees of freedom
 const MAX_RADIUS = 4000; // px; a larger circle goes beyond every screen
 const MIN_SHOWN_WEIGHT = 0.05; // share from which a candidate has its weight beside it
+
+const LEAST_RULER = 40; // px; the ruler is up to 2.5 times as long
 
 // Half axis of the 95 % ellipse for a variance, m.
 export const sure = (variance) => CONFIDENCE_FACTOR * Math.sqrt(Math.max(0, variance));
@@ -39,59 +40,68 @@ function segment(path, x1, y1, x2, y2) {
 
 export function drawStart(context, [x, y]) {
   circle(context, x, y, 6);
+  context.fillStyle = theme.colours.inset;
+  context.fill();
   context.lineWidth = 2;
   context.strokeStyle = theme.colours.muted;
   context.stroke();
-  context.textAlign = "center";
-  label(context, "start", x, y + 20, theme.colours.muted);
 }
 
-export function drawRuler(context, { height }, scale) {
-  const metres = round(56 / scale);
-  const [x, y, length] = [12, height - 12, metres * scale];
+// The words of the start, and nothing over its ring.
+export function nameStart(labels, [x, y]) {
+  labels.keep(x - 7, y - 7, 14, 14);
+  labels.add("start", [[x, y + 18], [x, y - 18], [x - 12, y, "right"], [x + 12, y, "left"]], { weight: 8 });
+}
+
+export function drawRuler(context, labels, { height }, scale) {
+  const metres = round(LEAST_RULER / scale);
+  const [x, y, length] = [14, height - 14, metres * scale];
   const path = new Path2D();
-  path.moveTo(x, y - 4);
+  path.moveTo(x, y - 5);
   path.lineTo(x, y);
   path.lineTo(x + length, y);
-  path.lineTo(x + length, y - 4);
-  stroke(context, path, 1.5, theme.colours.muted);
-  context.textAlign = "left";
+  path.lineTo(x + length, y - 5);
+  stroke(context, path, 4.5, theme.colours[labels.ground]);
+  stroke(context, path, 1.5, theme.colours.ink);
+  labels.keep(x - 4, y - 4, length + 8, 8);
   const words = metres < 1 ? `${fixed(100 * metres)} cm` : `${fixed(metres)} m`;
-  label(context, words, x + 4, y - 6, theme.colours.muted);
+  labels.add(words, [[x + length / 2, y - 12]], { weight: 10, colour: "ink" });
 }
 
-// The left foot is round and the right one square, for people who do not see the colours.
+// A foot beside the wearer's dot: the left one is round and the right one square, for people who do not see the colours.
 export function drawFoot(context, foot, [x, y]) {
   context.beginPath();
-  if (foot === "left") context.arc(x, y, 6, 0, 2 * Math.PI);
-  else context.rect(x - 5.5, y - 5.5, 11, 11);
+  if (foot === "left") context.arc(x, y, 5, 0, 2 * Math.PI);
+  else context.rect(x - 4.5, y - 4.5, 9, 9);
   context.fillStyle = theme.colours[foot];
   context.fill();
   context.lineWidth = 1.5;
   context.strokeStyle = theme.colours.inset;
   context.stroke();
-  context.fillStyle = theme.colours.card;
-  context.font = "700 9px system-ui, sans-serif";
-  context.textAlign = "center";
-  context.fillText(foot === "left" ? "L" : "R", x, y + 3.25);
 }
 
-// The wearer as a ring around both feet, for a scale at which the feet cannot be distinguished.
-export function drawRing(context, [x, y]) {
-  circle(context, x, y, 11);
-  context.lineWidth = 2.5;
-  context.strokeStyle = theme.colours.wearer;
-  context.stroke();
-}
+export const WEARER_RADIUS = 9; // px
+const TIP = 19; // px from the middle of the wearer's dot to the tip of its wedge
 
-// The wearer, where no feet are drawn.
-export function drawDot(context, [x, y]) {
-  circle(context, x, y, 5.5);
+// The wearer: a dot with a wedge into the heading, rad, if that is known.
+export function drawWearer(context, [x, y], heading) {
+  const path = new Path2D();
+  path.arc(x, y, WEARER_RADIUS, 0, 2 * Math.PI);
+  path.closePath();
+  if (heading !== null) {
+    const at = (angle, far) => [x + far * Math.cos(angle), y - far * Math.sin(angle)];
+    const off = Math.acos(WEARER_RADIUS / TIP); // where the wedge touches the dot
+    path.moveTo(...at(heading + off, WEARER_RADIUS));
+    path.lineTo(...at(heading, TIP));
+    path.lineTo(...at(heading - off, WEARER_RADIUS));
+    path.closePath();
+  }
+  stroke(context, path, 6, theme.colours.card);
   context.fillStyle = theme.colours.wearer;
+  context.fill(path);
+  circle(context, x, y, 3);
+  context.fillStyle = theme.colours.card;
   context.fill();
-  context.lineWidth = 2.5;
-  context.strokeStyle = theme.colours.inset;
-  context.stroke();
 }
 
 // A position that a person reported: a diamond, or a cross where it contradicts the track.
@@ -131,7 +141,7 @@ export function drawSpread(context, [x, y], radius) {
 
 // A candidate's mark is larger the likelier it is; on other levels it is faint. The likeliest, which comes first, has a
 // ring, and those that matter have their weights.
-export function drawCandidates(context, candidates, level, px) {
+export function drawCandidates(context, labels, candidates, level, px) {
   context.fillStyle = theme.colours.candidate;
   for (const { level: of, x, y, weight } of candidates) {
     context.globalAlpha = of === level ? 0.8 : 0.2;
@@ -146,22 +156,17 @@ export function drawCandidates(context, candidates, level, px) {
     context.strokeStyle = theme.colours.ink;
     context.stroke();
   }
-  drawWeights(context, here, px);
-}
-
-const radiusOf = (weight) => 2.5 + 9 * Math.sqrt(Math.min(1, Math.max(0, weight)));
-
-// Where marks are close together only the likelier one has its weight.
-function drawWeights(context, candidates, px) {
-  const labelled = [];
-  context.textAlign = "left";
-  for (const { x, y, weight } of candidates) {
+  for (const { x, y, weight } of here) {
+    if (weight < MIN_SHOWN_WEIGHT) continue;
     const [a, b] = px([x, y]);
-    if (weight < MIN_SHOWN_WEIGHT || labelled.some(([c, d]) => Math.abs(a - c) < 42 && Math.abs(b - d) < 14)) continue;
-    labelled.push([a, b]);
-    label(context, percent(weight), a + radiusOf(weight) + 6, b + 4, theme.colours.ink);
+    const off = radiusOf(weight) + 6;
+    labels.keep(a - off / 2, b - off / 2, off, off);
+    const spots = [[a + off, b, "left"], [a - off, b, "right"], [a, b - off - 6], [a, b + off + 6]];
+    labels.add(percent(weight), spots, { weight: 7 + weight, colour: "ink", bold: true });
   }
 }
+
+const radiusOf = (weight) => 3 + 9 * Math.sqrt(Math.min(1, Math.max(0, weight)));
 
 export function stroke(context, path, width, colour) {
   context.lineWidth = width;

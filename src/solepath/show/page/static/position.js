@@ -3,6 +3,9 @@
 import { axes } from "./marks.js";
 import { fixed, percent } from "./words.js";
 
+// The wearer is between the feet; a foot's line has a point a stride, and nothing measures the distance between the feet.
+const EACH_FOOT = "Each foot’s own path: they differ by what the sensors cannot know, most at turns. The wearer is between them.";
+
 export function nameOf(plan, id) {
   return plan?.levels.find((level) => level.id === id)?.name ?? id;
 }
@@ -22,8 +25,9 @@ export function noteOnPlan({ place, places, plan }, level) {
   return where.length > 0 ? `The wearer is ${where.join(", ")}.` : "";
 }
 
-// Note below the track without a plan.
-export function noteAlone({ place, places, plan }) {
+// Note on the track without a plan.
+export function noteAlone({ place, places, plan }, feetShown) {
+  if (feetShown) return EACH_FOOT;
   return plan && !place && places.length === 0 ? "Where on the plan is not known yet; this is the track by itself." : "";
 }
 

@@ -1,13 +1,16 @@
 // The phases of both feet over the last seconds: a ramp up while the foot is loaded, level while it is flat, a ramp
 // down while it pushes off, a line while it swings. Between the feet: the times with both on the ground.
 
-import { Alternative, FONT, Surface, reducedMotion } from "./canvas.js";
+import { Alternative, Surface, reducedMotion } from "./canvas.js";
+import { Labels } from "./labels.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
-import { LINKS, PHASES, SUPPORTS, clock, wordOf } from "./words.js";
+import { LINKS, PHASES, SUPPORTS, capital, clock, wordOf } from "./words.js";
 
 const TIME_WINDOW = 8; // s
-const LABEL_WIDTH = 20; // px for the names of the rows
+const NAMED_WIDTH = 400; // px from which on the feet have their whole names
+const LABEL_WIDTHS = [20, 44]; // px for the letters of the feet, and for their names
+const [TIMES_HEIGHT, BETWEEN] = [20, 12]; // px for the times below, and for the times with both feet on the ground
 // Height of a phase at its start and at its end, as shares of the row.
 const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] };
 const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" };
@@ -20,6 +23,7 @@ export class Ribbon {
     const canvas = document.getElementById("ribbon");
     this.surface = new Surface(canvas, redraw);
     this.alternative = new Alternative(canvas);
+    this.labels = new Labels(canvas, "card");
     this.drawn = 0;
   }
 
@@ -28,23 +32,25 @@ export class Ribbon {
     this.drawn = now;
     const context = this.surface.start();
     const { width, height } = this.surface;
-    const scale = (width - LABEL_WIDTH) / TIME_WINDOW;
-    const x = (when) => LABEL_WIDTH + Math.max(0, (when - t + TIME_WINDOW) * scale);
-    const band = Math.floor((height - 18 - 16) / 2);
-    const rows = { left: [2, band], right: [band + 18, band] };
-    this.#seconds(context, x, t, height, state);
+    const named = width >= NAMED_WIDTH;
+    const side = LABEL_WIDTHS[named ? 1 : 0];
+    const scale = (width - side) / TIME_WINDOW;
+    const x = (when) => side + Math.max(0, (when - t + TIME_WINDOW) * scale);
+    const band = Math.floor((height - TIMES_HEIGHT - BETWEEN) / 2);
+    const rows = { left: [0, band], right: [band + BETWEEN, band] };
+    this.labels.start(this.surface);
+    this.#seconds(context, x, t, side, state.start);
     const spans = {};
     for (const foot of FEET) spans[foot] = this.#row(context, state.phases[foot], foot, rows[foot], x, t);
     context.fillStyle = theme.colours.both;
     for (const [from, to] of overlaps(spans.left, spans.right)) {
-      context.fillRect(x(from), band + 6, Math.max(1, x(to) - x(from)), 8);
+      context.fillRect(x(from), band + BETWEEN / 2 - 3, Math.max(1, x(to) - x(from)), 6);
     }
-    context.font = `700 12px ${FONT.slice(5)}`;
-    context.textAlign = "left";
     for (const foot of FEET) {
-      context.fillStyle = theme.colours[foot];
-      context.fillText(foot === "left" ? "L" : "R", 2, rows[foot][0] + band / 2 + 4);
+      const words = named ? capital(foot) : capital(foot)[0];
+      this.labels.add(words, [[0, rows[foot][0] + band / 2, "left"]], { weight: 9, colour: foot, bold: true });
     }
+    this.labels.finish(context);
     this.alternative.setText(() => {
       const words = FEET.map((foot) => `${foot} ${phaseWords(state, foot)}`);
       const ground = wordOf(SUPPORTS, state.support) || "not known";
@@ -54,23 +60,19 @@ export class Ribbon {
     return "done";
   }
 
-  #seconds(context, x, t, height, state) {
-    context.font = FONT;
-    context.textAlign = "center";
-    context.lineWidth = 1;
-    const start = state.start;
-    for (let second = Math.ceil(t - start - TIME_WINDOW); second <= t - start; second++) {
+  #seconds(context, x, t, side, start) {
+    const { height } = this.surface;
+    const path = new Path2D();
+    for (let second = Math.max(0, Math.ceil(t - start - TIME_WINDOW)); second <= t - start; second++) {
       const at = Math.round(x(start + second)) + 0.5;
-      if (second < 0 || at < LABEL_WIDTH + 1) continue;
-      context.strokeStyle = theme.colours.grid;
-      context.beginPath();
-      context.moveTo(at, 0);
-      context.lineTo(at, height - 15);
-      context.stroke();
-      context.fillStyle = theme.colours.muted;
-      if (second % 2 === 0 && at > LABEL_WIDTH + 14 && at < this.surface.width - 16)
-        context.fillText(clock(second), at, height - 3);
+      if (at < side + 1) continue;
+      path.moveTo(at, 0);
+      path.lineTo(at, height - TIMES_HEIGHT + 2);
+      if (second % 2 === 0 && at > side + 16) this.labels.add(clock(second), [[at, height - 8]]);
     }
+    context.lineWidth = 1;
+    context.strokeStyle = theme.colours.line;
+    context.stroke(path);
   }
 
   // Draws a row and returns the spans on the ground.
@@ -96,6 +98,10 @@ export class Ribbon {
     for (const [shade, path] of Object.entries(paths)) {
       context.fillStyle = theme.colours[foot + shade];
       context.fill(path);
+      if (shade === "") continue;
+      context.lineWidth = 1; // the pale shapes by themselves are hard to see
+      context.strokeStyle = theme.colours[foot];
+      context.stroke(path);
     }
     return ground;
   }

@@ -50,7 +50,7 @@ export class Soles {
     const words = shown.includes("bars")
       ? "Where the cells sit is not known: one bar each, in their order."
       : shown.includes("contact")
-        ? "No pressure is measured: filled is what touches the ground."
+        ? "No pressure cells"
         : "";
     write(this.note, words);
     show(this.note, words !== "");

@@ -1,8 +1,8 @@
 // The track in space, above its floor, as the report draws it (show/report/figures/space.py): an isometric projection
 // without perspective, with heights drawn larger where the track is flat. It is shown once there are heights to see.
 
-import { Alternative, FONT, Surface, round } from "./canvas.js";
-import { label } from "./plan.js";
+import { Alternative, Surface, round } from "./canvas.js";
+import { Labels } from "./labels.js";
 import { theme } from "./theme.js";
 import { fixed, setData, show, write } from "./words.js";
 
@@ -12,7 +12,7 @@ const EXAGGERATIONS = [1, 2, 5, 10]; // factors by which heights may be drawn la
 const LEAST_HEIGHT_SHARE = 0.25; // height of the track in the drawing, as a share of the width of its floor
 const LEAST_EXTENT = 2; // m, least side of the floor
 const SQUARES = 8; // largest number of squares along a side of the floor, about
-const MARGIN = 18; // px
+const [MARGIN, LABEL_WIDTH] = [18, 44]; // px around the drawing, and for the heights at its left
 const REDRAW_INTERVAL = 1000; // ms between two pictures: a stride is not much shorter
 
 // Place in the drawing, right and down, m, of a position in space: x to the lower right, y to the upper.
@@ -33,6 +33,7 @@ export class Space {
     const canvas = document.getElementById("space");
     this.surface = new Surface(canvas, redraw);
     this.alternative = new Alternative(canvas);
+    this.labels = new Labels(canvas, "card");
     this.note = document.getElementById("space-note");
   }
 
@@ -62,7 +63,7 @@ export class Space {
     const all = [...corners, [xs[0], ys[0], low + rise], ...places].map((place) => project(place, exaggeration));
     const [[left, right], [top, bottom]] = [0, 1].map((k) => range(all.map((one) => one[k])));
     const { width, height } = this.surface;
-    const scale = Math.min((width - 2 * MARGIN) / (right - left), (height - 2 * MARGIN) / (bottom - top));
+    const scale = Math.min((width - 2 * (MARGIN + LABEL_WIDTH)) / (right - left), (height - 2 * MARGIN) / (bottom - top));
     const from = [0.5 * (width - (right - left) * scale), 0.5 * (height - (bottom - top) * scale)];
     const px = (place) => {
       const [u, v] = project(place, exaggeration);
@@ -73,20 +74,25 @@ export class Space {
     const rules = new Path2D();
     for (const x of marks(xs, step)) line(rules, [px([x, ys[0], low]), px([x, ys[1], low])]);
     for (const y of marks(ys, step)) line(rules, [px([xs[0], y, low]), px([xs[1], y, low])]);
-    stroke(context, rules, 1, theme.colours.grid);
+    stroke(context, rules, 1, theme.colours.line);
     stroke(context, line(new Path2D(), places.map(([x, y]) => px([x, y, low]))), 1, theme.colours.muted, [3, 4]);
     stroke(context, line(new Path2D(), places.map(px)), 2.5, theme.colours.wearer);
+    this.labels.start(this.surface);
     for (const [place, words] of [[places[0], "start"], [places.at(-1), "now"]]) {
       const [a, b] = px(place);
       stroke(context, line(new Path2D(), [[a, b], px([place[0], place[1], low])]), 1, theme.colours.muted);
+      const radius = words === "now" ? 6 : 4.5;
       context.beginPath();
-      context.arc(a, b, 4, 0, 2 * Math.PI);
+      context.arc(a, b, radius, 0, 2 * Math.PI);
       context.fillStyle = words === "now" ? theme.colours.wearer : theme.colours.muted;
       context.fill();
-      context.textAlign = a > 0.85 * width ? "right" : "left";
-      label(context, words, a + (a > 0.85 * width ? -8 : 8), b - 5, theme.colours.ink);
+      this.labels.keep(a - radius, b - radius, 2 * radius, 2 * radius);
+      const off = radius + 5;
+      const spots = [[a + off, b - 4, "left"], [a - off, b - 4, "right"], [a, b - 15], [a, b + 15]];
+      this.labels.add(words, spots, { weight: words === "now" ? 9 : 8, colour: "ink", bold: words === "now" });
     }
     this.#upright(context, px, [xs[0], ys[0]]);
+    this.labels.finish(context);
     const larger = exaggeration > 1 ? ` Heights are drawn ${exaggeration} times as large.` : "";
     write(this.note, `A square of the floor is ${step} m wide.${larger}`);
     this.alternative.setText(() => `The track in space, with heights from ${fixed(low, 1)} to ${fixed(low + rise, 1)} m`);
@@ -98,11 +104,9 @@ export class Space {
     const [low, high] = [this.#low, this.#low + this.#rise];
     stroke(context, line(new Path2D(), [px([x, y, low]), px([x, y, high])]), 1, theme.colours.muted);
     const step = round((high - low) / 4);
-    context.font = FONT;
-    context.textAlign = "right";
     for (let z = Math.ceil(low / step) * step; z <= high; z += step) {
       const [a, b] = px([x, y, z]);
-      label(context, `${fixed(z, step < 1 ? 1 : 0)} m`, a - 4, b + 4, theme.colours.muted);
+      this.labels.add(`${fixed(z, step < 1 ? 1 : 0)} m`, [[a - 8, b, "right"]], { weight: 2 });
     }
   }
 }

@@ -1,24 +1,20 @@
-// The state that results from the messages of protocol/page.md. All input is checked here: panels may rely on it that
-// points consist of numbers. Nothing here draws. Limits were chosen by hand and not swept.
+// The state that results from the messages of protocol/page.md. All input is
+// checked (readers.js). Nothing here draws. Limits were chosen by hand and not swept.
+
+import { FEET, READERS, bytes, layout, list, number, numbers, plan, record, text } from "./readers.js";
+
+export { FEET };
 
 const MAX_POINTS = 2000; // points of a track
 const PHASE_HISTORY = 20; // s of phases
 const MAX_LOG_LINES = 50; // sentences of the log
 const MAX_REPORTS = 100; // marks of reported positions
 const MAX_TRAIL_POINTS = 240; // points of a centre of pressure's path
-export const FEET = ["left", "right"];
-
-const MAX_MAGNITUDE = 1e12; // limit of any number: nothing is farther away or later, and seconds can still be counted
-const MAX_ITEMS = 500; // limit of cells, candidates and rows of the table: nobody has more, and they would take time
-
-const sound = (value) => Number.isFinite(value) && Math.abs(value) < MAX_MAGNITUDE;
-const number = (value) => (sound(value) ? value : null);
-const text = (value) => (typeof value === "string" ? value : "");
-const list = (value) => (Array.isArray(value) ? value : []);
-const record = (value) => (value !== null && typeof value === "object" && !Array.isArray(value) ? value : {});
-const numbers = (value, least) => Array.isArray(value) && value.length >= least && value.every(sound);
+const CELLS_TIME = 1; // s after the start within which cells of an insole have sent, if there are any
 
 export class State {
+  over = false; // the program behind the page has ended its session
+
   constructor() {
     this.clear();
   }
@@ -49,12 +45,39 @@ export class State {
     this.body = null; // {t, left, right: hip, knee, ankle, end of the foot as [ahead, up], m}
     this.fused = null; // {foot, length, similarity, errorIndex, share, chosen, distance}: the last fused stride
     this.gait = null;
+    this.total = null; // {cadence, speed, stance: asymmetry}: means of all steady strides
+    this.findings = []; // {site, what, act}: what the checks found
     this.links = {};
     this.playback = null;
     this.toe_out = null; // {task, distance: m or null, feet: [{foot, strides, along, angle, sigma, learnt, why}]}: a walk that calibrates
     this.posture = null; // {foot, task, target, pitch, lean: rad or null, still}: a shoe that is measured
     this.pace = null;
     this.scales = {};
+  }
+
+  // Whether there are pressure cells: "cells", "none", or "unknown" while too little has come to say it.
+  get soles() {
+    const feet = FEET.map((foot) => this.feet[foot]).filter((foot) => foot !== null);
+    if (FEET.some((foot) => this.layouts[foot] !== null) || feet.some((foot) => foot.cells !== null)) return "cells";
+    const walked = Object.values(this.tracks).some((points) => points.length > 1);
+    return walked || (feet.length > 0 && this.t - this.start > CELLS_TIME) ? "none" : "unknown";
+  }
+
+  // True when nothing more comes: the recording is at its end, or the session has ended.
+  get finished() {
+    return this.playback === null ? this.over : this.playback.state === "ended";
+  }
+
+  // Number of strides, or null before any foot has sent anything.
+  get strides() {
+    const feet = FEET.map((foot) => this.feet[foot]).filter((foot) => foot !== null);
+    return feet.length > 0 ? feet.reduce((sum, foot) => sum + (foot.strides || 0), 0) : null;
+  }
+
+  // Distance walked, m: each foot goes about as far as the wearer. NaN before any foot has sent anything.
+  get distance() {
+    const lengths = FEET.map((foot) => this.feet[foot]).filter((foot) => foot !== null).map((foot) => foot.distance || 0);
+    return lengths.reduce((a, b) => a + b, 0) / lengths.length;
   }
 
   // Returns the names of what changed; a message of an unknown type changes nothing.
@@ -168,164 +191,10 @@ export class State {
   }
 }
 
-const support = (value) => text(value) || null;
-
-const touchdown = (value) => {
-  const { t, foot, mode, position } = record(value);
-  return FEET.includes(foot) && numbers(position, 3) ? { t: number(t), foot, mode: text(mode), position } : null;
-};
-
-const body = (value) => {
-  const { t, left, right } = record(value);
-  const legs = [left, right].map((leg) => list(leg).filter((point) => numbers(point, 2)).slice(0, 4));
-  return legs.every((leg) => leg.length === 4) && sound(t) ? { t, left: legs[0], right: legs[1] } : null;
-};
-
-const fused = (value) => {
-  const { foot, chosen, length, distance, similarity, error_index: errorIndex, share } = record(value);
-  if (!FEET.includes(foot) || !FEET.includes(chosen) || !numbers([length, distance], 2)) return null;
-  return { foot, chosen, length, distance, similarity: number(similarity), errorIndex: number(errorIndex), share: number(share) };
-};
-
-const toeOutOfFoot = ({ foot, strides, along, angle, sigma, learnt, why }) => ({
-  foot,
-  strides: number(strides) ?? 0,
-  along: number(along) ?? 0,
-  angle: number(angle),
-  sigma: number(sigma),
-  learnt: learnt === true,
-  why: text(why),
-});
-
-const toe_out = (value) => {
-  const { task, distance, feet } = record(value);
-  if (!Array.isArray(feet)) return null;
-  const known = feet.map(record).filter(({ foot }) => FEET.includes(foot)).slice(0, FEET.length);
-  return { task: text(task), distance: number(distance), feet: known.map(toeOutOfFoot) };
-};
-
-const posture = (value) => {
-  const { foot, task, target, pitch, lean, still } = record(value);
-  if (!FEET.includes(foot)) return null;
-  return { foot, task: text(task), target: number(target), pitch: number(pitch), lean: number(lean), still: still === true };
-};
-
-// Members that a frame sends whole, with the function that checks each.
-const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, playback, posture, toe_out };
-
 // Sorted by time: a phase may become known after one that started later.
 function insert(phases, one) {
   let at = phases.length;
   while (at > 0 && phases[at - 1][0] > one[0]) at -= 1;
   if (at > 0 && phases[at - 1][0] === one[0]) phases[at - 1] = one;
   else phases.splice(at, 0, one);
-}
-
-function bytes(encoded) {
-  if (typeof encoded !== "string") return null;
-  try {
-    return Uint8Array.from(atob(encoded), (letter) => letter.charCodeAt(0));
-  } catch {
-    return null;
-  }
-}
-
-function layout(value) {
-  const cells = list(value?.cells)
-    .slice(0, MAX_ITEMS)
-    .filter((cell) => numbers(cell, 2))
-    .map(([x, y, area]) => [x, y, area > 0 ? area : 0]);
-  if (cells.length === 0) return null;
-  const areas = cells.every((cell) => cell[2] > 0);
-  return {
-    cells,
-    length: value.length > 0 ? value.length : 0.27,
-    // without areas newtons are not a pressure, and are shown as newtons
-    unit: value.unit === "N" ? (areas ? "kPa" : "N") : "counts",
-    word: value.unit === "N" ? (areas ? "kPa" : "N a cell") : "counts a cell",
-    forces: value.unit === "N",
-  };
-}
-
-function wearer(value) {
-  if (!numbers(value?.position, 3)) return null;
-  return { position: value.position, covariance: numbers(value.covariance, 6) ? value.covariance : null };
-}
-
-function place(value) {
-  if (!numbers(value?.position, 2)) return null;
-  const candidates = list(value.candidates)
-    .slice(0, MAX_ITEMS)
-    .filter((one) => numbers([one?.x, one?.y], 2))
-    .map((one) => ({
-      level: text(one.level),
-      x: one.x,
-      y: one.y,
-      heading: number(one.heading),
-      weight: number(one.weight) ?? 0,
-    }));
-  const decided = value.decided === true;
-  const [level, room, door] = [text(value.level), text(value.room), text(value.door)]; // "" while none is known
-  return { level, room, door, position: value.position, decided, spread: number(value.spread), candidates };
-}
-
-function activity(value) {
-  if (typeof value?.now !== "string") return null;
-  return { now: value.now, since: number(value.since), last: text(value.last) || null };
-}
-
-function pace(value) {
-  return { cadence: number(value?.cadence), speed: number(value?.speed) };
-}
-
-function scales(value) {
-  const known = Object.entries(record(value)).filter(([, scale]) => sound(scale?.top) && scale.top > 0);
-  return Object.fromEntries(known.map(([unit, { top, beyond }]) => [unit, { top, beyond: beyond === true }]));
-}
-
-function gait(value) {
-  if (value === null || typeof value !== "object") return null;
-  const rows = list(value.rows)
-    .slice(0, MAX_ITEMS)
-    .filter((row) => typeof row?.name === "string");
-  return {
-    running: value.running === true,
-    cadence: number(value.cadence),
-    coordination: number(value.coordination),
-    strides: Object.fromEntries(FEET.map((foot) => [foot, number(value.strides?.[foot])])),
-    enough: number(value.enough) ?? 0,
-    rows,
-  };
-}
-
-function playback(value) {
-  if (!numbers([value?.begin, value?.end, value?.t], 3)) return null;
-  const { begin: start, end, t } = value;
-  return { start, end, t, state: text(value.state), speed: number(value.speed) ?? 1, seeking: number(value.seeking) };
-}
-
-function plan(value) {
-  if (value === null || typeof value !== "object") return null;
-  const ring = (points) => list(points).filter((point) => numbers(point, 2));
-  const lines = (some) => list(some).filter((line) => numbers(line, 4));
-  const levels = list(value.levels).map((level) => ({
-    id: text(level?.id),
-    name: text(level?.name) || text(level?.id),
-    elevation: number(level?.elevation),
-    walls: lines(level?.walls),
-    doors: lines(level?.doors),
-    rooms: list(level?.rooms)
-      .map(ring)
-      .filter((room) => room.length > 2),
-  }));
-  const connectors = list(value.connectors).map((one) => ({
-    kind: text(one?.kind),
-    name: text(one?.name),
-    stops: list(one?.stops).map((stop) => ({
-      level: text(stop?.level),
-      place: numbers(stop?.place, 2) ? stop.place : null,
-      outline: ring(stop?.outline),
-    })),
-  }));
-  return levels.length > 0 ? { name: text(value.name), levels, connectors } : null;
 }

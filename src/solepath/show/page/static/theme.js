@@ -20,7 +20,11 @@ const COLOUR_NAMES = [
   "sole",
   "sole-line",
   "wall",
+  "inner-wall",
+  "tread",
   "room",
+  "here",
+  "outside",
   "bad",
 ];
 

@@ -2,47 +2,58 @@
 // points are added while the view does not change.
 
 import { Alternative, Surface, reducedMotion } from "./canvas.js";
+import { Follower, Glide, heading } from "./following.js";
+import { Labels } from "./labels.js";
 import {
+  WEARER_RADIUS,
   axes,
   drawCandidates,
   drawCross,
-  drawDot,
   drawEllipse,
   drawFoot,
   drawGrid,
   drawReport,
-  drawRing,
   drawRuler,
   drawSpread,
   drawStart,
+  drawWearer,
+  nameStart,
   stroke,
-  sure,
 } from "./marks.js";
-import { drawLevel, extent } from "./plan.js";
+import { drawLevel, extent, nameLevel } from "./plan.js";
 import { Possibility } from "./possibility.js";
 import { noteAlone, noteOnPlan, spokenOnPlan, spokenTrack } from "./position.js";
+import { roomAt } from "./rooms.js";
 import { FEET } from "./state.js";
+import { Still } from "./still.js";
 import { theme } from "./theme.js";
 import { View } from "./view.js";
+import { avoidPlaces, boxOf, drawLine, drawPlaces } from "./walked.js";
 import { show, setData, write } from "./words.js";
 
-const MIN_EXTENT = 3; // m, least width and height that are shown
 const [EDGE_MARGIN, BUTTON_MARGIN] = [20, 56]; // px around the fitted part, and at the buttons
-const MAX_PLACE_JUMP = 5; // m between two places; above it another candidate became the likeliest, without a walk there
 const SLOW_INTERVAL = 200; // ms between pictures with reduced motion
-const LINE_WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
+const CALM_INTERVAL = 25; // ms between pictures while the wearer's mark moves, and the view with it
+const LINE_WIDTHS = { left: 1.5, right: 1.5, wearer: 4 };
 
 export class Track {
   uses = ["tracks", "places", "reports", "feet", "wearer", "place", "scene", "theme"];
   pointing = false; // true while a person chooses a place on the drawing
   level = null; // chosen by hand; null follows the wearer
   byItself = null; // chosen by hand: true without the plan, false on it; null on it once there is a place
+  feetShown = false; // chosen by hand: true draws each foot's own path as well
+  whole = false; // chosen by hand: true shows the whole plan, false the part around the wearer
+  following = false; // true while the view is that of the part around the wearer
+  #moving = false;
+  #follower = new Follower();
 
   constructor(redraw) {
     const canvas = document.getElementById("track");
     this.canvas = canvas;
     this.note = document.getElementById("track-note");
-    this.layer = document.createElement("canvas");
+    this.still = new Still();
+    this.labels = new Labels(canvas, "inset");
+    this.glide = new Glide();
     this.view = new View(canvas, redraw);
     this.surface = new Surface(canvas, () => {
       this.#room();
@@ -52,56 +63,84 @@ export class Track {
     this.alternative = new Alternative(canvas);
     this.section = document.getElementById("track-section");
     this.possibility = new Possibility();
-    this.key = "";
     this.drawnAt = 0;
   }
 
-  // The fitted part excludes the note at the top, and the buttons: below, or at the right where there is more room.
+  // What lies above the canvas, px. The fitted part excludes the note at the top, and the buttons: below, or at the right where there is more room.
   #room() {
     const noted = this.note.offsetHeight; // 0 while hidden
     const upright = getComputedStyle(document.getElementById("zoom")).flexDirection === "column";
     const both = EDGE_MARGIN + BUTTON_MARGIN;
+    this.above = [...this.canvas.parentElement.children]
+      .filter((one) => one !== this.canvas && one.offsetWidth > 0)
+      .map((one) => [one.offsetLeft - this.canvas.offsetLeft, one.offsetTop - this.canvas.offsetTop, one.offsetWidth, one.offsetHeight]);
     this.margins = upright ? [both, 2 * EDGE_MARGIN + noted] : [2 * EDGE_MARGIN, both + noted];
     this.view.aside = upright ? (BUTTON_MARGIN - EDGE_MARGIN) / 2 : 0;
     this.view.above = (upright ? 0 : (BUTTON_MARGIN - EDGE_MARGIN) / 2) - noted / 2;
   }
 
   get moving() {
-    return !this.view.settled;
+    return this.#moving || !this.view.settled;
+  }
+
+  // Everything, on the plan as on the track alone.
+  all() {
+    this.whole = true;
+    this.view.all();
+  }
+
+  follow() {
+    this.whole = false;
+    this.level = null;
+    this.#follower.zoom = 1;
+    this.view.all();
+  }
+
+  nearer(nearer) {
+    if (!this.following) return this.view.zoom(nearer);
+    this.#follower.nearer(nearer);
+    this.view.all();
   }
 
   draw(state, now, changed) {
     if (reducedMotion.matches && now - this.drawnAt < SLOW_INTERVAL && !changed.has("theme")) return "later";
+    const calm = this.view.scaled && (this.following || this.view.settled); // no person moves the view
+    if (calm && now - this.drawnAt < CALM_INTERVAL && !changed.has("theme") && !changed.has("scene")) return "later";
     this.drawnAt = now;
     if (changed.has("scene") && state.generation !== this.generation) this.#scene(state);
     const onPlan = this.onPlan(state);
-    if (onPlan !== this.wasOnPlan && this.wasOnPlan !== undefined) this.view.all();
-    this.wasOnPlan = onPlan;
     const level = onPlan ? this.shown(state) : null;
+    if (onPlan !== this.wasOnPlan && this.wasOnPlan !== undefined) this.view.all(true);
+    if (onPlan !== this.wasOnPlan || level?.id !== this.wasLevel) this.glide.clear();
+    [this.wasOnPlan, this.wasLevel] = [onPlan, level?.id];
     this.#words(state, onPlan, level); // written before the view is fitted beside them
-    const { width, height } = this.surface;
-    const box = onPlan && this.extent ? this.extent : this.#box(state);
-    this.view.fit(box, width - this.margins[0], height - this.margins[1], onPlan ? 0 : 0.14);
-    const { x, y, scale } = this.view.at(now);
-    const middle = [width / 2 - this.view.aside, height / 2 - this.view.above];
+    const wearer = this.#wearer(state, level, now);
+    const middle = this.#look(state, level, wearer, now);
+    const { width, height, ratio } = this.surface;
+    const { x, y, scale } = this.still.sharp(this.view.at(now), ratio);
     const px = ([mx, my]) => [middle[0] + (mx - x) * scale, middle[1] - (my - y) * scale];
 
     this.shownPart = { x, y, scale, middle, level: level?.id ?? null };
-    this.#still(state, level, px, scale, `${x} ${y}`);
+    const here = onPlan && wearer ? roomAt(level, state.place.position) : -1;
+    this.#still(state, level, this.shownPart, here);
     const context = this.surface.start();
-    if (this.layer.width > 0 && this.layer.height > 0) context.drawImage(this.layer, 0, 0, width, height);
-    if (onPlan) this.#place(context, state, level, px, scale);
-    else this.#now(context, state, px, scale);
+    this.#labels(px, onPlan);
+    if (width > 0 && height > 0) this.still.draw(context, this.surface, this.shownPart, middle);
+    if (onPlan) this.#place(context, state, level, px, scale, wearer);
+    else this.#now(context, state, px, scale, wearer);
     for (const one of state.reports) {
       if (one.level === this.shownPart.level) drawReport(context, px([one.x, one.y]), one.used);
     }
     if (this.pointing) drawCross(context, middle);
-    drawRuler(context, this.surface, scale);
+    drawRuler(context, this.labels, this.surface, scale);
+    if (onPlan) avoidPlaces(this.labels, state.places, level.id, px);
+    if (onPlan) nameLevel(this.labels, state.plan, level, px, scale, here);
+    this.labels.finish(context);
 
     const view = onPlan ? "plan" : "track";
     const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
     setData(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
-    setData(this.section, { view });
+    setData(this.section, { view, feet: this.feetShown ? "shown" : "" });
     return "done";
   }
 
@@ -127,109 +166,110 @@ export class Track {
     const drawn = JSON.stringify(state.plan);
     if (drawn === this.plan) return; // the same building after a seek: the view stays
     this.plan = drawn;
+    this.#follower = new Follower();
     this.extent = state.plan && extent(state.plan);
     this.level = null;
     this.view.all();
   }
 
-  #box({ tracks, feet, wearer }) {
-    const box = [0, 0, 0, 0];
-    const hold = (x, y) => {
-      if (x < box[0]) box[0] = x;
-      if (y < box[1]) box[1] = y;
-      if (x > box[2]) box[2] = x;
-      if (y > box[3]) box[3] = y;
-    };
-    for (const points of Object.values(tracks)) for (const point of points) hold(point[1], point[2]);
-    for (const foot of FEET) if (feet[foot]?.position) hold(feet[foot].position[0], feet[foot].position[1]);
-    if (wearer?.covariance) {
-      // as much of the uncertainty as leaves the track large enough to see
-      const most = 0.25 * Math.max(MIN_EXTENT, box[2] - box[0], box[3] - box[1]);
-      const [x, y] = wearer.position;
-      const [dx, dy] = [0, 3].map((k) => Math.min(most, sure(wearer.covariance[k])));
-      hold(x - dx, y - dy);
-      hold(x + dx, y + dy);
-    }
-    for (const k of [0, 1]) {
-      const lacks = Math.max(0, MIN_EXTENT - (box[k + 2] - box[k])) / 2;
-      box[k] -= lacks;
-      box[k + 2] += lacks;
-    }
-    return box;
+  // Where the wearer's mark is, m, or null: between the last place and the new one.
+  #wearer({ place, wearer }, level, now) {
+    const at = level === null ? wearer?.position : place?.decided && place.level === level.id ? place.position : null;
+    this.#moving = false;
+    if (!at) return this.glide.clear() ?? null;
+    this.glide.aim(at, now);
+    this.#moving = this.glide.moving(now);
+    return this.glide.at(now);
   }
 
-  #still(state, level, px, scale, where) {
-    const { width, height, ratio } = this.surface;
+  // Moves the view; it does not follow while a person points at a place. Returns its middle, px.
+  #look(state, level, wearer, now) {
+    const { width, height } = this.surface;
+    const target = level && this.#follower.target(state.place, level, wearer, now);
+    this.following = Boolean(target && this.extent) && !this.whole && this.level === null && this.view.follows;
+    if (!this.following) {
+      const box = level && this.extent ? this.extent : boxOf(state, this.feetShown);
+      this.view.fit(box, width - this.margins[0], height - this.margins[1], level ? 0 : 0.14);
+    } else if (width > 0 && height > 0 && !(this.pointing && this.shownPart)) {
+      this.view.follow(this.#follower.part(target, this.extent, this.surface));
+    }
+    return [width / 2 - this.view.aside, height / 2 - this.view.above];
+  }
+
+  // No label lies below the note and the buttons.
+  #labels(px, onPlan) {
+    const { labels } = this;
+    labels.start(this.surface);
+    labels.ground = onPlan ? "room" : "inset";
+    for (const [x, y, width, height] of this.above ?? []) labels.keep(x, y - 4, width, height + 8);
+    if (!onPlan) nameStart(labels, px([0, 0]));
+  }
+
+  #still(state, level, part, here) {
     const { generation, thinned } = state;
     const since = level ? this.possibility.since(state) : 0;
-    const key = [where, scale, width, height, ratio, theme.version, generation, thinned, level?.id, since].join(" ");
-    const context = this.layer.getContext("2d");
-    if (key !== this.key) {
-      this.key = key;
-      [this.layer.width, this.layer.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-      this.drawn = { left: 0, right: 0, wearer: 0, places: 0 };
-    }
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const blank = Object.values(this.drawn).every((count) => count === 0);
+    const key = [theme.version, generation, thinned, level?.id, since, here, this.feetShown].join(" ");
+    const layer = this.still.begin(this.surface, part, part.middle, key, this.view.scaled);
+    const { context, px, scale, size } = layer;
+    if (this.still.fresh) this.drawn = { left: 0, right: 0, wearer: 0, places: 0 };
     if (level) {
-      if (blank) drawLevel(context, state.plan, level, px, scale);
-      this.#walked(context, state.places, since, level.id, px);
+      if (this.still.fresh) drawLevel(context, state.plan, level, layer, here, this.extent);
+      const done = state.places.slice(0, -1); // the last line ends at the wearer's mark
+      drawPlaces(context, done, this.drawn.places, since, level.id, px, LINE_WIDTHS.wearer);
+      this.drawn.places = done.length;
       return;
     }
-    if (blank) {
-      drawGrid(context, this.surface, px([0, 0]), scale);
+    if (this.still.fresh) {
+      drawGrid(context, { width: size[0], height: size[1] }, px([0, 0]), scale);
       drawStart(context, px([0, 0]));
     }
-    for (const [name, points] of Object.entries(state.tracks)) {
+    for (const name of this.feetShown ? [...FEET, "wearer"] : ["wearer"]) {
+      const points = name === "wearer" ? state.tracks.wearer.slice(0, -1) : state.tracks[name];
       const from = Math.max(0, this.drawn[name] - 1);
-      if (points.length > from + 1) line(context, points.slice(from), px, LINE_WIDTHS[name], theme.colours[name]);
+      if (points.length > from + 1) drawLine(context, points.slice(from), px, LINE_WIDTHS[name], theme.colours[name]);
       this.drawn[name] = points.length;
     }
   }
 
-  // Only a line between two places on this level is solid. Before the index `since` the track of a rejected candidate
-  // is dashed.
-  #walked(context, places, since, level, px) {
-    const paths = { here: new Path2D(), elsewhere: new Path2D(), before: new Path2D() };
-    for (let i = Math.max(1, this.drawn.places); i < places.length; i++) {
-      const [[, a, x1, y1], [, b, x2, y2]] = [places[i - 1], places[i]];
-      const here = a === level && b === level;
-      if (Math.hypot(x2 - x1, y2 - y1) > MAX_PLACE_JUMP || i === since || (i < since && !here)) continue;
-      const path = paths[i < since ? "before" : here ? "here" : "elsewhere"];
-      path.moveTo(...px([x1, y1]));
-      path.lineTo(...px([x2, y2]));
-    }
-    context.setLineDash([2, 5]);
-    stroke(context, paths.before, 1.5, theme.colours["sole-line"]);
-    context.setLineDash([]);
-    stroke(context, paths.elsewhere, 1.5, theme.colours["sole-line"]);
-    stroke(context, paths.here, LINE_WIDTHS.wearer, theme.colours.wearer);
-    this.drawn.places = places.length;
-  }
-
-  #now(context, { feet, wearer, tracks }, px, scale) {
+  #now(context, { feet, wearer, tracks }, px, scale, at) {
     if (wearer?.covariance) drawEllipse(context, px(wearer.position), axes(wearer.covariance), scale);
-    for (const foot of FEET) {
+    for (const foot of this.feetShown ? FEET : []) {
       const place = feet[foot]?.position;
       if (!place) continue;
       const last = tracks[foot].at(-1); // a track has the strides that ended; the present one has not
-      if (last) line(context, [last, [0, ...place]], px, LINE_WIDTHS[foot], theme.colours[foot]);
-      drawFoot(context, foot, px(place));
+      if (last) drawLine(context, [last, [0, ...place]], px, LINE_WIDTHS[foot], theme.colours[foot]);
+      const off = at ? Math.hypot(...[0, 1].map((k) => (place[k] - at[k]) * scale)) : Infinity;
+      if (off > 2 * WEARER_RADIUS + 4) drawFoot(context, foot, px(place)); // else the wearer's dot is over it
     }
-    if (wearer) drawRing(context, px(wearer.position));
+    if (!at) return;
+    const last = tracks.wearer.at(-2);
+    if (last) drawLine(context, [last, [0, ...at]], px, LINE_WIDTHS.wearer, theme.colours.wearer);
+    this.#mark(context, px(at), heading(tracks.wearer.slice(-6).map((point) => point.slice(1))));
   }
 
-  #place(context, { place }, level, px, scale) {
+  #place(context, { place, places, tracks, generation, thinned }, level, px, scale, at) {
     if (!place) return;
-    if (!place.decided) drawCandidates(context, place.candidates, level.id, px);
-    else if (place.level === level.id) {
-      if (place.spread !== null) drawSpread(context, px(place.position), place.spread * scale);
-      drawDot(context, px(place.position));
-    }
+    if (!place.decided) drawCandidates(context, this.labels, place.candidates, level.id, px);
+    if (!at) return;
+    if (place.spread !== null) drawSpread(context, px(at), place.spread * scale);
+    const last = places.slice(-6).filter(([, of]) => of === level.id);
+    const since = this.possibility.since({ places, tracks, generation, thinned });
+    const newest = places.at(-1); // it may be older than the mark
+    const end = newest && newest[2] === place.position[0] && newest[3] === place.position[1] ? places.length - 1 : places.length;
+    const tail = [...places.slice(Math.max(0, places.length - 2), end), [0, level.id, ...at]];
+    const gone = Math.max(0, since - (end - tail.length + 1));
+    drawPlaces(context, tail, 1, gone, level.id, px, LINE_WIDTHS.wearer);
+    this.#mark(context, px(at), last.length > 1 ? heading(last.map((point) => point.slice(2))) : null);
+  }
+
+  #mark(context, [x, y], direction) {
+    drawWearer(context, [x, y], direction);
+    const reach = 2 * WEARER_RADIUS;
+    this.labels.keep(x - reach, y - reach, 2 * reach, 2 * reach);
   }
 
   #words(state, onPlan, level) {
-    const words = onPlan ? noteOnPlan(state, level) : noteAlone(state);
+    const words = onPlan ? noteOnPlan(state, level) : noteAlone(state, this.feetShown);
     if (words !== this.noted) {
       const before = this.note.offsetHeight;
       write(this.note, words);
@@ -242,18 +282,4 @@ export class Track {
     }
     this.alternative.setText(() => (onPlan ? spokenOnPlan(state, level) : spokenTrack(state)));
   }
-}
-
-// Consecutive points on the same pixel are drawn as one.
-function line(context, points, px, width, colour) {
-  const path = new Path2D();
-  let [lastX, lastY] = [Infinity, Infinity];
-  points.forEach(([, mx, my], i) => {
-    const [x, y] = px([mx, my]);
-    if (i < points.length - 1 && Math.abs(x - lastX) < 0.8 && Math.abs(y - lastY) < 0.8) return;
-    if (lastX === Infinity) path.moveTo(x, y);
-    else path.lineTo(x, y);
-    [lastX, lastY] = [x, y];
-  });
-  stroke(context, path, width, colour);
 }

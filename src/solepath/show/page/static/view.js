@@ -13,6 +13,7 @@ export class View {
   aside = 0;
   #goal = null;
   #now = null;
+  #jumps = true; // to its next goal
   #fingers = new Map();
   #last = 0;
 
@@ -34,9 +35,18 @@ export class View {
     const fits = Math.min(width / Math.max(1e-3, box[2] - box[0]), height / Math.max(1e-3, box[3] - box[1]));
     const scale = Math.min(MAX_SCALE, Math.max(MIN_SCALE, fits));
     if (this.#goal !== null && this.#suits(box, width, height, scale)) return;
-    const first = this.#goal === null;
-    this.#goal = { x, y, scale: scale * (1 - spare) };
-    if (first || reducedMotion.matches || this.#now === null) this.#now = { ...this.#goal };
+    this.#go({ x, y, scale: scale * (1 - spare) });
+  }
+
+  // Shows this part, as long as no person chose another: {x, y, scale}.
+  follow(part) {
+    if (this.follows) this.#go({ ...part, scale: Math.min(MAX_SCALE, Math.max(MIN_SCALE, part.scale)) });
+  }
+
+  #go(goal) {
+    this.#goal = goal;
+    if (this.#jumps || reducedMotion.matches || this.#now === null) this.#now = { ...goal };
+    this.#jumps = false;
   }
 
   // Returns whether the box is within the view and fills enough of it.
@@ -56,8 +66,9 @@ export class View {
     const share = this.settled ? 0 : 1 - Math.exp(-passed / EASING_TIME);
     for (const key of ["x", "y"]) this.#now[key] += share * (this.#goal[key] - this.#now[key]);
     this.#now.scale *= (this.#goal.scale / this.#now.scale) ** share;
+    if (Math.abs(Math.log(this.#goal.scale / this.#now.scale)) < 0.002) this.#now.scale = this.#goal.scale;
     const off = Math.hypot(this.#goal.x - this.#now.x, this.#goal.y - this.#now.y) * this.#now.scale;
-    if (off < 0.3 && Math.abs(Math.log(this.#goal.scale / this.#now.scale)) < 0.002) this.#now = { ...this.#goal };
+    if (off < 0.3 && this.#now.scale === this.#goal.scale) this.#now = { ...this.#goal };
     return this.#now;
   }
 
@@ -65,15 +76,24 @@ export class View {
     return this.#now === null || this.#goal === null || ["x", "y", "scale"].every((key) => this.#now[key] === this.#goal[key]);
   }
 
-  all() {
+  // True once it has reached its scale.
+  get scaled() {
+    return this.#now === null || this.#goal === null || this.#now.scale === this.#goal.scale;
+  }
+
+  // jumps: to another drawing, where nothing lies between.
+  all(jumps = false) {
     this.follows = true;
     this.#goal = null;
+    this.#jumps ||= jumps;
     this.moved();
   }
 
   // Adapts the view to a new size of the canvas.
   resized() {
-    if (this.follows) this.#goal = null;
+    if (!this.follows) return;
+    this.#goal = null;
+    this.#jumps = true;
   }
 
   zoom(nearer) {

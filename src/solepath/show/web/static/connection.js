@@ -13,6 +13,7 @@ export const WORDS = {
   lost: "The part of this page that computes has stopped",
   again: "It computes again",
   retry: "Restart it",
+  finishes: false,
   watchOnly: "", // without a walk there is nothing to report
 };
 

@@ -1,0 +1,56 @@
+"""Tests what a page shows of the checks of the data, and of the whole walk, from events alone."""
+
+from __future__ import annotations
+
+from attrs import evolve
+from page_events import feed_session, foot_moved
+from shown import frame, shown
+from walks import insoles
+
+from solepath import (
+    CellFault,
+    CellsFailed,
+    Connected,
+    Defect,
+    DefectFound,
+    FeetSwapped,
+    Foot,
+    FootResumed,
+    FootSilent,
+    Site,
+)
+from solepath.emulate.routes.route import Route
+from solepath.show.page.scene.scene import Scene
+
+RIGHT = Foot.RIGHT
+
+
+def test_what_the_checks_found_stands_until_it_no_longer_holds() -> None:
+    axes = DefectFound(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, defect=Defect.AXES, what="an axis is mirrored")
+    cells = CellsFailed(t=2.0, known_at=2.0, site=Site.RIGHT_FOOT, fault=CellFault.DEAD, cells=(3, 4))
+    silent = FootSilent(t=3.0, known_at=3.0, foot=RIGHT, silent_for=3.0)
+    swapped = FeetSwapped(t=4.0, known_at=4.0)
+
+    def found(scene: Scene) -> list[tuple[str, bool]]:
+        return [(one["site"], one["act"]) for one in frame(scene)["findings"]]
+
+    scene = shown([axes, cells, silent, swapped, evolve(axes, t=5.0, known_at=5.0, what="axis 2 is mirrored")])
+    assert found(scene) == [("left foot", True), ("", True), ("right foot", True), ("right foot", False)]
+    assert frame(scene)["findings"][0]["what"] == "axis 2 is mirrored", "the same defect, known better"
+    assert frame(scene)["findings"][3]["what"].startswith("2 cells show no load; left out from now on.")
+    shown([FootResumed(t=6.0, known_at=6.0, foot=RIGHT, silent_for=3.0)], scene)
+    assert found(scene) == [("left foot", True), ("", True), ("right foot", False)]
+    shown([Connected(t=7.0, known_at=7.0, site=Site.LEFT_FOOT, device="", name="Insole", signal=-50)], scene)
+    assert found(scene) == [("", True), ("right foot", False)]
+
+
+def test_the_total_is_of_all_steady_strides_since_the_start() -> None:
+    assert frame(shown([foot_moved(1.0)]))["total"] is None
+    scene = shown(feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1])
+    means = scene.observer.gait.parameters
+    assert means is not None and means.both.speed is not None
+    assert frame(scene)["total"] == {
+        "cadence": round(means.cadence or 0.0, 1),
+        "speed": round(means.both.speed.mean, 2),
+        "stance": round(means.asymmetry("stance_time") or 0.0, 4),
+    }
