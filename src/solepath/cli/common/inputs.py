@@ -194,7 +194,7 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
         indexed = IndexedPlan(plan)
     except FloorPlanError as error:
         raise Failure(str(error)) from None
-    for sentence in find_warnings(plan):
+    for sentence in find_warnings(plan, has_start=start is not None and start.place is not None):
         note(f"{options.floorplan}: {sentence}")
     if start is not None and (problem := start_error(indexed, start)) is not None:
         raise Failure(f"{options.floorplan}: {problem}")

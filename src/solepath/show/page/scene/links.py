@@ -89,7 +89,9 @@ class SceneFindings:
             case DefectFound(site=site, defect=defect, what=what):
                 self._add(event, site, defect.value, what, event.needs_action)
             case CellsFailed(site=site, fault=fault):
-                words = f"{fault_words(event)}; left out from now on. The other cells are used; have the insole repaired."
+                words = (
+                    f"{fault_words(event)}; left out from now on. The other cells are used; have the insole repaired."
+                )
                 self._add(event, site, fault.value, words, False)
             case InsoleNeverUnloads(site=site):
                 self._add(event, site, "load", UNLOADS_NEVER, False)
