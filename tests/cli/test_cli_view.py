@@ -172,7 +172,7 @@ def test_without_aiohttp_the_message_names_the_package(recording: Path, monkeypa
 
 def test_a_report_that_cannot_be_written_is_rejected_before_anything_is_computed(recording: Path, tmp_path: Path):
     line = run_failing("track", recording, "--report", tmp_path / "none" / "r.html")
-    assert "no such file or directory" in line.lower()
+    assert "there is no folder" in line
 
 
 def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):

@@ -166,7 +166,7 @@ def test_a_floor_plan_or_a_start_that_cannot_be_used_is_rejected_in_one_line(
     nonsense = tmp_path / "plan.geojson"
     nonsense.write_text("[1, 2")
     assert "plan.geojson" in run_failing("track", walk, "--floorplan", nonsense)
-    assert "No such file" in run_failing("track", walk, "--floorplan", tmp_path / "none.geojson")
+    assert "there is no such file" in run_failing("track", walk, "--floorplan", tmp_path / "none.geojson")
     assert "the plan has no level '7', only 0, 1" in run_failing("track", walk, "--floorplan", hall, "--start", "7,1,2")
     assert "(99, 2) is nowhere on level 0" in run_failing("track", walk, "--floorplan", hall, "--start", "0,99,2")
     assert "is not LEVEL,X,Y" in run_failing("track", walk, "--floorplan", hall, "--start", "0,one,2")

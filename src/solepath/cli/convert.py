@@ -9,13 +9,15 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..recording import PacketWriter, RecordingError, os_error_text, printable
+from ..recording import PacketWriter, RecordingError, printable
 from ..recording.packets import open_packets
 from ..types import Packet, Site
 from ..types.extras import install_hint
+from .common.closest import unknown
 from .common.failure import Failure, note
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs, replacements
+from .common.os_errors import file_error_text
 from .common.own_devices import add_own_devices, drivers_of
 from .common.tables import add_tables
 from .exchange import STORAGE, add_exchange, convert_computed
@@ -25,8 +27,6 @@ if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
     from ..recording.mcap import McapWriter
 
-MIN_PROGRESS_SIZE = 4_000_000
-"""Size of a file above which there is a progress bar, bytes; chosen by hand."""
 RECORDING, MCAP = ".jsonl", ".mcap"
 
 
@@ -117,7 +117,7 @@ def run(options: argparse.Namespace) -> int:
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
     total = source.stat().st_size if source.is_file() else 0
-    with progress_bar(printable(source.name), total, enabled=total > MIN_PROGRESS_SIZE) as show:
+    with progress_bar(printable(source.name), total) as show:
         if is_btsnoop(source):
             log = _open_log(options)
             packets, header = _with_progress(log, show), log.header
@@ -148,7 +148,7 @@ def _open_log(options: argparse.Namespace) -> BtsnoopLog:
     known = {channel.name for profile in PROFILES for channel in profile.channels}
     for name in handles.values():
         if name not in known:
-            raise Failure(f"there is no channel {name!r}; there are: {', '.join(sorted(known))}")
+            raise Failure(unknown("channel", name, sorted(known)))
     return open_btsnoop(options.files[0], sites=sites, handles=handles, report=note)
 
 
@@ -211,9 +211,9 @@ def _write(
                 writer.close()
         except RecordingError as error:
             cause = error.__cause__
-            raise Failure(
-                f"{printable(str(output.path))}: {os_error_text(cause) if isinstance(cause, OSError) else error.what}"
-            ) from None
+            if isinstance(cause, OSError):
+                raise Failure(file_error_text(cause, output.path)) from None
+            raise Failure(f"{printable(str(output.path))}: {error.what}") from None
         if damage is not None and not writer.count:
             raise damage
     return writer.count, damage
@@ -235,6 +235,6 @@ def _replacement(output: OutputFile) -> Iterator[Path]:
         yield files.temporary_path(output.path, read_only=True)
         files.move_to_targets()
     except OSError as error:
-        raise Failure(f"{printable(str(output.path))}: {os_error_text(error)}") from None
+        raise Failure(file_error_text(error, output.path)) from None
     finally:
         files.discard()

@@ -31,6 +31,7 @@ def add_to(commands: Any) -> None:
         description="An emulated wearer walks a route with both insoles over a lossy radio. In a terminal it is shown "
         "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
         "can be.",
+        epilog="example: solepath demo\nsolepath demo --building --record walk.jsonl",
     )
     command.add_argument(
         "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
@@ -51,7 +52,7 @@ def add_to(commands: Any) -> None:
         "--loss", metavar="SHARE", type=parse_share, help="share of packets lost, 0 to 1 (default: 0.03)"
     )
     command.add_argument(
-        "--jitter", metavar="S", type=parse_seconds, help="how much later than others a packet may come (default: 0.03)"
+        "--jitter", metavar="S", type=parse_seconds, help="by how many seconds a packet may be late (default: 0.03)"
     )
     shown = command.add_mutually_exclusive_group()
     add_view(command, shown, "show it")

@@ -112,6 +112,7 @@ def _run(
     """Run the recording, and pass samples and events to `add`; return the error that ended the recording, if any."""
     from ..recording.posed import PosedSession
     from ..session import Session
+    from ..show.tables.progress import progress_bar
 
     recipe = recipe_of(options)
     calibration, drivers = calibration_of(options), drivers_of(options)
@@ -119,9 +120,11 @@ def _run(
     posed = PosedSession(Session(recipe, calibration=calibration, poses=True, profiles=drivers))
     damage: RecordingError | None = None
     try:
-        for item in source:
-            events = posed.session.feed(item)
-            add(posed.take(), events)
+        with progress_bar(printable(source.name), source.total) as show:
+            for item in source:
+                events = posed.session.feed(item)
+                add(posed.take(), events)
+                show(source.done)
     except RecordingError as error:
         damage = error
     events = posed.session.finish()

@@ -18,6 +18,7 @@ from ..recording import printable
 from ..types.extras import install_hint
 from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_whole_number, recipe_named
 from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, check_writable, write_json
+from .common.inputs import add_recipe_name
 
 if TYPE_CHECKING:
     from ..fleet.demo.stage import DemoStage
@@ -49,10 +50,10 @@ def add_to(commands: Any) -> None:
         "--seconds",
         metavar="S",
         type=parse_positive,
-        help=f"how long each wearer walks (default: {MIN_DEFAULT_TIME:g} for "
+        help=f"how long each wearer walks, s (default: {MIN_DEFAULT_TIME:g} for "
         f"{DEFAULT_TOTAL_TIME / MIN_DEFAULT_TIME:.0f} wearers and more, up to {MAX_DEFAULT_TIME:g} for fewer)",
     )
-    command.add_argument("--recipe", metavar="NAME", default="default", help="recipe of the sessions")
+    add_recipe_name(command, "recipe of the sessions")
     command.add_argument(
         "--seed", metavar="X", type=parse_whole_number, default=1, help="other wearers, other kills (default: 1)"
     )

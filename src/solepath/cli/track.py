@@ -21,7 +21,7 @@ from .common.inputs import (
     calibration_of,
     check_pressure,
     floorplan_of,
-    recipe_of,
+    recipes_of,
     source_of,
     undo_clocks,
 )
@@ -35,11 +35,6 @@ if TYPE_CHECKING:
     from ..session import Session
     from .common.results import Results
 
-MIN_PROGRESS_SIZE = 4_000_000
-"""Size of a recording of packets above which there is a progress bar, bytes; chosen by hand."""
-MIN_PROGRESS_SAMPLES = 40_000
-"""Number of samples above which there is a progress bar."""
-
 
 def add_to(commands: Any) -> None:
     """Add the command to the parser."""
@@ -48,10 +43,13 @@ def add_to(commands: Any) -> None:
         help="run a recording and print a summary",
         description="Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and"
         " print a summary.",
+        epilog="example: solepath track walk.csv --report walk.html\n"
+        "solepath track left.csv right.csv --units g,deg/s,ms --out walk\n"
+        "solepath track walk.jsonl --recipe default --recipe kupt-dfpc",
     )
     add_tables(command)
     add_own_devices(command)
-    add_recipe(command)
+    add_recipe(command, several=True)
     add_calibration(command)
     add_floorplan(command)
     add_clocks(command)
@@ -79,7 +77,11 @@ def run(options: argparse.Namespace) -> int:
     from .common.loop import stop_signals_raise
     from .common.results import Results
 
-    recipe = recipe_of(options)
+    recipe, *others = recipes_of(options)
+    if others:
+        from .several_recipes import track_with_each
+
+        return track_with_each(options, [recipe, *others])
     clinic = clinic_of(options)
     outputs = _check_outputs(options)
     calibration, drivers = calibration_of(options), drivers_of(options)
@@ -159,8 +161,7 @@ class _Recording:
         from ..show.tables.progress import progress_bar
 
         source = self.source
-        long = source.total > (MIN_PROGRESS_SIZE if source.samples is None else MIN_PROGRESS_SAMPLES)
-        with progress_bar(printable(source.name), source.total, enabled=long) as show:
+        with progress_bar(printable(source.name), source.total) as show:
             try:
                 for item in source:
                     yield item

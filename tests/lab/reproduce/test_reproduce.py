@@ -183,7 +183,7 @@ def test_fewer_than_one_walk_is_rejected(walks):
 def test_an_unwritable_file_is_reported_before_the_walks_start(tmp_path):
     pytest.importorskip("matplotlib")
     nowhere = tmp_path / "none" / "table.json"
-    assert f"{nowhere}: No such file" in run_failing("reproduce", "kupt-dfpc", "--json", nowhere)
+    assert f"{nowhere}: there is no folder" in run_failing("reproduce", "kupt-dfpc", "--json", nowhere)
     assert "ends in none of" in run_failing("reproduce", "kupt-dfpc", "--figure", tmp_path / "figure.docx")
     assert list(tmp_path.iterdir()) == []
 

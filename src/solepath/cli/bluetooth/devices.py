@@ -9,8 +9,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from ...types import Site
+from ..common.closest import unknown
 from ..common.failure import Failure, has_terminal, note, parse_positive, require
 from ..common.own_devices import add_own_devices
+from ..completion import complete_with
 
 if TYPE_CHECKING:
     from ...ble import Advertisement, DeviceConfig
@@ -40,10 +42,17 @@ def add_feet(command: argparse.ArgumentParser) -> None:
     command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
     command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
     command.set_defaults(at=[])
-    command.add_argument(
+    kind = command.add_argument(
         "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
     )
+    complete_with(kind, _profile_names)
     command.add_argument("--pair", action="store_true", help="pair with the devices")
+
+
+def _profile_names() -> Iterable[str]:
+    from ...link.catalogue import BY_NAME
+
+    return BY_NAME
 
 
 def add_devices(command: argparse.ArgumentParser) -> None:
@@ -62,7 +71,7 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
         "--duration",
         metavar="S",
         type=parse_positive,
-        help=f"end by itself after so long (default: at Ctrl-C; {unattended:g} s without a terminal)",
+        help=f"end by itself after so many seconds (default: at Ctrl-C; {unattended:g} s without a terminal)",
     )
 
 
@@ -72,7 +81,7 @@ def profile_named(name: str | None, own: Iterable[Driver] = ()) -> Profile | Non
 
     profiles = BY_NAME | {driver.name: driver.profile for driver in own}
     if name is not None and name not in profiles:
-        raise Failure(f"there is no profile {name!r}; there are: {', '.join(profiles)}")
+        raise Failure(unknown("profile", name, profiles))
     return None if name is None else profiles[name]
 
 
@@ -88,7 +97,8 @@ def named_devices(options: argparse.Namespace, own: Iterable[Driver] = ()) -> li
     for text in options.at:
         site, _, device = text.partition("=")
         if site not in sites or not device:
-            raise Failure(f"--at {text}: that is not SITE=DEVICE, SITE one of {', '.join(sites)}")
+            meant = f"SITE one of {', '.join(sites)}" if not device else unknown("site", site, sites)
+            raise Failure(f"--at {text}: that is not SITE=DEVICE, {meant}")
         named.append((sites[site], device))
     profile = profile_named(options.profile, own)
     devices = [DeviceConfig(site, device, profile) for site, device in named if device]

@@ -25,8 +25,9 @@ from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet, Site
-from ..common.failure import Failure, address_error_text, host_and_port, is_installed, note
+from ..common.failure import Failure, host_and_port, is_installed, note
 from ..common.loop import unless_stopped
+from ..common.os_errors import address_error_text
 from ..common.own_devices import drivers_of
 from ..common.view import PageAddress, serve_page
 from .backend import backend_of, packets_until

@@ -6,13 +6,14 @@ import argparse
 from collections.abc import Iterable, Sequence
 from math import isfinite, nan, radians
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...calibration import Calibration
 from ...link.decoder import Decoder
 from ...link.kinds import DeviceKinds, make_kinds
 from ...recording import RecordingError, Source, TableMapping, open_source, printable
 from ...types import Foot, Sample, Site
+from ..completion import complete_with
 from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
 
 if TYPE_CHECKING:
@@ -31,9 +32,31 @@ def add_foot(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_recipe(command: argparse.ArgumentParser) -> None:
-    """Add --recipe and --heading to a command."""
-    command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+def _recipe_names() -> Sequence[str]:
+    from ...recipes import NAMES
+
+    return NAMES
+
+
+def add_recipe_name(command: argparse.ArgumentParser, what: str = "how to compute", **more: Any) -> None:
+    """Add --recipe to a command; `what` says what the recipe is for."""
+    action = command.add_argument(
+        "--recipe", metavar="NAME", **{"default": "default", "help": f"{what} (default: default)"} | more
+    )
+    complete_with(action, _recipe_names)
+
+
+def add_recipe(command: argparse.ArgumentParser, *, several: bool = False) -> None:
+    """Add --recipe and --heading to a command; `several` lets --recipe be given again."""
+    if several:
+        add_recipe_name(
+            command,
+            action="append",
+            default=None,
+            help="how to compute (default: default); given again, one table with a column for each recipe",
+        )
+    else:
+        add_recipe_name(command)
     command.add_argument(
         "--heading",
         metavar="DEGREES",
@@ -45,7 +68,15 @@ def add_recipe(command: argparse.ArgumentParser) -> None:
 
 def recipe_of(options: argparse.Namespace) -> Recipe:
     """Return the recipe of --recipe and --heading; raise Failure when there is none, or when it takes no heading."""
-    recipe = recipe_named(options.recipe)
+    return _headed(recipe_named(options.recipe), options)
+
+
+def recipes_of(options: argparse.Namespace) -> list[Recipe]:
+    """Return the recipes of a command whose --recipe may be given again; raise Failure as `recipe_of` does."""
+    return [_headed(recipe_named(name), options) for name in options.recipe or ["default"]]
+
+
+def _headed(recipe: Recipe, options: argparse.Namespace) -> Recipe:
     if options.heading is None:
         return recipe
     try:
@@ -103,7 +134,11 @@ def source_of(
     """Open a recording and print its flaws on stderr; raise RecordingError when it cannot be used.
 
     Packets of devices of one's `own` become samples, for what computes with the built-in devices only."""
-    source = open_source(files, foot, mapping=mapping, report=note)
+    from ...show.tables.progress import progress_bar
+
+    names = [Path(file).name for file in ([files] if isinstance(files, Path) else files)]
+    with progress_bar(f"reading {printable(names[0])}"):
+        source = open_source(files, foot, mapping=mapping, report=note)
     source.own_kinds = make_kinds(own)
     return source
 

@@ -90,8 +90,8 @@ class Results:
             if self.clinic is not None:
                 self.clinic.add(event)
 
-    def write_and_print(self, seconds: float) -> None:
-        """Complete files and report, and print the summary; `seconds` is the wall time that computing took.
+    def write_files(self) -> list[str]:
+        """Complete the files of `out`; return the lines of the clinical outcomes.
 
         Raises Failure, and writes nothing, if no packet of the recording could be used."""
         self._open.close()
@@ -108,11 +108,16 @@ class Results:
                 write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
                 write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
         self._file_replacements.move_to_targets()
+        return [] if self.clinic is None or results is None else self.clinic.lines(results)
+
+    def write_and_print(self, seconds: float) -> None:
+        """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
+        clinical_lines = self.write_files()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
-        if self.clinic is not None and results is not None:
-            print("\n".join(self.clinic.lines(results)))
+        if clinical_lines:
+            print("\n".join(clinical_lines))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
         if self._report is not None and self._report_path is not None and self.report is not None:
