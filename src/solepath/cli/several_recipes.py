@@ -88,10 +88,9 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
                 print(f"written to {', '.join(printable(str(_folder(options.out, recipe))) for recipe in recipes)}")
     if failure is not None:
         raise failure
-    for sentence in runs[0][2].unused.sentences():
-        note(sentence)
-    if (sentence := assumed_foot(source)) is not None:
-        note(sentence)
+    for sentence in (*runs[0][2].unused.sentences(), assumed_foot(source)):
+        if sentence is not None:
+            note(sentence)
     return 0
 
 

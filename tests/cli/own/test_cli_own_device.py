@@ -1,4 +1,4 @@
-"""Tests devices of one's own on the command line: --device, and what is said about channels that nobody knows."""
+"""Tests devices of one's own on the command line: --driver, and what is said about channels that nobody knows."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_a_recording_of_which_nothing_is_known_is_an_error_of_track(walk: Path, 
     line = run_failing("track", walk, "--out", tmp_path / "out")
     count = len(list(read_packets(walk)))
     assert f"own.jsonl, recipe default: left foot: {count} of {count} packets are of a channel that no known" in line
-    assert "(shoe/motion)" in line and "--device FILE.py" in line
+    assert "(shoe/motion)" in line and "--driver FILE.py" in line
     assert not list((tmp_path / "out").iterdir())
 
 
@@ -81,7 +81,7 @@ def test_and_a_finding_of_check(walk: Path) -> None:
     done = run("check", walk)
     assert done.returncode == 1 and "nothing must be mended" not in done.stdout
     heading, finding = done.stdout.splitlines()[1:3]
-    assert heading == "must be mended:" and "shoe/motion" in finding and "--device FILE.py" in finding
+    assert heading == "must be mended:" and "shoe/motion" in finding and "--driver FILE.py" in finding
 
 
 def test_one_foot_of_which_nothing_is_known_is_named_beside_the_results_of_the_other(
@@ -114,31 +114,31 @@ def test_a_site_none_of_whose_packets_can_be_used_is_named_with_the_reasons(tmp_
 
 
 def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) -> None:
-    done = run("track", walk, "--device", OWN, "--out", tmp_path / "out")
+    done = run("track", walk, "--driver", OWN, "--out", tmp_path / "out")
     assert done.returncode == 0 and "rejected" not in done.stdout
     assert len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
-    done = run("check", walk, "--device", OWN)
+    done = run("check", walk, "--driver", OWN)
     assert done.returncode == 0 and f"left foot {STRIDES} strides" in done.stdout
 
 
 def test_convert_and_calibrate_read_it_too(walk: Path, tmp_path: Path, packets: list[Packet]) -> None:
     own = runpy.run_path(str(OWN))
-    assert run("convert", walk, tmp_path / "walk.mcap", "--device", OWN).returncode == 0
+    assert run("convert", walk, tmp_path / "walk.mcap", "--driver", OWN).returncode == 0
     with McapWriter(tmp_path / "same.mcap", profiles=[own["DRIVER"]]) as writer:
         for packet in packets:
             writer.write(packet)
     size = (tmp_path / "same.mcap").stat().st_size
     assert (tmp_path / "walk.mcap").stat().st_size == pytest.approx(size, rel=0.05)
-    done = run("convert", walk, tmp_path / "walk.sto", "--device", OWN)
+    done = run("convert", walk, tmp_path / "walk.sto", "--driver", OWN)
     assert done.returncode == 0 and len((tmp_path / "walk.sto").read_text().splitlines()) > 0.9 * len(packets)
     still = recorded(tmp_path / "still.jsonl", packets[:100])
     rest = ("calibrate", "rest", still, "--out", tmp_path / "me.json")
     assert "no foot's accelerations" in run_failing(*rest)
-    assert "the left foot has 1 s without a gap" in run("calibrate", "rest", *rest[2:], "--device", OWN).stderr
+    assert "the left foot has 1 s without a gap" in run("calibrate", "rest", *rest[2:], "--driver", OWN).stderr
 
 
 BAD = {
-    "absent.py": (None, "absent.py: no such file or directory"),
+    "absent.py": (None, "absent.py: there is no such file"),
     "device.txt": ("x = 1", "device.txt: is no Python file (.py)"),
     "empty.py": ("x = 1", "empty.py: no variable of it holds a Driver"),
     "built_in.py": ("from solepath.link.devices.cc2650 import DRIVER", "built_in.py: no variable of it holds a Driver"),
@@ -154,21 +154,21 @@ def test_a_file_without_a_device_gets_one_line(name: str, walk: Path, tmp_path: 
     text, expected = BAD[name]
     if text is not None:
         (tmp_path / name).write_text(text)
-    assert expected in run_failing("track", walk, "--device", tmp_path / name)
+    assert expected in run_failing("track", walk, "--driver", tmp_path / name)
 
 
 def test_one_device_twice_gets_one_line_and_prints_go_to_stderr(walk: Path, tmp_path: Path) -> None:
-    assert "there is a device 'shoe' already" in run("track", walk, "--device", OWN, "--device", OWN).stderr
+    assert "there is a device 'shoe' already" in run("track", walk, "--driver", OWN, "--driver", OWN).stderr
     (tmp_path / "loud.py").write_text(
         OWN.read_text().replace("Path(__file__)", f"Path({str(OWN)!r})") + "\nprint('hello')\n"
     )
-    done = run("track", walk, "--device", tmp_path / "loud.py")
+    done = run("track", walk, "--driver", tmp_path / "loud.py")
     assert done.returncode == 0 and "hello" in done.stderr and "hello" not in done.stdout
 
 
 def test_a_sensor_is_recorded_as_a_device_of_ones_own(tmp_path: Path) -> None:
     (tmp_path / "tag.py").write_text(RENAMED)
-    file, driver = tmp_path / "walk.jsonl", ("--device", tmp_path / "tag.py")
+    file, driver = tmp_path / "walk.jsonl", ("--driver", tmp_path / "tag.py")
     with emulator("--distance", 20, "--device", "cc2650") as (_, where):
         options = ("--via", where, "--left", "F0:5E:00:00:00:01", "--duration", 4)
         run_program("record", "--out", file, *options, *driver)
@@ -176,3 +176,11 @@ def test_a_sensor_is_recorded_as_a_device_of_ones_own(tmp_path: Path) -> None:
     assert "tag/movement" in channels and not any(name.startswith("cc2650/") for name in channels)
     assert run("check", file).returncode == 1
     assert run("track", file, *driver).returncode == 0
+
+
+def test_several_recipes_know_it_too(walk: Path, tmp_path: Path) -> None:
+    recipes = ("--recipe", "default", "--recipe", "shoe-sensing")
+    assert "--driver FILE.py" in run_failing("track", walk, *recipes)
+    done = run("track", walk, *recipes, "--driver", OWN, "--out", tmp_path / "out")
+    assert done.returncode == 0 and "rejected" not in done.stdout
+    assert len(rows_in(tmp_path / "out" / "shoe-sensing" / "strides.csv")) > 0

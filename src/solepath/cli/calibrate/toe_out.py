@@ -51,8 +51,8 @@ def add_toe_out(kinds: Any) -> None:
 def _toe_out(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
     from ...papers.footstep_tracker.toe_out import ERRORS, ToeOut, printed_angle, toe_out, toe_out_calibration
 
-    if options.live and options.device_files:
-        raise Failure("--device is for a recording here: make it with `solepath record`, and give it without --live")
+    if options.live and options.driver_files:
+        raise Failure("--driver is for a recording here: make it with `solepath record`, and give it without --live")
     if options.live:
         _measure(options)
     else:

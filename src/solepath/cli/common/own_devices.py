@@ -1,4 +1,4 @@
-"""Loads devices of one's own (--device FILE.py), and says which packets of a recording no device explains."""
+"""Loads devices of one's own (--driver FILE.py), and says which packets of a recording no device explains."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from attrs import define, field
 
 from ...events import Event, PacketRejected, Rejection
 from ...link.kinds import BUILT_IN_KINDS, DeviceKinds, make_kinds
-from ...recording import os_error_text, printable
+from ...recording import printable
 from ...types import Packet, Sample, Site
 from .failure import Failure
+from .os_errors import file_error_text
 
 if TYPE_CHECKING:
     from ...link.driver import Driver
@@ -31,15 +32,15 @@ MAX_CHANNELS = 100
 """Largest number of unknown channels of a site that are remembered by name; chosen by hand."""
 NO_DEVICE = ("device", "receiver")
 """Prefixes of channels that belong to no kind of device."""
-ADVICE = "a device of your own needs its driver: --device FILE.py (docs/extending.md)"
+ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/extending.md)"
 
 
 def add_own_devices(command: argparse.ArgumentParser) -> None:
-    """Add --device to a command."""
+    """Add --driver to a command."""
     command.add_argument(
-        "--device",
+        "--driver",
         metavar="FILE.py",
-        dest="device_files",
+        dest="driver_files",
         type=Path,
         action="append",
         default=[],
@@ -49,14 +50,14 @@ def add_own_devices(command: argparse.ArgumentParser) -> None:
 
 
 def drivers_of(options: argparse.Namespace) -> tuple[Driver, ...]:
-    """Return the drivers of all files of --device; raise Failure for a file without one, or that cannot be run."""
+    """Return the drivers of all files of --driver; raise Failure for a file without one, or that cannot be run."""
     drivers: list[Driver] = []
-    for path in getattr(options, "device_files", []):
+    for path in getattr(options, "driver_files", []):
         drivers += load_drivers(path)
         try:
             make_kinds(drivers)
         except ValueError as error:
-            raise Failure(f"--device {printable(str(path))}: {error}") from None
+            raise Failure(f"--driver {printable(str(path))}: {error}") from None
     return tuple(drivers)
 
 
@@ -67,21 +68,22 @@ def load_drivers(path: Path) -> list[Driver]:
     from ...link.catalogue import DECLARED
     from ...link.driver import Driver
 
-    name = f"--device {printable(str(path))}"
+    name = f"--driver {printable(str(path))}"
     spec = spec_from_file_location(f"solepath_device_{path.stem}", path) if path.suffix == ".py" else None
     if spec is None or spec.loader is None:
         raise Failure(f"{name}: is no Python file (.py)")
-    module = module_from_spec(spec)
+    module, fault = module_from_spec(spec), ""
     sys.modules[spec.name] = module
     try:
         with redirect_stdout(sys.stderr):
             spec.loader.exec_module(module)
-    except OSError as error:
-        if error.filename == str(path):
-            raise Failure(f"{name}: {os_error_text(error)}") from None
-        raise Failure(f"{name}: {_describe(error, path)}") from None
     except (Exception, SystemExit) as error:
-        raise Failure(f"{name}: {_describe(error, path)}") from None
+        if isinstance(error, OSError) and error.filename == str(path):
+            fault = file_error_text(error)
+        else:
+            fault = f"{printable(str(path))}: {_describe(error, path)}"
+    if fault:  # raised here, so that no error of the system in the file takes the place of this sentence
+        raise Failure(f"--driver {fault}")
     found = {id(value): value for value in vars(module).values() if isinstance(value, Driver)}
     drivers = [driver for driver in found.values() if not any(driver is one for one in DECLARED)]
     if not drivers:
