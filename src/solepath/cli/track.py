@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..calibration import Calibration
-from ..recording import RecordingError, Source, printable, read_start_time
+from ..recording import RecordingError, Source, printable
 from ..types import Packet, Sample
 from .common.failure import note
 from .common.files import REPORT, OutputFile, add_force, check_outputs, check_writable, files_of_track
@@ -25,14 +25,18 @@ from .common.inputs import (
     source_of,
     undo_clocks,
 )
-from .common.outcomes import add_outcomes, clinic_of, has_outcomes
+from .common.outcomes import add_outcomes, band_files_of, clinic_of, has_outcomes
 from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
+from .common.report import add_report, check_report_options, report_of
 from .common.tables import add_tables, feet_of, mapping_of
 from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
+    from ..link.driver import Driver
+    from ..recipes import Recipe
     from ..session import Session
+    from ..show.report import Report
     from .common.results import Results
 
 
@@ -60,9 +64,7 @@ def add_to(commands: Any) -> None:
         help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into it, with a floor plan places.csv and "
         "plan.svg too, once they are whole",
     )
-    command.add_argument(
-        "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
-    )
+    add_report(command)
     add_outcomes(command)
     add_force(command)
     add_view(command, command, "play it")
@@ -83,6 +85,7 @@ def run(options: argparse.Namespace) -> int:
 
         return track_with_each(options, [recipe, *others])
     clinic = clinic_of(options)
+    check_report_options(options)
     outputs = _check_outputs(options)
     calibration, drivers = calibration_of(options), drivers_of(options)
     need_page(options, options.view is not None)
@@ -101,14 +104,16 @@ def run(options: argparse.Namespace) -> int:
         floorplan=plan,
         start=start,
     )
+    before = None if options.compare is None else _before(options, recipe, calibration, drivers)
     recording = _Recording(source)
     results = Results(
         f"{printable(source.name)}, recipe {recipe.name}",
         options.out,
         options.report,
+        contents=report_of(
+            options, source, recipe=recipe.name, plan=None if plan is None else plan.plan, before=before
+        ),
         plan=None if plan is None else plan.plan,
-        recipe=recipe.name,
-        when=_start_text(source),
         outputs=outputs,
         clinic=clinic,
         unused=UnusedPackets(make_kinds(drivers)),
@@ -136,18 +141,33 @@ def _check_outputs(options: argparse.Namespace) -> list[OutputFile]:
     outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=has_outcomes(options))
     if options.report is not None:
         outputs.append(OutputFile(options.report, REPORT))
-    check_outputs(
-        outputs, [*options.files, options.mapping, options.calibration, options.floorplan], force=options.force
-    )
+    inputs = [*options.files, options.mapping, options.calibration, options.floorplan]
+    inputs += [*(options.compare or ()), *band_files_of(options)]
+    check_outputs(outputs, inputs, force=options.force)
     if options.report is not None:
         check_writable(options.report, made=options.out)
     return outputs
 
 
-def _start_text(source: Source) -> str:
-    """Return the date and time at which the recording started, as text; "" if they are not known."""
-    moment = read_start_time(source.header)
-    return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
+def _before(
+    options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None, drivers: tuple[Driver, ...]
+) -> Report | None:
+    """Run the earlier recording with which this one is compared; return its report."""
+    from ..session import Session
+
+    source = source_of(options.compare, feet_of(options), mapping_of(options))
+    check_pressure(recipe, source, drivers)
+    session = Session(recipe, calibration=calibration, poses=True, pressures=True, profiles=drivers)
+    report, recording = report_of(options, source, recipe=recipe.name, before=None), _Recording(source)
+    for item in recording:
+        events = session.feed(item)
+        if report is not None:
+            report.take(item, events)
+    if recording.failure is not None:
+        raise recording.failure
+    if report is not None:
+        report.take(None, session.finish())
+    return report
 
 
 class _Recording:

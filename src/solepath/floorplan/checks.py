@@ -184,7 +184,7 @@ def _find_remarks(plan: FloorPlan, has_start: bool) -> Iterator[str]:
     for level in plan.levels:
         yield from _remarks_of_walls(level, cells, points)
     if not plan.connectors and not has_start:
-        yield "the plan has no stairs and no lifts: nothing on it shows a level or a place"
+        yield "the plan has no stairs and no lifts: the place on it is known by a start only"
     for connector in plan.connectors:
         if len(connector.stops) == 1:
             yield f"{connector.kind.value} {connector.name!r}: stops at level {connector.stops[0].level!r} only"

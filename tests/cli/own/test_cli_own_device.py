@@ -54,8 +54,8 @@ def packets() -> list[Packet]:
     found = []
     for k, true in enumerate(WALKER.samples(Foot.LEFT, 100.0)):
         value = {
-            "number": k % (1 << 15),
-            "battery": 873,
+            "number": k,
+            "ticks": round(4096 * true.t) % 65536,
             "acc": [round(v / own["ACC"]) for v in true.acc or ()],
             "gyro": [round(v / own["GYRO"]) for v in true.gyro or ()],
         }

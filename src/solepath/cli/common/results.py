@@ -15,7 +15,6 @@ from ...recording import printable
 from ...saving.files import FileReplacements
 from ...show.observer import Observer
 from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
-from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
@@ -25,6 +24,7 @@ from .own_devices import UnusedPackets
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import Clinic
+    from ...show.report import Report
 
 
 @define
@@ -38,10 +38,9 @@ class Results:
     title: str
     out: Path | None = None
     report: Path | None = None
+    contents: Report | None = None
+    """The report, as its options describe it; None without `report`."""
     plan: FloorPlan | None = None
-    recipe: str = ""
-    when: str = ""
-    """Start of the recording, as text."""
     outputs: Sequence[OutputFile] = ()
     """All files of `out`, and `report`, as they were before the run."""
     clinic: Clinic | None = None
@@ -49,7 +48,6 @@ class Results:
     unused: UnusedPackets = field(factory=UnusedPackets)
     observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
-    _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
     _file_replacements: FileReplacements = field(init=False)
@@ -60,10 +58,8 @@ class Results:
     def __attrs_post_init__(self) -> None:
         self._file_replacements, self._report_replacement = replacements(self.outputs), replacements(self.outputs)
         self._picture = None if self.plan is None else PlanPicture(self.plan)
-        self._report = None
-        if self.report is not None:
-            self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
-            self._report.clinic = self.clinic
+        if self.contents is not None:
+            self.contents.observer, self.contents.clinic = self.observer, self.clinic
 
     def open_files(self) -> None:
         """Open the files, if they are not open."""
@@ -79,7 +75,7 @@ class Results:
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
         """Add a packet or sample and its events, or None and the last events at the end of the recording."""
-        collector = self.observer if self._report is None else self._report
+        collector = self.observer if self.contents is None else self.contents
         collector.take(item, events)
         self.unused.take(item, events)
         for event in events:
@@ -120,9 +116,9 @@ class Results:
             print("\n".join(clinical_lines))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
-        if self._report is not None and self._report_path is not None and self.report is not None:
+        if self.contents is not None and self._report_path is not None and self.report is not None:
             with os_errors_naming(self.report):
-                self._report.write(self._report_path)
+                self.contents.write(self._report_path)
             self._report_replacement.move_to_targets()
             print(f"report in {printable(str(self.report))}")
         for sentence in self.unused.sentences():
