@@ -13,6 +13,7 @@ from snooped import LEFT, RIGHT, TAG, Log, insoles_log
 
 from solepath import Site
 from solepath.recording import read_header, read_packets
+from solepath.types.extras import install_hint
 
 
 def convert(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -214,4 +215,4 @@ def test_without_mcap_the_message_names_the_package(log, tmp_path):
     out = tmp_path / "walk.mcap"
     result = subprocess.run([sys.executable, "-c", code, "convert", log, out], capture_output=True, text=True)
     assert result.returncode == 2
-    assert result.stderr == "solepath: writing MCAP needs the package mcap: pip install 'solepath[mcap]'\n"
+    assert result.stderr == f"solepath: writing MCAP needs the package mcap: {install_hint('mcap')}\n"

@@ -16,6 +16,7 @@ from ..types import Foot, Packet, Sample
 from ..types.attrs import define, field
 from .common.failure import MAX_LENGTH, recipe_named
 from .common.inputs import add_calibration, add_recipe_name, assumed_foot, calibration_of
+from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
 from .common.tables import add_tables, axes_repair, feet_of, mapping_of
 
 UNSEEN = (
@@ -98,6 +99,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath check walk.csv",
     )
     add_tables(command)
+    add_own_devices(command)
     add_recipe_name(command)
     add_calibration(command)
     command.set_defaults(run=run)
@@ -109,12 +111,13 @@ def run(options: argparse.Namespace) -> int:
     RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
     read, and gets a verdict. Rows and packets that cannot be read are left out and named."""
     from ..body.checks.axes import SETTLED_STRIDES
+    from ..link.kinds import make_kinds
     from ..session import Session
     from ..show.observer import Observer
     from ..show.tables.progress import progress_bar
     from ..show.tables.summary import link_health, wear_lines
 
-    recipe, calibration = recipe_named(options.recipe), calibration_of(options)
+    recipe, calibration, drivers = recipe_named(options.recipe), calibration_of(options), drivers_of(options)
     name, flaws = printable(label_files(options.files)), list[str]()
     is_one = len(options.files) == 1
     try:
@@ -127,13 +130,15 @@ def run(options: argparse.Namespace) -> int:
         _print_list("must be mended", [_without_path(one) if is_one else str(one) for one in error.problems])
         print("nothing else was checked: mend this first")
         return 1
-    session, observer = Session(recipe, calibration=calibration, poses=True), Observer()
+    session = Session(recipe, calibration=calibration, poses=True, profiles=drivers)
+    observer, unused = Observer(), UnusedPackets(make_kinds(drivers))
     must: list[str] = []
     may = [*filter(None, [assumed_foot(source)])]
     degraded = {foot: DegradedStrides() for foot in Foot}
 
     def take(item: Packet | Sample | None, events: list[Event]) -> None:
         observer.take(item, events)
+        unused.take(item, events)
         for event in events:
             if isinstance(event, DefectFound):
                 repair = axes_repair(source, event)
@@ -156,7 +161,7 @@ def run(options: argparse.Namespace) -> int:
     has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
     (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
-    must += [*wear_lines(observer), *observer.troubles]
+    must += [*unused.sentences(), *wear_lines(observer), *observer.troubles]
     may += [f"{foot} foot: {text}" for foot in Foot if (text := degraded[foot].sentence()) is not None]
     may += [*observer.limitations, *link_health(observer)]
     strides = {foot: counts.strides for foot, counts in observer.feet.items() if counts.strides}

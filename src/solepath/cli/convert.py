@@ -5,21 +5,25 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..recording import PacketWriter, RecordingError, printable
 from ..recording.packets import open_packets
 from ..types import Packet, Site
+from ..types.extras import install_hint
 from .common.closest import unknown
 from .common.failure import Failure, note
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs, replacements
 from .common.os_errors import file_error_text
+from .common.own_devices import add_own_devices, drivers_of
 from .common.tables import add_tables
 from .exchange import STORAGE, add_exchange, convert_computed
 
 if TYPE_CHECKING:
+    from ..link.driver import Driver
     from ..recording.btsnoop import BtsnoopLog
     from ..recording.mcap import McapWriter
 
@@ -37,6 +41,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
     add_tables(command, "IN")
+    add_own_devices(command)
     command.add_argument(
         "out",
         metavar="OUT",
@@ -103,7 +108,8 @@ def run(options: argparse.Namespace) -> int:
     source, out = options.files[0], options.out
     if options.subject is not None or out.suffix.lower() == STORAGE:
         return convert_computed(options)
-    open_writer = _writer_class(out)
+    drivers = drivers_of(options)
+    open_writer = _writer_class(out, drivers)
     if len(options.files) > 1:
         raise Failure(f"{printable(str(out))}: is made of one log or recording, not of {len(options.files)}")
     output = OutputFile(out, RECORDING_KIND)
@@ -166,8 +172,8 @@ def _with_progress(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Pac
 OpenWriter = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
 
 
-def _writer_class(out: Path) -> OpenWriter:
-    """Return the class that writes a file of this name; raise Failure when there is none."""
+def _writer_class(out: Path, own: Iterable[Driver]) -> OpenWriter:
+    """Return what opens a writer of a file of this name; raise Failure when there is none."""
     suffix = out.suffix.lower()
     if suffix == RECORDING:
         return PacketWriter
@@ -181,8 +187,8 @@ def _writer_class(out: Path) -> OpenWriter:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.partition(".")[0] != "mcap":
             raise
-        raise Failure("writing MCAP needs the package mcap: pip install 'solepath[mcap]'") from None
-    return McapWriter
+        raise Failure(f"writing MCAP needs the package mcap: {install_hint('mcap')}") from None
+    return partial(McapWriter, profiles=own)
 
 
 def _write(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..recording import PacketWriter, printable
 from ..types import Foot
+from ..types.extras import install_hint
 from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_share, parse_whole_number
 from .common.files import RECORDING, OutputFile, add_force, check_outputs
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
@@ -113,7 +114,7 @@ def _page_address(options: argparse.Namespace) -> PageAddress | None:
         return address
     if is_installed("aiohttp"):
         return PageAddress(browser=not options.no_browser)
-    note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
+    note(f"the page in the browser needs aiohttp: {install_hint('view')}")
     return None
 
 

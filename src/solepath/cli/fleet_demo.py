@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
+from ..types.extras import install_hint
 from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_whole_number, recipe_named
 from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, check_writable, write_json
 from .common.inputs import add_recipe_name
@@ -153,7 +154,7 @@ def _check(options: argparse.Namespace, result_file: OutputFile | None) -> None:
         raise Failure(f"--processes {options.processes}: more than there are wearers, {options.wearers}")
     if not (is_installed("bytewax") and is_installed("pyarrow")):
         where = "" if sys.version_info < (3, 13) else " on Python 3.11 or 3.12, the last that bytewax has a release for"
-        raise Failure(f"the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'{where}")
+        raise Failure(f"the fleet needs bytewax and pyarrow: {install_hint('bytewax')}{where}")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
         raise Failure(f"{options.out} is there already, and not an empty directory")
     if result_file is not None:

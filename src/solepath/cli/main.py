@@ -14,6 +14,7 @@ from importlib.util import find_spec
 
 from ..calibration import CalibrationError
 from ..recording import RecordingError
+from ..types.extras import install_hint
 from . import check, completion, convert, demo, evaluate, fleet_demo, reproduce, track, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
@@ -119,7 +120,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ModuleNotFoundError as error:
         if error.name != "numpy":
             raise
-        note("this needs numpy: pip install 'solepath[arrays]'")
+        note(f"this needs numpy: {install_hint('arrays')}")
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:

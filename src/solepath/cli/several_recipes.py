@@ -15,6 +15,7 @@ from .common.failure import Failure, note
 from .common.files import OutputFile, check_outputs, files_of_track
 from .common.inputs import assumed_foot, calibration_of, check_pressure, floorplan_of, source_of, undo_clocks
 from .common.outcomes import has_outcomes
+from .common.own_devices import UnusedPackets, drivers_of
 from .common.tables import feet_of, mapping_of
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
     """Run the recording through a session for each recipe at once, and print the table; return the exit status.
 
     With --out DIR the files of each recipe are written into the folder of its name in DIR."""
+    from ..link.kinds import make_kinds
     from ..session import Session
     from ..show.tables.progress import progress_bar
     from ..show.tables.recipes import RecipeWalk, recipe_lines
@@ -36,24 +38,27 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
 
     _check_options(options, recipes)
     outputs = _check_outputs(options, recipes)
-    calibration = calibration_of(options)
+    calibration, drivers = calibration_of(options), drivers_of(options)
     source = source_of(options.files, feet_of(options), mapping_of(options))
     undo_clocks(source, options)
     for recipe in recipes:
-        check_pressure(recipe, source)
+        check_pressure(recipe, source, drivers)
     plan, start = floorplan_of(options)
     name = printable(source.name)
     walks, runs = list[RecipeWalk](), list[tuple[RecipeWalk, Session, Results]]()
     failure: RecordingError | None = None
     with stop_signals_raise(), ExitStack() as stack:
         for recipe in recipes:
-            session = Session(recipe, calibration=calibration, poses=True, floorplan=plan, start=start)
+            session = Session(
+                recipe, calibration=calibration, poses=True, profiles=drivers, floorplan=plan, start=start
+            )
             results = stack.enter_context(
                 Results(
                     f"{name}, recipe {recipe.name}",
                     _folder(options.out, recipe),
                     plan=None if plan is None else plan.plan,
                     outputs=outputs,
+                    unused=UnusedPackets(make_kinds(drivers)),
                 )
             )
             walks.append(RecipeWalk(recipe.name, results.observer))
@@ -83,8 +88,9 @@ def track_with_each(options: argparse.Namespace, recipes: Sequence[Recipe]) -> i
                 print(f"written to {', '.join(printable(str(_folder(options.out, recipe))) for recipe in recipes)}")
     if failure is not None:
         raise failure
-    if (sentence := assumed_foot(source)) is not None:
-        note(sentence)
+    for sentence in (*runs[0][2].unused.sentences(), assumed_foot(source)):
+        if sentence is not None:
+            note(sentence)
     return 0
 
 

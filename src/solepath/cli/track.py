@@ -26,12 +26,14 @@ from .common.inputs import (
     undo_clocks,
 )
 from .common.outcomes import add_outcomes, band_files_of, clinic_of, has_outcomes
+from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
 from .common.report import add_report, check_report_options, report_of
 from .common.tables import add_tables, feet_of, mapping_of
 from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
+    from ..link.driver import Driver
     from ..recipes import Recipe
     from ..session import Session
     from ..show.report import Report
@@ -50,6 +52,7 @@ def add_to(commands: Any) -> None:
         "solepath track walk.jsonl --recipe default --recipe kupt-dfpc",
     )
     add_tables(command)
+    add_own_devices(command)
     add_recipe(command, several=True)
     add_calibration(command)
     add_floorplan(command)
@@ -71,6 +74,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the recording; return the exit status."""
+    from ..link.kinds import make_kinds
     from ..session import Session
     from .common.loop import stop_signals_raise
     from .common.results import Results
@@ -83,23 +87,24 @@ def run(options: argparse.Namespace) -> int:
     clinic = clinic_of(options)
     check_report_options(options)
     outputs = _check_outputs(options)
-    calibration = calibration_of(options)
+    calibration, drivers = calibration_of(options), drivers_of(options)
     need_page(options, options.view is not None)
     address = page_address_of(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
     source = source_of(options.files, feet_of(options), mapping_of(options))
     undo_clocks(source, options)
-    check_pressure(recipe, source)
+    check_pressure(recipe, source, drivers)
     plan, start = floorplan_of(options)
     session = Session(
         recipe,
         calibration=calibration,
         poses=True,
         pressures=address is not None or options.report is not None,
+        profiles=drivers,
         floorplan=plan,
         start=start,
     )
-    before = None if options.compare is None else _before(options, recipe, calibration)
+    before = None if options.compare is None else _before(options, recipe, calibration, drivers)
     recording = _Recording(source)
     results = Results(
         f"{printable(source.name)}, recipe {recipe.name}",
@@ -111,6 +116,7 @@ def run(options: argparse.Namespace) -> int:
         plan=None if plan is None else plan.plan,
         outputs=outputs,
         clinic=clinic,
+        unused=UnusedPackets(make_kinds(drivers)),
     )
     seconds, shown = 0.0, False
     with stop_signals_raise(), results:
@@ -143,13 +149,15 @@ def _check_outputs(options: argparse.Namespace) -> list[OutputFile]:
     return outputs
 
 
-def _before(options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None) -> Report | None:
+def _before(
+    options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None, drivers: tuple[Driver, ...]
+) -> Report | None:
     """Run the earlier recording with which this one is compared; return its report."""
     from ..session import Session
 
     source = source_of(options.compare, feet_of(options), mapping_of(options))
-    check_pressure(recipe, source)
-    session = Session(recipe, calibration=calibration, poses=True, pressures=True)
+    check_pressure(recipe, source, drivers)
+    session = Session(recipe, calibration=calibration, poses=True, pressures=True, profiles=drivers)
     report, recording = report_of(options, source, recipe=recipe.name, before=None), _Recording(source)
     for item in recording:
         events = session.feed(item)

@@ -10,6 +10,7 @@ from math import isfinite, nan, radians
 from typing import TYPE_CHECKING
 
 from ...recording import printable
+from ...types.extras import install_hint
 from .closest import unknown
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def require(what: str, extra: str, *packages: str) -> None:
     `what` is the start of the sentence, such as "Bluetooth needs"."""
     for package in packages:
         if not is_installed(package):
-            raise Failure(f"{what} {package}: pip install 'solepath[{extra}]'")
+            raise Failure(f"{what} {package}: {install_hint(extra)}")
 
 
 def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:

@@ -18,7 +18,9 @@ from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
+from .failure import Failure, note
 from .files import OutputFile, replacements
+from .own_devices import UnusedPackets
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import Clinic
@@ -43,6 +45,7 @@ class Results:
     """All files of `out`, and `report`, as they were before the run."""
     clinic: Clinic | None = None
     """Collects the clinical outcomes; None without any."""
+    unused: UnusedPackets = field(factory=UnusedPackets)
     observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
@@ -74,6 +77,7 @@ class Results:
         """Add a packet or sample and its events, or None and the last events at the end of the recording."""
         collector = self.observer if self.contents is None else self.contents
         collector.take(item, events)
+        self.unused.take(item, events)
         for event in events:
             if self._files is not None:
                 self._files.write(event)
@@ -83,8 +87,12 @@ class Results:
                 self.clinic.add(event)
 
     def write_files(self) -> list[str]:
-        """Complete the files of `out`; return the lines of the clinical outcomes."""
+        """Complete the files of `out`; return the lines of the clinical outcomes.
+
+        Raises Failure, and writes nothing, if no packet of the recording could be used."""
         self._open.close()
+        if self.unused.is_all:
+            raise Failure(f"{self.title}: {'; '.join(self.unused.sentences())}")
         if self._picture is not None and self._picture_path is not None and self.out is not None:
             with os_errors_naming(self.out):
                 self._picture.write(self._picture_path, self.title)
@@ -113,6 +121,8 @@ class Results:
                 self.contents.write(self._report_path)
             self._report_replacement.move_to_targets()
             print(f"report in {printable(str(self.report))}")
+        for sentence in self.unused.sentences():
+            note(sentence)
 
     def __enter__(self) -> Results:
         return self
