@@ -129,12 +129,14 @@ export function drawCross(context, [x, y]) {
 }
 
 export function drawEllipse(context, [x, y], { long, wide, angle }, scale) {
+  if (long * scale < TIP) return; // all of it is below the mark
   context.beginPath();
   context.ellipse(x, y, Math.min(MAX_RADIUS, long * scale), Math.min(MAX_RADIUS, wide * scale), -angle, 0, 2 * Math.PI);
   veil(context);
 }
 
 export function drawSpread(context, [x, y], radius) {
+  if (radius < TIP) return;
   circle(context, x, y, Math.min(MAX_RADIUS, Math.max(0, radius)));
   veil(context);
 }
