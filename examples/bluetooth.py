@@ -1,7 +1,7 @@
-"""Receives sensors over Bluetooth: `python bluetooth.py LEFT RIGHT` with two addresses from `solepath scan`.
+"""For an app with asyncio: two sensors over Bluetooth, `python bluetooth.py LEFT RIGHT`, addresses of `solepath scan`.
 
-Without addresses it receives two emulated insoles of a wearer who walks for eight seconds, through virtual Bluetooth
-controllers.
+You see connections and strides. Without addresses they are those of two emulated insoles, through virtual Bluetooth
+controllers, of a wearer who walks 4 m.
 """
 
 import asyncio

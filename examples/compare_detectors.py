@@ -1,4 +1,4 @@
-"""Compares two recipes with the truth on the same walk.
+"""For who builds a part of their own: two recipes on the same emulated walk, compared with the truth.
 
     python examples/compare_detectors.py
 

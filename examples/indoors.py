@@ -1,4 +1,4 @@
-"""Locates a wearer with two SensorTags in the shoes on a floor plan, and reports the activities.
+"""For a builder of indoor tracking: two SensorTags in the shoes, a floor plan, and the places where the wearer may be.
 
     python examples/indoors.py
 

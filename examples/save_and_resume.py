@@ -1,4 +1,4 @@
-"""Stops in the middle of a walk and continues later, as in another process, without losing any data.
+"""For the developer of an app: a walk is saved in the middle, and goes on as if nothing had happened.
 
     python examples/save_and_resume.py
 

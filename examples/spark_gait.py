@@ -1,4 +1,4 @@
-"""Gait events of any number of wearers, on Spark: from files of packets that phones sent to files of events.
+"""For a service with Spark: from files of packets that phones sent to files of gait events, of any number of wearers.
 
     python examples/spark_gait.py SENT EVENTS CHECKPOINT                      # on this machine, all present files
     spark-submit ... examples/spark_gait.py SENT EVENTS CHECKPOINT --every "10 seconds"   # on a cluster, until stopped

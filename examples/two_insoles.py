@@ -1,4 +1,4 @@
-"""Calibrates the noise of two insoles' unloaded cells, and prints the distance walked by both feet together.
+"""For owners of insoles: the noise of their cells is calibrated, and both feet together measure the distance walked.
 
 `python two_insoles.py` emulates a short walk for the calibration, and then a walk of 20 m, both at 30 Hz.
 """

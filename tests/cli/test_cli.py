@@ -10,6 +10,8 @@ import pytest
 from commands import no_control_codes, rows_in, run, solepath
 from programs import TAKES, drawn, in_terminal
 
+from solepath.types.extras import install_hint
+
 
 def test_help_names_every_command_and_loads_nothing_heavy():
     code = (
@@ -41,7 +43,7 @@ def test_packets_need_no_numpy_and_the_commands_that_do_give_the_line_that_insta
     assert done.returncode == 0 and "strides" in done.stdout and (folder / "bare.html").exists(), done.stderr
     for arguments in (["demo"], ["track", folder / "walk.csv"]):
         done = without_numpy(*arguments)
-        assert (done.returncode, done.stderr) == (2, "solepath: this needs numpy: pip install 'solepath[arrays]'\n")
+        assert (done.returncode, done.stderr) == (2, f"solepath: this needs numpy: {install_hint('arrays')}\n")
 
 
 @pytest.fixture(scope="module")

@@ -112,7 +112,10 @@ def test_a_server_that_is_no_controller_is_reported() -> None:
 
 def test_a_port_in_use_is_named(insoles: str) -> None:
     where = insoles.removeprefix("tcp:")
-    assert complaint("emulate", "--listen", where) == f"--listen {where}: address already in use"
+    assert (
+        complaint("emulate", "--listen", where)
+        == f"--listen {where}: another program has this port: name another one, or 0 for any that is free"
+    )
 
 
 def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_directory(insoles: str, tmp_path: Path) -> None:
@@ -123,7 +126,7 @@ def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_director
         "live", "--via", insoles, "--left", "solepath L", "--out", tmp_path, "--duration", 9, "--record",
         tmp_path / "walk.jsonl", expect=2,
     )  # fmt: skip
-    assert result.stderr == f"solepath: {tmp_path}: no space left on device\n"
+    assert result.stderr == f"solepath: {tmp_path}: the disk is full\n"
     assert "recipe default: " in result.stdout and "written to" not in result.stdout
     assert list(read_packets(tmp_path / "walk.jsonl"))
 
@@ -133,7 +136,10 @@ def test_a_path_that_cannot_be_written_is_rejected_before_the_search(command: st
     option = {"live": "--record", "record": "--out"}[command]
     nowhere = tmp_path / "nowhere" / "walk.jsonl"
     result = commands.run(command, "--via", "tcp:127.0.0.1:1", option, nowhere)
-    assert result.stdout == "" and one_line(result) == f"solepath: {nowhere}: no such file or directory"
+    assert (
+        result.stdout == ""
+        and one_line(result) == f"solepath: {nowhere}: there is no folder {nowhere.parent}: make it first"
+    )
 
 
 @pytest.mark.parametrize(

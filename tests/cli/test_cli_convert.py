@@ -13,6 +13,7 @@ from snooped import LEFT, RIGHT, TAG, Log, insoles_log
 
 from solepath import Site
 from solepath.recording import read_header, read_packets
+from solepath.types.extras import install_hint
 
 
 def convert(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -77,7 +78,7 @@ def test_the_site_and_the_channel_can_be_given(tmp_path):
     assert {(p.site, p.channel) for p in read_packets(out)} == {
         (Site.PELVIS, "receiver/connected"), (Site.PELVIS, "cc2650/movement"),
     }  # fmt: skip
-    assert "there is no channel 'cc2650/moment'; there are: " in complaint(
+    assert "there is no channel 'cc2650/moment': did you mean cc2650/movement?" in complaint(
         path, out, "--force", "--handle", "0x2b=cc2650/moment"
     )
 
@@ -86,7 +87,7 @@ def test_an_option_that_cannot_be_parsed_is_named(log, tmp_path):
     for option, wishes in (("--site", ("left_foot", f"{TAG}=hand")), ("--handle", ("0x2b", "x=y", "0=a/b"))):
         for wish in wishes:
             result = convert(log, tmp_path / "walk.jsonl", option, wish)
-            assert result.returncode == 2 and f"argument {option}: {wish!r} is not " in result.stderr
+            assert result.returncode == 2 and f"{option}: {wish!r} is not " in result.stderr
 
 
 def test_options_without_use_are_errors_and_nothing_is_written(log, tmp_path):
@@ -150,13 +151,15 @@ def test_impossible_file_names_are_rejected(log, tmp_path):
     assert "--site and --handle are for btsnoop logs" in complaint(
         walk, tmp_path / "walk.mcap", "--site", f"{TAG}=pelvis"
     )
-    for source, flaw in ((tmp_path / "none.log", "no such file or directory"), (tmp_path, "is a directory")):
+    for source, flaw in ((tmp_path / "none.log", "there is no such file"), (tmp_path, "is a directory")):
         assert f"{source}: {flaw}" in complaint(source, tmp_path / "other.jsonl")
     same = tmp_path / "same.jsonl"
     same.write_bytes(log.read_bytes())
     assert complaint(same, same).endswith("is what this command reads; write to another file")
     assert same.read_bytes() == log.read_bytes()
-    assert complaint(log, tmp_path / "none" / "walk.jsonl").endswith("none/walk.jsonl: no such file or directory")
+    assert complaint(log, tmp_path / "none" / "walk.jsonl").endswith(
+        f"there is no folder {tmp_path / 'none'}: make it first"
+    )
 
 
 def test_no_file_is_touched_but_the_one_that_is_named(log, tmp_path):
@@ -203,7 +206,7 @@ sys.exit(main(["convert", *sys.argv[1:]]))
 def test_a_disk_that_fills_up_is_one_line_and_leaves_no_half_file(log, tmp_path, name):
     out = tmp_path / name
     result = subprocess.run([sys.executable, "-c", LITTLE_ROOM, log, out], capture_output=True, text=True)
-    assert (result.returncode, result.stderr) == (2, f"solepath: {out}: file too large\n")
+    assert (result.returncode, result.stderr) == (2, f"solepath: {out}: is larger than this disk allows\n")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -212,4 +215,4 @@ def test_without_mcap_the_message_names_the_package(log, tmp_path):
     out = tmp_path / "walk.mcap"
     result = subprocess.run([sys.executable, "-c", code, "convert", log, out], capture_output=True, text=True)
     assert result.returncode == 2
-    assert result.stderr == "solepath: writing MCAP needs the package mcap: pip install 'solepath[mcap]'\n"
+    assert result.stderr == f"solepath: writing MCAP needs the package mcap: {install_hint('mcap')}\n"

@@ -78,6 +78,6 @@ def test_evaluate_without_data_names_what_it_needs(data, tmp_path, monkeypatch):
     assert needs in run_failing("evaluate")
     assert "does not hold any of the data sets" in run_failing("evaluate", tmp_path)
     assert "is not a directory" in run_failing("evaluate", tmp_path / "none")
-    assert "mars is not one of the data sets" in run_failing("evaluate", data, "--only", "mars")
+    assert "--only: there is no data set 'mars'" in run_failing("evaluate", data, "--only", "mars")
     assert "does not hold pyshoe_vicon" in run_failing("evaluate", data, "--only", "pyshoe_vicon")
     assert "there is no recipe 'secret'" in run_failing("evaluate", data, "--recipe", "secret")

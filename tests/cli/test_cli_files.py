@@ -192,7 +192,9 @@ def test_a_report_may_be_in_the_directory_that_is_made(recording: Path, tmp_path
         == 0
     )
     nowhere = tmp_path / "nowhere" / "r.html"
-    assert f"{nowhere}: No such file" in run_failing("track", recording, "--out", tmp_path / "x", "--report", nowhere)
+    assert f"{nowhere}: there is no folder {nowhere.parent}: make it first" in run_failing(
+        "track", recording, "--out", tmp_path / "x", "--report", nowhere
+    )
 
 
 def test_of_two_recorders_of_one_file_the_second_gets_one_line(insoles: str, tmp_path: Path) -> None:

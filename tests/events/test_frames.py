@@ -12,6 +12,7 @@ from math import isnan
 from typing import Any
 
 import pytest
+from here import ROOT
 from strides import stride
 
 import solepath
@@ -24,6 +25,7 @@ from solepath.events.frames.units import UNITS
 from solepath.events.happening import Happening
 from solepath.types import Foot, Layout, Sample, Site
 from solepath.types.attrs import fields, frozen
+from solepath.types.extras import install_hint
 
 STRIDE = stride(
     Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.5, 0.0), degraded=True,
@@ -133,7 +135,7 @@ def test_what_is_no_event_and_no_library_is_rejected_in_one_sentence(monkeypatch
         to_frame([STRIKE], library="excel")
     for library in ("pandas", "polars"):
         monkeypatch.setitem(sys.modules, library, None)
-    with pytest.raises(ImportError, match=r"^to_frame needs pandas or polars: pip install 'solepath\[frames\]'$"):
+    with pytest.raises(ImportError, match="^to_frame needs pandas or polars: " + re.escape(install_hint("frames"))):
         to_frame([STRIKE])
     with pytest.raises(ImportError, match=r"^to_frame needs polars: pip install polars$"):
         to_frame([STRIKE], library="polars")
@@ -194,3 +196,10 @@ def test_missing_numbers_of_records_within_are_missing() -> None:
     assert values["level_name"] == ["0", None, None] and values["down"] == [None, [], None]
     assert values["duration"][2] == float("inf") and values["foot"] == [None, "left", None]
     assert list(values["candidates"][0][0]) == [one.name for one in fields(Candidate)]
+
+
+def test_a_missing_extra_is_named_with_what_installs_it_from_a_clone_and_by_name() -> None:
+    words = install_hint("arrays")
+    assert "pip install '.[arrays]'" in words and "pip install 'solepath[arrays]'" in words
+    literal = [path for path in (ROOT / "src").rglob("*.py") if "pip install 'solepath[" in path.read_text("utf-8")]
+    assert [path.name for path in literal] == ["extras.py"], "all messages have this sentence"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import runpy
 from base64 import b64decode
 from math import dist
 from typing import Any
 
 import pytest
 from benches import LEFT, RIGHT, ROUTE
-from here import PROTOCOL
+from here import EXAMPLES, PROTOCOL
 from shell import Shell, shell
 
 from solepath import Packet, Session, Site
@@ -213,3 +214,34 @@ def test_an_error_names_the_message_and_its_device() -> None:
     [answer] = json.loads(host.receive(json.dumps([add, {**add, "device": "B"}])))
     assert answer == {"type": "error", "of": "add", "device": "B", "reason": "two devices cannot be at one site"}
     assert json.loads(host.receive("[[]]"))[0]["of"] is None
+
+
+def test_devices_of_the_sessions_own_are_known_by_name_by_services_and_by_what_they_can_send() -> None:
+    own = runpy.run_path(str(EXAMPLES / "own_device.py"))
+    profile, driver = own["PROFILE"], own["DRIVER"]
+    host = JsonHost(Session(profiles=[driver]), packets=True)
+
+    def answers(**message: Any) -> list[dict[str, Any]]:
+        return json.loads(host.receive(json.dumps(message)))
+
+    [found] = answers(type="scan")
+    assert own["UUID"](1) in found["services"] and {"name": "My shoe", "prefix": "", "service": ""} in found["filters"]
+    assert len(found["services"]) == 1 + len(json.loads(JsonHost().receive('{"type": "scan"}'))[0]["services"])
+    there = [[one.service, one.characteristic, one.access.value == "notify"] for one in profile.channels]
+    for number in range(2):
+        t = 1.0 + number
+        for device, more in (("A", {"site": "left_foot"}), ("B", {"site": "right_foot", "profile": "shoe"})):
+            assert answers(type="add", device=device, **more) == []
+            sent = answers(type="connected", t=t, device=device, characteristics=there)
+            assert [one["type"] for one in sent][-1] == "subscribe"
+            [written] = answers(type="done", t=t + 0.1, device=device)
+            assert (written["type"], written["channel"], written["value"]) == ("write", "shoe/start", "c2")
+            answers(type="done", t=t + 0.2, device=device)
+        count = {"number": 100 * number, "ticks": 4096 * number, "acc": [0, 0, 2048], "gyro": [0, 0, 0]}
+        value = driver.write("shoe/motion", count).hex()
+        events = answers(type="values", values=[[t + 0.3, "A", "shoe/motion", value]])
+        assert events[0]["type"] == "packet" and "PacketRejected" not in [one.get("event") for one in events]
+        [saved] = answers(type="save")
+        assert answers(type="start", packets=True, state=saved["state"]) == []
+    [error] = answers(type="add", device="C", site="pelvis", profile="heelbox")
+    assert error["reason"] == "there is no profile 'heelbox'"

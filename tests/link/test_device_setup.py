@@ -241,3 +241,27 @@ def test_layouts_come_from_the_record_that_was_read_for_the_site() -> None:
     assert [channel for kind, channel in operations(done) if channel == "insole/info"] == ["insole/info"]  # read once
     assert [channel for channel, _ in values][:2] == ["receiver/connected", "insole/info"]
     assert [event.site for event in feed(Session(), setup, 0.0, values) if isinstance(event, LayoutKnown)] == [RIGHT]
+
+
+def test_the_writes_follow_the_subscriptions_except_those_that_are_needed_before() -> None:
+    first, *others = TAG.setup
+    early = evolve(TAG, setup=(*others, evolve(first, before_subscribing=True)))
+    for profile, key in ((TAG, None), (early, (first.channel, first.value))):
+        roster = Roster()
+        [member] = roster.add([DeviceConfig(LEFT, "X", profile)])
+        setup = DeviceSetup(roster, member, profile, all_characteristics(profile), "X", "")
+        setup.start(0.0)
+        done: list[Request] = []
+        while (request := setup.request) is not None:
+            done.append(request)
+            setup.answer(0.1 * len(done))
+        kinds = [one.operation for one in done if one.channel.name not in first.then_read]
+        writes = [(one.channel.name, one.value) for one in done if one.operation is Operation.WRITE]
+        assert sorted(writes) == sorted((one.channel, one.value) for one in TAG.setup)
+        subscribed = [place for place, kind in enumerate(kinds) if kind is Operation.SUBSCRIBE]
+        written = [place for place, kind in enumerate(kinds) if kind is Operation.WRITE]
+        if key is None:
+            assert max(subscribed) < min(written)
+        else:
+            assert writes[0] == key and written[0] < min(subscribed) < max(subscribed) < written[1]
+        assert setup.is_listening

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from math import degrees
+from math import degrees, radians
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -18,6 +18,7 @@ from solepath import PlaceLost
 from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
+from solepath.emulate import Route, emulate
 from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import (
     Anchor,
@@ -145,7 +146,7 @@ def test_track_writes_places_and_the_picture_and_prints_where_the_wearer_is(
         rows = list(csv.DictReader(file))
     assert len(rows) >= 4 and {(row["level"], row["room"]) for row in rows} == {("0", "hall 1")}
     assert all(0.0 < float(row["x_m"]) < 30.0 and row["candidates"] == "1" for row in rows)
-    assert abs(float(rows[-1]["heading_deg"]) - 30.0) < 12.0
+    assert abs(float(rows[-1]["frame_heading_deg"]) - 30.0) < 12.0
     events = [json.loads(line) for line in (tmp_path / "events.jsonl").read_text().splitlines()]
     assert [event["room"] for event in events if event["event"] == "Placed"] == [row["room"] for row in rows]
     svg = ElementTree.parse(tmp_path / "plan.svg").getroot()
@@ -165,7 +166,7 @@ def test_a_floor_plan_or_a_start_that_cannot_be_used_is_rejected_in_one_line(
     nonsense = tmp_path / "plan.geojson"
     nonsense.write_text("[1, 2")
     assert "plan.geojson" in run_failing("track", walk, "--floorplan", nonsense)
-    assert "No such file" in run_failing("track", walk, "--floorplan", tmp_path / "none.geojson")
+    assert "there is no such file" in run_failing("track", walk, "--floorplan", tmp_path / "none.geojson")
     assert "the plan has no level '7', only 0, 1" in run_failing("track", walk, "--floorplan", hall, "--start", "7,1,2")
     assert "(99, 2) is nowhere on level 0" in run_failing("track", walk, "--floorplan", hall, "--start", "0,99,2")
     assert "is not LEVEL,X,Y" in run_failing("track", walk, "--floorplan", hall, "--start", "0,one,2")
@@ -180,3 +181,27 @@ def test_a_start_is_read_with_and_without_heading_and_commas_in_the_name_of_a_le
     for wrong in ("", "heading=", "heading=361", "heading=nan", "0", "0,1", ",1,2", "0,nan,2", "0,1,inf"):
         with pytest.raises(Failure):
             start_of(wrong)
+
+
+def test_the_direction_of_walking_on_the_plan_is_that_of_the_last_stride(hall: Path, tmp_path: Path) -> None:
+    route = Route().stand(2.0).walk(8.0).turn(radians(90.0)).walk(8.0).stop(2.0)
+    walk = recorded(tmp_path / "turned.jsonl", emulate(route, seed=3).packets)
+    done = run("track", walk, "--floorplan", hall, "--start", "0,15,3,30", "--out", tmp_path / "out")
+    assert done.returncode == 0
+    with (tmp_path / "out" / "places.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["walking_direction_deg"]]
+    first, last = rows[1], rows[-2]
+    assert float(first["walking_direction_deg"]) == pytest.approx(30.0, abs=12.0)
+    assert float(last["walking_direction_deg"]) == pytest.approx(120.0, abs=12.0)
+    for row in (first, last):
+        assert float(row["frame_heading_deg"]) == pytest.approx(30.0, abs=12.0)
+
+
+def test_a_plan_without_stairs_gets_no_warning_with_a_start(walk: Path, tmp_path: Path) -> None:
+    corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (0.0, 20.0)]
+    walls = tuple(Wall(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
+    write_floorplan(tmp_path / "one.geojson", FloorPlan("one", (Level("0", "floor", 0, 0.0, walls),), ()))
+    options = ("track", walk, "--floorplan", tmp_path / "one.geojson")
+    assert "no stairs and no lifts" in run(*options).stderr
+    assert "no stairs and no lifts" in run(*options, "--start", "heading=30").stderr
+    assert run(*options, "--start", "0,10,10,30").stderr == ""

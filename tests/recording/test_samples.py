@@ -131,7 +131,11 @@ FAULTY = {
     "no t": (without(idle(), "t"), 'has no key "t"'),
     "no t of a foot": (without(name_foot(idle(), "left"), "t_left"), 'has no key "t" and no key t_left'),
     "nothing measured": ({"t": idle()["t"], "mag": np.ones((20, 3))}, "has no key acc or pressure"),
-    "gyro alone": (without(idle(), "acc"), "has the key gyro but no key acc"),
+    "gyro alone, no t": (
+        without(without(idle(), "acc"), "t"),
+        'has no key "t" and no key acc (it holds gyro, pressure); repair: --columns t=KEY,acc=KEY',
+    ),
+    "gyro alone": (without(idle(), "acc"), "has no key acc (it holds gyro, pressure, t)"),
     "both kinds of name": (idle() | name_foot(idle(), "left"), "holds both acc and acc_left"),
     "acc of two axes": (idle() | {"acc": np.ones((20, 2))}, "acc: has the shape (20, 2) instead of (n, 3)"),
     "acc lying down": (idle() | {"acc": np.ones((3, 20))}, "acc: has the shape (3, 20) instead of (n, 3)"),

@@ -11,8 +11,9 @@ from bleak import BleakClient
 from bleak.exc import BleakDeviceNotFoundError
 from bleak_retry_connector import establish_connection
 
+from ..link.profile import Profile
 from ..link.setup.candidates import PRESENCE_TIME, Advertisement, Candidates
-from ..link.setup.config import DeviceConfig
+from ..link.setup.config import DeviceConfig, identify
 from ..link.setup.device_setup import DeviceSetup
 from ..link.setup.roster import Member, Roster
 from ..types import Site
@@ -68,6 +69,8 @@ class Connection:
     emitter: Emitter
     pair: bool
     patience: float
+    own: tuple[Profile, ...] = ()
+    """Profiles of an app's own devices, by which one without a configured profile is recognised."""
     state: ConnectionState = field(default=ConnectionState.SEEKING, init=False)
     signal: int | None = field(default=None, init=False)
     """Signal strength of the last advertisement, dBm; None when unknown."""
@@ -136,7 +139,7 @@ class Connection:
 
     async def _use(self, found: Advertisement) -> None:
         """Connect and listen until the connection is lost. Raises FAILURES."""
-        profile = self.config.profile or found.profile
+        profile = self.config.profile or identify(found.name, found.services, self.own)
         name = found.name or found.address
         if profile is None:
             self.member.wrong_since[found.address] = _now()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Iterable
 
+from ..link.driver import Driver
 from ..link.setup.config import DeviceConfig, check_configs
 from ..link.setup.roster import Roster
 from ..types import Packet
@@ -35,8 +36,9 @@ class Devices:
 
     `capacity` is the number of notifications that can wait; beyond it the oldest are dropped and a packet reports their
     number. `pair` requests pairing of every device when it is connected. `patience` is the time until a device that
-    does not advertise is reported, s. `backend` replaces this machine's Bluetooth, for emulated devices. Raises
-    ValueError when no device is configured, when two have the same site, or when two configs can mean one device.
+    does not advertise is reported, s. `backend` replaces this machine's Bluetooth, for emulated devices. `profiles` are
+    the app's own devices, as for Session: one whose config has no profile is recognised by its advertisement. Raises
+    ValueError when no device is configured, two have the same site, or two configs can mean one device.
 
     Entering raises BluetoothError when Bluetooth cannot be used; later failures are packets. A lost device is connected
     again. Leaving disconnects; the packets that have arrived by then can still be iterated."""
@@ -49,6 +51,7 @@ class Devices:
         capacity: int = 4000,
         pair: bool = False,
         patience: float = 10.0,
+        profiles: Iterable[Driver] = (),
     ) -> None:
         configs = tuple(configs)
         check_configs(configs)
@@ -66,10 +69,10 @@ class Devices:
         self._in_use = False
         """True from the start of `async with` to its end."""
         self._fault: asyncio.Task[None] | None = None
-        roster = Roster()
+        roster, own = Roster(), tuple([driver.profile for driver in profiles])
         for member in roster.add(configs):
             emitter = Emitter(self._inbox, member)
-            self._connections.append(Connection(roster, member, backend, self._scanner, emitter, pair, patience))
+            self._connections.append(Connection(roster, member, backend, self._scanner, emitter, pair, patience, own))
         self._inbox.on_arrival = self._wake
 
     @property

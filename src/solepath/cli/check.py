@@ -15,7 +15,8 @@ from ..show.tables.table import counted
 from ..types import Foot, Packet, Sample
 from ..types.attrs import define, field
 from .common.failure import MAX_LENGTH, recipe_named
-from .common.inputs import add_calibration, assumed_foot, calibration_of
+from .common.inputs import add_calibration, add_recipe_name, assumed_foot, calibration_of
+from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
 from .common.tables import add_tables, axes_repair, feet_of, mapping_of
 
 UNSEEN = (
@@ -95,9 +96,11 @@ def add_to(commands: Any) -> None:
         description="Say what is wrong with a recording of packets (JSON Lines) or of samples (text tables, Excel,"
         " Parquet, .npz), in sentences. The exit status is 1 if something must be mended, also if the values are in"
         " another unit, and 2 if the file is no recording. Axes need about 20 s of walking, clocks 60 s.",
+        epilog="example: solepath check walk.csv",
     )
     add_tables(command)
-    command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+    add_own_devices(command)
+    add_recipe_name(command)
     add_calibration(command)
     command.set_defaults(run=run)
 
@@ -108,15 +111,18 @@ def run(options: argparse.Namespace) -> int:
     RecordingError is raised for a file that cannot be read as a recording. One whose values are in another unit can be
     read, and gets a verdict. Rows and packets that cannot be read are left out and named."""
     from ..body.checks.axes import SETTLED_STRIDES
+    from ..link.kinds import make_kinds
     from ..session import Session
     from ..show.observer import Observer
+    from ..show.tables.progress import progress_bar
     from ..show.tables.summary import link_health, wear_lines
 
-    recipe, calibration = recipe_named(options.recipe), calibration_of(options)
+    recipe, calibration, drivers = recipe_named(options.recipe), calibration_of(options), drivers_of(options)
     name, flaws = printable(label_files(options.files)), list[str]()
     is_one = len(options.files) == 1
     try:
-        source = open_source(options.files, feet_of(options), mapping=mapping_of(options), report=flaws.append)
+        with progress_bar(f"reading {name}"):
+            source = open_source(options.files, feet_of(options), mapping=mapping_of(options), report=flaws.append)
     except RecordingError as error:
         if not all(isinstance(problem, UnusableValues) for problem in error.problems):
             raise
@@ -124,13 +130,15 @@ def run(options: argparse.Namespace) -> int:
         _print_list("must be mended", [_without_path(one) if is_one else str(one) for one in error.problems])
         print("nothing else was checked: mend this first")
         return 1
-    session, observer = Session(recipe, calibration=calibration, poses=True), Observer()
+    session = Session(recipe, calibration=calibration, poses=True, profiles=drivers)
+    observer, unused = Observer(), UnusedPackets(make_kinds(drivers))
     must: list[str] = []
     may = [*filter(None, [assumed_foot(source)])]
     degraded = {foot: DegradedStrides() for foot in Foot}
 
     def take(item: Packet | Sample | None, events: list[Event]) -> None:
         observer.take(item, events)
+        unused.take(item, events)
         for event in events:
             if isinstance(event, DefectFound):
                 repair = axes_repair(source, event)
@@ -140,8 +148,10 @@ def run(options: argparse.Namespace) -> int:
                 degraded[foot].add(event)
 
     try:
-        for item in source:
-            take(item, session.feed(item))
+        with progress_bar(name, source.total) as show:
+            for item in source:
+                take(item, session.feed(item))
+                show(source.done)
     except RecordingError as error:
         if not observer.item_count:
             raise
@@ -151,7 +161,7 @@ def run(options: argparse.Namespace) -> int:
     has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
     (must if has_many else may).extend(flaw.removeprefix(prefix) for flaw in flaws)
-    must += [*wear_lines(observer), *observer.troubles]
+    must += [*unused.sentences(), *wear_lines(observer), *observer.troubles]
     may += [f"{foot} foot: {text}" for foot in Foot if (text := degraded[foot].sentence()) is not None]
     may += [*observer.limitations, *link_health(observer)]
     strides = {foot: counts.strides for foot, counts in observer.feet.items() if counts.strides}

@@ -5,24 +5,28 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..recording import PacketWriter, RecordingError, os_error_text, printable
+from ..recording import PacketWriter, RecordingError, printable
 from ..recording.packets import open_packets
 from ..types import Packet, Site
+from ..types.extras import install_hint
+from .common.closest import unknown
 from .common.failure import Failure, note
 from .common.files import RECORDING as RECORDING_KIND
 from .common.files import OutputFile, add_force, check_outputs, replacements
+from .common.os_errors import file_error_text
+from .common.own_devices import add_own_devices, drivers_of
 from .common.tables import add_tables
 from .exchange import STORAGE, add_exchange, convert_computed
 
 if TYPE_CHECKING:
+    from ..link.driver import Driver
     from ..recording.btsnoop import BtsnoopLog
     from ..recording.mcap import McapWriter
 
-MIN_PROGRESS_SIZE = 4_000_000
-"""Size of a file above which there is a progress bar, bytes; chosen by hand."""
 RECORDING, MCAP = ".jsonl", ".mcap"
 
 
@@ -37,6 +41,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
     add_tables(command, "IN")
+    add_own_devices(command)
     command.add_argument(
         "out",
         metavar="OUT",
@@ -103,7 +108,8 @@ def run(options: argparse.Namespace) -> int:
     source, out = options.files[0], options.out
     if options.subject is not None or out.suffix.lower() == STORAGE:
         return convert_computed(options)
-    open_writer = _writer_class(out)
+    drivers = drivers_of(options)
+    open_writer = _writer_class(out, drivers)
     if len(options.files) > 1:
         raise Failure(f"{printable(str(out))}: is made of one log or recording, not of {len(options.files)}")
     output = OutputFile(out, RECORDING_KIND)
@@ -111,7 +117,7 @@ def run(options: argparse.Namespace) -> int:
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
     total = source.stat().st_size if source.is_file() else 0
-    with progress_bar(printable(source.name), total, enabled=total > MIN_PROGRESS_SIZE) as show:
+    with progress_bar(printable(source.name), total) as show:
         if is_btsnoop(source):
             log = _open_log(options)
             packets, header = _with_progress(log, show), log.header
@@ -142,7 +148,7 @@ def _open_log(options: argparse.Namespace) -> BtsnoopLog:
     known = {channel.name for profile in PROFILES for channel in profile.channels}
     for name in handles.values():
         if name not in known:
-            raise Failure(f"there is no channel {name!r}; there are: {', '.join(sorted(known))}")
+            raise Failure(unknown("channel", name, sorted(known)))
     return open_btsnoop(options.files[0], sites=sites, handles=handles, report=note)
 
 
@@ -166,8 +172,8 @@ def _with_progress(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Pac
 OpenWriter = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
 
 
-def _writer_class(out: Path) -> OpenWriter:
-    """Return the class that writes a file of this name; raise Failure when there is none."""
+def _writer_class(out: Path, own: Iterable[Driver]) -> OpenWriter:
+    """Return what opens a writer of a file of this name; raise Failure when there is none."""
     suffix = out.suffix.lower()
     if suffix == RECORDING:
         return PacketWriter
@@ -181,8 +187,8 @@ def _writer_class(out: Path) -> OpenWriter:
     except ModuleNotFoundError as error:
         if error.name is None or error.name.partition(".")[0] != "mcap":
             raise
-        raise Failure("writing MCAP needs the package mcap: pip install 'solepath[mcap]'") from None
-    return McapWriter
+        raise Failure(f"writing MCAP needs the package mcap: {install_hint('mcap')}") from None
+    return partial(McapWriter, profiles=own)
 
 
 def _write(
@@ -205,9 +211,9 @@ def _write(
                 writer.close()
         except RecordingError as error:
             cause = error.__cause__
-            raise Failure(
-                f"{printable(str(output.path))}: {os_error_text(cause) if isinstance(cause, OSError) else error.what}"
-            ) from None
+            if isinstance(cause, OSError):
+                raise Failure(file_error_text(cause, output.path)) from None
+            raise Failure(f"{printable(str(output.path))}: {error.what}") from None
         if damage is not None and not writer.count:
             raise damage
     return writer.count, damage
@@ -229,6 +235,6 @@ def _replacement(output: OutputFile) -> Iterator[Path]:
         yield files.temporary_path(output.path, read_only=True)
         files.move_to_targets()
     except OSError as error:
-        raise Failure(f"{printable(str(output.path))}: {os_error_text(error)}") from None
+        raise Failure(file_error_text(error, output.path)) from None
     finally:
         files.discard()

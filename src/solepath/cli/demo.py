@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..recording import PacketWriter, printable
 from ..types import Foot
+from ..types.extras import install_hint
 from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_share, parse_whole_number
 from .common.files import RECORDING, OutputFile, add_force, check_outputs
 from .common.view import PageAddress, add_speed, add_view, compute_rest, page_address_of, play, speed_of
@@ -30,6 +31,7 @@ def add_to(commands: Any) -> None:
         description="An emulated wearer walks a route with both insoles over a lossy radio. In a terminal it is shown "
         "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
         "can be.",
+        epilog="example: solepath demo\nsolepath demo --building --record walk.jsonl",
     )
     command.add_argument(
         "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
@@ -50,7 +52,7 @@ def add_to(commands: Any) -> None:
         "--loss", metavar="SHARE", type=parse_share, help="share of packets lost, 0 to 1 (default: 0.03)"
     )
     command.add_argument(
-        "--jitter", metavar="S", type=parse_seconds, help="how much later than others a packet may come (default: 0.03)"
+        "--jitter", metavar="S", type=parse_seconds, help="by how many seconds a packet may be late (default: 0.03)"
     )
     shown = command.add_mutually_exclusive_group()
     add_view(command, shown, "show it")
@@ -112,7 +114,7 @@ def _page_address(options: argparse.Namespace) -> PageAddress | None:
         return address
     if is_installed("aiohttp"):
         return PageAddress(browser=not options.no_browser)
-    note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
+    note(f"the page in the browser needs aiohttp: {install_hint('view')}")
     return None
 
 

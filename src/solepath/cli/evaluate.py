@@ -9,9 +9,10 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .common.closest import unknown
 from .common.failure import Failure, note, recipe_named
 from .common.files import SCORES, OutputFile, add_force, check_outputs, check_writable, write_json
-from .common.inputs import add_calibration, calibration_of
+from .common.inputs import add_calibration, add_recipe_name, calibration_of
 
 if TYPE_CHECKING:
     from ..lab.evaluate.report import Result
@@ -27,14 +28,13 @@ def add_to(commands: Any) -> None:
         help="score recipes on recorded data with a truth, and on emulated walks",
         description="Score recipes on a directory of recorded data with a truth, on long emulated walks, or on both, "
         "and print the tables.",
+        epilog="example: solepath evaluate --emulated --walks 1",
     )
     command.add_argument("dir", metavar="DIR", nargs="?", type=Path, help=f"the data (default: ${ENVIRONMENT})")
     command.add_argument(
         "--only", metavar="DATASET", action="append", default=[], help="this data set only; may be given again"
     )
-    command.add_argument(
-        "--recipe", metavar="NAME", action="append", default=[], help="this recipe only; may be given again"
-    )
+    add_recipe_name(command, action="append", default=[], help="this recipe only; may be given again")
     add_calibration(command)
     command.add_argument(
         "--emulated",
@@ -43,7 +43,7 @@ def add_to(commands: Any) -> None:
         "recipe default where no --recipe is named",
     )
     command.add_argument(
-        "--walks", metavar="N", type=int, default=3, help="so many emulated walks of each kind (default: 3)"
+        "--walks", metavar="N", type=int, default=3, help="number of emulated walks of each kind (default: 3)"
     )
     command.add_argument("--seed", metavar="K", type=int, default=1, help="the first one's seed (default: 1)")
     command.add_argument(
@@ -63,7 +63,11 @@ def add_to(commands: Any) -> None:
         help="the JSON of an earlier evaluation: say of every figure what it was, and whether it is better or worse",
     )
     command.add_argument(
-        "--processes", metavar="N", type=int, default=os.cpu_count() or 1, help="how many recordings at a time"
+        "--processes",
+        metavar="N",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="recordings at a time (default: one for each processor)",
     )
     command.set_defaults(run=run)
 
@@ -72,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
     """Evaluate and print the tables; return the exit status."""
     from ..lab.evaluate import ablation
     from ..lab.evaluate.changes import read_scores
-    from ..lab.evaluate.datasets import EMULATED
+    from ..lab.evaluate.datasets import DATASETS, EMULATED
     from ..lab.evaluate.jobs import evaluate, evaluate_emulated, find_data_sets
     from ..lab.evaluate.report import as_json
     from ..lab.tables.markdown import accuracy_table
@@ -81,6 +85,9 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.progress import progress_bar
 
     emulated_names = [data_set.name for data_set in EMULATED]
+    known_names = [*emulated_names, *(data_set.name for data_set in DATASETS)]
+    if wrong := [name for name in options.only if name not in known_names]:
+        raise Failure(f"--only: {unknown('data set', wrong[0], known_names)}")
     recorded, walked = (
         [name for name in options.only if (name in emulated_names) is is_emulated] for is_emulated in (False, True)
     )

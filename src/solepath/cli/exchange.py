@@ -11,6 +11,7 @@ from .common.failure import Failure, parse_whole_number
 from .common.files import RECORDING, OutputFile, check_outputs
 from .common.inputs import add_calibration, add_recipe, calibration_of, check_pressure, recipe_of
 from .common.inputs import source_of as open_recording
+from .common.own_devices import drivers_of
 from .common.tables import feet_of, mapping_of
 from .validating import need_validator, validate_dataset, validate_storage
 
@@ -111,16 +112,19 @@ def _run(
     """Run the recording, and pass samples and events to `add`; return the error that ended the recording, if any."""
     from ..recording.posed import PosedSession
     from ..session import Session
+    from ..show.tables.progress import progress_bar
 
     recipe = recipe_of(options)
-    calibration = calibration_of(options)
-    check_pressure(recipe, source)
-    posed = PosedSession(Session(recipe, calibration=calibration, poses=True))
+    calibration, drivers = calibration_of(options), drivers_of(options)
+    check_pressure(recipe, source, drivers)
+    posed = PosedSession(Session(recipe, calibration=calibration, poses=True, profiles=drivers))
     damage: RecordingError | None = None
     try:
-        for item in source:
-            events = posed.session.feed(item)
-            add(posed.take(), events)
+        with progress_bar(printable(source.name), source.total) as show:
+            for item in source:
+                events = posed.session.feed(item)
+                add(posed.take(), events)
+                show(source.done)
     except RecordingError as error:
         damage = error
     events = posed.session.finish()

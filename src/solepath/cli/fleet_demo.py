@@ -15,8 +15,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
+from ..types.extras import install_hint
 from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_whole_number, recipe_named
 from .common.files import FLEET_FIGURES, OutputFile, add_force, check_outputs, check_writable, write_json
+from .common.inputs import add_recipe_name
 
 if TYPE_CHECKING:
     from ..fleet.demo.stage import DemoStage
@@ -48,10 +50,10 @@ def add_to(commands: Any) -> None:
         "--seconds",
         metavar="S",
         type=parse_positive,
-        help=f"how long each wearer walks (default: {MIN_DEFAULT_TIME:g} for "
+        help=f"how long each wearer walks, s (default: {MIN_DEFAULT_TIME:g} for "
         f"{DEFAULT_TOTAL_TIME / MIN_DEFAULT_TIME:.0f} wearers and more, up to {MAX_DEFAULT_TIME:g} for fewer)",
     )
-    command.add_argument("--recipe", metavar="NAME", default="default", help="recipe of the sessions")
+    add_recipe_name(command, "recipe of the sessions")
     command.add_argument(
         "--seed", metavar="X", type=parse_whole_number, default=1, help="other wearers, other kills (default: 1)"
     )
@@ -152,7 +154,7 @@ def _check(options: argparse.Namespace, result_file: OutputFile | None) -> None:
         raise Failure(f"--processes {options.processes}: more than there are wearers, {options.wearers}")
     if not (is_installed("bytewax") and is_installed("pyarrow")):
         where = "" if sys.version_info < (3, 13) else " on Python 3.11 or 3.12, the last that bytewax has a release for"
-        raise Failure(f"the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'{where}")
+        raise Failure(f"the fleet needs bytewax and pyarrow: {install_hint('bytewax')}{where}")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
         raise Failure(f"{options.out} is there already, and not an empty directory")
     if result_file is not None:

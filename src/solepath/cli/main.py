@@ -1,25 +1,27 @@
 """`solepath`: parses the command line, runs the command and reports its errors.
 
-Exit status: 0 for success; 1 if `fleet-demo` found different events or `check` something to mend, such as another unit;
+Exit status: 0 for success; 1 if a check found something (`check`, `fleet-demo`, `convert --validate`);
 2 for an error in the command line or a file, with one line on stderr; 130 if interrupted before all input was used.
 """
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 from collections.abc import Sequence
 from importlib.machinery import ExtensionFileLoader
 from importlib.util import find_spec
-from typing import Any
 
 from ..calibration import CalibrationError
 from ..recording import RecordingError
-from . import check, convert, demo, evaluate, fleet_demo, reproduce, track, web
+from ..types.extras import install_hint
+from . import check, completion, convert, demo, evaluate, fleet_demo, reproduce, track, web
 from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
 from .common.failure import Failure, note
+from .common.os_errors import file_error_text, in_words
+from .common.parser import Parser
+from .completion import COMPLETING
 
 COMMANDS = (
     demo,
@@ -34,42 +36,43 @@ COMMANDS = (
     reproduce,
     fleet_demo,
     web,
+    completion,
 )  # live adds record
 
-
-class _Once(argparse.Action):
-    """An option with a value, which may be given once: a second value would replace the first one silently."""
-
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        option_string: str | None = None,
-    ) -> None:
-        given: set[str] = namespace.__dict__.setdefault("given", set())
-        if option_string is not None and self.dest in given:
-            parser.error(f"{option_string} was given twice")
-        given.add(self.dest)
-        setattr(namespace, self.dest, values)
+GROUPS = (
+    ("with your sensors", ("scan", "live", "record", "calibrate")),
+    ("with recordings", ("track", "check", "convert")),
+    ("without sensors", ("demo", "emulate", "web", "fleet-demo")),
+    ("how good it is", ("evaluate", "reproduce")),
+    ("this shell", ("completion",)),
+)
+"""Commands by their purpose, in the order of the help."""
+FIRST = """\
+first steps:
+  solepath demo                watch an emulated walk: no sensor is needed
+  solepath track walk.csv      see how somebody walked, from your recording
+  solepath live                see how you walk, with sensors on your feet"""
+"""Three commands for a newcomer, with which the help starts."""
 
 
-class _Parser(argparse.ArgumentParser):
-    """A parser whose options, and those of its commands, may be given once."""
+class _TopParser(Parser):
+    """The parser of the program, whose help shows the first steps and the commands by their purpose."""
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, **kwargs)
-        self.register("action", None, _Once)
-        self.register("action", "store", _Once)
+    def format_help(self) -> str:
+        """Return the help of the program."""
+        lines = {} if self.commands is None else self.commands.lines
+        parts = ["solepath: gait events and indoor tracks from foot-worn sensors", FIRST]
+        for title, names in GROUPS:
+            parts.append("\n".join([f"{title}:", *(f"  {name:12}{lines[name]}" for name in names)]))
+        parts.append("solepath COMMAND --help has the options of a command, solepath --version the version")
+        return "\n\n".join(parts) + "\n"
 
 
-def parser() -> argparse.ArgumentParser:
+def parser() -> Parser:
     """Return the parser with all commands."""
-    top = _Parser(
-        prog="solepath", description="Gait events and indoor tracks from foot-worn sensors: bytes in, strides out."
-    )
+    top = _TopParser(prog="solepath", epilog="example: solepath track walk.csv")
     top.add_argument("--version", action="store_true", help="print the version, compiled or pure, and exit")
-    commands = top.add_subparsers(metavar="COMMAND", dest="command")
+    commands = top.add_subparsers(metavar="COMMAND", dest="command", parser_class=Parser)
     for command in COMMANDS:
         command.add_to(commands)
     return top
@@ -77,8 +80,13 @@ def parser() -> argparse.ArgumentParser:
 
 def run(arguments: Sequence[str] | None) -> int:
     """Run one command and return the exit status; errors are raised."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words[:1] == ["help"]:
+        words = [*words[1:], "--help"]
     top = parser()
-    options = top.parse_args(arguments)
+    if COMPLETING in os.environ:
+        completion.complete(top)
+    options = top.parse_args(words)
     if options.version:
         from importlib.metadata import version
 
@@ -106,13 +114,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return status
     except RecordingError as error:
         for problem in error.problems:
-            note(str(problem))
+            note(in_words(problem))
     except (Failure, CalibrationError) as error:
-        note(str(error))
+        note(in_words(error))
     except ModuleNotFoundError as error:
         if error.name != "numpy":
             raise
-        note("this needs numpy: pip install 'solepath[arrays]'")
+        note(f"this needs numpy: {install_hint('arrays')}")
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
@@ -120,7 +128,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
-        note(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+        note(file_error_text(error) if error.filename else f"the output cannot be written: {file_error_text(error)}")
     return 2
 
 

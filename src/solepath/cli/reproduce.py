@@ -12,8 +12,10 @@ from typing import Any
 
 from ..recording import printable
 from ..saving.files import replace_whole
+from .common.closest import unknown
 from .common.failure import Failure, parse_count, parse_whole_number, require
 from .common.files import EXPERIMENT, FIGURE, OutputFile, add_force, check_outputs, check_writable, write_json
+from .completion import complete_with
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 """Names of the experiments; each has a module in lab.reproduce."""
@@ -28,12 +30,12 @@ def add_to(commands: Any) -> None:
         "table beside the paper's.",
         epilog="example: solepath reproduce kupt-dfpc --walks 5 --figure kupt.png",
     )
-    command.add_argument("name", metavar="NAME", help=", ".join(NAMES))
+    complete_with(command.add_argument("name", metavar="NAME", help=", ".join(NAMES)), lambda: NAMES)
     command.add_argument(
         "--walks", metavar="N", type=parse_count, help="so many walks, or wearers (default: as many as the paper)"
     )
     command.add_argument(
-        "--seed", metavar="S", type=parse_whole_number, default=1, help="other walks and other sensors (default: 1)"
+        "--seed", metavar="N", type=parse_whole_number, default=1, help="other walks and other sensors (default: 1)"
     )
     command.add_argument(
         "--seeds", metavar="N", type=parse_count, default=1, help="so many seeds, from --seed on (default: 1)"
@@ -55,7 +57,11 @@ def add_to(commands: Any) -> None:
     )
     add_force(command)
     command.add_argument(
-        "--processes", metavar="N", type=parse_count, default=os.cpu_count() or 1, help="how many walks at a time"
+        "--processes",
+        metavar="N",
+        type=parse_count,
+        default=os.cpu_count() or 1,
+        help="walks at a time (default: one for each processor)",
     )
     command.set_defaults(run=run)
 
@@ -63,7 +69,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Repeat the experiment and print its table; return the exit status."""
     if options.name not in NAMES:
-        raise Failure(f"there is no experiment {options.name!r}; there are: {', '.join(NAMES)}")
+        raise Failure(unknown("experiment", options.name, NAMES))
     figure = _figure(options)
     table = None if options.json is None else OutputFile(options.json, EXPERIMENT)
     picture = None if figure is None else OutputFile(figure, FIGURE)

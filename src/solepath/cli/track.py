@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..calibration import Calibration
-from ..recording import RecordingError, Source, printable, read_start_time
+from ..recording import RecordingError, Source, printable
 from ..types import Packet, Sample
 from .common.failure import note
 from .common.files import REPORT, OutputFile, add_force, check_outputs, check_writable, files_of_track
@@ -21,23 +21,23 @@ from .common.inputs import (
     calibration_of,
     check_pressure,
     floorplan_of,
-    recipe_of,
+    recipes_of,
     source_of,
     undo_clocks,
 )
-from .common.outcomes import add_outcomes, clinic_of, has_outcomes
+from .common.outcomes import add_outcomes, band_files_of, clinic_of, has_outcomes
+from .common.own_devices import UnusedPackets, add_own_devices, drivers_of
+from .common.report import add_report, check_report_options, report_of
 from .common.tables import add_tables, feet_of, mapping_of
 from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, page_address_of, play, speed_of
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
+    from ..link.driver import Driver
+    from ..recipes import Recipe
     from ..session import Session
+    from ..show.report import Report
     from .common.results import Results
-
-MIN_PROGRESS_SIZE = 4_000_000
-"""Size of a recording of packets above which there is a progress bar, bytes; chosen by hand."""
-MIN_PROGRESS_SAMPLES = 40_000
-"""Number of samples above which there is a progress bar."""
 
 
 def add_to(commands: Any) -> None:
@@ -47,9 +47,13 @@ def add_to(commands: Any) -> None:
         help="run a recording and print a summary",
         description="Run a recording of packets (JSON Lines) or of samples (text tables, Excel, Parquet, .npz) and"
         " print a summary.",
+        epilog="example: solepath track walk.csv --report walk.html\n"
+        "solepath track left.csv right.csv --units g,deg/s,ms --out walk\n"
+        "solepath track walk.jsonl --recipe default --recipe kupt-dfpc",
     )
     add_tables(command)
-    add_recipe(command)
+    add_own_devices(command)
+    add_recipe(command, several=True)
     add_calibration(command)
     add_floorplan(command)
     add_clocks(command)
@@ -60,9 +64,7 @@ def add_to(commands: Any) -> None:
         help="write events.jsonl, track.csv, strides.csv and gait_cycles.csv into it, with a floor plan places.csv and "
         "plan.svg too, once they are whole",
     )
-    command.add_argument(
-        "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
-    )
+    add_report(command)
     add_outcomes(command)
     add_force(command)
     add_view(command, command, "play it")
@@ -72,39 +74,49 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the recording; return the exit status."""
+    from ..link.kinds import make_kinds
     from ..session import Session
     from .common.loop import stop_signals_raise
     from .common.results import Results
 
-    recipe = recipe_of(options)
+    recipe, *others = recipes_of(options)
+    if others:
+        from .several_recipes import track_with_each
+
+        return track_with_each(options, [recipe, *others])
     clinic = clinic_of(options)
+    check_report_options(options)
     outputs = _check_outputs(options)
-    calibration = calibration_of(options)
+    calibration, drivers = calibration_of(options), drivers_of(options)
     need_page(options, options.view is not None)
     address = page_address_of(options)
     pace = 1.0 if address is None else speed_of(options, 1.0)
     source = source_of(options.files, feet_of(options), mapping_of(options))
     undo_clocks(source, options)
-    check_pressure(recipe, source)
+    check_pressure(recipe, source, drivers)
     plan, start = floorplan_of(options)
     session = Session(
         recipe,
         calibration=calibration,
         poses=True,
         pressures=address is not None or options.report is not None,
+        profiles=drivers,
         floorplan=plan,
         start=start,
     )
+    before = None if options.compare is None else _before(options, recipe, calibration, drivers)
     recording = _Recording(source)
     results = Results(
         f"{printable(source.name)}, recipe {recipe.name}",
         options.out,
         options.report,
+        contents=report_of(
+            options, source, recipe=recipe.name, plan=None if plan is None else plan.plan, before=before
+        ),
         plan=None if plan is None else plan.plan,
-        recipe=recipe.name,
-        when=_start_text(source),
         outputs=outputs,
         clinic=clinic,
+        unused=UnusedPackets(make_kinds(drivers)),
     )
     seconds, shown = 0.0, False
     with stop_signals_raise(), results:
@@ -129,18 +141,33 @@ def _check_outputs(options: argparse.Namespace) -> list[OutputFile]:
     outputs = files_of_track(options.out, places=has_plan, plan=has_plan, outcomes=has_outcomes(options))
     if options.report is not None:
         outputs.append(OutputFile(options.report, REPORT))
-    check_outputs(
-        outputs, [*options.files, options.mapping, options.calibration, options.floorplan], force=options.force
-    )
+    inputs = [*options.files, options.mapping, options.calibration, options.floorplan]
+    inputs += [*(options.compare or ()), *band_files_of(options)]
+    check_outputs(outputs, inputs, force=options.force)
     if options.report is not None:
         check_writable(options.report, made=options.out)
     return outputs
 
 
-def _start_text(source: Source) -> str:
-    """Return the date and time at which the recording started, as text; "" if they are not known."""
-    moment = read_start_time(source.header)
-    return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
+def _before(
+    options: argparse.Namespace, recipe: Recipe, calibration: Calibration | None, drivers: tuple[Driver, ...]
+) -> Report | None:
+    """Run the earlier recording with which this one is compared; return its report."""
+    from ..session import Session
+
+    source = source_of(options.compare, feet_of(options), mapping_of(options))
+    check_pressure(recipe, source, drivers)
+    session = Session(recipe, calibration=calibration, poses=True, pressures=True, profiles=drivers)
+    report, recording = report_of(options, source, recipe=recipe.name, before=None), _Recording(source)
+    for item in recording:
+        events = session.feed(item)
+        if report is not None:
+            report.take(item, events)
+    if recording.failure is not None:
+        raise recording.failure
+    if report is not None:
+        report.take(None, session.finish())
+    return report
 
 
 class _Recording:
@@ -154,8 +181,7 @@ class _Recording:
         from ..show.tables.progress import progress_bar
 
         source = self.source
-        long = source.total > (MIN_PROGRESS_SIZE if source.samples is None else MIN_PROGRESS_SAMPLES)
-        with progress_bar(printable(source.name), source.total, enabled=long) as show:
+        with progress_bar(printable(source.name), source.total) as show:
             try:
                 for item in source:
                     yield item

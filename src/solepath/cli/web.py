@@ -12,7 +12,8 @@ from time import sleep
 from typing import Any
 
 from ..recording import printable
-from .common.failure import Failure, address_error_text, note, parse_whole_number
+from .common.failure import Failure, note, parse_whole_number
+from .common.os_errors import address_error_text
 from .common.view import open_browser
 
 DEFAULT_PORT = 8766
@@ -47,6 +48,7 @@ def run(options: argparse.Namespace) -> int:
     """Write the site, and show it; return the exit status."""
     from ..emulate import emulate
     from ..emulate.demo import SITE_ROUTE
+    from ..show.tables.progress import progress_bar
     from ..show.web.pyodide import BuildError
     from ..show.web.site import build_site
 
@@ -54,11 +56,16 @@ def run(options: argparse.Namespace) -> int:
         raise Failure("--port and --no-browser are for --serve")
     if options.out is None and not options.serve:
         raise Failure("name the folder of the site, or show it with --serve")
+    if options.port is not None and options.port > 65535:
+        raise Failure(f"--port {options.port}: there is no such port: ports are 0 to 65535")
+    if options.out is not None and options.out.exists() and not options.out.is_dir():
+        raise Failure(f"{printable(str(options.out))}: is a file; the site needs a folder")
     with ExitStack() as stack:
         out = options.out or Path(stack.enter_context(TemporaryDirectory()), "site")
         print("building the site: about half a minute ...", flush=True)
         try:
-            files = build_site(out, emulate(SITE_ROUTE).packets)
+            with progress_bar("building"):
+                files = build_site(out, emulate(SITE_ROUTE).packets)
         except BuildError as error:
             raise Failure(str(error)) from None
         print("\n".join(size_lines(files)), flush=True)
@@ -93,9 +100,8 @@ def _serve(folder: Path, options: argparse.Namespace) -> None:
     with stop_flag() as stop_requested, ExitStack() as stack:
         try:
             address = stack.enter_context(serving(folder, port))
-        except (OSError, OverflowError) as error:
-            reason = address_error_text(error) if isinstance(error, OSError) else "there is no such port"
-            raise Failure(f"--port {port}: {reason}") from None
+        except OSError as error:
+            raise Failure(f"--port {port}: {address_error_text(error)}") from None
         print(f"the site: {address}", flush=True)
         note("only this machine can reach it; a phone needs the files on a server with https (docs/web.md)")
         if sys.stdout.isatty() and not options.no_browser:

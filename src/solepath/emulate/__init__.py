@@ -2,6 +2,7 @@
 
 from .devices.bench import Bench
 from .radio import Radio
+from .routes.course import Course
 from .routes.route import Route
 from .routes.ways import case_study
 from .sensors.dot import Dot
@@ -17,6 +18,7 @@ __all__ = [
     "Bench",
     "CC2541",
     "CC2650",
+    "Course",
     "Dot",
     "EmulatedWalk",
     "IN_SOLE",

@@ -50,24 +50,10 @@ __all__ = [
 GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StrideTaken
 """Gait events and strides of one foot."""
 LinkEvent = (
-    PacketRejected
-    | SampleRejected
-    | PacketsLost
-    | SampleGap
-    | ClockReset
-    | StreamStale
-    | StreamResumed
-    | Connected
-    | Disconnected
-    | PacketsDropped
-    | StreamRestarted
-    | LinkTrouble
-    | LayoutKnown
-    | PositionReported
-    | BatteryLevel
-    | KeysChanged
-    | Limitation
-)
+    PacketRejected | SampleRejected | PacketsLost | SampleGap | ClockReset | StreamStale | StreamResumed | Connected
+    | Disconnected | PacketsDropped | StreamRestarted | LinkTrouble | LayoutKnown | PositionReported | BatteryLevel
+    | KeysChanged | Limitation
+)  # fmt: skip
 """Events of links and sensors."""
 BodyEvent = GaitCycleMeasured | PositionRejected | StrideFused | TouchedDown | TrackRevised | WalkingModeChanged
 """Events measured from both feet."""

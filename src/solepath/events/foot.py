@@ -78,7 +78,9 @@ class StrideFeatures:
 class StrideTaken(Happening):
     """One stride: a foot went from a foot-flat to its next foot-flat.
 
-    `t` is the second foot-flat. The stride is known with that FootFlat. Vectors are in the world frame, m."""
+    `t` is the second foot-flat. The stride is known with that FootFlat. Vectors are in the world frame, m. The first
+    stride after the foot stood starts at the foot-flat before the standing, and so contains it: `t_end` - `t_start` is
+    then no stride time. GaitCycleMeasured, from contact to contact, contains no standing of the start."""
 
     foot: Foot
     """Foot that took the stride."""
@@ -100,7 +102,7 @@ class StrideTaken(Happening):
     height_change: float
     """Vertical component of `displacement`, m, positive upwards."""
     covariance: tuple[float, float, float, float, float, float]
-    """Covariance of `displacement`: xx, xy, xz, yy, yz, zz, m^2."""
+    """Covariance of `displacement`, m^2: the upper triangle of the matrix, row by row: xx, xy, xz, yy, yz, zz."""
     t_toe_off: float | None = None
     """Time of this foot's toe-off within the stride, s; None when none was detected."""
     t_heel_strike: float | None = None

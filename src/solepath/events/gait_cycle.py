@@ -85,16 +85,17 @@ class GaitCycleMeasured(Happening):
     degraded: bool
     """True when its stride is degraded, or one of its gait events is inferred."""
     steady: bool
-    """True when the cycle counts in the running means, provided that another stride follows."""
+    """True when the cycle counts in the means (`Session.gait`, summary, report) if another cycle of the foot follows at
+    once, which starts at this `t`; so the last cycle before a stop counts in none."""
 
     @property
     def stance_share(self) -> float:
-        """Stance as a share of the cycle."""
+        """Stance as a share of the cycle, 0 to 1."""
         return self.stance_time / self.stride_time
 
     @property
     def swing_share(self) -> float:
-        """Swing as a share of the cycle."""
+        """Swing as a share of the cycle, 0 to 1."""
         return self.swing_time / self.stride_time
 
     @property
@@ -112,7 +113,7 @@ class GaitCycleMeasured(Happening):
 
     @property
     def single_support_share(self) -> float | None:
-        """Single support as a share of the cycle."""
+        """Single support as a share of the cycle, 0 to 1."""
         return None if self.single_support is None else self.single_support / self.stride_time
 
     @property

@@ -167,14 +167,15 @@ def _is_place(point: Point) -> bool:
     return abs(point[0]) <= MAX_COORDINATE and abs(point[1]) <= MAX_COORDINATE  # False for NaN
 
 
-def find_warnings(plan: FloorPlan) -> tuple[str, ...]:
+def find_warnings(plan: FloorPlan, *, has_start: bool = False) -> tuple[str, ...]:
     """Return the warnings about a usable plan, one line each; takes about as long as indexing the plan.
 
-    They are the importer's remarks, walls that do not close, and missing stairs and elevators."""
-    return (*plan.remarks, *_find_remarks(plan)) if find_fault(plan) is None else ()
+    They are the importer's remarks, walls that do not close, and missing stairs and elevators. `has_start`: the first
+    place is known, so that a plan without stairs and elevators needs no warning."""
+    return (*plan.remarks, *_find_remarks(plan, has_start)) if find_fault(plan) is None else ()
 
 
-def _find_remarks(plan: FloorPlan) -> Iterator[str]:
+def _find_remarks(plan: FloorPlan, has_start: bool) -> Iterator[str]:
     if not plan.heights_known and len(plan.levels) > 1:
         yield "the plan does not say how high its levels lie"
     count = len(plan.levels)
@@ -182,8 +183,8 @@ def _find_remarks(plan: FloorPlan) -> Iterator[str]:
     points = share_limit(MAX_LATTICE_POINTS, MAX_LATTICE_POINTS_PER_PLAN, count)
     for level in plan.levels:
         yield from _remarks_of_walls(level, cells, points)
-    if not plan.connectors:
-        yield "the plan has no stairs and no lifts: nothing on it shows a level or a place"
+    if not plan.connectors and not has_start:
+        yield "the plan has no stairs and no lifts: the place on it is known by a start only"
     for connector in plan.connectors:
         if len(connector.stops) == 1:
             yield f"{connector.kind.value} {connector.name!r}: stops at level {connector.stops[0].level!r} only"

@@ -1,10 +1,11 @@
 """The profile of a device: the GATT ids, channels, setup writes and rates that a receiver needs to connect to it.
 
 Each module of devices/ has the profile of its device, as a document in protocol/ describes it. To start a device, read
-the channels of `reads`, subscribe to every `notify` channel, then make the writes of `setup` in order. After each write
-read the channels of its `then_read`. The order matters: some systems deliver a value twice when a characteristic is
-read while it is subscribed. Values read and written are recorded as packets of the same channels, so that a decoder
-knows the ranges and periods that are set."""
+the channels of `reads`, make the writes of `setup` that are needed before, subscribe to every `notify` channel, then
+make the other writes in order. After each write read the channels of its `then_read`. The order matters: some systems
+deliver a value twice when a characteristic is read while it is subscribed, and a device that is started before the
+subscription sends its first values to nobody. Values read and written are recorded as packets of the same channels, so
+that a decoder knows the ranges and periods that are set."""
 
 from __future__ import annotations
 
@@ -35,11 +36,14 @@ class Channel:
 
 @frozen
 class Write:
-    """One value to be written, and the channels to be read directly after it."""
+    """One value to be written, after all subscriptions, and the channels to be read directly after it."""
 
     channel: str
     value: bytes
     then_read: tuple[str, ...] = ()
+    before_subscribing: bool = False
+    """True for a value without which the device rejects a subscription, such as a key or a mode. A value that starts
+    the stream stays behind the subscriptions."""
 
 
 @frozen
@@ -57,7 +61,7 @@ class Profile:
     channels: tuple[Channel, ...]
     """Channels of the device."""
     setup: tuple[Write, ...]
-    """Writes that start the device, in order."""
+    """Writes that start the device, in order; they follow the subscriptions, except those `before_subscribing`."""
     reads: tuple[str, ...]
     """Channels to be read once after connecting, if the device has them."""
     nominal_rate: float

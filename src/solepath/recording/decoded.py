@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from attrs import frozen
 
 from ..events import LayoutKnown
 from ..link.decoder import Decoder
+from ..link.kinds import DeviceKinds
 from ..types import Foot, Layout, Packet, Sample, Site
 
 
@@ -40,3 +41,22 @@ def decode_recording(items: Iterable[Packet | Sample]) -> DecodedRecording:
     for decoder in decoders.values():
         add_all(decoder.finish())
     return DecodedRecording(tuple(samples), layouts)
+
+
+def decode_own(items: Iterable[Packet | Sample], kinds: DeviceKinds) -> Iterator[Packet | Sample]:
+    """Yield the samples of the devices that an app added to `kinds` in place of their packets, and other items as is.
+
+    Packets that cannot be used are skipped."""
+    own = {driver.name for driver in kinds.drivers}
+    decoders: dict[Site, Decoder] = {}
+    for item in items:
+        if isinstance(item, Sample) or item.channel.partition("/")[0] not in own:
+            yield item
+            continue
+        for output in decoders.setdefault(item.site, Decoder(item.site)).feed(item, kinds):
+            if isinstance(output, Sample):
+                yield output
+    for decoder in decoders.values():
+        for output in decoder.finish():
+            if isinstance(output, Sample):
+                yield output

@@ -14,10 +14,12 @@ from ..types import Foot, Packet, Sample
 from .bad_rows import BadRows
 from .bids.names import MOTION_END, recording_of
 from .clock_offset import shift_clock
+from .decoded import decode_own
 from .errors import RecordingError, Report, printable, warn
 from .packets import OpenRecording, open_packets
 
 if TYPE_CHECKING:
+    from ..link.kinds import DeviceKinds
     from .mapping import TableMapping
     from .samples import SampleRecording
 
@@ -52,6 +54,8 @@ class Source:
     """Rows or lines that were left out so far, because they are damaged."""
     clock_offset: float = 0.0
     """Time to add to the times of the right foot, s, when the feet were recorded with separate clocks."""
+    own_kinds: DeviceKinds | None = None
+    """Devices of one's own whose packets are iterated as samples; None to iterate them as packets."""
     _pipe: OpenRecording | None = None
     """The pipe, which can be opened once; None for a file."""
     _packets_ahead: list[Packet] = field(factory=list)
@@ -62,6 +66,8 @@ class Source:
 
     def __iter__(self) -> Iterator[Packet | Sample]:
         items = self._iterate_packets() if self.samples is None else self._iterate_samples(self.samples)
+        if self.own_kinds is not None and self.own_kinds.drivers:
+            items = decode_own(items, self.own_kinds)
         return shift_clock(items, self.clock_offset) if self.clock_offset else items
 
     def look_ahead(self) -> Iterator[Packet]:
@@ -127,8 +133,9 @@ def open_source(
     """Return a recording: samples if a name ends as those of tables or BIDS do or there is a mapping, else packets.
 
     `files`: a file of packets; or one or more files of samples, of both feet or of several sensors. `foot`: for samples
-    that name no foot, the foot that wore the sensor (None: what the name of the file says, else the right foot); for
-    any other recording, the only foot to read (None: all); a sequence has the foot of each file. `mapping`: what the
+    that name no foot, the foot that wore the sensor (None: what the name of the file says; else the right foot for one
+    file, and an error for the files of both feet); for any other recording, the only foot to read (None: all); a
+    sequence has the foot of each file, as in `open_source([left, right], [Foot.LEFT, Foot.RIGHT])`. `mapping`: what the
     columns of tables mean, as far as they do not say it themselves. RecordingError, with all problems, when something
     cannot be used."""
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]

@@ -63,11 +63,13 @@ class HostDevice:
 class Host:
     """A session that is fed by devices, each named by the address or identifier that the system has for it.
 
-    `observe` gets every packet that the session was fed, so that a program can record it, and its events. A call with a
-    device that was not added raises ValueError."""
+    It knows the built-in devices and those of `Session(profiles=...)`. `observe` gets every packet that the session was
+    fed, so that a program can record it, and its events. A call with a device that was not added raises ValueError."""
 
     def __init__(self, session: Session, observe: Observe) -> None:
         self.session, self.observe, self.roster = session, observe, Roster()
+        self.profiles: dict[str, Profile] = {one.name: one.profile for one in session._kinds.drivers}
+        """Profiles of the devices of `Session(profiles=...)` by name; they go before the built-in ones."""
         self._devices: dict[str, HostDevice] = {}
 
     def add(self, device: str, site: Site | None, profile: Profile | None = None, address: str | None = None) -> None:
@@ -106,7 +108,7 @@ class Host:
         characteristics with one UUID in a service, the first counts."""
         one, found = self._get(device), frozenset(characteristics)
         self.disconnect(device, now)
-        profile = one.member.config.profile or find_profile(name, found)
+        profile = one.member.config.profile or find_profile(name, found, self.profiles.values())
         if profile is None:
             sentence = f"{name or device} is of no kind that is known here: say its profile"
             self._feed(one, now, [trouble(sentence)])

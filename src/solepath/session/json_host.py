@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import json
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeVar
 
 from ..events import Event
 from ..link.catalogue import BY_NAME, PROFILES
 from ..link.decoder import MAX_ARRIVAL_TIME, is_address
+from ..link.profile import Profile
 from ..link.setup.config import scan_filters, used_services
 from ..link.setup.device_setup import GattCharacteristic
 from ..types import Packet, Site
@@ -34,9 +35,10 @@ MAX_CHARACTERISTICS = 1000
 class JsonHost:
     """A host that receives and returns messages as JSON texts.
 
-    `session` is a new one with the defaults unless one is given, for instance one with a calibration. With `packets`,
-    every packet is returned as a message too, with the keys of a line of a recording. `observe` replaces the messages
-    of packets and events by calls of a function."""
+    `session` is a new one with the defaults unless one is given, for instance one with a calibration, or with the app's
+    own devices (`Session(profiles=[DRIVER])`), which `add` and `scan` then know. With `packets`, every packet is
+    returned as a message too, with the keys of a line of a recording. `observe` replaces the messages of packets and
+    events by calls of a function."""
 
     def __init__(
         self, session: Session | None = None, *, packets: bool = False, observe: Observe | None = None
@@ -98,14 +100,18 @@ class JsonHost:
             )
 
     def _start(self, message: Message) -> None:
-        """Replace the session by a new or a saved one, which has the recipe of the earlier, and none of its options."""
+        """Replace the session by a new or a saved one, with recipe and devices of the earlier, and no other option."""
         state, packets = message.get("state"), message.get("packets", False)
         if type(packets) is not bool:
             raise ValueError("packets is true or false")
         if state is not None and not isinstance(state, str):
             raise ValueError("state is the text of a message saved")
         recipe = self.host.session.recipe
-        session = Session(recipe) if state is None else Session.unpack(b64decode(state, validate=True), recipe)
+        drivers = self.host.session._kinds.drivers
+        if state is None:
+            session = Session(recipe, profiles=drivers)
+        else:
+            session = Session.unpack(b64decode(state, validate=True), recipe, profiles=drivers)
         self.host = Host(session, self.host.observe)
         self._packets, self._is_finished = packets, False
         self._connections.clear()
@@ -122,7 +128,7 @@ class JsonHost:
         address = message.get("address")
         if address is not None and (not isinstance(address, str) or not is_address(address)):
             raise ValueError("address is no address of a device")
-        site, profile = _choose(message, "site", SITES), _choose(message, "profile", BY_NAME)
+        site, profile = _choose(message, "site", SITES), _choose(message, "profile", BY_NAME | self.host.profiles)
         self.host.add(_device(message), site, profile, address)
 
     def _remove(self, message: Message) -> None:
@@ -195,10 +201,11 @@ class JsonHost:
         self.host.finish()
 
 
-def filters() -> Message:
-    """Return the message "filters": the conditions of a scan for the built-in devices, and their services."""
-    conditions = [{"name": one.name, "prefix": one.prefix, "service": one.service} for one in scan_filters(PROFILES)]
-    return {"type": "filters", "filters": conditions, "services": [*used_services(PROFILES)]}
+def filters(own: Iterable[Profile] = ()) -> Message:
+    """Return the message "filters": the conditions of a scan for `own` and built-in devices, and their services."""
+    profiles = (*own, *PROFILES)
+    conditions = [{"name": one.name, "prefix": one.prefix, "service": one.service} for one in scan_filters(profiles)]
+    return {"type": "filters", "filters": conditions, "services": [*used_services(profiles)]}
 
 
 def _whole(uuid: str) -> str:
@@ -264,7 +271,7 @@ def _bytes(text: Any) -> bytes:
 HANDLERS: dict[str, Callable[[JsonHost, Message], None]] = {
     "start": JsonHost._start,
     "bind": JsonHost._bind,
-    "scan": lambda json_host, message: json_host._messages.append(filters()),
+    "scan": lambda json_host, message: json_host._messages.append(filters(json_host.host.profiles.values())),
     "add": JsonHost._add,
     "remove": JsonHost._remove,
     "connected": JsonHost._connected,

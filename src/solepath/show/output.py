@@ -10,7 +10,7 @@ import csv
 import json
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
-from math import degrees
+from math import atan2, degrees, remainder, tau
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -60,7 +60,22 @@ CYCLE_COLUMNS = (
     "degraded",
     "steady",
 )
-PLACE_COLUMNS = ("t_s", "level", "room", "door", "x_m", "y_m", "z_m", "spread_m", "heading_deg", "candidates", "weight")
+PLACE_COLUMNS = (
+    "t_s",
+    "level",
+    "room",
+    "door",
+    "x_m",
+    "y_m",
+    "z_m",
+    "spread_m",
+    "walking_direction_deg",
+    "frame_heading_deg",
+    "candidates",
+    "weight",
+)
+MIN_DIRECTED_STRIDE = 0.3
+"""Shortest stride that shows in which direction the wearer walks, m; chosen by hand."""
 
 
 def _stride_row(event: StrideTaken) -> list[str]:
@@ -83,11 +98,20 @@ def _measure(value: float | None, unit: str) -> str:
     return f"{degrees(value) if unit == 'deg' else value:.6f}"
 
 
-def _place_row(event: Placed) -> list[str]:
+def _place_row(event: Placed, stride: StrideTaken | None) -> list[str]:
+    """Return the row of a place; the direction of the newest `stride` on the plan is that in which the wearer walks.
+
+    The track's frame lies on the plan as the heaviest candidate says, so that the direction is the heading of the frame
+    plus that of the stride in it."""
     heaviest = event.candidates[0]
     numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
-    heading = "" if heaviest.heading is None else f"{degrees(heaviest.heading):.2f}"
-    shares = [heading, str(len(event.candidates)), f"{heaviest.weight:.4f}"]
+    heading = direction = ""
+    if heaviest.heading is not None:
+        heading = f"{degrees(heaviest.heading):.2f}"
+        if stride is not None and stride.length >= MIN_DIRECTED_STRIDE:
+            x, y, _ = stride.displacement
+            direction = f"{degrees(remainder(heaviest.heading + atan2(y, x), tau)):.2f}"
+    shares = [direction, heading, str(len(event.candidates)), f"{heaviest.weight:.4f}"]
     return [
         repr(event.t),
         event.level,
@@ -113,10 +137,10 @@ class TrackFiles:
 
     Files of an earlier run are replaced. A FootMoved is a row of track.csv, a final StrideTaken one of strides.csv, a
     GaitCycleMeasured one of gait_cycles.csv. A Placed is a row of places.csv with its heaviest candidate and the number
-    of candidates. Every event except a LiveEvent is a line of events.jsonl. `places` says that the session has a floor
-    plan; without one there is no places.csv. `path_to_write` returns for the path of a file the path to write, such as
-    a temporary file that is renamed later; None writes to the path itself. Every method raises OSError, naming the
-    directory, when the files cannot be made or written."""
+    of candidates, and with the direction on the plan of the newest stride. Every event except a LiveEvent is a line of
+    events.jsonl. `places` says that the session has a floor plan; without one there is no places.csv. `path_to_write`
+    returns for the path of a file the path to write, such as a temporary file that is renamed later; None writes to the
+    path itself. Every method raises OSError, naming the directory, when the files cannot be made or written."""
 
     directory: Path
     places: bool = False
@@ -127,6 +151,8 @@ class TrackFiles:
     _strides: Any = field(init=False)
     _cycles: Any = field(init=False)
     _places: Any = field(default=None, init=False)
+    _stride: StrideTaken | None = field(default=None, init=False)
+    """Newest final stride."""
 
     def __attrs_post_init__(self) -> None:
         self.directory.mkdir(parents=True, exist_ok=True)
@@ -163,11 +189,12 @@ class TrackFiles:
             return
         self._events.write(json.dumps(event.to_dict(), allow_nan=False) + "\n")
         if isinstance(event, StrideTaken) and event.final:
+            self._stride = event
             self._strides.writerow(_stride_row(event))
         elif isinstance(event, GaitCycleMeasured):
             self._cycles.writerow(_cycle_row(event))
         elif isinstance(event, Placed) and self._places is not None:
-            self._places.writerow(_place_row(event))
+            self._places.writerow(_place_row(event, self._stride))
 
     def close(self) -> None:
         """Close all files; an OSError names the directory."""

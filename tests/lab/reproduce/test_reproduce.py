@@ -30,6 +30,7 @@ from solepath.lab.reproduce.tables import (
 )
 from solepath.lab.tables.comparison import comparison_with_paper
 from solepath.lab.train import emulated
+from solepath.types.extras import install_hint
 
 FIVE = ["mean", "std", "q1", "median", "q3"]
 
@@ -182,7 +183,7 @@ def test_fewer_than_one_walk_is_rejected(walks):
 def test_an_unwritable_file_is_reported_before_the_walks_start(tmp_path):
     pytest.importorskip("matplotlib")
     nowhere = tmp_path / "none" / "table.json"
-    assert f"{nowhere}: No such file" in run_failing("reproduce", "kupt-dfpc", "--json", nowhere)
+    assert f"{nowhere}: there is no folder" in run_failing("reproduce", "kupt-dfpc", "--json", nowhere)
     assert "ends in none of" in run_failing("reproduce", "kupt-dfpc", "--figure", tmp_path / "figure.docx")
     assert list(tmp_path.iterdir()) == []
 
@@ -195,4 +196,4 @@ def test_a_figure_without_matplotlib_is_rejected_in_one_line(tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "solepath: figures need matplotlib: pip install 'solepath[figures]'\n"
+    assert done.stderr == f"solepath: figures need matplotlib: {install_hint('figures')}\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 from solepath.recording import RecordingError, TableMapping, open_source, read_samples
 from solepath.recording.samples import sheet
 from solepath.types import Sample, Site
+from solepath.types.extras import install_hint
 
 MAPPING = TableMapping(
     {"t": "Zeit", "acc": ["A x", "A y", "A z"], "gyro": ["G x", "G y", "G z"]}, {"t": "ms", "gyro": "rad/s"}
@@ -215,5 +217,5 @@ def test_a_damaged_workbook_and_a_missing_library_get_one_line(
         with pytest.raises(RecordingError, match=r"is no whole (workbook|Parquet file) \(|which lacks"):
             read_samples(tmp_path / name)
     only(monkeypatch)
-    with pytest.raises(RecordingError, match=r"needs pandas or polars; repair: pip install 'solepath\[tables\]'"):
+    with pytest.raises(RecordingError, match="needs pandas or polars; repair: " + re.escape(install_hint("tables"))):
         read_samples(tmp_path / name)

@@ -88,10 +88,10 @@ def test_the_line_of_a_saved_mapping_is_named(files: list[Path], tmp_path: Path)
     [
         (("--columns", "Zeit"), "'Zeit' names no quantity"),
         (("--units", "parsec"), "'parsec' is no unit"),
-        (("--format", "fitbit"), "fitbit is none of the known formats"),
+        (("--format", "fitbit"), "--format: there is no format 'fitbit'; there are: movella-dot, "),
         (("--foot", "middle"), "--foot middle: each foot is left or right"),
         (("--foot", "left,right,left"), "that is 3 feet for 2 files"),
-        (("--mapping", "none.toml"), "none.toml: no such file or directory"),
+        (("--mapping", "none.toml"), "none.toml: there is no such file"),
     ],
 )
 def test_an_option_that_cannot_be_gets_one_line(files: list[Path], arguments: tuple[str, ...], line: str) -> None:

@@ -30,9 +30,13 @@ def gyro_file(path: Path, t: np.ndarray) -> Path:
 
 
 NAMED = {
-    Foot.LEFT: ("left", "LF", "LeftFoot2", "walkLeft", "l_7", "S01-left.acc"),
-    Foot.RIGHT: ("walk_R", "S01-right-acc", "RightGyro", "RF", "right"),
-    None: ("leftover", "bright", "left_right", "control", "R2L", "Accelerometer", ""),
+    Foot.LEFT: ("left", "LF", "LeftFoot2", "walkLeft", "l_7", "S01-left.acc", "IMULeft")
+    + ("proband01_links", "LinkerFuss", "p1 li", "01li", "pied_gauche", "pie izquierdo", "IZQ", "pe-esquerdo_3")
+    + ("sinistra", "левая_нога", "Va\u0308nster", "左脚", "s1_左", "왼발", "re-test_left", "lewa"),
+    Foot.RIGHT: ("walk_R", "S01-right-acc", "RightGyro", "RF", "right", "RECHTS", "proband01_rechts", "01_re")
+    + ("Droite2", "paso_der", "pé_direito", "destro", "правая", "höger", "右足", "오른쪽", "Li_Wei_right", "IMU_DX"),
+    None: ("leftover", "bright", "left_right", "control", "R2L", "Accelerometer", "", "Li_Wei", "re-test", "Der Gang")
+    + ("linksrechts", "Linkspartei", "rechtsum", "links_rechts", "trial3D", "G1", "left_derecha"),
 }
 
 
@@ -54,10 +58,36 @@ def test_files_whose_names_lack_the_foot_need_the_feet_in_their_order(tmp_path: 
     with pytest.raises(RecordingError) as caught:
         read_samples(files)
     assert [problem.what for problem in caught.value.problems] == ["nothing says of which foot it is"] * 2
-    assert caught.value.repair == "name the feet in the order of the files: --foot left,right"
+    assert caught.value.repair == (
+        "name the feet in the order of the files: --foot left,right, "
+        "or in Python read_samples(files, [Foot.LEFT, Foot.RIGHT])"
+    )
     assert len(load_samples(files, [Foot.RIGHT, Foot.LEFT]).tables) == 2
     with pytest.raises(ValueError, match="there are 1 feet for 2 files"):
         load_samples(files, [Foot.RIGHT])
+
+
+def test_missing_feet_are_listed_at_once_with_unknown_columns(tmp_path: Path) -> None:
+    t = np.arange(200) / 100.0
+    names = "Zeit,AX,AY,AZ,GX,GY,GZ"
+    files = [write(tmp_path / name, names, t, 0.0, 0.0, 9.81, 0.1, 0.0, 0.0) for name in ("p1.csv", "p2.csv")]
+    with pytest.raises(RecordingError) as caught:
+        read_samples(files)
+    unknown, unnamed = caught.value.problems[:2], caught.value.problems[2:]
+    assert [problem.what for problem in unnamed] == ["nothing says of which foot it is"] * 2
+    columns = "t=Zeit,acc=AX,AY,AZ,gyro=GX,GY,GZ"
+    for problem in unknown:
+        assert problem.repair.startswith(f"this may fit: --columns {columns} ")
+        assert problem.repair.endswith(" --foot left,right")
+    mapping = TableMapping.parse(columns)
+    assert len(load_samples(files, [Foot.LEFT, Foot.RIGHT], mapping=mapping).tables) == 2
+    with pytest.raises(RecordingError) as caught:
+        read_samples(files, mapping=TableMapping.parse(columns.replace("AX", "AZZ")))
+    assert len(caught.value.problems) == 4, "a wrong name, too"
+    named = [path.rename(tmp_path / name) for path, name in zip(files, ("li_links.csv", "re_rechts.csv"), strict=True)]
+    with pytest.raises(RecordingError) as caught:
+        read_samples(named)
+    assert len(caught.value.problems) == 2 and "--foot" not in str(caught.value)
 
 
 def test_a_file_that_is_given_twice_is_an_error(tmp_path: Path) -> None:

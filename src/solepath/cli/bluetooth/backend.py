@@ -9,6 +9,7 @@ from typing import Any
 
 from ...ble import NATIVE, Backend, BluetoothError
 from ...types import Packet
+from ...types.extras import install_hint
 from ..common.failure import Failure
 from ..common.loop import run_to_end
 
@@ -32,7 +33,7 @@ async def backend_of(via: str | None) -> AsyncIterator[Backend]:
     try:
         from ...emulate.controllers import reach
     except ModuleNotFoundError as error:
-        raise Failure(f"--via needs {error.name}: pip install 'solepath[loopback]'") from None
+        raise Failure(f"--via needs {error.name}: {install_hint('loopback')}") from None
     async with AsyncExitStack() as stack:
         try:
             backend = await stack.enter_async_context(reach(via))

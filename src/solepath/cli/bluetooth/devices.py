@@ -5,13 +5,19 @@ The times below were chosen by hand and not swept."""
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from ...types import Site
+from ..common.closest import unknown
 from ..common.failure import Failure, has_terminal, note, parse_positive, require
+from ..common.own_devices import add_own_devices
+from ..completion import complete_with
 
 if TYPE_CHECKING:
     from ...ble import Advertisement, DeviceConfig
+    from ...link.driver import Driver
+    from ...link.profile import Profile
 
 SCAN_TIME = 4.0
 """Time of the search for devices, s."""
@@ -36,15 +42,23 @@ def add_feet(command: argparse.ArgumentParser) -> None:
     command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
     command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
     command.set_defaults(at=[])
-    command.add_argument(
+    kind = command.add_argument(
         "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
     )
+    complete_with(kind, _profile_names)
     command.add_argument("--pair", action="store_true", help="pair with the devices")
+
+
+def _profile_names() -> Iterable[str]:
+    from ...link.catalogue import BY_NAME
+
+    return BY_NAME
 
 
 def add_devices(command: argparse.ArgumentParser) -> None:
     """Add the options of the devices and of the time to a command."""
     add_feet(command)
+    add_own_devices(command)
     command.add_argument(
         "--at", metavar="SITE=DEVICE", action="append", default=[], help="a device elsewhere, for instance pelvis=NAME"
     )
@@ -57,14 +71,25 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
         "--duration",
         metavar="S",
         type=parse_positive,
-        help=f"end by itself after so long (default: at Ctrl-C; {unattended:g} s without a terminal)",
+        help=f"end by itself after so many seconds (default: at Ctrl-C; {unattended:g} s without a terminal)",
     )
 
 
-def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
-    """Return the devices that the options name; raise Failure for a site or profile that does not exist."""
-    from ...ble import DeviceConfig
+def profile_named(name: str | None, own: Iterable[Driver] = ()) -> Profile | None:
+    """Return the profile of this name, of one's `own` devices or a built-in one; raise Failure when there is none."""
     from ...link.catalogue import BY_NAME
+
+    profiles = BY_NAME | {driver.name: driver.profile for driver in own}
+    if name is not None and name not in profiles:
+        raise Failure(unknown("profile", name, profiles))
+    return None if name is None else profiles[name]
+
+
+def named_devices(options: argparse.Namespace, own: Iterable[Driver] = ()) -> list[DeviceConfig]:
+    """Return the devices that the options name; raise Failure for a site or profile that does not exist.
+
+    `own` are the drivers of devices of one's own."""
+    from ...ble import DeviceConfig
     from ...link.setup.config import check_configs
 
     named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
@@ -72,11 +97,10 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
     for text in options.at:
         site, _, device = text.partition("=")
         if site not in sites or not device:
-            raise Failure(f"--at {text}: that is not SITE=DEVICE, SITE one of {', '.join(sites)}")
+            meant = f"SITE one of {', '.join(sites)}" if not device else unknown("site", site, sites)
+            raise Failure(f"--at {text}: that is not SITE=DEVICE, {meant}")
         named.append((sites[site], device))
-    if options.profile is not None and options.profile not in BY_NAME:
-        raise Failure(f"there is no profile {options.profile!r}; there are: {', '.join(BY_NAME)}")
-    profile = BY_NAME.get(options.profile)
+    profile = profile_named(options.profile, own)
     devices = [DeviceConfig(site, device, profile) for site, device in named if device]
     try:
         if devices:
@@ -86,16 +110,18 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
     return devices
 
 
-def choose_devices(found: list[Advertisement], kind: str | None) -> list[DeviceConfig]:
+def choose_devices(found: list[Advertisement], kind: str | None, own: Sequence[Driver] = ()) -> list[DeviceConfig]:
     """Return the devices to listen to when none was named; raise Failure where the choice is not clear.
 
     If an insole is found, they are two insoles, which report their feet themselves. Otherwise it is the only device
-    that is found, on the right foot as in `track`. `kind` is the name of the profile; None for any."""
+    that is found, on the right foot as in `track`. `kind` is the name of the profile; None for any. `own` are the
+    drivers of devices of one's own."""
     from ...ble import DeviceConfig
-    from ...link.catalogue import BY_NAME
     from ...link.devices.insole import PROFILE as INSOLE
+    from ...link.setup.config import identify
 
-    named = None if kind is None else BY_NAME[kind]
+    named = profile_named(kind, own)
+    profiles = {one.address: identify(one.name, one.services, [driver.profile for driver in own]) for one in found}
     if named is not None:
         known = [
             device
@@ -103,12 +129,12 @@ def choose_devices(found: list[Advertisement], kind: str | None) -> list[DeviceC
             if named.matches_name(device.name) or not {*named.services}.isdisjoint(device.services)
         ]
     else:
-        known = [device for device in found if device.profile is not None]
-    if any(device.profile is INSOLE for device in known):
+        known = [device for device in found if profiles[device.address] is not None]
+    if any(profiles[device.address] is INSOLE for device in known):
         return [DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]
     if len(known) == 1:
         note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
-        return [DeviceConfig(Site.RIGHT_FOOT, known[0].address, named or known[0].profile)]
+        return [DeviceConfig(Site.RIGHT_FOOT, known[0].address, named or profiles[known[0].address])]
     if not known and named is not None:
         raise Failure(f"no {named.name} is in range: switch it on, or say which device it is with --left and --right")
     if not known:

@@ -24,8 +24,8 @@ def add_to(commands: Any) -> None:
         description="Serve emulated sensors on the feet of an emulated wearer: virtual Bluetooth controllers with the "
         "true services of the devices, spoken to in HCI over TCP. The wearer begins to walk when the first device is "
         "connected, and again when none was connected for ten seconds.",
-        epilog="example: solepath emulate --listen 127.0.0.1:9735, and then in another terminal: "
-        "solepath live --via tcp:127.0.0.1:9735",
+        epilog="example: solepath emulate --listen 127.0.0.1:9735\n"
+        "solepath live --via tcp:127.0.0.1:9735            in another terminal",
     )
     command.add_argument(
         "--listen",
@@ -37,7 +37,11 @@ def add_to(commands: Any) -> None:
         "--device", choices=DEVICE_KINDS, default="insole", help="what is worn on both feet (default: insole)"
     )
     command.add_argument(
-        "--distance", metavar="M", type=parse_positive, default=DEFAULT_DISTANCE, help="how far (default: 300)"
+        "--distance",
+        metavar="M",
+        type=parse_positive,
+        default=DEFAULT_DISTANCE,
+        help="how far to walk, m (default: 300)",
     )
     command.add_argument(
         "--postures",
@@ -48,7 +52,7 @@ def add_to(commands: Any) -> None:
     command.add_argument(
         "--seed", metavar="N", type=parse_whole_number, default=1, help="another walk of this route (default: 1)"
     )
-    command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")
+    command.add_argument("--mtu", metavar="N", type=int, default=247, help="MTU of insoles, bytes (default: 247)")
     command.add_argument(
         "--rsc",
         action="store_true",

@@ -20,7 +20,8 @@ from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...saving.files import read_bounded
 from ...types import Foot, Site
-from ..common.failure import Failure, address_error_text, has_terminal, host_and_port
+from ..common.failure import Failure, has_terminal, host_and_port
+from ..common.os_errors import address_error_text
 from .devices import SERVE_TIME
 
 MAX_FAULTS = 1_000_000

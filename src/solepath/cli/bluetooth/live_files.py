@@ -9,10 +9,11 @@ from attrs import define
 
 from ...ble.record import start_keys
 from ...events import Event
-from ...recording import PacketWriter, RecordingError, os_error_text
+from ...recording import PacketWriter, RecordingError
 from ...show.output import TrackFiles
 from ...types import Packet
 from ..common.failure import Failure
+from ..common.os_errors import file_error_text, in_words
 
 MAX_HELD = 10_000
 """Largest number of packets and of events that are kept before a sensor sends: a quarter of an hour of ticks."""
@@ -49,7 +50,7 @@ class LiveFiles:
             try:
                 self._packets = PacketWriter(record, start_keys(), replace=force)
             except RecordingError as error:
-                raise Failure(str(error)) from None
+                raise Failure(in_words(error)) from None
 
     def write_packet(self, packet: Packet) -> None:
         """Write a packet into the recording."""
@@ -113,6 +114,4 @@ class LiveFiles:
 
 
 def _error_text(error: RecordingError | OSError) -> str:
-    if isinstance(error, RecordingError):
-        return str(error)
-    return f"{error.filename}: {os_error_text(error)}" if error.filename else os_error_text(error)
+    return in_words(error) if isinstance(error, RecordingError) else file_error_text(error)

@@ -25,8 +25,10 @@ from ...show.page.scene.scales import newtons_of
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet, Site
-from ..common.failure import Failure, address_error_text, host_and_port, is_installed, note
+from ..common.failure import Failure, host_and_port, is_installed, note
 from ..common.loop import unless_stopped
+from ..common.os_errors import address_error_text
+from ..common.own_devices import drivers_of
 from ..common.view import PageAddress, serve_page
 from .backend import backend_of, packets_until
 from .devices import SCAN_TIME, choose_devices, listening_time, named_devices
@@ -43,9 +45,16 @@ async def listen(
     stop: asyncio.Event,
 ) -> int:
     """Receive until `stop` is set or the time is over; return the exit status."""
-    devices = named_devices(options)
+    drivers = drivers_of(options)
+    devices = named_devices(options, drivers)
     session = Session(
-        recipe, calibration=calibration, poses=True, pressures=address is not None, floorplan=plan, start=start
+        recipe,
+        calibration=calibration,
+        poses=True,
+        pressures=address is not None,
+        profiles=drivers,
+        floorplan=plan,
+        start=start,
     )
     observer = Observer()
     scene: Scene | None = None
@@ -57,8 +66,9 @@ async def listen(
             backend = await stack.enter_async_context(backend_of(options.via))
             if not devices:
                 print(f"looking for sensors for {SCAN_TIME:g} s ...", flush=True)
-                devices = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile)
-            packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
+                devices = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile, drivers)
+            connections = Devices(devices, backend=backend, pair=options.pair, profiles=drivers)
+            packets = await stack.enter_async_context(connections)
         publishers = await _publishers_of(options, session, stack)
         if address is not None:
             floor_plan, newtons = None if plan is None else plan.plan, newtons_of(calibration)

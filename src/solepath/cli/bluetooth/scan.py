@@ -28,7 +28,7 @@ def add_to(commands: Any) -> None:
         metavar="S",
         type=parse_positive,
         default=SCAN_TIME,
-        help=f"how long to listen (default: {SCAN_TIME:g})",
+        help=f"how long to listen, s (default: {SCAN_TIME:g})",
     )
     command.add_argument(
         "--lsl", action="store_true", help="list the streams of the lab streaming layer instead of sensors"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ def add_to(commands: Any) -> None:
         "calibrate",
         help="learn about a wearer, shoes and insoles",
         description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGE_NOTE}",
+        epilog="example: solepath calibrate walk corridor.jsonl --out me.json\nsolepath calibrate walk --help",
     )
     kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
     for add in KINDS:
@@ -35,12 +37,15 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Make the calibration and write it; return the exit status."""
+    from ...show.tables.progress import progress_bar
+
     if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # a folder gets an OSError
         raise Failure(f"{options.out}: is no regular file")
     inputs = [*getattr(options, "files", []), getattr(options, "file", None), getattr(options, "marks", None)]
     check_outputs([OutputFile(options.out, CALIBRATION)], inputs, force=False)
     check_writable(options.out)
-    learnt, lines = options.learn(options, _read(options.out))
+    with progress_bar("calibrating") if not getattr(options, "live", False) else nullcontext():
+        learnt, lines = options.learn(options, _read(options.out))
     while not _try_to_complete(options.out, learnt):
         pass
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))

@@ -12,6 +12,7 @@ from ...show.tables.table import number, table
 from ...types import Foot
 from ..common.failure import Failure, parse_count, parse_degrees, parse_share, recipe_named
 from ..common.inputs import add_foot, check_pressure, foot_of, source_of
+from ..common.own_devices import add_own_devices, drivers_of
 from .limbs import add_limbs
 from .sensor import add_sensor
 from .shoe import add_shoe
@@ -24,6 +25,7 @@ LearntCalibration = tuple[Calibration, list[str]]
 def _add_recording(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
     add_foot(command)
+    add_own_devices(command)
 
 
 def _add_noise(kinds: Any) -> None:
@@ -50,7 +52,11 @@ def _noise(options: argparse.Namespace, known: Calibration) -> LearntCalibration
 
     if options.share == 0.0:
         raise Failure("--share 0: of no samples at all nothing is learnt")
-    learnt = pressure_noise(decode_recording(source_of(options.file, foot_of(options))).samples, options.share, known)
+    learnt = pressure_noise(
+        decode_recording(source_of(options.file, foot_of(options), own=drivers_of(options))).samples,
+        options.share,
+        known,
+    )
     rows = [
         [foot.value, str(len(insole.noise)), number(sum(insole.noise) / len(insole.noise)), number(max(insole.noise))]
         for foot, insole in learnt.insoles.items()
@@ -94,8 +100,9 @@ def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibratio
     recipe = recipe_named(options.recipe)
     foot = foot_of(options)
     marks = read_marks(options.marks) if options.marks else None
-    source = source_of(options.file, foot)
-    check_pressure(recipe, source)
+    drivers = drivers_of(options)
+    source = source_of(options.file, foot, own=drivers)
+    check_pressure(recipe, source, drivers)
     drift = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
     x, y = drift.slope
     if drift.agreed:
@@ -148,6 +155,7 @@ def _add_modes(kinds: Any) -> None:
     )
     command.set_defaults(learn=_modes)
     command.add_argument("files", metavar="RECORDING MARKS", nargs="+", type=Path, help="two files for each walk")
+    add_own_devices(command)
     command.add_argument(
         "--heading",
         metavar="DEGREES",
@@ -163,8 +171,9 @@ def _modes(options: argparse.Namespace, known: Calibration) -> LearntCalibration
 
     if len(options.files) % 2:
         raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")
+    drivers = drivers_of(options)
     walks = [
-        (decode_recording(source_of(walk)), marks)
+        (decode_recording(source_of(walk, own=drivers)), marks)
         for walk, marks in zip(options.files[::2], options.files[1::2], strict=True)
     ]
     learnt = fit_modes(walks, known, options.heading)
@@ -192,7 +201,7 @@ def _add_walk(kinds: Any) -> None:
 def _walk(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ...session.heading_walk import heading_calibration, heading_walk
 
-    fits = heading_walk(source_of(options.file, foot_of(options)), known)
+    fits = heading_walk(source_of(options.file, foot_of(options), own=drivers_of(options)), known)
     rows = [
         [
             fit.foot.value, str(fit.legs), number(fit.duration, 0), number(degrees(fit.heading.drift), 3),
@@ -224,7 +233,7 @@ def _rest(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ...recording.decoded import decode_recording
 
     foot = foot_of(options)
-    fits = rest_noise(decode_recording(source_of(options.file, foot)).samples, foot)
+    fits = rest_noise(decode_recording(source_of(options.file, foot, own=drivers_of(options))).samples, foot)
     lines = [
         f"{fit.foot} foot, {fit.duration:.0f} s: accelerometer {1e3 * fit.noise.acc_density:.3g} mm/s^2/sqrt(Hz), bias "
         f"steady within {1e3 * fit.acc_instability:.3g} mm/s^2; gyroscope {degrees(fit.noise.gyro_density):.2g} "

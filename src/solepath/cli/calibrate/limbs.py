@@ -11,6 +11,7 @@ from ...calibration import Calibration
 from ...show.tables.table import number, table
 from ..common.failure import parse_positive
 from ..common.inputs import source_of
+from ..common.own_devices import add_own_devices, drivers_of
 
 STEEPEST_TILT = 35.0
 """Tilt from which a sensor is hardly strapped on as intended, degrees; between two axes of a box it is 45."""
@@ -27,6 +28,7 @@ def add_limbs(kinds: Any) -> None:
     )
     command.set_defaults(learn=_limbs)
     command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
+    add_own_devices(command)
     command.add_argument("--stature", metavar="M", type=parse_positive, required=True, help="of the wearer, m")
     for name, what in (
         ("spines", "distance of the bony points at the front of the hips (anterior iliac spines), m"),
@@ -40,7 +42,7 @@ def _limbs(options: argparse.Namespace, known: Calibration) -> tuple[Calibration
     from ...papers.walking_modes.limbs.standing import check_standing, limbs_of
     from ...recording.decoded import decode_recording
 
-    stood = check_standing(decode_recording(source_of(options.file)).samples)
+    stood = check_standing(decode_recording(source_of(options.file, own=drivers_of(options))).samples)
     limbs = limbs_of(options.stature, options.spines, options.thigh, options.shank)
     rows = [
         [

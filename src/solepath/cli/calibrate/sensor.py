@@ -11,6 +11,7 @@ from ...calibration.merging import stale_feet
 from ...calibration.records import TriadCalibration
 from ...show.tables.table import number, table
 from ..common.inputs import source_of
+from ..common.own_devices import add_own_devices, drivers_of
 from ..common.tables import add_tables, feet_of, mapping_of
 
 AXES = "xyz"
@@ -30,13 +31,14 @@ def add_sensor(kinds: Any) -> None:
     )
     command.set_defaults(learn=_sensor)
     add_tables(command, "RECORDING")
+    add_own_devices(command)
 
 
 def _sensor(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
     from ...lab.calibrate.sensor import fit_sensors, sensor_calibration
     from ...recording.decoded import decode_recording
 
-    source = source_of(options.files, feet_of(options), mapping_of(options))
+    source = source_of(options.files, feet_of(options), mapping_of(options), own=drivers_of(options))
     fits = fit_sensors(decode_recording(source).samples, source.foot)
     learnt = sensor_calibration(fits)
     lines, rows = [], []

@@ -26,6 +26,7 @@ from ..bluetooth.backend import backend_of
 from ..bluetooth.devices import SCAN_TIME, named_devices
 from ..common.failure import Failure
 from ..common.loop import unless_stopped
+from ..common.os_errors import file_error_text
 from ..common.view import PageAddress, serve_page
 from .terminal import Dialogue, meanwhile
 
@@ -227,4 +228,4 @@ class Measuring:
         try:
             write_measurements(self.file, self.done, self.constants)
         except OSError as error:
-            raise Failure(f"{printable(str(self.file))}: {error.strerror}") from None
+            raise Failure(file_error_text(error, self.file)) from None

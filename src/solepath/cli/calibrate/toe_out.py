@@ -14,6 +14,7 @@ from ..bluetooth.devices import add_feet
 from ..common.failure import Failure, parse_positive
 from ..common.files import RECORDING, add_force
 from ..common.inputs import add_foot, foot_of, source_of
+from ..common.own_devices import add_own_devices, drivers_of
 from ..common.view import add_view, need_page, page_address_of
 from .live import check_live, reject_live_options, run_live
 
@@ -39,6 +40,7 @@ def add_toe_out(kinds: Any) -> None:
         help="packets (.jsonl) or samples (.npz, .csv); with --live, to be written",
     )
     add_foot(command)
+    add_own_devices(command)
     command.add_argument("--distance", metavar="M", type=parse_positive, help="length of the walk, m")
     command.add_argument("--live", action="store_true", help="walk now, with the sensors in the shoes")
     add_feet(command)
@@ -49,11 +51,16 @@ def add_toe_out(kinds: Any) -> None:
 def _toe_out(options: argparse.Namespace, known: Calibration) -> tuple[Calibration, list[str]]:
     from ...papers.footstep_tracker.toe_out import ERRORS, ToeOut, printed_angle, toe_out, toe_out_calibration
 
+    if options.live and options.driver_files:
+        raise Failure("--driver is for a recording here: make it with `solepath record`, and give it without --live")
     if options.live:
         _measure(options)
     else:
         reject_live_options(options, OF_LIVE)
-    feet, distance = toe_out(source_of(options.file, foot_of(options)), options.distance), options.distance
+    feet, distance = (
+        toe_out(source_of(options.file, foot_of(options), own=drivers_of(options)), options.distance),
+        options.distance,
+    )
 
     def by_length(one: ToeOut) -> str:
         printed = printed_angle(one.along, distance)

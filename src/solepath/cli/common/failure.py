@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -11,6 +10,8 @@ from math import isfinite, nan, radians
 from typing import TYPE_CHECKING
 
 from ...recording import printable
+from ...types.extras import install_hint
+from .closest import unknown
 
 if TYPE_CHECKING:
     from ...recipes import Recipe
@@ -47,7 +48,7 @@ def require(what: str, extra: str, *packages: str) -> None:
     `what` is the start of the sentence, such as "Bluetooth needs"."""
     for package in packages:
         if not is_installed(package):
-            raise Failure(f"{what} {package}: pip install 'solepath[{extra}]'")
+            raise Failure(f"{what} {package}: {install_hint(extra)}")
 
 
 def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:
@@ -56,12 +57,6 @@ def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:
     if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
         raise Failure(f"{option} {printable(text, 80)}: that is not HOST:PORT{hint}")
     return host.removeprefix("[").removesuffix("]"), int(port)
-
-
-def address_error_text(error: OSError) -> str:
-    """Return the text of an error of an address: the system's, or that of the name server for an unknown host."""
-    has_number = error.errno is not None and error.errno > 0
-    return (os.strerror(error.errno or 0) if has_number else error.strerror or str(error)).lower()
 
 
 def _number(text: str, what: str, is_valid: Callable[[float], bool]) -> float:
@@ -117,9 +112,8 @@ def parse_degrees(text: str) -> float:
 
 def recipe_named(name: str) -> Recipe:
     """Return the recipe of this name; raise Failure when there is none."""
-    from ...recipes import by_name
+    from ...recipes import NAMES, by_name
 
-    try:
-        return by_name(name)
-    except ValueError as error:
-        raise Failure(str(error)) from None
+    if name not in NAMES:
+        raise Failure(unknown("recipe", name, NAMES))
+    return by_name(name)

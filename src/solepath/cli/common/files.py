@@ -12,7 +12,6 @@ import json
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from errno import EEXIST
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -130,11 +129,11 @@ def add_force(command: argparse.ArgumentParser) -> None:
 def files_of_track(out: Path | None, *, places: bool, plan: bool = False, outcomes: bool = False) -> list[OutputFile]:
     """Return the files that are written to the directory `out`; `places`, `plan`: with a floor plan, and its picture.
 
-    `outcomes`: with clinical outcomes. Raise OSError when there is a file in place of the directory."""
+    `outcomes`: with clinical outcomes. Raise Failure when there is a file in place of the directory."""
     if out is None:
         return []
     if out.exists() and not out.is_dir():
-        raise FileExistsError(EEXIST, os.strerror(EEXIST), str(out))
+        raise Failure(f"{printable(str(out))}: is a file; --out needs a folder, which is made when there is none")
     kinds = TRACK_KINDS | (PLACE_KINDS if places else {}) | (PLAN_KINDS if plan else {})
     if outcomes:
         from ...show.outcomes.files import BOUT_COLUMNS, BOUTS_FILE, OUTCOME_COLUMNS, OUTCOMES_FILE

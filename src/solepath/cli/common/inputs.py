@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import isfinite, nan, radians
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...calibration import Calibration
 from ...link.decoder import Decoder
+from ...link.kinds import DeviceKinds, make_kinds
 from ...recording import RecordingError, Source, TableMapping, open_source, printable
 from ...types import Foot, Sample, Site
+from ..completion import complete_with
 from .failure import Failure, note, parse_degrees, parse_offset, recipe_named
 
 if TYPE_CHECKING:
     from ...floorplan.index import IndexedPlan
     from ...floorplan.plan import Start
+    from ...link.driver import Driver
     from ...recipes import Recipe
 
 
@@ -29,9 +32,31 @@ def add_foot(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_recipe(command: argparse.ArgumentParser) -> None:
-    """Add --recipe and --heading to a command."""
-    command.add_argument("--recipe", metavar="NAME", default="default", help="how to compute (default: default)")
+def _recipe_names() -> Sequence[str]:
+    from ...recipes import NAMES
+
+    return NAMES
+
+
+def add_recipe_name(command: argparse.ArgumentParser, what: str = "how to compute", **more: Any) -> None:
+    """Add --recipe to a command; `what` says what the recipe is for."""
+    action = command.add_argument(
+        "--recipe", metavar="NAME", **{"default": "default", "help": f"{what} (default: default)"} | more
+    )
+    complete_with(action, _recipe_names)
+
+
+def add_recipe(command: argparse.ArgumentParser, *, several: bool = False) -> None:
+    """Add --recipe and --heading to a command; `several` lets --recipe be given again."""
+    if several:
+        add_recipe_name(
+            command,
+            action="append",
+            default=None,
+            help="how to compute (default: default); given again, one table with a column for each recipe",
+        )
+    else:
+        add_recipe_name(command)
     command.add_argument(
         "--heading",
         metavar="DEGREES",
@@ -43,7 +68,15 @@ def add_recipe(command: argparse.ArgumentParser) -> None:
 
 def recipe_of(options: argparse.Namespace) -> Recipe:
     """Return the recipe of --recipe and --heading; raise Failure when there is none, or when it takes no heading."""
-    recipe = recipe_named(options.recipe)
+    return _headed(recipe_named(options.recipe), options)
+
+
+def recipes_of(options: argparse.Namespace) -> list[Recipe]:
+    """Return the recipes of a command whose --recipe may be given again; raise Failure as `recipe_of` does."""
+    return [_headed(recipe_named(name), options) for name in options.recipe or ["default"]]
+
+
+def _headed(recipe: Recipe, options: argparse.Namespace) -> Recipe:
     if options.heading is None:
         return recipe
     try:
@@ -93,10 +126,21 @@ def undo_clocks(source: Source, options: argparse.Namespace) -> None:
 
 
 def source_of(
-    files: Path | Sequence[Path], foot: Foot | Sequence[Foot] | None = None, mapping: TableMapping | None = None
+    files: Path | Sequence[Path],
+    foot: Foot | Sequence[Foot] | None = None,
+    mapping: TableMapping | None = None,
+    own: Iterable[Driver] = (),
 ) -> Source:
-    """Open a recording and print its flaws on stderr; raise RecordingError when it cannot be used."""
-    return open_source(files, foot, mapping=mapping, report=note)
+    """Open a recording and print its flaws on stderr; raise RecordingError when it cannot be used.
+
+    Packets of devices of one's `own` become samples, for what computes with the built-in devices only."""
+    from ...show.tables.progress import progress_bar
+
+    names = [Path(file).name for file in ([files] if isinstance(files, Path) else files)]
+    with progress_bar(f"reading {printable(names[0])}"):
+        source = open_source(files, foot, mapping=mapping, report=note)
+    source.own_kinds = make_kinds(own)
+    return source
 
 
 def assumed_foot(source: Source) -> str | None:
@@ -108,13 +152,15 @@ def assumed_foot(source: Source) -> str | None:
     return f"{why}: taken as the {tables[0].foot} one; --foot says otherwise"
 
 
-def check_pressure(recipe: Recipe, source: Source) -> None:
-    """Raise Failure when the recipe needs pressure cells and the recording has none."""
-    if recipe.needs_pressure and not _has_pressure(source):
+def check_pressure(recipe: Recipe, source: Source, own: Iterable[Driver] = ()) -> None:
+    """Raise Failure when the recipe needs pressure cells and the recording has none.
+
+    `own` are the drivers of devices of one's own."""
+    if recipe.needs_pressure and not _has_pressure(source, make_kinds(own)):
         raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
 
 
-def _has_pressure(source: Source) -> bool:
+def _has_pressure(source: Source, kinds: DeviceKinds) -> bool:
     """Return whether the recording has pressure; True if it cannot be read."""
     if source.samples is not None:
         return any("pressure" in table.columns for table in source.samples.tables)
@@ -122,7 +168,7 @@ def _has_pressure(source: Source) -> bool:
     try:
         for packet in source.look_ahead():
             if source.foot is None or packet.site.foot in (None, source.foot):
-                records = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet)
+                records = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet, kinds)
                 if any(isinstance(record, Sample) and record.pressure for record in records):
                     return True
     except RecordingError:
@@ -183,7 +229,7 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
         indexed = IndexedPlan(plan)
     except FloorPlanError as error:
         raise Failure(str(error)) from None
-    for sentence in find_warnings(plan):
+    for sentence in find_warnings(plan, has_start=start is not None and start.place is not None):
         note(f"{options.floorplan}: {sentence}")
     if start is not None and (problem := start_error(indexed, start)) is not None:
         raise Failure(f"{options.floorplan}: {problem}")

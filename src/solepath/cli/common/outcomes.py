@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from math import isfinite, nan
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...recording import printable
@@ -40,9 +41,10 @@ def add_outcomes(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--reference",
-        metavar="AGE,SEX[,CM,KG]",
+        metavar="AGE,SEX[,CM,KG]|FILE",
+        action="append",
         help="compare with published values of healthy people, as in 72,female,162,68; height and weight are for the "
-        "six-minute walk",
+        "six-minute walk; or, in the report, with the bands of a .json or .csv file; may be given for each",
     )
 
 
@@ -54,8 +56,8 @@ def has_outcomes(options: argparse.Namespace) -> bool:
 def clinic_of(options: argparse.Namespace) -> Clinic | None:
     """Return what collects the outcomes that the options name; None without any; raise Failure when one is wrong."""
     if not has_outcomes(options):
-        if options.reference is not None:
-            raise Failure("--reference goes with --outcomes, --six-minute-walk or --timed-up-and-go")
+        if options.reference and options.report is None:
+            raise Failure("--reference goes with --report, --outcomes, --six-minute-walk or --timed-up-and-go")
         return None
     from ...show.outcomes.clinic import Clinic
 
@@ -70,8 +72,28 @@ def clinic_of(options: argparse.Namespace) -> Clinic | None:
         six_minutes=options.six_minute_walk is not False,
         six_minutes_start=None if options.six_minute_walk is False else options.six_minute_walk,
         up_and_go=marks,
-        person=None if options.reference is None else _person(options.reference),
+        person=person_of(options),
     )
+
+
+def band_files_of(options: argparse.Namespace) -> list[Path]:
+    """Return the files of bands among the references; raise Failure if there are any without a report."""
+    files = [Path(text) for text in options.reference or () if _is_file(text)]
+    if files and options.report is None:
+        raise Failure("--reference with a file of bands goes with --report")
+    return files
+
+
+def person_of(options: argparse.Namespace) -> Person | None:
+    """Return the person among the references; None without one; raise Failure if it is wrong or there are two."""
+    texts = [text for text in options.reference or () if not _is_file(text)]
+    if len(texts) > 1:
+        raise Failure("--reference names two people; one and a file of bands go together")
+    return _person(texts[0]) if texts else None
+
+
+def _is_file(text: str) -> bool:
+    return text.lower().endswith((".json", ".csv"))
 
 
 def _start(text: str) -> float:

@@ -15,14 +15,16 @@ from ...recording import printable
 from ...saving.files import FileReplacements
 from ...show.observer import Observer
 from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
-from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
+from .failure import Failure, note
 from .files import OutputFile, replacements
+from .own_devices import UnusedPackets
 
 if TYPE_CHECKING:
     from ...show.outcomes.clinic import Clinic
+    from ...show.report import Report
 
 
 @define
@@ -36,17 +38,16 @@ class Results:
     title: str
     out: Path | None = None
     report: Path | None = None
+    contents: Report | None = None
+    """The report, as its options describe it; None without `report`."""
     plan: FloorPlan | None = None
-    recipe: str = ""
-    when: str = ""
-    """Start of the recording, as text."""
     outputs: Sequence[OutputFile] = ()
     """All files of `out`, and `report`, as they were before the run."""
     clinic: Clinic | None = None
     """Collects the clinical outcomes; None without any."""
+    unused: UnusedPackets = field(factory=UnusedPackets)
     observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
-    _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
     _file_replacements: FileReplacements = field(init=False)
@@ -57,10 +58,8 @@ class Results:
     def __attrs_post_init__(self) -> None:
         self._file_replacements, self._report_replacement = replacements(self.outputs), replacements(self.outputs)
         self._picture = None if self.plan is None else PlanPicture(self.plan)
-        self._report = None
-        if self.report is not None:
-            self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
-            self._report.clinic = self.clinic
+        if self.contents is not None:
+            self.contents.observer, self.contents.clinic = self.observer, self.clinic
 
     def open_files(self) -> None:
         """Open the files, if they are not open."""
@@ -76,8 +75,9 @@ class Results:
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
         """Add a packet or sample and its events, or None and the last events at the end of the recording."""
-        collector = self.observer if self._report is None else self._report
+        collector = self.observer if self.contents is None else self.contents
         collector.take(item, events)
+        self.unused.take(item, events)
         for event in events:
             if self._files is not None:
                 self._files.write(event)
@@ -86,9 +86,13 @@ class Results:
             if self.clinic is not None:
                 self.clinic.add(event)
 
-    def write_and_print(self, seconds: float) -> None:
-        """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
+    def write_files(self) -> list[str]:
+        """Complete the files of `out`; return the lines of the clinical outcomes.
+
+        Raises Failure, and writes nothing, if no packet of the recording could be used."""
         self._open.close()
+        if self.unused.is_all:
+            raise Failure(f"{self.title}: {'; '.join(self.unused.sentences())}")
         if self._picture is not None and self._picture_path is not None and self.out is not None:
             with os_errors_naming(self.out):
                 self._picture.write(self._picture_path, self.title)
@@ -100,18 +104,25 @@ class Results:
                 write_bouts(results, self._file_replacements.temporary_path(self.out / BOUTS_FILE))
                 write_outcomes(results, self._file_replacements.temporary_path(self.out / OUTCOMES_FILE))
         self._file_replacements.move_to_targets()
+        return [] if self.clinic is None or results is None else self.clinic.lines(results)
+
+    def write_and_print(self, seconds: float) -> None:
+        """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
+        clinical_lines = self.write_files()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
-        if self.clinic is not None and results is not None:
-            print("\n".join(self.clinic.lines(results)))
+        if clinical_lines:
+            print("\n".join(clinical_lines))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
-        if self._report is not None and self._report_path is not None and self.report is not None:
+        if self.contents is not None and self._report_path is not None and self.report is not None:
             with os_errors_naming(self.report):
-                self._report.write(self._report_path)
+                self.contents.write(self._report_path)
             self._report_replacement.move_to_targets()
             print(f"report in {printable(str(self.report))}")
+        for sentence in self.unused.sentences():
+            note(sentence)
 
     def __enter__(self) -> Results:
         return self

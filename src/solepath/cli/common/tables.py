@@ -7,7 +7,10 @@ from pathlib import Path
 
 from ...events import DefectFound
 from ...recording import Source, TableMapping, printable, read_mapping
+from ...recording.mapping.mapping import FORMATS
 from ...types import Foot
+from ..completion import complete_with
+from .closest import closest, unknown
 from .failure import Failure, parse_positive
 
 MAPPING_OPTIONS = ("columns", "units", "mapping", "format", "rate")
@@ -35,7 +38,8 @@ def add_tables(command: argparse.ArgumentParser, metavar: str = "FILE") -> None:
     )
     tables.add_argument("--units", metavar="UNITS", help="units that are not SI, as in g,deg/s,ms")
     tables.add_argument("--rate", metavar="HZ", type=parse_positive, help="samples a second, without a column of times")
-    tables.add_argument("--format", metavar="NAME", help="name of a known format that has lost its first lines")
+    known = tables.add_argument("--format", metavar="NAME", help="name of a known format that has lost its first lines")
+    complete_with(known, lambda: FORMATS)
     tables.add_argument("--mapping", metavar="FILE", type=Path, help="all of this from a TOML file")
 
 
@@ -47,7 +51,10 @@ def feet_of(options: argparse.Namespace) -> Foot | tuple[Foot, ...] | None:
         return None
     words = [word.strip().lower() for word in options.foot.split(",")]
     if not set(words) <= {"left", "right"}:
-        raise Failure(f"--foot {printable(options.foot, 80)}: each foot is left or right, with commas between them")
+        wrong = next(word for word in words if word not in ("left", "right"))
+        meant = closest(wrong, ("left", "right"))
+        hint = f"did you mean {meant}?" if meant else "each foot is left or right, with commas between them"
+        raise Failure(f"--foot {printable(options.foot, 80)}: {hint}")
     feet = tuple(map(Foot, words))
     if len(feet) == 1:
         return feet[0]
@@ -62,6 +69,10 @@ def mapping_of(options: argparse.Namespace) -> TableMapping | None:
     What options say goes before what the file says. Failure or RecordingError is raised for a malformed one."""
     if all(getattr(options, name) is None for name in MAPPING_OPTIONS):
         return None
+    if options.format is not None and options.format not in FORMATS:
+        raise Failure(f"--format: {unknown('format', options.format, FORMATS)}")
+    if options.mapping is not None and options.mapping.is_dir():
+        raise Failure(f"{printable(str(options.mapping))}: is a folder, not a file")
     saved = TableMapping() if options.mapping is None else read_mapping(options.mapping)
     try:
         given = TableMapping.parse(options.columns or "", options.units or "", rate=options.rate)

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 from attrs import frozen
 
 from ...recording import printable
-from .failure import Failure, address_error_text, has_terminal, host_and_port, note, parse_positive, require
+from .failure import Failure, has_terminal, host_and_port, note, parse_positive, require
+from .os_errors import address_error_text
 
 if TYPE_CHECKING:
     from ...show.page.messages import Command
@@ -22,10 +23,8 @@ if TYPE_CHECKING:
     from ...show.page.server.server import Page
 
 DEFAULT_ADDRESS = "127.0.0.1:8765"
-MIN_PROGRESS_ITEMS = 40_000
-"""Number of items (packets or samples) above which there is a progress bar."""
 ITEMS_PER_UPDATE = 1000
-"""Number of items between two updates of the progress bar."""
+"""Number of items (packets or samples) between two updates of the progress."""
 
 
 @frozen
@@ -142,10 +141,7 @@ def compute_rest(player: Player, what: str) -> None:
 
     items = player.items
     remaining = len(items) - player.delivered_count
-    with (
-        progress_bar("computing", len(items), enabled=remaining > MIN_PROGRESS_ITEMS) as show,
-        stop_flag() as stop_requested,
-    ):
+    with progress_bar("computing", len(items)) as show, stop_flag() as stop_requested:
         if remaining > 0:
             print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
         counter = count(1)

@@ -1,13 +1,25 @@
-"""Builder of a route through a building, which knows the position on the plan while moves are added."""
+"""Builder of a route through a building, which knows the position on the plan while moves are added.
+
+course = Course("0", (2.0, 3.0), radians(90))
+course.stand()
+course.walk_along([(2.0, 9.0), (14.0, 9.0)])
+walk = emulate(course.route)
+Session(floorplan=plan, start=course.start).feed(walk.packets)
+course.place(walk.walker, walk.truth.duration)"""
 
 from __future__ import annotations
 
 from math import atan2, cos, hypot, pi, sin, tan
 
+import numpy as np
 from attrs import Factory, define
 
 from ...floorplan.plan import Point, Start
+from ...types import Foot
 from ..buildings.storeys import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
+from ..wearers.curves import Array
+from ..wearers.shoe import Mounting
+from ..wearers.walker import Walker
 from .path import ahead
 from .route import TIGHT_TURN_SPEED, Route
 
@@ -42,10 +54,15 @@ class Course:
         """Stand for STAND_TIME s."""
         self.route = self.route.stand(STAND_TIME)
 
-    def ride(self) -> None:
-        """Take the elevator to the other floor."""
-        self.route = self.route.lift(STOREY if self.level == GROUND else -STOREY)
-        self.level = OTHER_LEVEL[self.level]
+    def ride(self, level: str = "", height: float = 0.0) -> None:
+        """Take the elevator to `level`, `height` m higher, negative downwards; without these to the other floor."""
+        self.route = self.route.lift(height or (STOREY if self.level == GROUND else -STOREY))
+        self.level = level or OTHER_LEVEL[self.level]
+
+    def place(self, walker: Walker, t: float) -> Point:
+        """Return x and y of the middle between both ankles at time `t`, s, of a walker on this route, m, plan frame."""
+        ((x, y),) = plan_track(self.start, walker, np.array([t])).tolist()
+        return x, y
 
     def face(self, heading: float) -> None:
         """Turn on the spot to this heading in the plan frame, rad."""
@@ -68,7 +85,10 @@ class Course:
         self.heading += angle
 
     def walk_along(self, points: list[Point]) -> None:
-        """Walk from point to point, m, plan frame, with rounded corners; the first point must be straight ahead."""
+        """Walk from point to point, m, plan frame, with rounded corners; turn on the spot to the first one."""
+        ahead_turn = wrapped(atan2(points[0][1] - self.position[1], points[0][0] - self.position[0]) - self.heading)
+        if self.position != points[0] and abs(ahead_turn) > 1e-9:
+            self.face(self.heading + ahead_turn)
         for k, (x, y) in enumerate(points):
             distance = hypot(x - self.position[0], y - self.position[1])
             if k + 1 == len(points):
@@ -100,6 +120,15 @@ class Course:
         self.route = self.route.stairs(RISERS, up, RISE, GOING)
         x, y = self.position
         self.position = (x + RISERS * GOING * cos(self.heading), y + RISERS * GOING * sin(self.heading))
+
+
+def plan_track(start: Start, walker: Walker, t: Array) -> Array:
+    """Return x and y (plan frame, m) of the middle between both ankles at times `t`, s, (N, 2)."""
+    ankle = Mounting((walker.wearer.shoe.ankle[0], 0.0, 0.0))
+    middle = 0.5 * sum(walker.kinematics(foot, t, ankle).position[:, :2] for foot in Foot)
+    heading = start.heading or 0.0
+    c, s = cos(heading), sin(heading)
+    return np.asarray(middle @ np.array([[c, s], [-s, c]]) + np.array(start.place))
 
 
 def wrapped(angle: float) -> float:

@@ -9,19 +9,17 @@ from __future__ import annotations
 
 from collections import deque
 from itertools import pairwise
-from math import cos, pi, sin
+from math import cos, pi
 
 import numpy as np
 from attrs import field, frozen
 
 from ...floorplan.plan import Point, Start
-from ...types import Foot
 from ..buildings.storeys import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, UPPER, Building, Cabin, Well, unit
 from ..wearers.curves import Array, Rng
-from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .building import CABINS, COLUMNS, FOUR_LOOPS, NORTH, ROWS
-from .course import OTHER_LEVEL, Course, wrapped
+from .course import OTHER_LEVEL, Course, plan_track, wrapped
 from .path import ahead
 from .route import Route
 
@@ -65,11 +63,7 @@ class BuildingWalk:
 
     def track(self, walker: Walker, t: Array) -> Array:
         """Return x and y (plan frame, m) of the middle between both ankles at times `t`, s, (N, 2)."""
-        ankle = Mounting((walker.wearer.shoe.ankle[0], 0.0, 0.0))
-        middle = 0.5 * sum(walker.kinematics(foot, t, ankle).position[:, :2] for foot in Foot)
-        heading = self.start.heading or 0.0
-        c, s = cos(heading), sin(heading)
-        return np.asarray(middle @ np.array([[c, s], [-s, c]]) + np.array(self.start.place))
+        return plan_track(self.start, walker, t)
 
 
 def case_study() -> BuildingWalk:

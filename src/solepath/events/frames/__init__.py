@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import Any
 
 from ...types import Sample
+from ...types.extras import install_hint
 from ..happening import Happening
 from .columns import ColumnTable, table_of
 from .forms import TableColumn, ValueKind
@@ -49,8 +50,8 @@ def to_frame(
         except ImportError:
             continue
         return _pandas(module, table) if name == "pandas" else module.DataFrame(table)
-    extra = "polars" if library == "polars" else "'solepath[frames]'"
-    raise ImportError(f"to_frame needs {' or '.join(names)}: pip install {extra}") from None
+    hint = "pip install polars" if library == "polars" else install_hint("frames")
+    raise ImportError(f"to_frame needs {' or '.join(names)}: {hint}") from None
 
 
 def _pandas(pandas: Any, table: ColumnTable) -> Any:

@@ -84,9 +84,11 @@ def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:
     return profile.matches_name(name) or not set(profile.services).isdisjoint(services)
 
 
-def identify(name: str, services: Sequence[str]) -> Profile | None:
-    """Return the profile of the device that sends this advertisement; None for an unknown device."""
-    return next((profile for profile in PROFILES if advertises(profile, name, services)), None)
+def identify(name: str, services: Sequence[str], own: Iterable[Profile] = ()) -> Profile | None:
+    """Return the profile of the device that sends this advertisement; None for an unknown device.
+
+    Profiles of an app's `own` devices go before the built-in ones."""
+    return next((profile for profile in (*own, *PROFILES) if advertises(profile, name, services)), None)
 
 
 @frozen

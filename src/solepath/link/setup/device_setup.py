@@ -10,10 +10,10 @@
         values = setup.check(now)              # may give requests again
 
 Each call returns values, which are channels and data of packets to be recorded and fed, in this order. The order of
-requests is: the record from which the site is read, reads, subscriptions, writes. A value that is read after
-subscribing would arrive twice on BlueZ. When `end` is set, disconnect; the member of the roster may be connected again
-(see `Roster.is_excluded`). A request that fails otherwise, by loss of the connection or without an answer within
-ANSWER_TIMEOUT, ends this setup."""
+requests is: the record from which the site is read, reads, writes before subscribing, subscriptions, other writes. A
+value that is read after subscribing would arrive twice on BlueZ. When `end` is set, disconnect; the member of the
+roster may be connected again (see `Roster.is_excluded`). A request that fails otherwise, by loss of the connection or
+without an answer within ANSWER_TIMEOUT, ends this setup."""
 
 from __future__ import annotations
 
@@ -174,7 +174,7 @@ class DeviceSetup:
             if remedy is Remedy.RECONNECT:
                 self.end = f"{channel} is frozen"
             else:
-                self._queue.extend(self._writes())
+                self._queue.extend([*self._writes(before_subscribing=True), *self._writes(before_subscribing=False)])
                 self._advance(now)
         return self._take_values()
 
@@ -212,8 +212,9 @@ class DeviceSetup:
         )
         subscribed = (one for one in self.profile.channels if one.access is Access.NOTIFY and self._can_notify(one))
         self._queue.extend(self._reads(self.profile.reads))
+        self._queue.extend(self._writes(before_subscribing=True))
         self._queue.extend(Request(Operation.SUBSCRIBE, channel) for channel in subscribed)
-        self._queue.extend(self._writes())
+        self._queue.extend(self._writes(before_subscribing=False))
         self._advance(now)
 
     def _advance(self, now: float) -> None:
@@ -256,10 +257,11 @@ class DeviceSetup:
         channels = [self.profile.channel(name) for name in names]
         return [Request(Operation.READ, channel) for channel in channels if self._has(channel)]
 
-    def _writes(self) -> list[Request]:
+    def _writes(self, *, before_subscribing: bool) -> list[Request]:
         return [
             Request(Operation.WRITE, self.profile.channel(one.channel), one.value, one.then_read)
             for one in self.profile.setup
+            if one.before_subscribing is before_subscribing
         ]
 
     def _has(self, channel: Channel) -> bool:
@@ -279,14 +281,17 @@ def may_be_silent(site: Site, written: Sequence[Value]) -> bool:
     return decoder.link is not None and decoder.link.may_be_silent
 
 
-def find_profile(name: str, characteristics: Iterable[GattCharacteristic]) -> Profile | None:
+def find_profile(
+    name: str, characteristics: Iterable[GattCharacteristic], own: Iterable[Profile] = ()
+) -> Profile | None:
     """Return the profile of a connected device that advertises `name` ("" when unknown); None for an unknown device.
 
-    It is one whose streams the device can send, and of several the one whose name the device has."""
+    It is one whose streams the device can send, and of several the one whose name the device has. Profiles of an app's
+    `own` devices go before the built-in ones."""
     notifying = {(one.service, one.uuid) for one in characteristics if one.can_notify}
     fitting = [
         profile
-        for profile in PROFILES
+        for profile in (*own, *PROFILES)
         if notifying.issuperset([(one.service, one.characteristic) for one in map(profile.channel, profile.streams)])
     ]
     return next((profile for profile in fitting if profile.matches_name(name)), fitting[0] if fitting else None)

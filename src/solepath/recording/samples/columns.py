@@ -71,6 +71,11 @@ class TableColumns:
         return not any(one.columns.keys() & set(MEASURED) for one in self.feet)
 
     @property
+    def quantities(self) -> set[str]:
+        """Quantities of sensors whose columns are here, or should be."""
+        return {key.partition("_")[0] for key in self.mapping.columns.keys() - self.elsewhere} & set(MEASURED)
+
+    @property
     def found_keys(self) -> set[str]:
         """Keys of the mapping whose columns are here."""
         return set(self.mapping.columns) - self.elsewhere - {key for key, _ in self.faults}

@@ -34,13 +34,19 @@ FEET = {"left": re.compile(r"left|(?:^|[^a-z])l(?:[^a-z]|$)"), "right": re.compi
 
 
 class UnknownTable(RecordingError):
-    """Error for a table of no known format, with the options that may fit it."""
+    """Error for a table of no known format, with the options that may fit it; `feet`: the one that names the feet."""
 
-    def __init__(self, path: Path, what: str, where: str, guess: Guess | None) -> None:
+    def __init__(self, path: Path, what: str, where: str, guess: Guess | None, feet: str = "") -> None:
         example = "t=1,acc=2,3,4,gyro=5,6,7" if "it holds numbers" in what else "t=NAME,acc=X,Y,Z,gyro=X,Y,Z"
         needed = f"say which columns hold what, as in --columns {example} --units g,deg/s,ms"
-        super().__init__(path, what, where, needed if guess is None else guess.write())
+        super().__init__(path, what, where, needed if guess is None else guess.write(feet))
         self.guess = guess
+
+    @property
+    def quantities(self) -> set[str]:
+        """Quantities that the columns may hold; none if the names of columns say of which foot they are."""
+        keys = set() if self.guess is None else {*self.guess.columns}
+        return set() if any("_" in key for key in keys) else keys
 
 
 @frozen
@@ -51,11 +57,12 @@ class Guess:
     units: tuple[str, ...]
     needs_rate: bool
 
-    def write(self) -> str:
-        """Return the options as they are typed."""
+    def write(self, feet: str = "") -> str:
+        """Return the options as they are typed, with that of the `feet`."""
         text = ",".join(f"{key}={join_names(names)}" for key, names in self.columns.items())
         units = f" --units {','.join(self.units)}" if self.units else ""
-        return f"this may fit: --columns {shell_word(text)}{units}{' --rate HZ' if self.needs_rate else ''}"
+        rate = " --rate HZ" if self.needs_rate else ""
+        return f"this may fit: --columns {shell_word(text)}{units}{rate}{f' {feet}' if feet else ''}"
 
 
 def guess_mapping(path: Path, layout: SheetLayout, rows: Iterator[Row]) -> UnknownTable:
@@ -76,8 +83,10 @@ def guess_mapping(path: Path, layout: SheetLayout, rows: Iterator[Row]) -> Unkno
     return UnknownTable(path, f"is of no known format ({what})", where, guess)
 
 
-def merge_guesses(problems: Sequence[RecordingError]) -> list[RecordingError]:
-    """Return the problems; those of unknown tables offer the same options, unless those of two files contradict."""
+def merge_guesses(problems: Sequence[RecordingError], feet: str = "") -> list[RecordingError]:
+    """Return the problems; those of unknown tables offer the same options, unless those of two files contradict.
+
+    `feet` is the option that names the feet, "" if it is not needed."""
     guesses = [one.guess for one in problems if isinstance(one, UnknownTable) and one.guess is not None]
     columns = {key: names for guess in guesses for key, names in guess.columns.items()}
     units = tuple(dict.fromkeys(unit for guess in guesses for unit in guess.units))
@@ -87,7 +96,9 @@ def merge_guesses(problems: Sequence[RecordingError]) -> list[RecordingError]:
         return list(problems)
     merged = Guess({key: columns[key] for key in KEYS if key in columns}, units, any(one.needs_rate for one in guesses))
     return [
-        UnknownTable(one.path, one.what, one.where, merged) if isinstance(one, UnknownTable) and one.guess else one
+        UnknownTable(one.path, one.what, one.where, merged, feet)
+        if isinstance(one, UnknownTable) and one.guess
+        else one
         for one in problems
     ]
 

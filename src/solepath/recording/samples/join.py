@@ -37,7 +37,9 @@ def _add_problems(foot: Foot, tables: Sequence[FootTable], problems: list[Record
         holders = [table for table in tables if quantity in table.columns]
         if len(holders) > 1:
             what = f"holds {quantity} of the {foot.value} foot, as {printable(holders[0].path.name, 60)} does"
-            repair = "--foot left,right says of which foot each file is"
+            repair = (
+                "name the foot of each file: --foot left,right, or in Python [Foot.LEFT, Foot.RIGHT] after the files"
+            )
             problems.append(RecordingError(holders[1].path, what, repair=repair))
     turning = [table for table in tables if "gyro" in table.columns]
     if turning and not any("acc" in table.columns for table in tables):

@@ -123,11 +123,12 @@ def _read_tables(path: Path, archive: _Archive, one_foot: Foot | None) -> list[F
 def _read_table(path: Path, archive: _Archive, foot: Foot | None, suffix: str) -> FootTable:
     names = {q: q + suffix for q in QUANTITIES if q + suffix in archive.keys}
     time_key = "t" + suffix if "t" + suffix in archive.keys else "t"
-    if time_key not in archive.keys:
-        text = f'has no key "t"{suffix and f" and no key {time_key + suffix}"} (it holds {archive.list_keys()})'
-        raise RecordingError(path, text, repair="--columns t=KEY")
+    missing = [] if time_key in archive.keys else [("t", f'"t"{suffix and f" and no key {time_key + suffix}"}')]
     if "gyro" in names and "acc" not in names:
-        raise RecordingError(path, f"has the key gyro{suffix} but no key acc{suffix}")
+        missing.append(("acc", f"acc{suffix}"))
+    if missing:
+        text = f"has no key {' and no key '.join(name for _, name in missing)} (it holds {archive.list_keys()})"
+        raise RecordingError(path, text, repair=f"--columns {','.join(f'{key}=KEY' for key, _ in missing)}")
     t = to_floats(path, time_key, archive.read(time_key), 0)
     columns: dict[str, Floats] = {}
     for quantity, name in names.items():

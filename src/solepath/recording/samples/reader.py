@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from datetime import UTC, datetime
 from operator import attrgetter
 from pathlib import Path
@@ -14,10 +14,10 @@ from attrs import frozen
 from ...types import Foot, Sample
 from ..bad_rows import MAX_NAMED, BadRows
 from ..errors import RecordingError, Report, printable, warn
-from ..mapping.mapping import TableMapping
+from ..mapping.mapping import MEASURED, TableMapping
 from .columns import TableColumns, find_columns
 from .feet import feet_of_files
-from .guess import guess_mapping, merge_guesses
+from .guess import UnknownTable, guess_mapping, merge_guesses
 from .join import join_files
 from .npz import read_npz
 from .numbers import read_rows
@@ -60,10 +60,11 @@ def load_samples(
 ) -> SampleRecording:
     """Return the samples in a file, or in the files of both feet or of several sensors, all read into memory.
 
-    `foot`: for samples that name no foot, the foot that wore the sensor (None: what the name of the file says, else the
-    right foot); else the only foot to read (None: both). A sequence has the foot of each file. `mapping`: what columns
-    mean, as far as the files do not say it. `report` receives one sentence about an incomplete last line, and about
-    each of the first rows that are left out. RecordingError, with all that is wrong, when something cannot be used."""
+    `foot`: for samples that name no foot, the foot that wore the sensor (None: what the name of the file says; else the
+    right foot for one file, and an error for the files of both feet); else the only foot to read (None: both). A
+    sequence has the foot of each file. `mapping`: what columns mean, as far as the files do not say it. `report`
+    receives one sentence about an incomplete last line, and about each of the first rows that are left out.
+    RecordingError, with all that is wrong, when something cannot be used."""
     paths = [Path(file) for file in ([files] if isinstance(files, str | Path) else files)]
     for number, path in enumerate(paths):
         if path.resolve() in [earlier.resolve() for earlier in paths[:number]]:
@@ -79,6 +80,7 @@ def load_samples(
             raise ValueError(f"there are {len(feet)} feet for {len(paths)} files")
     total = BadRows(paths[0], report, "row")
     tables: list[FootTable] = []
+    unnamed: dict[Path, set[str]] = {}
     headers: list[TableColumns] = []
     for path, its_foot in zip(paths, feet, strict=True):
         bad_rows = BadRows(path, report, "row")
@@ -90,6 +92,8 @@ def load_samples(
             tables += used
         except RecordingError as error:
             problems += error.problems
+            if its_foot is None and isinstance(error, UnknownTable) and error.quantities:
+                unnamed[path] = error.quantities
         total.count, total.good = total.count + bad_rows.count, total.good + bad_rows.good
     found_keys = {key for found in headers for key in found.found_keys}
     for found in headers:
@@ -97,14 +101,20 @@ def load_samples(
         problems += own_problems or (found.list_problems() if found.is_empty else [])
     if not tables and not problems and isinstance(foot, Foot):
         problems.append(RecordingError(paths[0], f"holds nothing of the {foot.value} foot"))
-    _name_feet(tables, problems)
+    for table in tables:
+        if table.is_assumed:
+            unnamed[table.path] = unnamed.get(table.path, set()) | {*table.columns}
+    for found in headers:
+        if any(one.foot is None for one in found.feet):
+            unnamed.setdefault(found.header.path, found.quantities)
+    example = _name_feet(paths, unnamed, problems)
     for table in tables:
         problems += find_wrong_units(table)
     start_time = _count_from_start(tables)
     if not problems:
         tables = join_files(tables, problems)
     if problems:
-        raise RecordingError.of(merge_guesses(problems))
+        raise RecordingError.of(merge_guesses(problems, example))
     if not any(map(len, tables)):
         raise RecordingError(paths[0], "holds no samples")
     return SampleRecording(paths[0], tuple(tables), total, start_time)
@@ -141,18 +151,21 @@ def _read_file(
     return tables
 
 
-def _name_feet(tables: list[FootTable], problems: list[RecordingError]) -> None:
-    """Add a problem for files of which nothing says whose they are, if they cannot all be of one foot."""
-    unnamed = [table for table in tables if table.is_assumed]
-    paths = list({table.path: None for table in tables})
-    quantities = [quantity for table in unnamed for quantity in table.columns]
-    if unnamed and len(paths) > 1 and (len(unnamed) < len(tables) or len(set(quantities)) < len(quantities)):
-        example = ",".join(("left", "right")[k * 2 // len(paths)] for k in range(len(paths)))
-        for path in {table.path: None for table in unnamed}:
-            what = "nothing says of which foot it is"
-            problems.append(
-                RecordingError(path, what, repair=f"name the feet in the order of the files: --foot {example}")
-            )
+def _name_feet(paths: Sequence[Path], unnamed: Mapping[Path, Set[str]], problems: list[RecordingError]) -> str:
+    """Add a problem for files of which nothing says whose they are, if they cannot all be of one foot.
+
+    `unnamed` has the quantities of each such file. The option that names the feet is returned; "" if none is needed."""
+    quantities = [quantity for its_quantities in unnamed.values() for quantity in its_quantities & set(MEASURED)]
+    if not unnamed or len(paths) == 1 or (len(unnamed) == len(paths) and len(set(quantities)) == len(quantities)):
+        return ""
+    feet = [Foot.LEFT, Foot.RIGHT]
+    option = f"--foot {','.join(feet[k * 2 // len(paths)].value for k in range(len(paths)))}"
+    in_python = ", ".join(f"Foot.{feet[k * 2 // len(paths)].name}" for k in range(len(paths)))
+    repair = f"name the feet in the order of the files: {option}, or in Python read_samples(files, [{in_python}])"
+    for path in paths:
+        if path in unnamed:
+            problems.append(RecordingError(path, "nothing says of which foot it is", repair=repair))
+    return option
 
 
 def _count_from_start(tables: list[FootTable]) -> datetime | None:

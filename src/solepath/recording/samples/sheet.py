@@ -16,6 +16,7 @@ from typing import Any, TextIO
 
 from attrs import frozen
 
+from ...types.extras import install_hint
 from ..bad_rows import LONGEST_LINE, MAX_SKIPPED, skip_line
 from ..errors import RecordingError, open_file, printable
 from ..mapping.mapping import TableMapping
@@ -131,13 +132,13 @@ def _read_book(path: Path) -> Iterator[tuple[int, Cells]]:
             raise RecordingError(path, f"is larger than {MAX_BOOK // 1_000_000} MB")
     library = next((name for name in ("pandas", "polars") if find_spec(name) is not None), None)
     if library is None:
-        raise RecordingError(path, "needs pandas or polars", repair="pip install 'solepath[tables]'")
+        raise RecordingError(path, "needs pandas or polars", repair=install_hint("tables"))
     is_parquet = path.suffix.lower() == ".parquet"
     try:
         columns = _columns_of_pandas(path, is_parquet) if library == "pandas" else _columns_of_polars(path, is_parquet)
     except ImportError as error:
         what = f"cannot be read by {library}, which lacks {error.name or 'a library'}"
-        raise RecordingError(path, what, repair="pip install 'solepath[tables]'") from error
+        raise RecordingError(path, what, repair=install_hint("tables")) from error
     except Exception as error:  # the libraries raise errors of many kinds for a damaged file
         what = printable(str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__, 120)
         kind = "Parquet file" if is_parquet else "workbook"

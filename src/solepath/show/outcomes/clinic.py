@@ -44,6 +44,8 @@ NEEDED = (
 SENSORS = (
     "the intervals are of the strides: sensors whose scales differ by 1 % make lengths and speeds differ by as much"
 )
+NO_BOUT = "no walking bout: none has four strides without a break of more than 3 s"
+"""Line for a recording without a bout."""
 NO_WALK = "No walking bout was found, so that there is no six-minute walk."
 """Sentence for a six-minute walk without a start."""
 UP_AND_GO_NOTE = (
@@ -187,7 +189,7 @@ def six_minute_sentence(walk: SixMinuteWalk) -> str:
 def bout_lines(bouts: Sequence[WalkingBout]) -> list[str]:
     """Return a table of the first bouts as lines of text."""
     if not bouts:
-        return ["no walking bout: none has four strides without a break of more than 3 s"]
+        return [NO_BOUT]
     header = ["walking bout", "start s", "duration s", "strides", "steps", "turns", "cadence", "length m", "speed m/s"]
     lines = table(header, [bout_row(bout) for bout in bouts[:MAX_BOUTS]]).splitlines()
     return lines + ([f"and {len(bouts) - MAX_BOUTS} more"] if len(bouts) > MAX_BOUTS else [])

@@ -166,10 +166,10 @@ def _samples(events: Iterable[Event], name: str) -> dict[Foot, FootSample]:
             foot_runs.append([])
         foot_runs[-1].append(value)
         ends[stride.foot] = stride.t
-    return {foot: _moments(runs[foot]) for foot in Foot if foot in runs}
+    return {foot: moments(runs[foot]) for foot in Foot if foot in runs}
 
 
-def _moments(runs: Sequence[Sequence[float]]) -> FootSample:
+def moments(runs: Sequence[Sequence[float]]) -> FootSample:
     """Return the moments of values in runs of strides that follow each other."""
     values = [value for run in runs for value in run]
     count = len(values)

@@ -3,5 +3,6 @@
 from __future__ import annotations
 
 from .report import Report
+from .sections.heading import ReportDetails
 
-__all__ = ["Report"]
+__all__ = ["Report", "ReportDetails"]

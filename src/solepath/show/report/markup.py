@@ -10,6 +10,8 @@ from .style import STYLE
 
 MAX_LENGTH = 300
 """Largest number of characters of a text that are shown; chosen by hand."""
+NOTHING = ("", "-")
+"""Cells of a table that hold nothing."""
 MAX_LISTED = 40
 """Largest number of sentences of a list that are shown; chosen by hand."""
 
@@ -57,12 +59,18 @@ def sentences(parent: Element, texts: Sequence[str]) -> None:
             add(items, "li", f"and {len(texts) - MAX_LISTED} more")
 
 
+def whole_sentences(texts: Sequence[str]) -> list[str]:
+    """Return texts as sentences, each with a capital letter and a full stop."""
+    return [f"{text[0].upper()}{text[1:].removesuffix('.')}." for text in texts if text]
+
+
 def terms(parent: Element, entries: Iterable[tuple[str, str]], **attributes: str) -> None:
     """Add a list of words with their meanings."""
     definitions = add(parent, "dl", **attributes)
     for word, meaning in entries:
-        add(definitions, "dt", word)
-        add(definitions, "dd", meaning)
+        pair = add(definitions, "div")
+        add(pair, "dt", word)
+        add(pair, "dd", meaning)
 
 
 def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:
@@ -76,13 +84,21 @@ def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:
     return element
 
 
+def without_nothing(header: Sequence[str], rows: Sequence[Sequence[str]]) -> tuple[list[str], list[list[str]]]:
+    """Return a table without the columns and rows whose cells are all empty or a dash; the first column names rows."""
+    filled = [list(row) for row in rows if not all(cell in NOTHING for cell in row[1:])]
+    kept = [c for c in range(len(header)) if c == 0 or not all(row[c] in NOTHING for row in filled)]
+    return [header[c] for c in kept], [[row[c] for c in kept] for row in filled]
+
+
 def table(
     parent: Element, caption: str, header: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "numbers"
 ) -> Element:
-    """Add a table whose first column names its rows.
+    """Add a table whose first column names its rows; rows and columns that hold nothing are left out.
 
     Every tag has its role as an attribute: on a phone the style sheet lays the rows out as grids, in which a screen
     reader would not recognize a table by its tags."""
+    header, rows = without_nothing(header, rows)
     element = add(parent, "table", role="table", class_=kind)
     add(element, "caption", caption)
     header_row = add(add(element, "thead", role="rowgroup"), "tr", role="row")

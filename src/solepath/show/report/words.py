@@ -2,34 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from ...recording import printable
-from ...types import SITE_OF_FOOT, Foot, Site, Turn
+from ...types import Foot, Site, Turn
 from ..links import LinkLedger
 from ..observer import Observer
-from ..tables.summary import link_health, wear_lines
-from ..tables.table import counted, number
+from ..tables.summary import link_health, sample_lines, wear_lines
+from ..tables.table import number
 from .clock import ReportClock, duration_text
 from .figures.activity import activity_words
-
-CAUTION = (
-    "These are measurements of foot-worn sensors, for whoever knows how to read them. They are no diagnosis and come "
-    "from no medical device."
-)
+from .markup import whole_sentences
 
 MAX_NAME_LENGTH = 60
 """Largest number of characters of a device's name that are shown."""
 TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
 
-def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_counts: dict[Foot, int]) -> list[str]:
-    """Return the sentences of the summary.
+def overview(observer: Observer, clock: ReportClock, cycle_counts: dict[Foot, int]) -> list[str]:
+    """Return the sentences on the course of the recording.
 
-    `has_data` says that there was any event. `cycle_counts`, the number of gait cycles of each foot, is used for a foot
+    `cycle_counts`, the number of gait cycles of each foot, is used for a foot
     without a track."""
-    if not has_data:
-        return ["No data from either foot."]
     time = observer.covered_time
     lines = [f"The recording lasts {duration_text(time.total if time.span_count else clock.end - clock.start)}."]
     if time.span_count > 1:
@@ -62,32 +54,18 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_count
 
 def defects(observer: Observer) -> list[str]:
     """Return sentences on data that contradict themselves or physics; none without defects."""
-    return _whole_sentences(observer.defects)
+    return whole_sentences(observer.defects)
 
 
 def problems(observer: Observer) -> list[str]:
     """Return sentences on the faults of sensors, their wearing and their links; none without faults."""
-    faults = [*observer.defects, *wear_lines(observer), *link_health(observer)]
-    faults += [
-        f"{foot} foot: {counts.degraded} of {counts.strides} strides are degraded: samples are missing or wrong"
-        for foot in Foot
-        if (counts := observer.feet.get(foot)) is not None and counts.degraded
-    ]
-    faults += [
-        f"{foot} foot: {counted(link.gaps, 'gap')} in the samples, {number(link.gap_time)} s in all"
-        for foot in Foot
-        if (link := observer.links.get(SITE_OF_FOOT[foot])) is not None and link.gaps
-    ]
-    return _whole_sentences(faults)
+    faults = [*observer.defects, *wear_lines(observer), *link_health(observer), *sample_lines(observer)]
+    return whole_sentences(faults)
 
 
 def limitations(observer: Observer) -> list[str]:
     """Return sentences on what the recipe had to do without."""
-    return _whole_sentences(observer.limitations)
-
-
-def _whole_sentences(texts: Sequence[str]) -> list[str]:
-    return [f"{text[0].upper()}{text[1:].removesuffix('.')}." for text in texts if text]
+    return whole_sentences(observer.limitations)
 
 
 def sensors(observer: Observer) -> str:

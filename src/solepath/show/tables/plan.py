@@ -15,6 +15,7 @@ from attrs import define, field
 from ...events import Event, Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point
 from ..output import os_errors_naming
+from .svg import INK_COLOUR, PAPER_COLOUR, plain_text, px, write_text
 
 MAX_LEVEL_WIDTH = 720.0
 """Largest width of the drawing of a level by default, px."""
@@ -26,10 +27,12 @@ NARROW_WIDTH = 640.0
 """Width of the picture below which the legend has two lines, px."""
 POINTS_PER_COLOUR = 12
 """Number of strides of the track that share a colour."""
+NAME_SIZE, LETTER_WIDTH = 12.0, 7.5
+"""Size of the letters of a room's name, and the largest mean width of a letter that is expected, px."""
 MAX_CANDIDATE_DOTS = 4000
 """Approximate limit of the number of candidates that are drawn."""
 
-PAPER_COLOUR, INK_COLOUR, SOFT_COLOUR, FLOOR_COLOUR, WALL_COLOUR = "#ffffff", "#1f2933", "#7b8794", "#f4f6f8", "#323f4b"
+SOFT_COLOUR, FLOOR_COLOUR, WALL_COLOUR = "#5f6b78", "#f4f6f8", "#323f4b"
 DOOR_COLOUR, STAIRS_COLOUR, ELEVATOR_COLOUR, CANDIDATE_COLOUR = "#d9b382", "#9fb3c8", "#b8a9c9", "#6b7a8c"
 START_COLOUR, END_COLOUR = "#2e7d32", "#c62828"
 TRACK_COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
@@ -84,14 +87,14 @@ class PlanPicture:
                 "font-family": "system-ui, sans-serif",
             },
         )
-        SubElement(svg, "title").text = _plain(title)
+        SubElement(svg, "title").text = plain_text(title)
         SubElement(svg, "rect", {"width": "100%", "height": "100%", "fill": PAPER_COLOUR})
-        _text(svg, MARGIN, 30.0, title, size=17.0, weight="600")
+        write_text(svg, MARGIN, 30.0, title, size=17.0, weight="600")
         for k, level in enumerate(self.plan.levels):
             left = MARGIN + (k % columns) * (frame.width + PANEL_GAP)
             top = SPACE_ABOVE + (k // columns) * (frame.height + PANEL_GAP)
             name = f"level {level.id}" if level.name in ("", level.id) else f"{level.name} ({level.id})"
-            _text(svg, left, top - 8.0, f"{name}, {level.elevation:.1f} m", size=13.0, colour=SOFT_COLOUR)
+            write_text(svg, left, top - 8.0, f"{name}, {level.elevation:.1f} m", size=13.0, colour=SOFT_COLOUR)
             move = {"transform": f"translate({px(left)} {px(top)})"}
             panel = SubElement(svg, "g", move)
             self._level(panel, level, frame)
@@ -115,6 +118,7 @@ class PlanPicture:
         if walls:
             SubElement(panel, "path", {"d": walls, "stroke": WALL_COLOUR, "stroke-width": px(frame.pen), **lines})
         self._candidates(panel, level.id, frame)
+        _room_names(panel, level, frame)
         self._track(panel, level.id, frame)
 
     def _candidates(self, panel: Element, level: str, frame: _Frame) -> None:
@@ -153,7 +157,7 @@ class PlanPicture:
                 x, y = frame.to_px(end.position[:2])
                 ring = {"fill": fill, "stroke": PAPER_COLOUR, "stroke-width": "2"}
                 SubElement(panel, "circle", {"cx": px(x), "cy": px(y), "r": "6", **ring})
-                _text(panel, x + 9.0, y + 4.0, word, size=11.0, colour=fill, weight="600", halo=True)
+                write_text(panel, x + 9.0, y + 4.0, word, size=11.0, colour=fill, weight="600", halo=True)
 
     def _legend(self, svg: Element, frame: _Frame, width: float, top: float) -> None:
         """Draw the scale, the times, the meaning of the marks, and an arrow to north if the plan has an anchor."""
@@ -161,15 +165,15 @@ class PlanPicture:
         bar = metres * frame.scale
         path = f"M{px(MARGIN)} {px(top + 4)}v6h{px(bar)}v-6"
         SubElement(svg, "path", {"d": path, "fill": "none", "stroke": INK_COLOUR, "stroke-width": "1.5"})
-        _text(svg, MARGIN, top + 28.0, f"{metres:g} m", size=12.0)
+        write_text(svg, MARGIN, top + 28.0, f"{metres:g} m", size=12.0)
         left = MARGIN + max(bar, 60.0) + 40.0
         if self.places:
             for k in range(40):
                 box = {"x": px(left + 3.0 * k), "y": px(top + 2.0), "width": "3.2", "height": "8"}
                 SubElement(svg, "rect", {**box, "fill": blend(TRACK_COLOURS, k / 39.0)})
             first, last = self.places[0].t, self.places[-1].t
-            _text(svg, left, top + 28.0, f"{first:.0f} s", size=12.0)
-            _text(svg, left + 120.0, top + 28.0, f"{last:.0f} s", size=12.0, anchor="end")
+            write_text(svg, left, top + 28.0, f"{first:.0f} s", size=12.0)
+            write_text(svg, left + 120.0, top + 28.0, f"{last:.0f} s", size=12.0, anchor="end")
             left += 160.0
         if width < NARROW_WIDTH:
             left, top = MARGIN + 5.0, top + 0.8 * SPACE_BELOW
@@ -180,7 +184,7 @@ class PlanPicture:
         ):
             dot = {"cx": px(left), "cy": px(top + 6.0), "r": "5", "fill": fill, "fill-opacity": opacity}
             SubElement(svg, "circle", dot)
-            _text(svg, left + 10.0, top + 10.0, word, size=12.0)
+            write_text(svg, left + 10.0, top + 10.0, word, size=12.0)
             left += 30.0 + 8.0 * len(word)
         if self.plan.anchor is not None:
             _north(svg, width - MARGIN - 16.0, top + 12.0, self.plan.anchor.bearing)
@@ -226,6 +230,17 @@ class _Frame:
         return f"M{px(x)} {px(y)}L{px(x1)} {px(y1)}"
 
 
+def _room_names(panel: Element, level: Level, frame: _Frame) -> None:
+    """Write the names of the rooms whose outlines have room for them."""
+    for ring, name in zip(level.rooms, level.room_names, strict=False):
+        corners = [frame.to_px(point) for point in ring]
+        left, right = min([x for x, _ in corners]), max([x for x, _ in corners])
+        top, bottom = min([y for _, y in corners]), max([y for _, y in corners])
+        if name and right - left > LETTER_WIDTH * (len(name) + 1) and bottom - top > 2.0 * NAME_SIZE:
+            place = (0.5 * (left + right), 0.5 * (top + bottom) + 0.35 * NAME_SIZE)
+            write_text(panel, *place, name, size=NAME_SIZE, colour=SOFT_COLOUR, anchor="middle")
+
+
 def _connector(panel: Element, connector: Connector, stop: ConnectorStop, frame: _Frame) -> None:
     steps, arrows = "M-4 3h2.7v-2.3h2.7v-2.3h2.7", "M-2.6 -0.8l2.6 -3l2.6 3M-2.6 0.8l2.6 3l2.6 -3"
     fill, sign = (STAIRS_COLOUR, steps) if connector.kind is ConnectorKind.STAIRS else (ELEVATOR_COLOUR, arrows)
@@ -233,7 +248,7 @@ def _connector(panel: Element, connector: Connector, stop: ConnectorStop, frame:
     if stop.outline:
         SubElement(panel, "polygon", {"points": frame.points(stop.outline), "fill": fill, "fill-opacity": "0.55"})
     mark = SubElement(panel, "g", {"transform": f"translate({px(x)} {px(y)})"})
-    SubElement(mark, "title").text = _plain(connector.name)
+    SubElement(mark, "title").text = plain_text(connector.name)
     SubElement(mark, "circle", {"r": "7", "fill": fill, "stroke": PAPER_COLOUR, "stroke-width": "1.5"})
     SubElement(mark, "path", {"d": sign, "stroke": INK_COLOUR, "stroke-width": "1.2", "fill": "none"})
 
@@ -246,7 +261,7 @@ def _north(svg: Element, x: float, y: float, bearing: float) -> None:
         dx, dy = -sin(bearing + side), cos(bearing + side)
         path += f"M{px(x + 12 * east)} {px(y - 12 * up)}l{px(-7 * dx)} {px(7 * dy)}"
     SubElement(svg, "path", {"d": path, "fill": "none", "stroke": INK_COLOUR, "stroke-width": "1.6"})
-    _text(svg, x + 20.0 * east, y - 20.0 * up + 4.0, "N", size=11.0, weight="600", anchor="middle")
+    write_text(svg, x + 20.0 * east, y - 20.0 * up + 4.0, "N", size=11.0, weight="600", anchor="middle")
 
 
 def blend(colours: Sequence[str], share: float) -> str:
@@ -265,34 +280,3 @@ def _round_length(metres: float) -> float:
     while power > metres > 0.0:
         power /= 10.0
     return max([k * power for k in (1.0, 2.0, 5.0) if k * power <= metres], default=power)
-
-
-def _text(
-    parent: Element,
-    x: float,
-    y: float,
-    words: str,
-    *,
-    size: float,
-    colour: str = INK_COLOUR,
-    weight: str = "400",
-    anchor: str = "start",
-    halo: bool = False,
-) -> None:
-    look = {"x": px(x), "y": px(y), "font-size": px(size), "font-weight": weight, "text-anchor": anchor}
-    plain = _plain(words)
-    if halo:
-        edge = {"fill": PAPER_COLOUR, "stroke": PAPER_COLOUR, "stroke-width": "3", "stroke-linejoin": "round"}
-        SubElement(parent, "text", {**look, **edge}).text = plain
-    SubElement(parent, "text", {**look, "fill": colour}).text = plain
-
-
-def _plain(words: str) -> str:
-    """Replace control characters and lone surrogates, which XML cannot contain, by spaces."""
-    return "".join([c if c.isprintable() else " " for c in words])
-
-
-def px(value: float) -> str:
-    """Return px as text with at most one digit after the point, the same on every platform."""
-    short = f"{value:.1f}".removesuffix(".0")
-    return "0" if short == "-0" else short

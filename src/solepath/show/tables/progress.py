@@ -1,44 +1,130 @@
-"""Shows a progress bar on stderr when that is a terminal."""
+"""Shows on stderr how far a long computation is, when that is a terminal."""
 
 from __future__ import annotations
 
+import shutil
 import sys
+import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from io import TextIOBase
 from time import monotonic
+from typing import TextIO
 
-UPDATE_INTERVAL = 0.1
-"""Time between two updates of the bar, s."""
+UPDATE_INTERVAL = 0.2
+"""Time between two updates of the line, s; chosen by hand."""
+FIRST_UPDATE = 1.0
+"""Time for which nothing is shown, s: what is done by then needs no progress; chosen by hand."""
+MIN_SHARE = 0.02
+"""Least share done from which the remaining time is estimated; chosen by hand."""
+ERASE = "\r\x1b[K"
+"""Code that removes the line of the cursor."""
+
+
+class _ProgressLine:
+    """The line of progress at the bottom of a terminal, which a thread of its own redraws."""
+
+    def __init__(self, terminal: TextIO, what: str, total: int) -> None:
+        self.done = 0
+        self._terminal, self._what, self._total = terminal, what, total
+        self._lock, self._stopped = threading.Lock(), threading.Event()
+        self._start, self._is_drawn, self._is_at_margin = monotonic(), False, True
+        self._thread = threading.Thread(target=self._redraw, daemon=True)
+        self._thread.start()
+
+    def _redraw(self) -> None:
+        wait = FIRST_UPDATE
+        while not self._stopped.wait(wait):
+            wait = UPDATE_INTERVAL
+            with self._lock:
+                if self._is_at_margin and not self._stopped.is_set():
+                    width = shutil.get_terminal_size().columns - 1
+                    self._write(ERASE + progress_text(self._what, self.done, self._total, self._elapsed())[:width])
+                    self._is_drawn = True
+
+    def _elapsed(self) -> float:
+        return monotonic() - self._start
+
+    def _write(self, text: str) -> None:
+        with suppress(OSError, ValueError):  # the terminal was closed
+            self._terminal.write(text)
+            self._terminal.flush()
+
+    def print_above(self, stream: TextIO, text: str) -> int:
+        """Write text of the program to a stream, so that the line is below it."""
+        with self._lock:
+            self._erase()
+            count = stream.write(text)
+            stream.flush()
+            if text:
+                self._is_at_margin = text.endswith("\n")
+        return count
+
+    def _erase(self) -> None:
+        if self._is_drawn:
+            self._write(ERASE)
+            self._is_drawn = False
+
+    def stop(self) -> None:
+        """Remove the line."""
+        self._stopped.set()
+        self._thread.join()
+        self._erase()
+
+
+class _Above(TextIOBase):
+    """A stream of text whose output appears above the line of progress."""
+
+    def __init__(self, line: _ProgressLine, stream: TextIO) -> None:
+        self._line, self._stream = line, stream
+
+    def write(self, text: str) -> int:
+        return self._line.print_above(self._stream, text)
+
+    def flush(self) -> None:
+        self._stream.flush()
+
+    def isatty(self) -> bool:
+        return self._stream.isatty()
+
+    def fileno(self) -> int:
+        return self._stream.fileno()
+
+
+def progress_text(what: str, done: int, total: int, elapsed: float) -> str:
+    """Return the line of progress after `elapsed` seconds: name, percent and remaining time, or the time so far."""
+    share = min(1.0, done / total) if total > 0 else 0.0
+    if share == 0.0:
+        return f"{what}: {elapsed:.0f} s"
+    if share < MIN_SHARE:
+        return f"{what}: {100.0 * share:.0f} %"
+    return f"{what}: {100.0 * share:.0f} %, about {elapsed * (1.0 - share) / share:.0f} s left"
 
 
 @contextmanager
-def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Callable[[int], None]]:
-    """Yield a function that shows how many of `total` units are done, on a bar with the name `what`.
+def progress_bar(what: str, total: int = 0) -> Iterator[Callable[[int], None]]:
+    """Yield a function that takes how many of `total` units are done; `total` 0 shows the time so far.
 
-    Nothing is shown if `enabled` is false, stderr is not a terminal, or rich (the `live` extra) is not installed."""
-    if not enabled or not sys.stderr.isatty():
+    After FIRST_UPDATE a line with the name `what` appears on stderr if that is a terminal; it is removed at the end."""
+    if not sys.stderr.isatty() or isinstance(sys.stderr, _Above):
         yield _ignore
         return
+    stdout, stderr = sys.stdout, sys.stderr
+    line = _ProgressLine(stderr, what, total)
+
+    def show(done: int) -> None:
+        line.done = done
+
     try:
-        from rich.console import Console
-        from rich.progress import Progress
-    except ImportError:
-        yield _ignore
-        return
-    # rich prints text for a terminal above the bar; text for a file must stay as it is
-    redirect_stdout = sys.stdout.isatty()
-    with Progress(console=Console(stderr=True), transient=True, redirect_stdout=redirect_stdout) as bar:
-        task = bar.add_task(what, total=total)
-        updated_at = 0.0
-
-        def show(done: int) -> None:
-            nonlocal updated_at
-            if (now := monotonic()) - updated_at > UPDATE_INTERVAL:
-                updated_at = now
-                bar.update(task, completed=done)
-
+        # text for a file stays as it is; text for a terminal appears above the line
+        if stdout.isatty():
+            sys.stdout = _Above(line, stdout)
+        sys.stderr = _Above(line, stderr)
         yield show
+    finally:
+        sys.stdout, sys.stderr = stdout, stderr
+        line.stop()
 
 
 def _ignore(done: int) -> None:
-    """Do nothing, since no bar is shown."""
+    """Do nothing, since no progress is shown."""

@@ -14,6 +14,8 @@ from ..places import MAX_LISTED, PlaceCounts
 from .gait import gait_lines
 from .table import counted, milliseconds, number, table, times
 
+NO_DATA = "no data from either foot"
+
 
 def summary(observer: Observer, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that computing it took."""
@@ -39,19 +41,28 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
 def _foot_table(observer: Observer) -> list[str]:
     """Return a table of the feet, and lines about missing samples."""
     if not observer.known_feet:
-        return ["no data from either foot"]
+        return [NO_DATA]
     header = ["foot", "samples", "Hz", "strides", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
-    rows, missing = [], []
+    rows = []
     for foot in observer.known_feet:
         counts = observer.feet.get(foot, FootCounts())
         link = observer.links.get(SITE_OF_FOOT[foot], LinkLedger())
         row = [f"{foot}", str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
         rows.append([*row, *[str(counts.events[name]) for name in GAIT_EVENTS.values()]])
+    return ["", table(header, rows), "", *sample_lines(observer)]
+
+
+def sample_lines(observer: Observer) -> list[str]:
+    """Return lines about missing samples and the strides that they degrade; none if no sample is missing."""
+    lines = []
+    for foot in observer.known_feet:
+        counts = observer.feet.get(foot, FootCounts())
+        link = observer.links.get(SITE_OF_FOOT[foot], LinkLedger())
         if link.gaps:
-            missing.append(f"{foot}: {counted(link.gaps, 'gap')} in the samples, {link.gap_time:.2f} s in all")
+            lines.append(f"{foot}: {counted(link.gaps, 'gap')} in the samples, {link.gap_time:.2f} s in all")
         if counts.degraded:
-            missing.append(f"{foot}: {counts.degraded} of {counts.strides} strides degraded")
-    return ["", table(header, rows), "", *missing]
+            lines.append(f"{foot}: {counts.degraded} of {counts.strides} strides degraded")
+    return lines
 
 
 def fused_stride(observer: Observer) -> list[str]:

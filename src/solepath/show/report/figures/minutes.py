@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from ...tables.plan import px
+from ...tables.svg import px
 from ..markup import add, figure
 from .axes import Chart, drawing, padded_range, write
 

@@ -4,11 +4,12 @@ A contact is the time from heel-strike to toe-off."""
 
 from __future__ import annotations
 
-from math import hypot
+from math import fsum, hypot
 from xml.etree.ElementTree import Element
 
 from ....types import Foot, Layout
-from ...tables.plan import blend, px
+from ...tables.plan import blend
+from ...tables.svg import px
 from ..markup import add, figure, table
 from ..soles import STATIONS, ReportSole
 from .axes import Chart, drawing, line, padded_range, write
@@ -92,9 +93,9 @@ def _map(
         _sole(svg, foot, layout, shares, soles[foot] if paths else None)
     y = SOLE_HEIGHT + 40.0
     for k in range(30):
-        add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
-    write(svg, 104.0, y + 9.0, "0", "tick", "end")
-    write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
+        add(svg, "rect", x=px(50.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
+    write(svg, 44.0, y + 10.0, "0", "tick", "end")
+    write(svg, 238.0, y + 10.0, f"{highest:.3g} {unit} a cell", "tick")
     notes = [f"{text[0].upper()}{text[1:]}." for text in texts]
     if paths:
         notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single strides.")
@@ -150,18 +151,15 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
 def _thirds(parent: Element, maps: dict[Foot, Layout], loads: dict[Foot, list[float]]) -> None:
     """Add a table of the shares of the load, %, on the three thirds of the insole's length."""
     rows = []
-    for k, name in enumerate(THIRDS):
-        row = [f"{name} third, %"]
-        for foot in Foot:
-            if foot not in maps or sum(loads[foot]) <= 0.0:
-                row.append("-")
-                continue
-            inside = [
-                load
-                for cell, load in zip(maps[foot].cells, loads[foot], strict=True)
-                if min(max(int(3.0 * cell.x / maps[foot].length), 0), 2) == k
-            ]
-            row.append(f"{100.0 * sum(inside) / sum(loads[foot]):.0f}")
-        rows.append(row)
-    caption = "Share of the mean load, by thirds of the insole's length"
-    table(parent, caption, ("part", "left", "right"), rows, "numbers thirds")
+    for foot, layout in maps.items():
+        total = fsum(loads[foot])
+        if total <= 0.0:
+            continue
+        shares = []
+        for k in range(len(THIRDS)):
+            pairs = zip(layout.cells, loads[foot], strict=True)
+            inside = [load for cell, load in pairs if min(max(int(3.0 * cell.x / layout.length), 0), 2) == k]
+            shares.append(f"{100.0 * fsum(inside) / total:.0f} %")
+        rows.append([foot.value, *shares])
+    if rows:
+        table(parent, "Mean load by thirds of the length", ("foot", *THIRDS), rows, "numbers thirds")

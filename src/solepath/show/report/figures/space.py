@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from math import ceil, cos, floor, radians, sin
 from xml.etree.ElementTree import Element
 
-from ...tables.plan import px
+from ...tables.svg import px
 from ..markup import add, figure
 from .axes import WIDTH, Point, drawing, line, tick_labels, ticks, write
 from .track import TimedPosition

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 from ....events import GaitCycleMeasured
 from ....types import Foot
-from ...tables.plan import px
+from ...tables.svg import px
 from ..clock import ReportClock
 from ..markup import add, figure
 from .axes import Chart, drawing, padded_range, write
@@ -37,12 +37,12 @@ def stride_figures(parent: Element, strides: dict[Foot, list[GaitCycleMeasured]]
         if any(values.values()):
             _panel(parent, title, unit, values, clock)
     all_strides = [stride for foot_strides in strides.values() for stride in foot_strides]
-    notes = ["faint, strides that do not count in the table"] if any(not one.steady for one in all_strides) else []
-    notes += ["ticks at the bottom, strides in a turn"] if any(map(is_in_turn, all_strides)) else []
-    notes += ["ticks at the top, degraded strides"] if any(one.degraded for one in all_strides) else []
+    notes = ["faint, not in the table"] if any(not one.steady for one in all_strides) else []
+    notes += ["ticks at the bottom, in a turn"] if any(map(is_in_turn, all_strides)) else []
+    notes += ["ticks at the top, degraded"] if any(one.degraded for one in all_strides) else []
     notes += ["lines, means"] if any(map(is_dense, strides.values())) else []
     if notes:
-        add(parent, "p", f"In the figures of strides: {'; '.join(notes)}.", class_="note")
+        add(parent, "p", f"Strides: {'; '.join(notes)}.", class_="note")
     return True
 
 
@@ -93,7 +93,8 @@ def _panel(
     if degraded:
         add(svg, "path", class_="missing", d="".join([f"M{px(chart.x.at(t))} {px(chart.y.end)}v5" for t in degraded]))
     legend(svg, [foot for foot in Foot if pairs.get(foot)])
-    figure(parent, svg, f"{title} over time")
+    element = figure(parent, svg, f"{title} over time")
+    element.set("class", f"stride-{title.split()[-1].lower()}")
 
 
 def legend(svg: Element, feet: Sequence[Foot], *, lines: bool = False) -> None:

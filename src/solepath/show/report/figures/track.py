@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Callable, Mapping, Sequence
+from math import fsum
 from xml.etree.ElementTree import Element
 
 from attrs import evolve
@@ -13,7 +14,8 @@ from attrs import evolve
 from ....events import FootMoved, Placed, PlaceLost, StrideTaken, WearerMoved
 from ....floorplan.plan import FloorPlan
 from ....types import Foot
-from ...tables.plan import PlanPicture, px
+from ...tables.plan import PANEL_GAP, PlanPicture
+from ...tables.svg import px
 from ..clock import ReportClock
 from ..markup import add, figure
 from .axes import WIDTH, AxisScale, Chart, Point, drawing, grid, line, marks, padded_range, tick_labels, ticks, write
@@ -23,6 +25,12 @@ MAX_FOOTPRINTS = 160
 """Largest number of footprints, the positions of foot-flats, that are drawn; more would hide the track."""
 MAX_HEIGHT = 420.0
 """Largest height of the drawing of a track, px."""
+WIDE_WIDTH, MAX_WIDE_HEIGHT = 840.0, 440.0
+"""Width and largest height of the drawing for wide screens and paper, px."""
+MAX_ROOMS = 12
+"""Largest number of rooms that are named below the plan."""
+MIN_RISE = 0.5
+"""Least range of heights that is drawn over time, m; below it the way is level."""
 MAX_OFFSET = 1.2
 """Distance of a footprint from the wearer's track above which no footprints are drawn, m: the tracks drift apart."""
 MIN_EXTENT = 4.0
@@ -38,55 +46,81 @@ FootPositions = Mapping[Foot, Sequence[TimedPosition]]
 
 
 def track_figure(
-    parent: Element, track: Sequence[TimedPosition], footprints: FootPositions, clock: ReportClock
+    parent: Element,
+    track: Sequence[TimedPosition],
+    footprints: FootPositions,
+    clock: ReportClock,
+    *,
+    wide: bool = True,
+    name: str = "track",
+    title: str = "Track from above",
 ) -> bool:
     """Draw the track from above, x to the right and y up; return False when there is none.
 
-    `track` is the wearer's or, if that is not known, the track of a foot."""
-    is_few = sum([len(prints) for prints in footprints.values()]) <= MAX_FOOTPRINTS
-    offset = _largest_offset(track, footprints)
-    shows_footprints = is_few and offset <= MAX_OFFSET
-    shown = [*track, *(event for prints in footprints.values() for event in prints if shows_footprints)]
+    `track` is the wearer's or, if that is not known, the track of a foot. A `wide` figure also holds a drawing for wide
+    screens and for paper."""
     if len(track) < 2:
         return False
+    is_few = sum([len(prints) for prints in footprints.values()]) <= MAX_FOOTPRINTS  # whole numbers
+    offset = _largest_offset(track, footprints)
+    shown_prints = footprints if is_few and offset <= MAX_OFFSET else {}
+    notes = ["x along the first heading; the numbers along the way are times."]
+    if any(shown_prints.values()):
+        notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
+    if offset > MAX_OFFSET:
+        notes.append(f"The tracks of the single feet come to lie up to {offset:.1f} m off it and are not shown.")
+    narrow = _drawn(name, title, track, shown_prints, clock, WIDTH, MAX_HEIGHT)
+    element = figure(parent, narrow, title, *notes)
+    if wide:
+        narrow.set("class", "narrow")
+        drawn = _drawn(f"{name}-wide", title, track, shown_prints, clock, WIDE_WIDTH, MAX_WIDE_HEIGHT)
+        drawn.set("class", "wide")
+        element.insert(0, drawn)
+    return True
+
+
+def _drawn(
+    name: str,
+    title: str,
+    track: Sequence[TimedPosition],
+    footprints: FootPositions,
+    clock: ReportClock,
+    width: float,
+    max_height: float,
+) -> Element:
+    """Return a drawing of a track, `width` px wide and at most `max_height` px high."""
+    shown = [*track, *(event for prints in footprints.values() for event in prints)]
     xs, ys = [event.position[0] for event in shown], [event.position[1] for event in shown]
     across, up = max(xs) - min(xs), max(ys) - min(ys)
     margin = max(MARGIN_SHARE * max(across, up), MIN_MARGIN)
     middle = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
     width_m = max(across + 2.0 * margin, MIN_EXTENT)
-    top, left, right, bottom = 10.0, 34.0, 8.0, 34.0
-    inner_width = WIDTH - left - right
-    height_m = max(up + 2.0 * margin, MIN_ASPECT * width_m)
-    scale = min(inner_width / width_m, (MAX_HEIGHT - top - bottom) / height_m)
+    top, left, right, bottom = 16.0, 40.0, 8.0, 38.0
+    inner_width = width - left - right
+    height_m = max(up + 2.0 * margin, MIN_ASPECT * width_m * WIDTH / width)
+    scale = min(inner_width / width_m, (max_height - top - bottom) / height_m)
     width_m, height = inner_width / scale, height_m * scale + top + bottom
-    x = AxisScale(middle[0] - 0.5 * width_m, middle[0] + 0.5 * width_m, left, WIDTH - right)
+    x = AxisScale(middle[0] - 0.5 * width_m, middle[0] + 0.5 * width_m, left, width - right)
     y = AxisScale(middle[1] - 0.5 * height_m, middle[1] + 0.5 * height_m, height - bottom, top)
-    length = sum([_distance(a, b) for a, b in zip(track, track[1:], strict=False)])
+    length = fsum([_distance(a, b) for a, b in zip(track, track[1:], strict=False)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
-    svg = drawing("track", "Track from above", what, height)
+    svg = drawing(name, title, what, height, width)
     _grid(svg, x, y)
 
     def point_of(event: TimedPosition) -> Point:
         return x.at(event.position[0]), y.at(event.position[1])
 
     add(svg, "path", d=line([point_of(event) for event in track]), class_="way")
-    if shows_footprints:
-        for foot, prints in footprints.items():
-            if d := marks([point_of(event) for event in prints], FOOT_MARKS[foot]):
-                add(svg, "path", d=d, class_=f"mark {foot}")
+    for foot, prints in footprints.items():
+        if d := marks([point_of(event) for event in prints], FOOT_MARKS[foot]):
+            add(svg, "path", d=d, class_=f"mark {foot}")
     _times(svg, track, point_of, clock)
-    for event, word, offset_y in ((track[0], "start", -6.0), (track[-1], "end", 13.0)):
+    for event, word, offset_y in ((track[0], "start", -8.0), (track[-1], "end", 17.0)):
         a, b = point_of(event)
         add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
-        offset_x, anchor = (-8.0, "end") if a > 0.85 * WIDTH else (8.0, "start")
+        offset_x, anchor = (-8.0, "end") if a > 0.85 * width else (8.0, "start")
         write(svg, a + offset_x, b + offset_y, word, "halo strong", anchor)
-    notes = ["x along the first heading; the numbers along the way are times."]
-    if shows_footprints and any(footprints.values()):
-        notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
-    if offset > MAX_OFFSET:
-        notes.append(f"The tracks of the single feet come to lie up to {offset:.1f} m off it and are not shown.")
-    figure(parent, svg, "Track from above", *notes)
-    return True
+    return svg
 
 
 def _largest_offset(track: Sequence[TimedPosition], footprints: FootPositions) -> float:
@@ -112,7 +146,7 @@ def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
     step = marked[1] - marked[0] if len(marked) > 1 else 1.0
     up = [k * step for k in range(int(y.low // step) + 1, int(y.high // step) + 1)]
     grid(svg, x, y, marked, up)
-    write(svg, 0.5 * (x.start + x.end), y.start + 29.0, "x and y, m", "label", "middle")
+    write(svg, 0.5 * (x.start + x.end), y.start + 33.0, "x and y, m", "label", "middle")
 
 
 def _times(
@@ -127,18 +161,20 @@ def _times(
     for value, words in zip(tick_times, tick_labels(tick_times), strict=True):
         nearest = min(track, key=lambda event: abs(clock.axis_value(event.t) - value))
         a, b = point_of(nearest)
-        if all(abs(a - c) > 36.0 or abs(b - d) > 14.0 for c, d in labelled):
+        if all(abs(a - c) > 44.0 or abs(b - d) > 18.0 for c, d in labelled):
             labelled.append((a, b))
             add(svg, "circle", cx=px(a), cy=px(b), r="2.4", class_="time")
             write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
 
 
 def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -> bool:
-    """Draw the height of each stationary foot over time, m; return False when there is none."""
+    """Draw the height of each stationary foot over time, m; return False when it is level."""
     curves = {foot: events for foot, events in heights.items() if len(events) > 1}
     if not curves:
         return False
     values = [event.position[2] for events in curves.values() for event in events]
+    if max(values) - min(values) < MIN_RISE:
+        return False
     what = f"Height of the standing feet over time, {min(values):.2f} to {max(values):.2f} m from where they began."
     svg = drawing("height", "Height over time", what, 180.0)
     chart = Chart.of(svg, clock.span, padded_range(values, least=1.0), (clock.label, "height, m"), 180.0)
@@ -159,15 +195,31 @@ def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | Plac
     visited = {place.level for place in places}
     levels = tuple([level for level in plan.levels if level.id in visited])
     shown = evolve(plan, levels=levels) if levels else plan
-    picture = PlanPicture(shown, width=380.0, height=420.0, columns=1)
+    wide, narrow = [_plan_picture(shown, events, *size) for size in ((WIDE_WIDTH, 440.0, 2), (380.0, 420.0, 1))]
+    wide.set("class", "plan wide")
+    narrow.set("class", "plan narrow")
+    notes = ["Colours go from the start to the end; dots are candidates, the fainter the less likely."]
+    rooms = list(dict.fromkeys([place.room for place in places if place.room and len(place.candidates) == 1]))
+    if rooms:
+        more = f" and {len(rooms) - MAX_ROOMS} more" if len(rooms) > MAX_ROOMS else ""
+        notes.append(f"On the way: {', '.join(rooms[:MAX_ROOMS])}{more}.")
+    if len(levels) < len(plan.levels):
+        notes.append("Levels where the wearer was not are left out.")
+    figure(parent, narrow, "Track on the floor plan", *notes).insert(0, wide)
+    return True
+
+
+def _plan_picture(
+    plan: FloorPlan, events: Sequence[Placed | PlaceLost], width: float, height: float, columns: int
+) -> Element:
+    """Return the drawing of the places on the plan, with at most so many levels side by side."""
+    columns = min(columns, max(len(plan.levels), 1))
+    picture = PlanPicture(plan, width=(width - (columns - 1) * PANEL_GAP) / columns, height=height, columns=columns)
     for event in events:
         picture.add(event)
     svg = picture.drawn(plan.name or "Floor plan")
     svg.set("role", "img")
-    svg.set("class", "plan")
-    del svg.attrib["xmlns"], svg.attrib["width"], svg.attrib["height"], svg.attrib["font-family"]
-    notes = ["Colours go from the start to the end; dots are candidates, the fainter the less likely."]
-    if len(levels) < len(plan.levels):
-        notes.append("Levels where the wearer was not are left out.")
-    figure(parent, svg, "Track on the floor plan", *notes)
-    return True
+    for name in ("xmlns", "width", "height", "font-family"):
+        del svg.attrib[name]
+    svg.set("id", f"solepath-plan-{columns}-{width:.0f}")
+    return svg

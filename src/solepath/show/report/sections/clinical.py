@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
-from ..outcomes.clinic import (
+from ...outcomes.clinic import (
     INTERVAL_HEADER,
     LABEL,
     MAX_BOUTS,
     NEEDED,
+    NO_BOUT,
     NO_STEP,
     SENSORS,
     UP_AND_GO_NOTE,
@@ -18,16 +19,15 @@ from ..outcomes.clinic import (
     interval_row,
     walk_sentence,
 )
-from ..outcomes.rows import MOBILITY, OF_STRIDES, SIX_MINUTE_WALK, UP_AND_GO, OutcomeRow
-from .figures.minutes import minutes_figure
-from .markup import add, section, table
+from ...outcomes.rows import MOBILITY, OF_STRIDES, SIX_MINUTE_WALK, UP_AND_GO, OutcomeRow
+from ..figures.minutes import minutes_figure
+from ..markup import add, section, table, whole_sentences
 
 SIX_MINUTE_NOTE = (
     "The distance is the mean of what both feet went, stride by stride, turns included (ATS 2002 counts lengths of a "
     "course). Stops are breaks of more than 3 s."
 )
 BOUT_HEADER = ("bout", "start, s", "duration, s", "strides", "steps", "turns", "steps/min", "length, m", "speed, m/s")
-NO_BOUT = "There is no walking bout: none has four strides without a break of more than 3 s."
 TOO_FEW = "There are too few steady strides for variability and asymmetry: four of a foot are needed."
 
 
@@ -58,7 +58,7 @@ def clinical_sections(main: Element, clinic: Clinic) -> None:
         if results.bouts:
             table(parent, "Walking bouts", BOUT_HEADER, [bout_row(bout) for bout in results.bouts[:MAX_BOUTS]])
         else:
-            add(parent, "p", NO_BOUT)
+            add(parent, "p", whole_sentences([NO_BOUT])[0])
         if len(results.bouts) > MAX_BOUTS:
             add(parent, "p", f"and {len(results.bouts) - MAX_BOUTS} more bouts", class_="note")
         _table(parent, "Mobility outcomes", results.part(MOBILITY))

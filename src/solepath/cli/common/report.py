@@ -1,0 +1,80 @@
+"""Defines the options of `solepath track` for the report, and makes the empty report that they describe."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ...recording import Source, printable, read_start_time
+from .failure import Failure
+from .outcomes import band_files_of, person_of
+
+if TYPE_CHECKING:
+    from ...floorplan.plan import FloorPlan
+    from ...show.report import Report
+
+DETAILS = {
+    "title": "heading of the report (default: walk of its date, if that is known)",
+    "subject": "whom the report is of: a person, a code, a test",
+    "date": "date of the walk, as in 2026-11-26 (default: that of the recording, if it has one)",
+    "device": "what was worn, as in 'insoles, size 42'",
+}
+"""Options that only the report shows, with their help."""
+
+
+def add_report(command: argparse.ArgumentParser) -> None:
+    """Add --report and the options that go with it to a command."""
+    command.add_argument(
+        "--report", metavar="FILE", type=Path, help="write figures and the gait table into one HTML file, to be mailed"
+    )
+    group = command.add_argument_group("the report", "what --report shows besides the walk (docs/report.md)")
+    for name, text in DETAILS.items():
+        group.add_argument(f"--{name}", metavar="TEXT", help=text)
+    group.add_argument(
+        "--compare",
+        metavar="BEFORE",
+        type=Path,
+        action="append",
+        help="an earlier recording to compare with, run with the same recipe; twice for the files of two feet",
+    )
+
+
+def check_report_options(options: argparse.Namespace) -> None:
+    """Raise Failure if an option goes with a report and there is none."""
+    given = [name for name in (*DETAILS, "compare") if getattr(options, name) is not None]
+    if given and options.report is None:
+        raise Failure(f"--{given[0]} goes with --report")
+
+
+def report_of(
+    options: argparse.Namespace, source: Source, *, recipe: str, plan: FloorPlan | None = None, before: Report | None
+) -> Report | None:
+    """Return the report that the options describe, before anything was measured; None without --report."""
+    if options.report is None:
+        return None
+    from ...show.report import Report, ReportDetails
+    from ...show.report.bands import BandError, mean_bands, read_bands
+
+    bands = mean_bands(person_of(options))
+    for path in band_files_of(options):
+        try:
+            bands |= read_bands(path)
+        except BandError as error:
+            raise Failure(str(error)) from None
+    return Report(
+        printable(source.name),
+        plan,
+        recipe,
+        start_text(source),
+        details=ReportDetails(**{name: getattr(options, name) or "" for name in DETAILS}),
+        bands=bands,
+        calibrated=options.calibration is not None,
+        before=before,
+    )
+
+
+def start_text(source: Source) -> str:
+    """Return the date and time at which the recording started, as text; "" if they are not known."""
+    moment = read_start_time(source.header)
+    return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"

@@ -1,0 +1,142 @@
+"""Puts a report together: what somebody with ten seconds reads, then details, definitions and how it was made."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+from ..collected import CollectedWalk
+from ..figures.activity import activity_figure
+from ..figures.cycle import cycle_figure
+from ..figures.pressure import pressure_figures
+from ..figures.space import space_figure
+from ..figures.stride import stride_figures
+from ..figures.track import height_figure, plan_figure, track_figure
+from ..markup import add, section, sentences, skeleton, table, whole_sentences
+from ..words import defects, limitations, link_rows, overview, problems, sensors
+from .comparison import comparison
+from .facts import facts_of
+from .gait_table import NO_STEADY, NO_STRIDE, definitions, gait_tables
+from .heading import add_heading, add_making, title_of
+from .headline import headline, warning
+from .key_figures import key_figures
+from .quality import QualityVerdict, overall, quality_box
+
+NO_PLACE = "Where on the floor plan the wearer was is not known."
+NO_TRACK = "There is no track: no foot with a motion sensor took two strides."
+
+
+def page_of(report: CollectedWalk) -> Element:
+    """Return the page of a report as an <html> element."""
+    facts = facts_of(report)
+    title = title_of(report.details, report.when, facts.kind)
+    html, main = skeleton(title)
+    add_heading(main, title, report.details, report.when)
+    add(main, "p", headline(facts.walk), class_="headline")
+    if words := warning(facts.judgements):
+        stops = any(one.verdict is QualityVerdict.STOP for one in facts.judgements)
+        add(main, "p", words, class_="warning" if stops else "warning look")
+    if facts.measures:
+        parent = section(main, "figures", "Figures")
+        key_figures(parent, facts.measures, report.bands, facts.difference_words)
+    if facts.judgements:
+        parent = section(main, "quality", f"Quality: {overall(facts.judgements)}")
+        quality_box(parent, facts.judgements)
+    _ways(main, report)
+    if facts.walk.has_data:
+        _course(main, report)
+    details = add(main, "div", class_="details" if report.before is None else "details compared")
+    if report.before is not None:
+        comparison(details, report.before, report, facts)
+    if report.clinic is not None:
+        from .clinical import clinical_sections
+
+        clinical_sections(details, report.clinic)
+    _gait(details, report)
+    if any(sole.samples for sole in report.soles.values()):
+        parent = section(details, "pressure", "Pressure")
+        pressure_figures(add(parent, "div", class_="figures thirds"), report.soles)
+    _health(details, report)
+    if report.observer.gait.of(False) is not None or report.observer.gait.of(True) is not None:
+        parent = section(details, "definitions", "Definitions and sources")
+        definitions(parent, report.observer.gait, difference=bool(facts.difference_words))
+    parent = section(details, "making", "How this report was made")
+    add_making(parent, _making(report))
+    return html
+
+
+def _ways(main: Element, report: CollectedWalk) -> None:
+    """Add the section with plan, track and heights, over the whole width."""
+    track = report.track
+    places = list(report.places)
+    if len(track) < 2 and report.plan is None:
+        return
+    parent = section(main, "track-part", "Where the wearer went")
+    figures = add(parent, "div", class_="ways")
+    has_plan = report.plan is not None and plan_figure(figures, report.plan, places)
+    if report.plan is not None and not has_plan:
+        add(figures, "p", NO_PLACE)
+    if not has_plan and not track_figure(figures, track, report.foot_tracks, report.clock):
+        add(figures, "p", NO_TRACK)
+
+
+def _gait(parent: Element, report: CollectedWalk) -> None:
+    if not any(strides.count for strides in report.strides.values()):
+        return
+    parent = section(parent, "gait", "Gait")
+    if not gait_tables(parent, report.observer.gait):
+        any_stride = any(strides.count for strides in report.strides.values())
+        add(parent, "p", NO_STEADY if any_stride else NO_STRIDE)
+    figures = add(parent, "div", class_="figures")
+    for running in (False, True):
+        parameters = report.observer.gait.of(running)
+        if parameters is not None:
+            cycle_figure(figures, parameters)
+    stride_figures(figures, {foot: list(strides) for foot, strides in report.strides.items()}, report.clock)
+
+
+def _course(parent: Element, report: CollectedWalk) -> None:
+    """Add the course of the recording: its sentences, and the activities."""
+    parent = section(parent, "course", "Course of the recording")
+    counts = {foot: strides.count for foot, strides in report.strides.items()}
+    figures = add(parent, "div", class_="figures")
+    sentences(figures, overview(report.observer, report.clock, counts))
+    activity_figure(figures, report.observer.timeline.spans(report.clock.end), report.clock)
+    track = report.track
+    if report.places.count:
+        track_figure(figures, track, report.foot_tracks, report.clock, wide=False)
+    space_figure(figures, track)
+    height_figure(figures, {foot: list(heights) for foot, heights in report.heights.items()}, report.clock)
+
+
+def _health(parent: Element, report: CollectedWalk) -> None:
+    observer = report.observer
+    header, *rows = link_rows(observer)
+    if not rows:
+        return
+    parent = section(parent, "health", "Sensors and links")
+    table(parent, "From each sensor", header, rows, "numbers links")
+    if observer.defects:
+        add(parent, "h3", "Cannot be right")
+        sentences(parent, defects(observer))
+    faults = [fault for fault in problems(observer) if fault not in whole_sentences(observer.defects)]
+    if faults:
+        add(parent, "h3", "Missing or wrong")
+        sentences(parent, faults)
+    if not faults and not observer.defects:
+        add(parent, "p", "Nothing was wrong with the sensors and their links.")
+    limits = limitations(observer)
+    if limits:
+        add(parent, "h3", "Done without")
+        sentences(parent, limits)
+
+
+def _making(report: CollectedWalk) -> list[tuple[str, str]]:
+    clock = report.clock
+    times = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if report.event_span else ""
+    return [
+        ("Recording", ", ".join([words for words in (report.source, times) if words])),
+        ("Start", report.when),
+        ("Sensors", sensors(report.observer)),
+        ("Recipe", report.recipe),
+        ("Made by", f"solepath {report.version}".rstrip()),
+    ]

@@ -1,0 +1,158 @@
+"""Judges how well a walk was measured, in words: good, look at, do not use.
+
+Limits without a source were chosen by hand and not swept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from enum import Enum
+from xml.etree.ElementTree import Element
+
+from attrs import frozen
+
+from ....events import Defect, DefectFound
+from ....types import SITE_OF_FOOT, Foot, Site
+from ...observer import Observer
+from ...tables.gait import MIN_STRIDES
+from ...tables.summary import wear_lines
+from ...tables.table import counted, number, times
+from ..markup import add, whole_sentences
+
+GOOD_GAP_SHARE, MAX_GAP_SHARE = 0.01, 0.25
+"""Share of time without samples up to which a recording is complete, and above which its figures should not be used."""
+
+
+class QualityVerdict(Enum):
+    """A judgement of one part of the measurement; the value is its word."""
+
+    GOOD = "good"
+    NOTE = "note"
+    LOOK = "look at"
+    STOP = "do not use"
+
+
+@frozen
+class Judgement:
+    """The verdict on one part of the measurement, and what was found."""
+
+    part: str
+    verdict: QualityVerdict
+    words: str
+    concern: str = ""
+    """Concern to check before the figures are used; "" if the part is good."""
+
+
+@frozen(kw_only=True)
+class MeasuredWalk:
+    """All that is judged."""
+
+    observer: Observer
+    found: int
+    """Number of gait cycles of both feet."""
+    used: int
+    """Number of them in the means."""
+    duration: float
+    """Duration of the recording, s."""
+    defects: Mapping[tuple[Site, Defect], DefectFound]
+    clocks_compared: bool
+    """True if the gait means have a value that compares the times of the feet."""
+    calibrated: bool
+
+
+def judgements(walk: MeasuredWalk) -> list[Judgement]:
+    """Return the judgement of each part that there is anything to say about."""
+    if not walk.observer.known_feet:
+        return []
+    parts = [_strides(walk), _samples(walk), _clocks(walk), _plausibility(walk), _wear(walk), _calibration(walk)]
+    return [part for part in parts if part is not None]
+
+
+def overall(parts: Sequence[Judgement]) -> str:
+    """Return the worst verdict in words."""
+    verdicts = [part.verdict for part in parts]
+    if QualityVerdict.STOP in verdicts:
+        return "do not use before it is checked"
+    looks = verdicts.count(QualityVerdict.LOOK)
+    return f"look at {counted(looks, 'point')}" if looks else "good"
+
+
+def quality_box(parent: Element, parts: Sequence[Judgement]) -> None:
+    """Add a list of the parts, each with its verdict in a word of its own colour."""
+    box = add(parent, "dl", class_="quality")
+    for part in parts:
+        row = add(box, "div")
+        name = add(row, "dt")
+        add(name, "span", part.part)
+        add(name, "strong", part.verdict.value, class_=f"verdict {part.verdict.name.lower()}")
+        add(row, "dd", part.words)
+
+
+def _strides(walk: MeasuredWalk) -> Judgement:
+    if not walk.found:
+        return Judgement("strides", QualityVerdict.LOOK, "No stride was found.", "no strides")
+    words = f"{walk.used} of {counted(walk.found, 'stride')} are steady and count."
+    if walk.used >= MIN_STRIDES:
+        return Judgement("strides", QualityVerdict.GOOD, words)
+    words += f" Figures settle with {MIN_STRIDES} (Galna et al. 2013)."
+    return Judgement("strides", QualityVerdict.LOOK, words, "few strides")
+
+
+def _samples(walk: MeasuredWalk) -> Judgement:
+    missing, worst = [], 0.0
+    for foot in walk.observer.known_feet:
+        link = walk.observer.links.get(SITE_OF_FOOT[foot])
+        if link is not None and link.gaps:
+            share = link.gap_time / walk.duration if walk.duration > 0.0 else 0.0
+            worst = max(worst, share)
+            shown = f"{100.0 * share:.1f} %" if share >= 0.0005 else "less than 0.1 %"
+            missing.append(f"{foot} {number(link.gap_time)} s ({shown}) in {counted(link.gaps, 'gap')}")
+    silences = walk.observer.silences.total()
+    if silences:
+        missing.append(f"a foot was silent {times(silences)} while the other walked on")
+    if not missing:
+        return Judgement("samples", QualityVerdict.GOOD, "None is missing.")
+    verdict = QualityVerdict.GOOD if worst <= GOOD_GAP_SHARE and not silences else QualityVerdict.LOOK
+    verdict = QualityVerdict.STOP if worst > MAX_GAP_SHARE else verdict
+    return Judgement("samples", verdict, f"Missing: {'; '.join(missing)}.", "missing samples")
+
+
+def _clocks(walk: MeasuredWalk) -> Judgement | None:
+    part = "clocks"
+    for (_, defect), event in walk.defects.items():
+        if defect is Defect.CLOCKS:
+            words = " ".join(whole_sentences([f"{event.site.words}: {event.what}"]))
+            return Judgement(part, QualityVerdict.LOOK, words, "the clocks of the feet")
+    resets = sum([link.clock_resets for link in walk.observer.links.values()])  # whole numbers
+    if resets:
+        return Judgement(part, QualityVerdict.LOOK, f"A sensor's clock restarted {times(resets)}.", "restarted clocks")
+    if len(walk.observer.known_feet) < len(Foot) or not walk.found:
+        return None
+    if walk.clocks_compared:
+        return Judgement(part, QualityVerdict.GOOD, "The times of both feet fit together.")
+    words = "The times of the feet could not be compared."
+    return Judgement(part, QualityVerdict.LOOK, words, "the clocks of the feet")
+
+
+def _plausibility(walk: MeasuredWalk) -> Judgement:
+    part, found = "plausibility", [one for key, one in walk.defects.items() if key[1] is not Defect.CLOCKS]
+    if not found:
+        return Judgement(part, QualityVerdict.GOOD, "Nothing contradicts itself or physics.")
+    verdict = QualityVerdict.STOP if any(one.spoils for one in found) else QualityVerdict.LOOK
+    words = whole_sentences([f"{one.site.words}: {one.defect.value}" for one in found])
+    concern = "data that cannot be right" if verdict is QualityVerdict.STOP else "data that are less accurate"
+    return Judgement(part, verdict, f"{' '.join(words)} What to do is under Sensors and links.", concern)
+
+
+def _wear(walk: MeasuredWalk) -> Judgement | None:
+    lines = [line for line in walk.observer.wear_problems if line in wear_lines(walk.observer)]
+    return (
+        Judgement("wearing", QualityVerdict.LOOK, " ".join(whole_sentences(lines)), "how the sensors are worn")
+        if lines
+        else None
+    )
+
+
+def _calibration(walk: MeasuredWalk) -> Judgement:
+    if walk.calibrated:
+        return Judgement("calibration", QualityVerdict.GOOD, "One of this wearer, these shoes or sensors was used.")
+    return Judgement("calibration", QualityVerdict.NOTE, "None was used: the sensors are taken as they are sold.")

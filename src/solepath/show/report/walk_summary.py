@@ -1,0 +1,136 @@
+"""Sums up a walk for the head of its report: how far and how long by activity, measures, differences between the feet.
+
+Limits below which a difference is not named have their sources beside them."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
+from math import fsum, sqrt
+
+from attrs import frozen
+
+from ...body.gait.means import Figure, GaitParameters
+from ...events import GaitCycleMeasured
+from ...types import Activity, Foot
+
+LENGTH_ERROR = 0.02
+"""Difference of stride lengths that two good sensors may show, as a share: each has a scale within 1 % by the data
+sheet of a common part (emulate/sensors/parts.py)."""
+EVENT_ERROR = 0.010
+"""Scatter of a foot's heel-strikes within a recording, s: larger than that of toe-offs, on the recorded walks of
+`tripod_treadmill` (docs/accuracy.md, by foot). Swing times of two feet differ by as much without a limp."""
+CLOCK_ERROR = 0.005
+"""Largest difference of two settled clocks, s (docs/gait.md); an asymmetry of step times errs by twice as much."""
+
+MIN_PAIRS = 4
+"""Least number of strides of the right foot between two of the left one; chosen by hand, as in show/outcomes."""
+
+STRIDE_LENGTH, SWING_TIME, STEP_TIME = "stride_length", "swing_time", "step_time"
+
+
+@frozen(kw_only=True)
+class FootDifference:
+    """A difference between the feet in steady strides of walking: (right - left) / mean of both, as a share."""
+
+    name: str
+    value: float
+    half_width: float
+    """Half the width of the 95 % interval of `value`, as a share (paired_difference)."""
+    error: float
+    """Difference that the measurement may show where there is none, as a share."""
+
+    @property
+    def is_certain(self) -> bool:
+        """True if the whole interval is beyond the error of the measurement."""
+        return abs(self.value) - self.half_width > self.error
+
+
+def foot_differences(
+    strides: Sequence[GaitCycleMeasured], parameters: GaitParameters | None
+) -> dict[str, FootDifference]:
+    """Return the differences of stride length, swing time and step time that are known, by their names.
+
+    `strides` are gait cycles in order of time. A difference that `parameters` lack, as step times on separate clocks
+    are, is left out, and so are those of runs."""
+    if parameters is None or parameters.running:
+        return {}
+    known = {}
+    for name in (STRIDE_LENGTH, SWING_TIME, STEP_TIME):
+        figure: Figure | None = getattr(parameters.both, name)
+        estimate = paired_difference(strides, name)
+        if figure is None or estimate is None or figure.mean <= 0.0:
+            continue
+        errors = {SWING_TIME: EVENT_ERROR / figure.mean, STEP_TIME: 2.0 * CLOCK_ERROR / figure.mean}
+        value, half_width = estimate
+        known[name] = FootDifference(
+            name=name, value=value, half_width=half_width, error=errors.get(name, LENGTH_ERROR)
+        )
+    return known
+
+
+def paired_difference(strides: Sequence[GaitCycleMeasured], name: str) -> tuple[float, float] | None:
+    """Return the mean of (right - left) / mean of both, and half the width of its 95 % interval, as shares.
+
+    Each steady stride of the right foot is compared with the mean of the left ones before and after it, so that what
+    both feet have in common, such as a change of speed, does not count. The interval is Student's t, with fewer strides
+    for differences that resemble the one before (show/outcomes/spread.py). None with fewer than MIN_PAIRS."""
+    from ..outcomes.quantiles import student_quantile
+    from ..outcomes.spread import moments, steady_strides
+
+    ordered = sorted(
+        [stride for stride in steady_strides(strides) if getattr(stride, name) is not None],
+        key=lambda stride: stride.t_start,
+    )
+    runs: list[list[float]] = []
+    last_end: float | None = None
+    for before, stride, after in zip(ordered, ordered[1:], ordered[2:], strict=False):
+        if stride.foot is not Foot.RIGHT or before.foot is stride.foot or before.t != after.t_start:
+            continue
+        left, right = 0.5 * (getattr(before, name) + getattr(after, name)), getattr(stride, name)
+        if left + right <= 0.0:
+            continue
+        if last_end != stride.t_start:
+            runs.append([])
+        runs[-1].append(2.0 * (right - left) / (right + left))
+        last_end = stride.t
+    count = sum([len(run) for run in runs])  # whole numbers
+    if count < MIN_PAIRS:
+        return None
+    sample = moments(runs)
+    independent = max(sample.mean_count, 2.0)
+    return sample.mean, student_quantile(independent - 1.0) * sqrt(sample.variance / independent)
+
+
+def gait_spans(
+    spans: Sequence[tuple[float, float, Activity]], strides: Sequence[GaitCycleMeasured]
+) -> dict[bool, list[tuple[float, float]]]:
+    """Return the spans of time in which the wearer walked (False) and ran (True), as (start, end), s.
+
+    Whether it was a run is known best from the strides: a runner's foot is on the ground for less than half of the gait
+    cycle. In spans of walking and running the majority of the strides counts, and without strides the activity."""
+    found: dict[bool, list[tuple[float, float]]] = {False: [], True: []}
+    for start, end, activity in spans:
+        if activity in (Activity.WALKING, Activity.RUNNING):
+            runs = [stride.running for stride in strides if start <= stride.t < end]
+            found[2 * runs.count(True) > len(runs) if runs else activity is Activity.RUNNING].append((start, end))
+    return found
+
+
+def distance_in(
+    spans: Sequence[tuple[float, float]], distances: Mapping[Foot, Sequence[tuple[float, float]]]
+) -> float | None:
+    """Return how far the wearer went in some spans of time, m: the mean of the feet; None without any.
+
+    `distances` has pairs of a time, s, and the distance that the foot has gone until then, m."""
+    lengths = [
+        fsum([_until(pairs, end) - _until(pairs, start) for start, end in spans])
+        for pairs in distances.values()
+        if pairs
+    ]
+    return fsum(lengths) / len(lengths) if lengths else None
+
+
+def _until(pairs: Sequence[tuple[float, float]], t: float) -> float:
+    k = bisect_right(pairs, t, key=lambda pair: pair[0])
+    return pairs[k - 1][1] if k else 0.0

@@ -1,0 +1,62 @@
+"""Tests that a shell completes commands, options, recipes and files of `solepath`."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from commands import one_line, run
+
+from solepath.cli import completion
+from solepath.recipes import NAMES
+
+pytest.importorskip("argcomplete")
+
+
+def completed(line: str, folder: Path) -> set[str]:
+    """Return what bash would offer at the end of a line: the variables are those that its completion sets."""
+    variables = {
+        "_ARGCOMPLETE": "1", "_ARGCOMPLETE_SHELL": "bash", "_ARGCOMPLETE_SUPPRESS_SPACE": "1", "_ARGCOMPLETE_IFS": "\n",
+        "COMP_LINE": line, "COMP_POINT": str(len(line)), "COMP_TYPE": "9",
+        "_ARGCOMPLETE_STDOUT_FILENAME": str(folder / "offers"),
+    }  # fmt: skip
+    subprocess.run([sys.executable, "-m", "solepath"], env=os.environ | variables, check=True)
+    return {offer.strip() for offer in (folder / "offers").read_text().split("\n")}
+
+
+@pytest.mark.parametrize(
+    ("line", "offers"),
+    [
+        ("solepath tr", {"track"}),
+        ("solepath calibrate n", {"noise", "newton"}),
+        ("solepath track walk.jsonl --rec", {"--recipe"}),
+        ("solepath track walk.jsonl --recipe k", {name for name in NAMES if name.startswith("k")}),
+        ("solepath live --recipe shoe", {name for name in NAMES if name.startswith("shoe")}),
+        ("solepath emulate --device cc", {"cc2650", "cc2541", "cc2541-20hz"}),
+        ("solepath reproduce walking", {"walking-modes"}),
+        ("solepath track --format move", {"movella-dot"}),
+        ("solepath live --profile ins", {"insole"}),
+    ],
+)
+def test_the_tab_key_completes(line: str, offers: set[str], tmp_path: Path) -> None:
+    assert completed(line, tmp_path) == offers
+
+
+def test_the_tab_key_completes_files(tmp_path: Path) -> None:
+    (tmp_path / "walk.jsonl").touch()
+    assert completed(f"solepath track {tmp_path}/wa", tmp_path) == {f"{tmp_path}/walk.jsonl"}
+
+
+@pytest.mark.parametrize("shell", completion.SHELLS)
+def test_the_code_for_a_shell_names_the_program(shell: str) -> None:
+    done = run("completion", shell)
+    assert done.returncode == 0 and "solepath" in done.stdout and completion.COMPLETING in done.stdout
+
+
+def test_without_argcomplete_there_is_a_line_that_installs_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("solepath.cli.common.failure.is_installed", lambda package: package != "argcomplete")
+    line = one_line(run("completion", "bash"))
+    assert line.startswith("solepath: completion needs argcomplete: install the extra completion")

@@ -1,0 +1,126 @@
+"""Tests that sixty mistakes of people who use the command line for the first time get one line and status 2."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from commands import one_line, run
+
+RECIPES = "there is no recipe 'cake'; there are: default, kupt-dfpc, "
+
+NAMES = [
+    ("trak walk.jsonl", "there is no command 'trak': did you mean track?"),
+    ("tracks walk.jsonl", "there is no command 'tracks': did you mean track?"),
+    ("Track walk.jsonl", "there is no command 'Track': did you mean track?"),
+    ("fleet", "there is no command 'fleet': did you mean fleet-demo?"),
+    ("replicate", "there is no command 'replicate'"),
+    ("walk.jsonl", "there is no command 'walk.jsonl'; there are: demo, track, check, "),
+    ("--recipe default track walk.jsonl", "there is no option --recipe here: options come after the command"),
+    ("--versoin", "there is no option --versoin: did you mean --version?"),
+    ("help trak", "there is no command 'trak': did you mean track?"),
+    ("track walk.jsonl --recipie default", "there is no option --recipie: did you mean --recipe?"),
+    ("track --recipie default", "there is no option --recipie: did you mean --recipe?"),
+    ("track walk.jsonl --Out x", "there is no option --Out: did you mean --out?"),
+    ("track walk.jsonl --output x", "there is no option --output: did you mean --out?"),
+    ("track walk.jsonl -o x", "there is no option -o: did you mean --out?"),
+    ("track walk.jsonl -report x.html", "there is no option -report: did you mean --report?"),
+    ("track walk.jsonl --floor-plan x", "there is no option --floor-plan: did you mean --floorplan?"),
+    ("track walk.jsonl --xyzzy", "there is no option --xyzzy (solepath track --help)"),
+    ("track walk.jsonl --re default", "ambiguous option: --re could match --re"),
+    ("track walk.jsonl --recipe defalt", "there is no recipe 'defalt': did you mean default?"),
+    ("track walk.jsonl --recipe KUPT-DFPC", "there is no recipe 'KUPT-DFPC': did you mean kupt-dfpc?"),
+    ("track walk.jsonl --recipe kupt_dfpc", "there is no recipe 'kupt_dfpc': did you mean kupt-dfpc?"),
+    ("track walk.jsonl --recipe cake", RECIPES),
+    ("track walk.jsonl --recipe default --recipe default", "--recipe default was given twice"),
+    ("track walk.jsonl --foot rigth", "--foot rigth: did you mean right?"),
+    ("track walk.jsonl --foot 2", "--foot 2: each foot is left or right"),
+    ("track walk.jsonl --format movela-dot", "--format: there is no format 'movela-dot': did you mean movella-dot?"),
+    ("calibrate nosie walk.jsonl --out me.json", "there is no kind 'nosie': did you mean noise?"),
+    ("calibrate walk.jsonl --out me.json", "there is no kind 'walk.jsonl'"),
+    ("calibrate noise walk.jsonl --foot lefft --out me.json", "--foot: there is no choice 'lefft': did you mean left?"),
+    ("reproduce kupt-dpfc", "there is no experiment 'kupt-dpfc': did you mean kupt-dfpc?"),
+    ("emulate --device insol", "--device: there is no choice 'insol': did you mean insole?"),
+    ("live --left X --profile insoel", "there is no profile 'insoel': did you mean insole?"),
+    ("live --at pelvus=X", "there is no site 'pelvus': did you mean pelvis?"),
+    ("completion bsh", "SHELL: there is no choice 'bsh': did you mean bash?"),
+]
+MISSING = [
+    ("track", "FILE is missing, as in: solepath track walk.csv --report walk.html"),
+    ("check", "FILE is missing, as in: solepath check walk.csv"),
+    ("convert walk.jsonl", "OUT is missing, as in: solepath convert btsnoop_hci.log walk.jsonl"),
+    ("record", "--out is missing, as in: solepath record --out walk.jsonl"),
+    ("calibrate", "KIND is missing, as in: solepath calibrate walk corridor.jsonl --out me.json"),
+    ("calibrate noise walk.jsonl", "--out is missing, as in: solepath calibrate noise"),
+    ("track walk.jsonl --recipe", "--recipe: needs a value"),
+    ("track walk.jsonl --out x --out y", "--out was given twice"),
+    ("track walk.jsonl --start -1,2,3", "--start: a value that starts with a dash is written --start=-1,2,3"),
+    ("demo 20", "too much on the command line: 20"),
+    ("demo --distance far", "--distance: 'far' is not a positive number"),
+    ("demo --loss 5", "--loss: '5' is not a number from 0 to 1"),
+    ("track walk.jsonl --heading north", "--heading: 'north' is not a number of degrees"),
+    ("track walk.jsonl --view 8765", "--view 8765: that is not HOST:PORT, as in 127.0.0.1:8765"),
+    ("track walk.jsonl --speed 2", "--speed is for the page: it goes with --view"),
+    ("track walk.jsonl --start 0,1,2", "--start is a place on a floor plan: give --floorplan, too"),
+    ("track walk.jsonl --recipe default --recipe zupt --report r.html", "--report is for one walk: give one --recipe"),
+    ("track walk.jsonl --recipe default --recipe zupt --view", "--view is for one walk: give one --recipe"),
+    ("track walk.jsonl --recipe default --recipe zupt --outcomes", "clinical outcomes are of one walk"),
+    ("web", "name the folder of the site, or show it with --serve"),
+]
+FILES = [
+    ("track wlak.jsonl", "wlak.jsonl: there is no such file: did you mean walk.jsonl?"),
+    ("track walk.jsnol", "walk.jsnol: there is no such file: did you mean walk.jsonl?"),
+    ("check nothing.csv", "nothing.csv: there is no such file"),
+    ("track folder", "folder: is a directory, not a recording"),
+    ("track walk.jsonl/x", "walk.jsonl: is a file, not a folder"),
+    ("track floder/walk.jsonl", "floder/walk.jsonl: there is no folder floder: did you mean folder?"),
+    ("track walk.jsonl --out walk.jsonl", "walk.jsonl: is a file; --out needs a folder"),
+    ("track walk.jsonl --recipe default --recipe zupt --out walk.jsonl", "walk.jsonl: is a file; --out needs a folder"),
+    ("track walk.jsonl --report nowhere/r.html", "nowhere/r.html: there is no folder nowhere: make it first"),
+    ("track walk.jsonl --report folder", "folder: is a folder, not a file"),
+    ("track walk.jsonl --report walk.jsonl", "walk.jsonl: is what this command reads; write to another file"),
+    ("track walk.jsonl --calibration em.json", "em.json: there is no such file: did you mean me.json?"),
+    ("track walk.jsonl --floorplan plan.json", "plan.json: there is no such file"),
+    ("track walk.jsonl --mapping lab.toml", "lab.toml: there is no such file"),
+    ("track walk.jsonl --mapping folder", "folder: is a folder, not a file"),
+    ("convert walk.jsonl nowhere/walk.mcap", "nowhere/walk.mcap: there is no folder nowhere: make it first"),
+    ("convert walk.jsonl walk.mp3", "walk.mp3: ends neither in .jsonl nor in .mcap"),
+    ("record --out nowhere/walk.jsonl", "nowhere/walk.jsonl: there is no folder nowhere: make it first"),
+    ("evaluate nowhere", "nowhere: is not a directory of recorded data"),
+    ("calibrate noise walk.jsonl --out nowhere/me.json", "nowhere/me.json: there is no folder nowhere: make it first"),
+    ("track link.jsonl", "link.jsonl: is a link to nothing"),
+    ("track comma.csv", "comma.csv: "),
+]
+
+
+@pytest.fixture
+def here(tmp_path: Path, recording: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "walk.jsonl").write_bytes(recording.read_bytes())
+    (tmp_path / "me.json").write_text("{}")
+    (tmp_path / "link.jsonl").symlink_to("away.jsonl")
+    (tmp_path / "comma.csv").write_text("t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z\n0,01,0,1,0,2,9,8,0,1,0,1,0,1\n")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("SOLEPATH_DATA", raising=False)
+    return tmp_path
+
+
+@pytest.mark.parametrize(("words", "answer"), [*NAMES, *MISSING, *FILES], ids=lambda text: text[:60])
+def test_a_mistake_gets_one_line_with_its_repair(here: Path, words: str, answer: str) -> None:
+    before = sorted(here.rglob("*"))
+    done = run(*words.split())
+    assert answer in one_line(done) and done.stdout == ""
+    assert "Errno" not in done.stderr and "o such file or directory" not in done.stderr
+    assert sorted(here.rglob("*")) == before
+
+
+def test_a_file_without_permission_is_named_with_what_is_not_allowed(here: Path) -> None:
+    if os.geteuid() == 0:
+        pytest.skip("root may read and write everything")
+    (here / "walk.jsonl").chmod(0)
+    assert "walk.jsonl: you have no permission to read it" in one_line(run("track", "walk.jsonl"))
+    (here / "walk.jsonl").chmod(0o600)
+    (here / "folder").chmod(0o500)
+    line = one_line(run("track", "walk.jsonl", "--report", "folder/r.html"))
+    assert "folder/r.html: you have no permission for the folder folder" in line

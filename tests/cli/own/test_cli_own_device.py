@@ -1,0 +1,186 @@
+"""Tests devices of one's own on the command line: --driver, and what is said about channels that nobody knows."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+from commands import rows_in, run, run_failing
+from here import EXAMPLES
+from programs import emulator
+from programs import run as run_program
+from recordings import recorded
+
+from solepath.emulate.routes.route import Route
+from solepath.emulate.walk import emulate
+from solepath.emulate.wearers.walker import Walker
+from solepath.recording import read_packets
+from solepath.recording.mcap import McapWriter
+from solepath.types import Foot, Packet, Site
+
+OWN = EXAMPLES / "own_device.py"
+WALKER = Walker(Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5), seed=3)
+STRIDES = len(WALKER.truth().strides(Foot.LEFT))
+RENAMED = """
+from attrs import evolve
+from solepath.link.devices.cc2650 import DRIVER
+from solepath.link.driver import Driver
+
+def tag(name):
+    return name.replace("cc2650/", "tag/")
+
+profile = DRIVER.profile
+PROFILE = evolve(
+    profile,
+    name="tag",
+    channels=tuple(evolve(one, name=tag(one.name)) for one in profile.channels),
+    setup=tuple(
+        evolve(one, channel=tag(one.channel), then_read=tuple(map(tag, one.then_read))) for one in profile.setup
+    ),
+    reads=tuple(map(tag, profile.reads)),
+    streams=tuple(map(tag, profile.streams)),
+)
+formats = {tag(name): one for name, one in DRIVER.formats.items()}
+readers = {tag(name): one for name, one in DRIVER.readers.items()}
+TAG = evolve(DRIVER, profile=PROFILE, formats=formats, readers=readers)
+"""
+
+
+@pytest.fixture(scope="module")
+def packets() -> list[Packet]:
+    """Return a walk with the device of examples/own_device.py on the left foot."""
+    own = runpy.run_path(str(OWN))
+    found = []
+    for k, true in enumerate(WALKER.samples(Foot.LEFT, 100.0)):
+        value = {
+            "number": k,
+            "ticks": round(4096 * true.t) % 65536,
+            "acc": [round(v / own["ACC"]) for v in true.acc or ()],
+            "gyro": [round(v / own["GYRO"]) for v in true.gyro or ()],
+        }
+        data = own["DRIVER"].write("shoe/motion", value)
+        found.append(Packet(true.t + 0.008, Site.LEFT_FOOT, "shoe/motion", data))
+    return found
+
+
+@pytest.fixture(scope="module")
+def walk(packets: list[Packet], folder: Path) -> Path:
+    return recorded(folder / "own.jsonl", packets)
+
+
+def test_a_recording_of_which_nothing_is_known_is_an_error_of_track(walk: Path, tmp_path: Path) -> None:
+    line = run_failing("track", walk, "--out", tmp_path / "out")
+    count = len(list(read_packets(walk)))
+    assert f"own.jsonl, recipe default: left foot: {count} of {count} packets are of a channel that no known" in line
+    assert "(shoe/motion)" in line and "--driver FILE.py" in line
+    assert not list((tmp_path / "out").iterdir())
+
+
+def test_and_a_finding_of_check(walk: Path) -> None:
+    done = run("check", walk)
+    assert done.returncode == 1 and "nothing must be mended" not in done.stdout
+    heading, finding = done.stdout.splitlines()[1:3]
+    assert heading == "must be mended:" and "shoe/motion" in finding and "--driver FILE.py" in finding
+
+
+def test_one_foot_of_which_nothing_is_known_is_named_beside_the_results_of_the_other(
+    packets: list[Packet], tmp_path: Path
+) -> None:
+    other = [one for one in emulate(WALKER.route, seed=3).packets if one.site is Site.RIGHT_FOOT]
+    walk = recorded(tmp_path / "both.jsonl", sorted([*packets, *other], key=lambda one: one.t))
+    done = run("track", walk)
+    assert done.returncode == 0 and "right" in done.stdout
+    assert done.stderr.count("\n") == 1 and done.stderr.startswith("solepath: left foot: ")
+    assert run("check", walk).returncode == 1
+
+
+def test_a_few_packets_of_an_unknown_channel_are_only_worth_knowing(tmp_path: Path) -> None:
+    good = list(emulate(WALKER.route, seed=3).packets)
+    few = [Packet(one.t, one.site, "mystery/light", b"\0") for one in good[100:120]]
+    walk = recorded(tmp_path / "few.jsonl", sorted([*good, *few], key=lambda one: one.t))
+    done = run("check", walk)
+    assert done.returncode == 0 and "20 packets rejected (unknown channel 20)" in done.stdout
+    assert run("track", walk).stderr == ""
+
+
+def test_a_site_none_of_whose_packets_can_be_used_is_named_with_the_reasons(tmp_path: Path) -> None:
+    walk = recorded(
+        tmp_path / "noise.jsonl", [Packet(0.01 * k, Site.LEFT_FOOT, "insole/frame", b"?") for k in range(9)]
+    )
+    assert "left foot: none of its 9 packets can be used (truncated 9)" in run_failing("track", walk)
+    done = run("check", walk)
+    assert done.returncode == 1 and "none of its 9 packets" in done.stdout
+
+
+def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) -> None:
+    done = run("track", walk, "--driver", OWN, "--out", tmp_path / "out")
+    assert done.returncode == 0 and "rejected" not in done.stdout
+    assert len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
+    done = run("check", walk, "--driver", OWN)
+    assert done.returncode == 0 and f"left foot {STRIDES} strides" in done.stdout
+
+
+def test_convert_and_calibrate_read_it_too(walk: Path, tmp_path: Path, packets: list[Packet]) -> None:
+    own = runpy.run_path(str(OWN))
+    assert run("convert", walk, tmp_path / "walk.mcap", "--driver", OWN).returncode == 0
+    with McapWriter(tmp_path / "same.mcap", profiles=[own["DRIVER"]]) as writer:
+        for packet in packets:
+            writer.write(packet)
+    size = (tmp_path / "same.mcap").stat().st_size
+    assert (tmp_path / "walk.mcap").stat().st_size == pytest.approx(size, rel=0.05)
+    done = run("convert", walk, tmp_path / "walk.sto", "--driver", OWN)
+    assert done.returncode == 0 and len((tmp_path / "walk.sto").read_text().splitlines()) > 0.9 * len(packets)
+    still = recorded(tmp_path / "still.jsonl", packets[:100])
+    rest = ("calibrate", "rest", still, "--out", tmp_path / "me.json")
+    assert "no foot's accelerations" in run_failing(*rest)
+    assert "the left foot has 1 s without a gap" in run("calibrate", "rest", *rest[2:], "--driver", OWN).stderr
+
+
+BAD = {
+    "absent.py": (None, "absent.py: there is no such file"),
+    "device.txt": ("x = 1", "device.txt: is no Python file (.py)"),
+    "empty.py": ("x = 1", "empty.py: no variable of it holds a Driver"),
+    "built_in.py": ("from solepath.link.devices.cc2650 import DRIVER", "built_in.py: no variable of it holds a Driver"),
+    "raises.py": ("x = 1\ny = x / 0", "raises.py: line 2: ZeroDivisionError: division by zero"),
+    "ends.py": ("\nraise SystemExit('not today')", "ends.py: line 2: SystemExit: not today"),
+    "syntax.py": ("x = 1\ny = (", "syntax.py: line 2: SyntaxError: '(' was never closed"),
+    "opens.py": ("open('/no such folder/x')", "opens.py: line 1: FileNotFoundError: "),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_file_without_a_device_gets_one_line(name: str, walk: Path, tmp_path: Path) -> None:
+    text, expected = BAD[name]
+    if text is not None:
+        (tmp_path / name).write_text(text)
+    assert expected in run_failing("track", walk, "--driver", tmp_path / name)
+
+
+def test_one_device_twice_gets_one_line_and_prints_go_to_stderr(walk: Path, tmp_path: Path) -> None:
+    assert "there is a device 'shoe' already" in run("track", walk, "--driver", OWN, "--driver", OWN).stderr
+    (tmp_path / "loud.py").write_text(
+        OWN.read_text().replace("Path(__file__)", f"Path({str(OWN)!r})") + "\nprint('hello')\n"
+    )
+    done = run("track", walk, "--driver", tmp_path / "loud.py")
+    assert done.returncode == 0 and "hello" in done.stderr and "hello" not in done.stdout
+
+
+def test_a_sensor_is_recorded_as_a_device_of_ones_own(tmp_path: Path) -> None:
+    (tmp_path / "tag.py").write_text(RENAMED)
+    file, driver = tmp_path / "walk.jsonl", ("--driver", tmp_path / "tag.py")
+    with emulator("--distance", 20, "--device", "cc2650") as (_, where):
+        options = ("--via", where, "--left", "F0:5E:00:00:00:01", "--duration", 4)
+        run_program("record", "--out", file, *options, *driver)
+    channels = {packet.channel for packet in read_packets(file)}
+    assert "tag/movement" in channels and not any(name.startswith("cc2650/") for name in channels)
+    assert run("check", file).returncode == 1
+    assert run("track", file, *driver).returncode == 0
+
+
+def test_several_recipes_know_it_too(walk: Path, tmp_path: Path) -> None:
+    recipes = ("--recipe", "default", "--recipe", "shoe-sensing")
+    assert "--driver FILE.py" in run_failing("track", walk, *recipes)
+    done = run("track", walk, *recipes, "--driver", OWN, "--out", tmp_path / "out")
+    assert done.returncode == 0 and "rejected" not in done.stdout
+    assert len(rows_in(tmp_path / "out" / "shoe-sensing" / "strides.csv")) > 0

@@ -1,0 +1,83 @@
+"""The fields of all events with their units and meanings, from the classes' sources, as tables for docs/events.md."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from collections.abc import Iterator
+from itertools import groupby
+from textwrap import dedent
+from typing import Any, get_args, get_origin, get_type_hints
+
+import attrs
+
+from solepath import Event
+from solepath.events.frames.columns import RENAMED
+from solepath.events.frames.units import UNITS
+from solepath.events.happening import Happening
+
+Row = tuple[str, str, str]
+"""Name, unit ("" without one) and meaning of a field."""
+USUAL = {
+    "site": "Site of the sensor.",
+    "foot": "Foot of the event.",
+    "reason": "Kind of fault.",
+    "channel": "Channel of the packets.",
+    "defect": "Kind of defect.",
+}
+"""Meanings of fields whose names say them, where the class says no more."""
+PROPERTY_UNITS = {"double_support": "s"}
+"""Units of properties."""
+HEADER = ["| field | unit | meaning |", "|---|---|---|"]
+
+
+def documents(cls: type[Any]) -> dict[str, str]:
+    """Return the text after each field of a class and its bases ("" without one), and that of each property."""
+    found: dict[str, str] = {}
+    for one in reversed(cls.__mro__):
+        if not attrs.has(one):
+            continue
+        (node,) = ast.parse(dedent(inspect.getsource(one))).body
+        assert isinstance(node, ast.ClassDef)
+        for field, text in zip(node.body, [*node.body[1:], None], strict=True):
+            if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name):
+                has_text = isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)
+                found[field.target.id] = (
+                    " ".join(str(text.value.value).split()) if has_text else found.get(field.target.id, "")
+                )
+        for method in node.body:
+            if isinstance(method, ast.FunctionDef) and "property" in map(ast.unparse, method.decorator_list):
+                found[method.name] = " ".join((ast.get_docstring(method) or "").split())
+    return found
+
+
+def rows(cls: type[Any], owner: str = "", prefix: str = "", skipped: frozenset[str] = frozenset()) -> Iterator[Row]:
+    """Yield the rows of a class, with those of the records that it holds."""
+    owner, hints = owner or cls.__name__, get_type_hints(cls)
+    for name, text in documents(cls).items():
+        if name in skipped:
+            continue
+        column = prefix.replace(".", "_").replace("[]", "") + RENAMED.get((owner, name), name)
+        unit = UNITS.get(column, PROPERTY_UNITS.get(name, ""))
+        yield f"{prefix}{name}", unit, (text or USUAL[name]).replace("|", "\\|")
+        hint = hints.get(name)
+        for inner in (hint, *get_args(hint)):
+            if attrs.has(inner) and inner.__module__.startswith("solepath.events."):
+                many = "[]" if get_origin(hint) is tuple else ""
+                yield from rows(inner, owner, f"{prefix}{name}{many}.")
+
+
+def table(found: list[Row]) -> list[str]:
+    return [*HEADER, *[f"| `{name}` | {unit or '-'} | {text} |" for name, unit, text in found]]
+
+
+def event_fields() -> str:
+    """Return a section for each event, and first one for the fields of all."""
+    common = list(rows(Happening))
+    names = frozenset(name for name, _, _ in common)
+    lines = ["### All events", "", *table(common)]
+    described = [(event.__name__, list(rows(event, skipped=names))) for event in get_args(Event)]
+    for found, group in groupby(described, key=lambda one: one[1]):
+        lines += ["", "### " + ", ".join(f"`{name}`" for name, _ in group), ""]
+        lines += table(found) if found else ["No further fields."]
+    return "\n".join(lines)

@@ -1,0 +1,236 @@
+"""Tests what the first page of a report says: title, sentence, large figures, bands, quality, and the comparison."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from attrs import evolve
+from pages import Node, parse_page
+from reported_walks import ROUTES, events_of, pressed_events, report_of
+from walks import of
+
+from solepath import Defect, DefectFound, Site
+from solepath.events import Event, FootPressed, GaitCycleMeasured, LayoutKnown
+from solepath.show.outcomes.references import Person, Sex
+from solepath.show.report import Report, ReportDetails
+from solepath.show.report.bands import Band, BandError, mean_bands, read_bands
+from solepath.show.report.markup import NOTHING
+from solepath.show.report.sections.facts import facts_of
+from solepath.show.report.walk_summary import paired_difference
+from solepath.types import Foot
+
+
+def one_foot(events: Sequence[Event]) -> list[Event]:
+    return [event for event in events if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
+
+
+def shown(report: Report) -> Node:
+    return parse_page(report.text())
+
+
+def sentence_of(events: Sequence[Event]) -> str:
+    return shown(report_of(events)).named("headline").text
+
+
+def cards(page: Node) -> dict[str, str]:
+    """Return the value of each large figure, with its unit, by its label."""
+    found = [one for one in page.all("div") if one.attributes.get("class") == "card"]
+    return {one.first("h3").text: one.named("value").text for one in found}
+
+
+@pytest.mark.parametrize(
+    ("details", "when", "title"),
+    [
+        (ReportDetails(), "", "Gait report"),
+        (ReportDetails(), "2026-11-26 09:40 UTC", "Walk of 26 November 2026"),
+        (ReportDetails(date="2026-01-02"), "2026-11-26 09:40 UTC", "Walk of 2 January 2026"),
+        (ReportDetails(title="After the operation", date="2026-01-02"), "", "After the operation"),
+    ],
+)
+def test_the_title_is_that_of_the_person_or_of_the_date(details: ReportDetails, when: str, title: str) -> None:
+    page = shown(report_of(events_of("walk"), details=details, when=when))
+    assert page.first("h1").text == page.first("title").text == title
+    assert "walk.jsonl" in page.all("dl")[-1].text
+
+
+def test_the_head_names_subject_date_and_device() -> None:
+    details = ReportDetails("Test", "P 017", "2026-01-02", "insoles, size 42")
+    facts = shown(report_of(events_of("walk"), details=details)).first("header").text
+    assert "Subject P 017" in facts and "Date 2 January 2026" in facts and "Device insoles, size 42" in facts
+
+
+def test_the_first_sentence_has_distance_time_speed_and_cadence() -> None:
+    facts = facts_of(report_of(events_of("walk")))
+    walk = facts.walk.walk
+    assert walk is not None and walk.distance == pytest.approx(40.0, abs=1.0)
+    assert walk.duration == pytest.approx(40.0 / 1.3, abs=2.0)
+    sentence = sentence_of(events_of("walk"))
+    speed, cadence = [measure.text for measure in facts.measures[:2]]
+    assert sentence.startswith(
+        f"Walked {walk.distance:.0f} m in {walk.duration:.0f} s, in steady strides at {speed} m/s"
+    )
+    assert sentence.endswith(f" and {cadence} steps a minute.")
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("run", ["Ran "]),
+        ("stairs", ["Walked ", "of stairs"]),
+        ("lift", ["Walked ", "rode a lift up once"]),
+        ("standing", ["Stood for 20 s; no stride was taken."]),
+    ],
+)
+def test_the_first_sentence_names_runs_stairs_lifts_and_standing(name: str, words: list[str]) -> None:
+    sentence = sentence_of(events_of(name))
+    assert all(word in sentence for word in words), sentence
+    assert ("Walked" in sentence) == ("Walked " in words)
+
+
+def test_the_first_sentence_of_few_strides_of_one_foot_and_of_nothing() -> None:
+    cycles = of(GaitCycleMeasured, events_of("walk"))[:3]
+    assert sentence_of(cycles).endswith("(3 strides), too short for steady strides.")
+    assert "measured at the left foot alone" in sentence_of(one_foot(events_of("walk")))
+    assert sentence_of([]) == "No data from either foot."
+
+
+def with_factor(name: str, factor: float) -> list[Event]:
+    """Return the gait cycles of a walk with a parameter of the right foot that is `factor` times as large."""
+    changed: list[Event] = []
+    for one in of(GaitCycleMeasured, events_of("walk")):
+        value = getattr(one, name)
+        larger = one.foot is Foot.RIGHT and value is not None
+        changed.append(evolve(one, **{name: factor * value}) if larger else one)
+    return changed
+
+
+def test_a_difference_of_the_feet_is_named_above_its_own_error_only() -> None:
+    assert "left" not in sentence_of(with_factor("swing_time", 1.0))
+    assert "left" not in sentence_of(with_factor("swing_time", 1.01)), "4 ms are less than a heel-strike's scatter"
+    assert "the right foot swings 12 % longer than the left one" in sentence_of(with_factor("swing_time", 1.12))
+    assert "the left foot swings" in sentence_of(with_factor("swing_time", 0.88))
+    assert "stride length: check the sensors" in sentence_of(with_factor("stride_length", 1.06))
+    assert "left" not in sentence_of(with_factor("stride_length", 1.01))
+
+
+def test_a_paired_difference_does_not_count_what_both_feet_have_in_common() -> None:
+    cycles = of(GaitCycleMeasured, events_of("walk"))
+    slower = [evolve(one, swing_time=one.swing_time * (1.0 + 0.01 * one.t)) for one in cycles]
+    before, after = paired_difference(cycles, "swing_time"), paired_difference(slower, "swing_time")
+    assert before is not None and after is not None
+    assert after == pytest.approx(before, abs=0.004)
+    assert paired_difference(cycles[:8], "swing_time") is None
+
+
+def test_there_are_five_large_figures_of_a_walk_and_of_a_run() -> None:
+    walk = cards(shown(report_of(events_of("walk"))))
+    assert list(walk) == ["Speed", "Cadence", "Stride length", "Double support", "Asymmetry"]
+    run = cards(shown(report_of(events_of("run"))))
+    assert list(run) == ["Speed", "Cadence", "Stride length", "Contact time", "Flight time"]
+    assert float(run["Speed"].split()[0]) == pytest.approx(3.0, abs=0.15)
+    text = shown(report_of(events_of("run"))).named("gait").text
+    assert "contact time, ms" in text and "vertical oscillation, mm" in text
+
+
+def test_bands_are_drawn_and_their_source_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "bands.json"
+    path.write_text(json.dumps({"source": "Our laboratory, 2025", "bands": {"speed_m_per_s": [1.1, 1.2]}}))
+    page = shown(report_of(events_of("walk"), bands=read_bands(path)))
+    assert "above the band; reference 1.1 to 1.2 m/s" in page.named("card").first("desc").text
+    assert "Reference of speed: Our laboratory, 2025" in page.text
+    path = tmp_path / "bands.csv"
+    path.write_text("measure,low,high,source\ncadence_steps_per_min,90,130,A book\n")
+    assert read_bands(path) == {"cadence_steps_per_min": Band(90.0, 130.0, "A book")}
+    (mean,) = mean_bands(Person(72.0, Sex.FEMALE)).values()
+    assert mean.is_mean and mean.low == mean.high == 1.13 and "Bohannon and Andrews 2011" in mean.source
+    assert mean_bands(None) == {} == mean_bands(Person(10.0, Sex.MALE))
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "fault"),
+    [
+        ("a.json", "[]", "no \"bands\""),
+        ("a.json", '{"source": "x", "bands": {}}', "no band"),
+        ("a.json", '{"source": "", "bands": {"speed_m_per_s": [1, 2]}}', "no source"),
+        ("a.json", '{"source": "x", "bands": {"pace": [1, 2]}}', "no measure"),
+        ("a.json", '{"source": "x", "bands": {"speed_m_per_s": [2, 1]}}', "low, then high"),
+        ("a.json", '{"source": "x", "bands": {"speed_m_per_s": [1, NaN]}}', "low, then high"),
+        ("a.json", "[" * 20000, "is no file of bands"),
+        ("a.csv", "speed,1,2\n", "first line"),
+        ("a.csv", "measure,low,high,source\nspeed_m_per_s,one,2,x\n", "no numbers"),
+        ("a.csv", "measure,low,high,source\nspeed_m_per_s,1\n", "2 cells"),
+        ("a.json", " " * 200_000, "more than"),
+    ],
+)  # fmt: skip
+def test_a_wrong_file_of_bands_gets_one_line(tmp_path: Path, name: str, text: str, fault: str) -> None:
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(BandError, match=fault) as caught:
+        read_bands(path)
+    assert name in str(caught.value) and "\n" not in str(caught.value)
+
+
+def quality(page: Node) -> dict[str, tuple[str, str]]:
+    """Return verdict and words of each part of the quality."""
+    rows = page.named("quality").children
+    return {one.first("span").text: (one.first("strong").text, one.first("dd").text) for one in rows}
+
+
+def test_the_quality_is_good_look_at_or_do_not_use() -> None:
+    good = quality(shown(report_of(events_of("walk"))))
+    assert {part: verdict for part, (verdict, _) in good.items()} == {
+        "strides": "good", "samples": "good", "clocks": "good", "plausibility": "good", "calibration": "note",
+    }  # fmt: skip
+    report = report_of(events_of("walk"), calibrated=True)
+    kinds = (Site.RIGHT_FOOT, Defect.CLOCKS, "its times are late"), (Site.LEFT_FOOT, Defect.AXES, "mirrored axes")
+    for site, defect, what in kinds:
+        report.take(None, [DefectFound(t=9.0, known_at=9.0, site=site, defect=defect, what=what)])
+    page = shown(report)
+    bad = quality(page)
+    assert bad["clocks"] == ("look at", "Right foot: its times are late.")
+    assert bad["plausibility"][0] == "do not use" and bad["calibration"][0] == "good"
+    assert "Quality: do not use before it is checked" in [one.text for one in page.all("h2")]
+    assert "Double support" not in cards(page) and "Stance" in cards(page)
+
+
+def test_two_walks_are_compared_with_signs_and_with_the_variation_of_the_strides() -> None:
+    before = report_of(events_of("slow"), when="2026-10-01 08:00 UTC")
+    page = shown(report_of(events_of("walk"), before=before))
+    rows = {row.first("th").text: [cell.text for cell in row.all("td")] for row in page.named("comparison").all("tr")}
+    old, new, change, spread, words = rows["speed, m/s"]
+    assert float(new) - float(old) == pytest.approx(float(change.split()[0]), abs=0.011) and change.startswith("+0.")
+    assert words == "yes" and 0.0 < float(spread) < float(change.split()[0])
+    assert rows["asymmetry, %"][-1] == "no"
+    assert "Before (walk.jsonl, 1 October 2026, 08:00 UTC): Walked 25 m" in page.text
+    assert {"Track before", "Track after"} <= {one.first("strong").text for one in page.all("figcaption")}
+
+
+def every_report() -> dict[str, Report]:
+    only_pressure = of((GaitCycleMeasured, FootPressed, LayoutKnown), pressed_events())
+    reports = {name: report_of(events_of(name)) for name in ROUTES}
+    return reports | {
+        "cells": report_of(pressed_events()),
+        "one foot": report_of(one_foot(events_of("walk"))),
+        "pressure alone": report_of(only_pressure),
+        "compared": report_of(events_of("walk"), before=report_of(events_of("standing"))),
+        "nothing": report_of([]),
+    }
+
+
+@pytest.mark.parametrize("name", [*ROUTES, "cells", "one foot", "pressure alone", "compared", "nothing"])
+def test_nothing_is_empty_and_headings_are_in_order(name: str) -> None:
+    page = shown(every_report()[name])
+    levels = [int(one.tag[1]) for one in page.all() if one.tag in ("h1", "h2", "h3")]
+    assert levels[0] == 1 and levels.count(1) == 1
+    assert all(later <= earlier + 1 for earlier, later in zip(levels, levels[1:], strict=False))
+    for one in page.all("section"):
+        assert len(one.text) > len(one.first("h2").text), "no heading without contents"
+    for one in page.all():
+        assert one.tag not in ("ul", "dl", "table", "figure", "p", "div") or one.text, one.attributes
+    for table in page.all("table"):
+        rows = [[cell.text for cell in row.all("td")] for row in table.first("tbody").all("tr")]
+        assert rows and all(any(cell not in NOTHING for cell in row) for row in rows)
+        assert all(any(cell not in NOTHING for cell in column) for column in zip(*rows, strict=True))
