@@ -52,10 +52,11 @@ dl.definitions { columns: 22rem; column-gap: 2rem; font-size: .875rem; color: va
 dl.definitions div { break-inside: avoid; margin-bottom: .3rem; }
 dl.definitions dt, dl.definitions dd { display: inline; } dl.definitions dt { font-weight: 600; color: var(--ink); }
 dl.definitions dt::after { content: ": "; }
-table { border-collapse: collapse; margin: 1rem 0; width: 100%; overflow-wrap: break-word; font-variant-numeric: tabular-nums; }
+table { border-collapse: collapse; margin: 1rem 0; width: 100%; font-variant-numeric: tabular-nums; }
 caption { text-align: left; font-weight: 600; padding-bottom: .35rem; }
 th, td { padding: .28rem .5rem; text-align: right; border-bottom: 1px solid var(--rule); vertical-align: baseline; }
 thead th { color: var(--soft); font-size: .8125rem; font-weight: 600; }
+table { overflow-wrap: break-word; }
 tbody th { font-weight: 400; }
 th:first-child { text-align: left; padding-left: 0; }
 td span { white-space: nowrap; } td span + span { color: var(--soft); margin-left: .35em; }
