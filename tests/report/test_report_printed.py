@@ -60,6 +60,8 @@ def made(name: str) -> Report:
             return planned_report()
         case "cells":
             return report_of(pressed_events(), details=details, bands=bands)
+        case "long":
+            return report_of(events_of("walk"), details=ReportDetails("t" * 150, "s" * 150, "d" * 150, "word " * 50))
         case "compared":
             return report_of(events_of("walk"), before=report_of(events_of("slow")))
     return report_of(events_of(name))
@@ -80,7 +82,7 @@ def test_a_report_ends_on_two_pages_of_paper_and_nothing_is_cut(browser: Browsin
     assert (pages, cut) == (2, [])
 
 
-@pytest.mark.parametrize("name", ["cells", "plan", "compared", "run"])
+@pytest.mark.parametrize("name", ["cells", "plan", "compared", "run", "long"])
 def test_on_a_screen_nothing_is_cut_and_no_letter_is_small(browser: Browsing, name: str, tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     made(name).write(path)

@@ -150,11 +150,15 @@ BAD = {
 
 
 @pytest.mark.parametrize("name", BAD)
-def test_a_file_without_a_device_gets_one_line(name: str, walk: Path, tmp_path: Path) -> None:
+def test_a_file_without_a_device_gets_one_line(
+    name: str, walk: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     text, expected = BAD[name]
     if text is not None:
         (tmp_path / name).write_text(text)
     assert expected in run_failing("track", walk, "--driver", tmp_path / name)
+    monkeypatch.chdir(tmp_path)
+    assert f"--driver {expected}" in run_failing("track", walk, "--driver", name)
 
 
 def test_one_device_twice_gets_one_line_and_prints_go_to_stderr(walk: Path, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import traceback
 from collections import Counter
@@ -78,8 +79,8 @@ def load_drivers(path: Path) -> list[Driver]:
         with redirect_stdout(sys.stderr):
             spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
-        if isinstance(error, OSError) and error.filename == str(path):
-            fault = file_error_text(error)
+        if isinstance(error, OSError) and error.filename == os.path.abspath(path):
+            fault = file_error_text(error, path)
         else:
             fault = f"{printable(str(path))}: {_describe(error, path)}"
     if fault:  # raised here, so that no error of the system in the file takes the place of this sentence
@@ -93,7 +94,7 @@ def load_drivers(path: Path) -> list[Driver]:
 
 def _describe(error: BaseException, path: Path) -> str:
     """Return the line of the file at which the error was raised, its type and its text."""
-    if isinstance(error, SyntaxError) and error.filename == str(path):
+    if isinstance(error, SyntaxError) and error.filename == os.path.abspath(path):
         line: int | None = error.lineno
     else:
         lines = [number for frame, number in traceback.walk_tb(error.__traceback__) if _is_of(frame, path)]
@@ -104,7 +105,7 @@ def _describe(error: BaseException, path: Path) -> str:
 
 
 def _is_of(frame: object, path: Path) -> bool:
-    return getattr(getattr(frame, "f_code", None), "co_filename", "") == str(path)
+    return getattr(getattr(frame, "f_code", None), "co_filename", "") == os.path.abspath(path)
 
 
 @define

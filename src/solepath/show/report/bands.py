@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 MAX_SIZE = 100_000
 """Largest size of a file of bands, bytes; chosen by hand."""
+MAX_END = 1e6
+"""Largest size of an end of a band, in the unit of its measure: far beyond all of them; chosen by hand."""
 COLUMNS = ("measure", "low", "high", "source")
 
 
@@ -109,6 +111,8 @@ def _band(name: str, low: object, high: object, source: object) -> Band:
         ends = [float(end) for end in (low, high) if isinstance(end, str | int | float)]
     except (ValueError, OverflowError):
         raise ValueError(f"the ends of {name} are no numbers") from None
+    if len(ends) == 2 and max(map(abs, ends)) > MAX_END:
+        raise ValueError(f"an end of {name} is beyond {MAX_END:,.0f}")
     if len(ends) != 2 or not all(map(isfinite, ends)) or not ends[0] < ends[1]:
         raise ValueError(f"the ends of {name} are not low, then high")
     return Band(ends[0], ends[1], source.strip())

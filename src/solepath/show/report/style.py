@@ -18,7 +18,7 @@ STYLE = """
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; }
 body { margin: 0 auto; padding: 1.6rem 1.25rem 3rem; max-width: 64rem; background: var(--paper); color: var(--ink);
-  font: 1rem/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif; overflow-wrap: break-word; }
+  font: 1rem/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif; overflow-wrap: anywhere; }
 h1 { font-size: 1.6rem; line-height: 1.25; margin: 0; }
 h2 { font-size: 1.1rem; margin: 1.8rem 0 .6rem; padding-bottom: .25rem; border-bottom: 1px solid var(--rule); }
 h3 { font-size: 1rem; margin: 1rem 0 .3rem; }
@@ -56,6 +56,7 @@ table { border-collapse: collapse; margin: 1rem 0; width: 100%; font-variant-num
 caption { text-align: left; font-weight: 600; padding-bottom: .35rem; }
 th, td { padding: .28rem .5rem; text-align: right; border-bottom: 1px solid var(--rule); vertical-align: baseline; }
 thead th { color: var(--soft); font-size: .8125rem; font-weight: 600; }
+table { overflow-wrap: break-word; }
 tbody th { font-weight: 400; }
 th:first-child { text-align: left; padding-left: 0; }
 td span { white-space: nowrap; } td span + span { color: var(--soft); margin-left: .35em; }
