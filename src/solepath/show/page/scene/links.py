@@ -142,9 +142,12 @@ class SceneFindings:
         sites = {site for _, site, _, _, act in self.found.values() if act}
         return frozenset(foot for foot in Foot if SITE_OF_FOOT[foot].words in sites)
 
-    def frame(self) -> list[dict[str, Any]]:
-        """Return the member "findings" of a frame: those that somebody must act on first, then the newest first."""
-        ordered = sorted(self.found.values(), key=lambda one: (not one[4], -one[0]))
+    def frame(self, broken: frozenset[Site] = frozenset()) -> list[dict[str, Any]]:
+        """Return the member "findings" of a frame: those that somebody must act on first, then the newest first.
+
+        That a foot sends nothing is left out where its link is `broken`: the link says it."""
+        silent = {_key(site, "silent") for site in broken}
+        ordered = sorted([one for key, one in self.found.items() if key not in silent], key=lambda one: (not one[4], -one[0]))
         return [{"t": t, "site": site, "brief": brief, "what": what, "act": act} for t, site, brief, what, act in ordered]
 
 

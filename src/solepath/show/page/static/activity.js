@@ -2,7 +2,7 @@
 
 import { nameOf, whereOf } from "./position.js";
 import { mostDifferent } from "./rows.js";
-import { distance, means, sidesKnown, sourceWords, unsound } from "./sound.js";
+import { distance, isWrong, means, sidesKnown, sourceWords, unsound } from "./sound.js";
 import { ACTIVITIES, SUPPORTS, describe, activityText, capital, fixed, wordOf, show, span, setData, write } from "./words.js";
 
 const LIFTS = ["ELEVATOR_UP", "ELEVATOR_DOWN"];
@@ -50,7 +50,7 @@ export class ActivityPanel {
     this.#figure("speed", fixed(speed ?? NaN, 2), bad.size < 2);
     this.#figure("cadence", fixed(cadence ?? NaN), bad.size < 2);
     const size = most && `${fixed(100 * Math.abs(most.share), 1)} ${most.points ? "points" : "%"}`;
-    this.#figure("symmetry", !most ? "–" : most.even ? "even" : `${fixed(100 * Math.abs(most.share), 1)} %`, bad.size === 0 && sidesKnown(state) && !rests);
+    this.#figure("symmetry", !most ? "–" : most.even ? "even" : `${fixed(100 * Math.abs(most.share), Math.abs(most.share) < 0.0995 ? 1 : 0)} %`, bad.size === 0 && sidesKnown(state) && !rests);
     write(this["symmetry-words"], !most ? "" : rests ? "last walk" : most.even ? "" : `${most.share < 0 ? "left" : "right"} ${most.more}`);
     const measure = most?.even ? `${most.name}: ${size}` : most?.name;
     write(this["symmetry-label"], measure ?? "left and right");
@@ -83,7 +83,7 @@ function where(state) {
     return place.decided ? capital(whereOf(plan, place)) : `${place.candidates.length} possible places`;
   }
   if (strides === 0) return "at the start";
-  if (wearer !== null && unsound(state).size > 0 && state.findings.some(({ act }) => act)) return "place not reliable";
+  if (wearer !== null && isWrong(state)) return "place not reliable";
   return wearer === null ? "" : `${fixed(Math.hypot(wearer.position[0], wearer.position[1]))} m from the start`;
 }
 

@@ -37,7 +37,7 @@ export function difference({ unit, left, right, asymmetry }) {
   return { share, points, size: Math.abs(share) / (points ? EVEN_OF_A_STRIDE : EVEN) };
 }
 
-const SHORT = { stance_time: "ground time", double_support: "both feet down" };
+const SHORT = { stance_time: "ground time", double_support: "both down" };
 const MORE = { speed: "faster" };
 
 // The row that differs most, in multiples of what counts as none: {name, share, points, even, more}; null while none is known.

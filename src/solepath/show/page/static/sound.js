@@ -10,6 +10,9 @@ export function unsound({ findings, links, finished }) {
   return new Set(FEET.filter((foot) => findings.some(isOf(foot)) || stopped(foot)));
 }
 
+// True while a foot sends what cannot be right: then the place is not right either.
+export const isWrong = ({ findings, links }) => FEET.some((foot) => findings.some(isOf(foot)) && links[`${foot} foot`]?.state === "ok");
+
 // False if what comes as one foot may be the other's.
 export const sidesKnown = ({ findings }) => !findings.some(({ site, act }) => act && site === "");
 
@@ -37,5 +40,5 @@ export function sourceWords(state) {
   const bad = unsound(state);
   if (bad.size === 0) return "";
   if (bad.size === FEET.length) return "figures not reliable";
-  return `figures: ${FEET.find((foot) => !bad.has(foot))} foot only`;
+  return `${FEET.find((foot) => !bad.has(foot))} foot only`;
 }
