@@ -77,7 +77,7 @@ function headline({ activity, finished, strides }) {
 function where(state) {
   const { finished, strides, place, plan, wearer, links } = state;
   if (strides === null) return Object.keys(links).length > 0 ? "for the first data" : "for the sensors";
-  if (finished) return summary(state);
+  if (finished) return strides > 0 ? `after ${lasted(state)}` : summary(state);
   if (plan !== null && place !== null) {
     if (LIFTS.includes(state.activity?.now) && place.decided) return capital([nameOf(plan, place.level), place.door].filter(Boolean).join(", "));
     return place.decided ? capital(whereOf(plan, place)) : `${place.candidates.length} possible places`;
@@ -97,10 +97,11 @@ function first({ strides, finished, source, links }) {
   return "No sensor is connected yet. Switch them on, and keep them near.";
 }
 
+const lasted = ({ playback, t, start }) => span(playback === null ? t - start : playback.end - playback.start);
+
 // The whole walk in a sentence.
 export function summary(state) {
-  const { strides, playback } = state;
-  const seconds = playback === null ? state.t - state.start : playback.end - playback.start;
-  if (!(strides > 0)) return `No stride in ${span(seconds)}`;
-  return `${fixed(distance(state))} m in ${span(seconds)}, ${strides} strides of each foot`;
+  const { strides } = state;
+  if (!(strides > 0)) return `No stride in ${lasted(state)}`;
+  return `${fixed(distance(state))} m in ${lasted(state)}, ${strides} strides of each foot`;
 }
