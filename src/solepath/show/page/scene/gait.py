@@ -21,7 +21,14 @@ MAX_TIME_RATIO = 1.5
 """Longest time of the next stride, as a multiple of the last stride time; a foot that takes longer has no pace."""
 MAX_STRIDE_LATENCY = 1.0
 """Longest time from the end of a stride to its event, s."""
-FIRST_ROWS = ("stride_length", "speed", "stride_time", "stance_time", "initial_double_support", "terminal_double_support")
+FIRST_ROWS = (
+    "stride_length",
+    "speed",
+    "stride_time",
+    "stance_time",
+    "initial_double_support",
+    "terminal_double_support",
+)
 """Rows of the means since the start: those that a page shows first."""
 STILL_ACTIVITIES = (Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
 

@@ -107,7 +107,7 @@ class SceneFindings:
     """Findings of the checks that still hold, at most one of each kind for each sensor."""
 
     found: dict[str, tuple[float, str, str, str, bool]] = field(factory=dict)
-    """(t, site in words or "" for both feet, one sentence, all sentences, whether results are wrong until somebody acts),
+    """(t, site in words or "" for both feet, one sentence, all of them, whether results are wrong until somebody acts),
     by site and kind; t in s."""
 
     def add_event(self, event: Event) -> None:
@@ -121,9 +121,13 @@ class SceneFindings:
             case InsoleNeverUnloads(site=site):
                 self._add(event, site, "load", f"{site.words}: the insole is never without load.", UNLOADS_NEVER, False)
             case FeetSwapped():
-                self._add(event, None, "swapped", "the insoles may be swapped: left and right cannot be right.", SWAPPED, True)
+                self._add(
+                    event, None, "swapped", "the insoles may be swapped: left and right cannot be right.", SWAPPED, True
+                )
             case FootSilent(foot=foot):
-                self._add(event, SITE_OF_FOOT[foot], "silent", f"{foot} foot: no data while the other walks on.", SILENT, True)
+                self._add(
+                    event, SITE_OF_FOOT[foot], "silent", f"{foot} foot: no data while the other walks on.", SILENT, True
+                )
             case FootResumed(foot=foot):
                 self.found.pop(_key(SITE_OF_FOOT[foot], "silent"), None)
             case Connected(site=site) | ClockReset(site=site, restarted=True):
@@ -147,8 +151,12 @@ class SceneFindings:
 
         That a foot sends nothing is left out where its link is `broken`: the link says it."""
         silent = {_key(site, "silent") for site in broken}
-        ordered = sorted([one for key, one in self.found.items() if key not in silent], key=lambda one: (not one[4], -one[0]))
-        return [{"t": t, "site": site, "brief": brief, "what": what, "act": act} for t, site, brief, what, act in ordered]
+        ordered = sorted(
+            [one for key, one in self.found.items() if key not in silent], key=lambda one: (not one[4], -one[0])
+        )
+        return [
+            {"t": t, "site": site, "brief": brief, "what": what, "act": act} for t, site, brief, what, act in ordered
+        ]
 
 
 def _key(site: Site | None, kind: str) -> str:

@@ -270,7 +270,9 @@ class Scene:
             **both_feet_frame(self.feet, observer, self.body),
             "scales": self.scales.frame(),
             **self.gait_means.frames(observer.recent_gait, observer.gait),
-            "findings": self.findings.frame(frozenset(site for site, link in links.items() if link["state"] in ("silent", "lost"))),
+            "findings": self.findings.frame(
+                frozenset(site for site, link in links.items() if link["state"] in ("silent", "lost"))
+            ),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
             **guide_frame(self.guide),
