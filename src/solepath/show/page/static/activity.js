@@ -58,7 +58,7 @@ export class ActivityPanel {
     this.#figure("distance", strides > 0 ? fixed(metres, metres < 99.95 ? 1 : 0) : "–", bad.size < 2);
     write(this.strides, strides === null ? "–" : String(strides));
     write(this["speed-label"], `${finished ? "mean speed" : "speed now"}, m/s`);
-    write(this["cadence-label"], `${finished ? "mean cadence" : "cadence now"}, steps/min`);
+    write(this["cadence-label"], `${finished ? "mean" : "cadence now,"} steps/min`);
   }
 
   #figure(name, words, sound) {
