@@ -91,7 +91,7 @@ async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Br
         for key, there in (("ArrowRight", t + 5.0), ("ArrowLeft", t), ("Shift+ArrowRight", playback.end)):
             await view.tab.keyboard.press(key)
             await view.until("(t) => Math.abs(document.getElementById('seek').value - t) < 0.3", there)
-        await view.until("Number(document.getElementById('strides').textContent) > 15")
+        await view.until("Number(document.getElementById('strides').textContent) > 8")
         await view.tab.keyboard.press("Shift+ArrowLeft")
         await view.until("Number(document.getElementById('seek').value) < 0.3")
         await view.until("!(Number(document.getElementById('strides').textContent) > 0)")

@@ -26,7 +26,7 @@ from solepath.types import Turn
 
 def test_every_event_is_either_a_sentence_or_none() -> None:
     lines = [line for event in events_of_all_kinds() if (line := sentence(event)) is not None]
-    assert {kind for kind, _ in lines} <= {"link", "wear", "gait", "place", "here"}
+    assert {kind for kind, _ in lines} <= {"fault", "link", "wear", "gait", "place", "here"}
     assert all(text and "\n" not in text and "_" not in text for _, text in lines)
 
 

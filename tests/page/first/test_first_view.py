@@ -53,7 +53,8 @@ async def test_the_figures_are_large_and_compare_left_and_right_in_words(chromiu
             await view.until("document.getElementById('where').textContent.endsWith(' m from the start')")
             assert min(await view.tab.evaluate(SIZES)) >= least
             assert await view.text("symmetry") == "even"
-            assert (await view.text("symmetry-words")).endswith(" % apart")
+            name, _, most = (await view.text("symmetry-label")).partition(": ")
+            assert name and float(most.split()[0]) <= 2.0, "even has a measure: that of the row that differs most"
             figures = await view.tab.evaluate("document.getElementById('figures').getBoundingClientRect().bottom")
             track = await view.tab.evaluate("document.getElementById('track').getBoundingClientRect().toJSON()")
             assert figures < track["top"] < 740.0 - 150.0, "the first screen has the figures and the start of the track"
@@ -75,15 +76,15 @@ async def test_a_recording_at_its_end_is_shown_as_finished_with_the_means_of_the
     assert total is not None and total.both.speed is not None
     async with open_page(chromium, scene) as (view, _):
         await view.until(text_is("activity", "Finished"))
-        strides = sum(counts.strides for counts in scene.observer.feet.values())
-        words = await view.text("where")
-        assert words.endswith(f" m in {int(end)} s, {strides} strides")
+        strides = max(counts.strides for counts in scene.observer.feet.values())
+        assert await view.text("where") == f"after {int(end)} s"
+        words = f" m in {int(end)} s, {strides} strides of each foot"
         assert await view.text("speed") == f"{total.both.speed.mean:.2f}"
-        assert await view.text("speed-label") == "mean speed"
+        assert await view.text("speed-label") == "mean speed, m/s"
         assert await view.text("since") == ""
-        await view.until(f"document.getElementById('announcer').textContent.includes('Finished: {words}')")
+        await view.until(f"document.getElementById('announcer').textContent.includes('{words}')")
         scene.playback.state, scene.playback.t = "playing", 5.0
-        await view.until(f"{text_is('speed-label', 'speed')} && !({text_is('activity', 'Finished')})")
+        await view.until(f"{text_is('speed-label', 'speed now, m/s')} && !({text_is('activity', 'Finished')})")
 
 
 async def test_a_live_session_that_has_ended_is_shown_as_finished(chromium: Browser) -> None:
@@ -104,7 +105,7 @@ async def test_what_needs_attention_is_at_the_top_the_worst_first(chromium: Brow
         scene.take(None, [CellsFailed(t=t, known_at=t, site=RIGHT, fault=CellFault.DEAD, cells=(3,))])
         await view.until(f"{words}.startsWith('Right foot: 1 cell shows no load') && {words}.endsWith('Details')")
         scene.take(None, [FeetSwapped(t=t, known_at=t), Disconnected(t=t, known_at=t, site=LEFT)])
-        await view.until(f"{words}.startsWith('Left foot: no data') && {words}.endsWith('All 3')")
+        await view.until(f"{words}.startsWith('Left foot: no data') && {words}.endsWith('3 messages')")
         assert await view.tab.evaluate("document.getElementById('links-fold').open")
         await view.tab.locator("#notice-all").click()
         found = await view.tab.locator("#findings li").all_inner_texts()

@@ -21,6 +21,15 @@ MAX_TIME_RATIO = 1.5
 """Longest time of the next stride, as a multiple of the last stride time; a foot that takes longer has no pace."""
 MAX_STRIDE_LATENCY = 1.0
 """Longest time from the end of a stride to its event, s."""
+FIRST_ROWS = (
+    "stride_length",
+    "speed",
+    "stride_time",
+    "stance_time",
+    "initial_double_support",
+    "terminal_double_support",
+)
+"""Rows of the means since the start: those that a page shows first."""
 STILL_ACTIVITIES = (Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
 
 
@@ -40,15 +49,19 @@ class ScenePace:
         """Discard the strides of a foot; after a reset, times are not comparable with theirs."""
         self.strides.pop(foot, None)
 
-    def frame(self, now: float, activity: Activity, since: float) -> dict[str, Any] | None:
+    def frame(
+        self, now: float, activity: Activity, since: float, unsound: frozenset[Foot] = frozenset()
+    ) -> dict[str, Any] | None:
         """Return the member "pace" of a frame at `now`, s; None while there is no pace.
 
-        `activity` is the wearer's activity, which started at `since`, s."""
+        `activity` is the wearer's activity, which started at `since`, s. Strides of `unsound` feet do not count, unless
+        both feet are."""
         is_still = activity in STILL_ACTIVITIES
         recent = [
             strides
-            for strides in self.strides.values()
-            if now - strides[-1].t <= MAX_TIME_RATIO * strides[-1].stride_time + MAX_STRIDE_LATENCY
+            for foot, strides in self.strides.items()
+            if (foot not in unsound or len(unsound) == len(Foot))
+            and now - strides[-1].t <= MAX_TIME_RATIO * strides[-1].stride_time + MAX_STRIDE_LATENCY
             and not (is_still and strides[-1].t <= since)
         ]
         if not recent:
@@ -99,7 +112,7 @@ def _total_frame(parameters: GaitParameters) -> dict[str, Any]:
     return {
         "cadence": rounded(parameters.cadence, 1),
         "speed": None if speed is None else rounded(speed.mean, 2),
-        "stance": rounded(parameters.asymmetry("stance_time"), 4),
+        "rows": [_row(row) for row in gait_rows(parameters) if row.name in FIRST_ROWS],
     }
 
 

@@ -11,6 +11,7 @@ from ....events import (
     CellsFailed,
     ClockReset,
     Connected,
+    Defect,
     DefectFound,
     Event,
     FeetSwapped,
@@ -19,7 +20,7 @@ from ....events import (
     InsoleNeverUnloads,
 )
 from ....recording import printable
-from ....types import SITE_OF_FOOT, Site
+from ....types import SITE_OF_FOOT, Foot, Site
 from ...links import LinkLedger
 from ..messages import rounded
 
@@ -39,6 +40,32 @@ SWAPPED = (
     "own foot."
 )
 SILENT = "nothing comes while the other foot walks on. See whether the sensor is switched on, charged and near."
+
+BRIEF_OF_DEFECT = {
+    **dict.fromkeys(
+        (Defect.AXES, Defect.CONTRADICTION, Defect.NO_GRAVITY, Defect.WRONG_SCALE),
+        "sensor is mounted or set up wrongly: its figures cannot be right",
+    ),
+    **dict.fromkeys(
+        (Defect.TIME_UNIT, Defect.ACC_UNIT, Defect.GYRO_UNIT, Defect.PRESSURE_UNIT),
+        "sensor sends a wrong unit: its figures cannot be right",
+    ),
+    Defect.LOOSE: "sensor is loose: fasten it",
+    Defect.CLOCKS: "sensor has another clock than the other: figures of both feet together cannot be right",
+    Defect.MOVING_GROUND: "sensor: the ground carries the wearer",
+    Defect.CALIBRATION: "sensor: the calibration of its heading does not fit",
+}
+"""Sentence for the line at the top of a page, after the word left or right, by defect."""
+BRIEF_SPOILT = "sensor sends data that cannot be right, nor can its figures"
+BRIEF_COARSE = "sensor: its figures are less accurate"
+
+
+def brief_of(event: DefectFound) -> str:
+    """Return one plain sentence on what a defect of a sensor means, without its reason."""
+    words = BRIEF_OF_DEFECT.get(event.defect) if event.needs_action else None
+    site = event.site
+    name = f"{site.foot} " if site.foot is not None else f"{site.words} "
+    return f"{name}{words or (BRIEF_SPOILT if event.needs_action else BRIEF_COARSE)}."
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
@@ -79,24 +106,28 @@ def fault_words(event: CellsFailed) -> str:
 class SceneFindings:
     """Findings of the checks that still hold, at most one of each kind for each sensor."""
 
-    found: dict[str, tuple[float, str, str, bool]] = field(factory=dict)
-    """(t, site in words or "" for both feet, sentences, whether results are wrong until somebody acts), by site and
-    kind; t in s."""
+    found: dict[str, tuple[float, str, str, str, bool]] = field(factory=dict)
+    """(t, site in words or "" for both feet, one sentence, all of them, whether results are wrong until somebody acts),
+    by site and kind; t in s."""
 
     def add_event(self, event: Event) -> None:
         """Add what an event found, or remove what no longer holds; other events change nothing."""
         match event:
             case DefectFound(site=site, defect=defect, what=what):
-                self._add(event, site, defect.value, what, event.needs_action)
+                self._add(event, site, defect.value, brief_of(event), what, event.needs_action)
             case CellsFailed(site=site, fault=fault):
                 words = f"{fault_words(event)}; left out from now on. Have the insole repaired; its other cells count."
-                self._add(event, site, fault.value, words, False)
+                self._add(event, site, fault.value, f"{site.words}: {fault_words(event)}.", words, False)
             case InsoleNeverUnloads(site=site):
-                self._add(event, site, "load", UNLOADS_NEVER, False)
+                self._add(event, site, "load", f"{site.words}: the insole is never without load.", UNLOADS_NEVER, False)
             case FeetSwapped():
-                self._add(event, None, "swapped", SWAPPED, True)
+                self._add(
+                    event, None, "swapped", "the insoles may be swapped: left and right cannot be right.", SWAPPED, True
+                )
             case FootSilent(foot=foot):
-                self._add(event, SITE_OF_FOOT[foot], "silent", SILENT, True)
+                self._add(
+                    event, SITE_OF_FOOT[foot], "silent", f"{foot} foot: no data while the other walks on.", SILENT, True
+                )
             case FootResumed(foot=foot):
                 self.found.pop(_key(SITE_OF_FOOT[foot], "silent"), None)
             case Connected(site=site) | ClockReset(site=site, restarted=True):
@@ -105,14 +136,27 @@ class SceneFindings:
             case _:
                 pass
 
-    def _add(self, event: Event, site: Site | None, kind: str, what: str, act: bool) -> None:
+    def _add(self, event: Event, site: Site | None, kind: str, brief: str, what: str, act: bool) -> None:
         words = "" if site is None else site.words
-        self.found[_key(site, kind)] = (rounded(event.t) or 0.0, words, printable(what, 300), act)
+        self.found[_key(site, kind)] = (rounded(event.t) or 0.0, words, brief, printable(what, 300), act)
 
-    def frame(self) -> list[dict[str, Any]]:
-        """Return the member "findings" of a frame: those that somebody must act on first, then the newest first."""
-        ordered = sorted(self.found.values(), key=lambda one: (not one[3], -one[0]))
-        return [{"t": t, "site": site, "what": what, "act": act} for t, site, what, act in ordered]
+    @property
+    def unsound(self) -> frozenset[Foot]:
+        """Feet whose figures cannot be right until somebody acts."""
+        sites = {site for _, site, _, _, act in self.found.values() if act}
+        return frozenset(foot for foot in Foot if SITE_OF_FOOT[foot].words in sites)
+
+    def frame(self, broken: frozenset[Site] = frozenset()) -> list[dict[str, Any]]:
+        """Return the member "findings" of a frame: those that somebody must act on first, then the newest first.
+
+        That a foot sends nothing is left out where its link is `broken`: the link says it."""
+        silent = {_key(site, "silent") for site in broken}
+        ordered = sorted(
+            [one for key, one in self.found.items() if key not in silent], key=lambda one: (not one[4], -one[0])
+        )
+        return [
+            {"t": t, "site": site, "brief": brief, "what": what, "act": act} for t, site, brief, what, act in ordered
+        ]
 
 
 def _key(site: Site | None, kind: str) -> str:

@@ -7,6 +7,7 @@ from math import degrees
 from attrs import define, field
 
 from ....events import (
+    ActivityChanged,
     BatteryLevel,
     CellsFailed,
     ClockReset,
@@ -33,7 +34,7 @@ from ....events import (
     TurnMade,
 )
 from ....recording import printable
-from ....types import SITE_OF_FOOT, Turn
+from ....types import SITE_OF_FOOT, Activity, Turn
 from ...observer import Observer
 from ..messages import rounded
 from .links import fault_words
@@ -78,7 +79,8 @@ class SceneLog:
 def sentence(event: Event) -> tuple[str, str] | None:
     """Return (kind, sentence) for an event that has a line in the log; None for any other.
 
-    `kind` is "link", "wear", "gait", "place" or "here"."""
+    `kind` is "fault" (until somebody acts, results are wrong or absent), "wear" (they are only less accurate), "link",
+    "gait", "place" or "here"."""
     line = _link(event) or _wear(event) or _gait(event)
     return None if line is None else (line[0], printable(line[1], 300))
 
@@ -86,23 +88,23 @@ def sentence(event: Event) -> tuple[str, str] | None:
 def _link(event: Event) -> tuple[str, str] | None:
     match event:
         case Connected(site=site, name=name):
-            return "link", f"{site.words}: connected{f' to {name}' if name else ''}"
+            return "link", f"{site.words}: connected{f', {name}' if name else ''}"
         case Disconnected(site=site):
-            return "link", f"{site.words}: the connection is lost"
+            return "fault", f"{site.words}: the connection is lost"
         case StreamStale(site=site, silent_for=seconds):
-            return "link", f"{site.words}: nothing has come for {seconds:.1f} s"
+            return "fault", f"{site.words}: nothing has come for {seconds:.1f} s"
         case StreamResumed(site=site, silent_for=seconds):
             return "link", f"{site.words}: data come again after {seconds:.1f} s"
         case StreamRestarted(site=site):
             return "link", f"{site.words}: the data had stopped, the sensor was set up again"
         case ClockReset(site=site, restarted=restarted):
-            return "link", f"{site.words}: {'the sensor has restarted' if restarted else 'its clock has jumped'}"
+            return "wear", f"{site.words}: {'the sensor has restarted' if restarted else 'its clock has jumped'}"
         case PacketsDropped(site=site, count=count):
-            return "link", f"{site.words}: {count} packet{'s' * (count != 1)} came too fast to be used"
+            return "wear", f"{site.words}: {count} packet{'s' * (count != 1)} came too fast to be used"
         case LinkTrouble(site=site, what=what):
-            return "link", f"{site.words}: {what}"
+            return "fault", f"{site.words}: {what}"
         case BatteryLevel(site=site, level=level) if level <= LOW_BATTERY:
-            return "link", f"{site.words}: the battery is at {100.0 * level:.0f} %"
+            return "wear", f"{site.words}: the battery is at {100.0 * level:.0f} %"
         case _:
             return None
 
@@ -110,7 +112,7 @@ def _link(event: Event) -> tuple[str, str] | None:
 def _wear(event: Event) -> tuple[str, str] | None:
     match event:
         case DefectFound(site=site, what=what):
-            return "wear", f"{site.words}: {what}"
+            return "fault" if event.needs_action else "wear", f"{site.words}: {what}"
         case Limitation(site=site, what=what):
             return "wear", what if site is None else f"{site.words}: {what}"
         case CellsFailed(site=site):
@@ -118,11 +120,11 @@ def _wear(event: Event) -> tuple[str, str] | None:
         case InsoleNeverUnloads(site=site):
             return "wear", f"{site.words}: the insole is never without load; the shoe may be too tight for it"
         case FeetSwapped():
-            return "wear", "the insoles may be swapped: what comes as the left foot looks like a right one"
+            return "fault", "the insoles may be swapped: what comes as the left foot looks like a right one"
         case FootSilent(foot=foot):
-            return "wear", f"{foot} foot: nothing comes while the other foot walks on"
+            return "fault", f"{foot} foot: nothing comes while the other foot walks on"
         case FootResumed(foot=foot, silent_for=seconds):
-            return "wear", f"{foot} foot: samples again after {seconds:.1f} s"
+            return "link", f"{foot} foot: samples again after {seconds:.1f} s"
         case _:
             return None
 
@@ -134,9 +136,11 @@ def _gait(event: Event) -> tuple[str, str] | None:
         case FlightClimbed(up=up, steps=strides, height=height, final=True):
             direction = "up" if up else "down"
             return "gait", f"stairs {direction}: {strides} stride{'s' * (strides != 1)}, {abs(height):.1f} m"
+        case ActivityChanged(activity=Activity.ELEVATOR_UP | Activity.ELEVATOR_DOWN as activity, final=True):
+            return "gait", f"in a lift that goes {'up' if activity is Activity.ELEVATOR_UP else 'down'}"
         case LiftRidden(up=up, height=height, final=True):
             height_text = "" if height is None else f", {abs(height):.1f} m"
-            return "gait", f"a lift {'up' if up else 'down'}{height_text}"
+            return "gait", f"lift {'up' if up else 'down'}{height_text}"
         case PlaceLost(what=what) | PlanContradicted(what=what):
             return "place", what
         case TrackRevised() | PositionRejected():

@@ -266,11 +266,13 @@ class Scene:
             "wearer": self.wearer.wearer_frame(),
             "place": self.wearer.place_frame(observer.places.last),
             "activity": activity_frame(since, activity, silent_since),
-            "pace": None if silent_since is not None else self.pace.frame(now, activity, since),
+            "pace": None if silent_since is not None else self.pace.frame(now, activity, since, self.findings.unsound),
             **both_feet_frame(self.feet, observer, self.body),
             "scales": self.scales.frame(),
             **self.gait_means.frames(observer.recent_gait, observer.gait),
-            "findings": self.findings.frame(),
+            "findings": self.findings.frame(
+                frozenset(site for site, link in links.items() if link["state"] in ("silent", "lost"))
+            ),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
             **guide_frame(self.guide),

@@ -1,13 +1,16 @@
 // Means of steady strides: five rows, and a folded table of all.
 
+import { MAIN, difference } from "./rows.js";
+import { unsound } from "./sound.js";
 import { child, fixed, percent, setData, show, signed, write } from "./words.js";
 
 const FULL_ASYMMETRY = 0.2; // asymmetry that fills half of its bar
+const FULL_SHARE = 0.1; // the same for a difference in shares of a stride
 const FULL_DIFFERENCE = 10; // difference that fills half of its bar, degrees
 const UNITS = { deg: "°" };
 
 export class Gait {
-  uses = ["gait", "scene"];
+  uses = ["gait", "findings", "playback", "activity", "scene"];
 
   constructor() {
     for (const id of ["gait-rows", "gait-main", "gait-main-rows", "gait-waiting", "gait-kind", "gait-note", "gait-coordination"])
@@ -17,13 +20,17 @@ export class Gait {
     this["gait-main-rows"].replaceChildren(...this.main.map((row) => row.element));
   }
 
-  draw({ gait }) {
+  draw(state) {
+    const { gait, finished } = state;
     const rows = gait?.rows ?? [];
     const some = rows.length > 0;
     setData(this["gait-main"], { known: some });
     write(this["gait-waiting"], some ? "" : "After a few steady strides the figures come here.");
-    write(this["gait-kind"], some ? (gait.running ? "running" : "walking") : "");
-    write(this["gait-note"], some ? few(gait) : "");
+    write(this["gait-kind"], some ? `${gait.running ? "running" : "walking"}, mean of ${counted(gait)}` : "");
+    const feet = unsound(state);
+    for (const table of [this["gait-main"], this["gait-rows"]])
+      setData(table, { left: !feet.has("left"), right: !feet.has("right"), both: feet.size === 0 });
+    write(this["gait-note"], some ? few(gait, finished) : "");
     write(this["gait-coordination"], some ? coordinationText(gait) : "");
     MAIN.forEach((make, k) => this.main[k].show(make(rows)));
     const all = some ? [{ name: "strides", label: "strides", digits: 0, ...gait.strides }, ...rows] : [];
@@ -37,34 +44,19 @@ export class Gait {
   }
 }
 
-const find = (rows, name) => rows.find((row) => row.name === name);
-const named = (name, label, unit) => (rows) => find(rows, name) ?? { name, label, unit };
-
-// The time with both feet on the ground, from both of its parts; below zero it is the time with both in the air.
-function doubleSupport(rows) {
-  const parts = ["initial", "terminal"].map((part) => find(rows, `${part}_double_support`));
-  const sums = Object.fromEntries(
-    ["left", "right", "both"].map((key) => [key, parts.reduce((sum, part) => sum + (part?.[key] ?? NaN), 0)]),
-  );
-  const flies = [sums.left, sums.right, sums.both].some((sum) => sum < 0);
-  const [left, right, both] = [sums.left, sums.right, sums.both].map((sum) => (flies ? -sum : sum));
-  const asymmetry = !flies && left + right > 0 ? (2 * (right - left)) / (left + right) : NaN;
-  const label = flies ? "both in the air" : "both on the ground";
-  return { name: "double_support", label, unit: "%", digits: 1, left, right, both, asymmetry };
+// Strides are counted for each foot.
+function counted({ strides }) {
+  const counts = Object.values(strides).filter(Number.isFinite);
+  const [least, most] = [Math.min(...counts), Math.max(...counts)];
+  if (counts.length === 1) return `${most} strides of one foot`;
+  return `${least === most ? most : `${least} and ${most}`} strides`;
 }
 
-const stance = (rows) => ({ ...named("stance_time", "", "%")(rows), label: "foot on the ground" });
-const MAIN = [
-  named("stride_length", "stride length", "m"),
-  named("speed", "speed", "m/s"),
-  named("stride_time", "stride time", "s"),
-  stance,
-  doubleSupport,
-];
-
-function few({ strides, enough }) {
-  const count = Object.values(strides).reduce((sum, one) => sum + (one ?? 0), 0);
-  return count < enough ? `Of ${count} strides: figures settle with ${enough} and more (Galna et al. 2013).` : "";
+function few({ strides, enough }, finished) {
+  const counts = Object.values(strides).filter(Number.isFinite);
+  const least = Math.ceil(enough / counts.length);
+  if (counts.reduce((sum, one) => sum + one, 0) >= enough) return "";
+  return finished ? `Few strides: means are good from ${least} strides of each foot on.` : `The figures settle with ${least} and more strides of each foot.`;
 }
 
 const coordinationText = ({ coordination }) =>
@@ -106,11 +98,12 @@ class Row {
     if (this.whole) write(this.sd, Number.isFinite(row.sd) ? `± ${fixed(row.sd, digits)}` : "");
     if (this.whole) write(this.cv, Number.isFinite(row.cv) ? fixed(100 * row.cv, 1) : "–");
     const turned = Number.isFinite(row.difference); // an angle has a difference, since a share of an angle says nothing
-    const known = turned || Number.isFinite(row.asymmetry);
-    const lean = turned ? row.difference / FULL_DIFFERENCE : row.asymmetry / FULL_ASYMMETRY;
+    const { share, points } = difference(row);
+    const known = turned || Number.isFinite(share);
+    const lean = turned ? row.difference / FULL_DIFFERENCE : share / (points ? FULL_SHARE : FULL_ASYMMETRY);
     const degrees = () => `${signed(row.difference, digits)}${UNITS[row.unit] ?? ""}`;
-    const share = () => `${signed(100 * row.asymmetry, 1)} %`;
-    write(this.share, turned ? degrees() : known ? share() : "–");
+    const words = () => `${signed(100 * share, 1)} ${points ? "points" : "%"}`;
+    write(this.share, turned ? degrees() : known ? words() : "–");
     show(this.track, known);
     if (!known) return;
     this.bar.dataset.to = lean < 0 ? "left" : "right";

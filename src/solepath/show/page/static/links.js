@@ -2,6 +2,9 @@
 
 import { LINKS, capital, child, fixed, percent, wordOf, show, span, setData, write } from "./words.js";
 
+const HIGH_LOSS = 0.05; // share of packets lost from which on a link is marked; accuracy is stated for up to so much
+const LOW_BATTERY = 0.15; // charge from which down the battery may be why nothing comes
+
 const RECORDED = { ok: "recorded", silent: "no data", lost: "lost", waiting: "no data yet" };
 const isBroken = ({ state }) => state === "lost" || state === "silent";
 const troubleOf = ({ trouble }) => (typeof trouble === "string" ? trouble : "");
@@ -11,9 +14,10 @@ export function problems({ links, finished, source }) {
   if (finished) return [];
   const names = Object.keys(links).sort();
   const lost = names.filter((name) => isBroken(links[name])).map((name) => {
-    const { silent_for } = links[name];
+    const { silent_for, battery } = links[name];
     const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
-    const todo = source === "live" ? " Is the sensor near, switched on and charged?" : "";
+    const charged = Number.isFinite(battery) && battery > LOW_BATTERY;
+    const todo = source !== "live" ? "" : charged ? " Is the sensor near and switched on?" : " Is the sensor near, switched on and charged?";
     return `${capital(name)}: no data${since}.${todo}`;
   });
   const faulty = names.filter((name) => troubleOf(links[name]) !== "");
@@ -33,14 +37,23 @@ export function linksText({ links, source, finished }) {
   const all = names.length === 1 ? capital(names[0]) : names.length === 2 ? "Both sensors" : `All ${names.length} sensors`;
   const verb = source === "recording" || finished ? "recorded" : source === "demo" ? "emulated" : "connected";
   const some = names.map((name) => links[name]);
-  const most = Math.max(0, ...some.map(({ loss }) => (Number.isFinite(loss) ? loss : 0)));
-  if (!finished && most > 0) return `${all} ${verb}, ${percent(most, most < 0.0995 ? 1 : 0)} of packets lost`;
+  const most = mostLost(links);
+  if (!finished && most > 0) return `${all} ${verb}, ${lossText(most)}`;
   const ever = some.reduce((sum, { lost, gaps }) => sum + (lost > 0) + (gaps > 0), 0);
+  const packets = some.reduce((sum, { lost }) => sum + (lost > 0 ? lost : 0), 0);
+  if (finished && packets > 0) return `${all} ${verb}, ${counted(packets, "packet")} lost`;
   return ever === 0 ? `${all} ${verb}, no data lost` : `${all} ${verb}${finished ? ", with some data lost" : ", no data lost now"}`;
 }
 
+const mostLost = (links) => Math.max(0, ...Object.values(links).map(({ loss }) => (Number.isFinite(loss) ? loss : 0)));
+const lossText = (share) => `${percent(share, share < 0.0995 ? 1 : 0)} of packets lost`;
+const counted = (count, word) => `${fixed(count)} ${word}${count === 1 ? "" : "s"}`;
+
+// True while more packets are lost than the stated limit.
+export const losesMany = ({ links, finished }) => !finished && mostLost(links) > HIGH_LOSS;
+
 export class Links {
-  uses = ["links", "playback", "scene"];
+  uses = ["links", "findings", "playback", "scene"];
   #opened = false; // by itself
 
   constructor() {
@@ -57,7 +70,10 @@ export class Links {
       this.sites = new Map(names.map((name) => [name, new Link(name)]));
       this.list.replaceChildren(...[...this.sites.values()].map((link) => link.element));
     }
-    for (const [name, link] of this.sites) link.show(links[name], source === "live" ? LINKS : RECORDED);
+    for (const [name, link] of this.sites) {
+      link.show(links[name], source === "live" ? LINKS : RECORDED);
+      setData(link.element, { fault: state.findings.some(({ site, act }) => act && site === name) || troubleOf(links[name]) !== "" });
+    }
     write(this.summary, linksText(state));
     const wrong = problems(state).length > 0;
     setData(this.summary, { wrong });
@@ -66,15 +82,7 @@ export class Links {
   }
 }
 
-const FIGURES = {
-  rate: "samples a second",
-  loss: "packets lost",
-  lost: "lost since the start",
-  battery: "battery",
-  signal: "signal",
-  gaps: "interruptions",
-  rejected: "rejected",
-};
+const FIGURES = ["rate", "loss", "lost", "gaps", "rejected", "battery", "signal"];
 
 class Link {
   constructor(name) {
@@ -84,13 +92,12 @@ class Link {
     child(head, "b").textContent = capital(name);
     this.state = child(head, "span", "link-state");
     this.device = child(head, "span", "link-device");
-    const figures = child(this.element, "dl", "link-figures");
+    const figures = child(this.element, "ul", "link-figures");
     this.figures = Object.fromEntries(
-      Object.entries(FIGURES).map(([title, words]) => {
-        const pair = child(figures, "div");
-        child(pair, "dt").textContent = words;
-        pair.dataset.figure = title;
-        return [title, { pair, value: child(pair, "dd") }];
+      FIGURES.map((title) => {
+        const item = child(figures, "li");
+        item.dataset.figure = title;
+        return [title, item];
       }),
     );
     this.trouble = child(this.element, "p", "trouble");
@@ -101,20 +108,19 @@ class Link {
     const silent = Number.isFinite(link.silent_for) && link.state !== "ok" ? `, ${span(link.silent_for)}` : "";
     write(this.state, wordOf(words, link.state ?? "waiting") + silent);
     write(this.device, typeof link.name === "string" ? link.name : "");
-    this.#figure("rate", fixed(link.rate), Number.isFinite(link.rate));
-    this.#figure("loss", percent(link.loss, 1), Number.isFinite(link.loss)); // recent loss
-    this.#figure("lost", fixed(link.lost), link.lost > 0);
-    this.#figure("battery", percent(link.battery), Number.isFinite(link.battery));
-    this.#figure("signal", `${fixed(link.signal)} dBm`, Number.isFinite(link.signal));
-    this.#figure("gaps", fixed(link.gaps), link.gaps > 0);
-    this.#figure("rejected", fixed(link.rejected), link.rejected > 0);
+    this.#figure("rate", `${fixed(link.rate)} samples a second`, Number.isFinite(link.rate));
+    this.#figure("loss", lossText(link.loss), Number.isFinite(link.loss)); // recent loss
+    this.#figure("lost", `${counted(link.lost, "packet")} lost since the start`, link.lost > 0);
+    this.#figure("gaps", counted(link.gaps, "interruption"), link.gaps > 0);
+    this.#figure("rejected", `${counted(link.rejected, "packet")} rejected`, link.rejected > 0);
+    this.#figure("battery", `battery ${percent(link.battery)}`, Number.isFinite(link.battery));
+    this.#figure("signal", `signal ${fixed(link.signal)} dBm`, Number.isFinite(link.signal));
     write(this.trouble, troubleOf(link));
     show(this.trouble, this.trouble.textContent !== "");
   }
 
   #figure(title, words, known) {
-    const { pair, value } = this.figures[title];
-    show(pair, known);
-    write(value, words);
+    show(this.figures[title], known);
+    write(this.figures[title], words);
   }
 }

@@ -1,6 +1,6 @@
 // The log of events as sentences, the newest at the top.
 
-import { child, clock } from "./words.js";
+import { capital, child, clock } from "./words.js";
 
 export class Log {
   uses = ["log", "scene"];
@@ -18,7 +18,8 @@ export class Log {
           const item = document.createElement("li");
           item.dataset.kind = kind;
           child(item, "time").textContent = clock(t - start);
-          child(item, "span").textContent = words;
+          child(item, "i"); // mark of a fault
+          child(item, "span").textContent = capital(words);
           return item;
         })
         .reverse(),

@@ -111,7 +111,7 @@ function later(panel, news) {
 const SOURCES = { live: "live sensors", demo: "an emulated walk", recording: "a recording" };
 
 function heading() {
-  write(element("title"), state.title);
+  write(element("title"), state.source === "demo" ? `${state.title} · ${SOURCES.demo}` : state.title);
   write(element("source"), wordOf(SOURCES, state.source));
   write(element("recipe"), state.recipe);
   document.body.classList.toggle("measuring", isGuided(state));

@@ -1,7 +1,7 @@
 // The line at the top: what needs attention, in words, the worst first; else one sentence on the links. Its height never
 // changes, so that nothing below it moves: all of it is in a list above the page.
 
-import { linksText, problems } from "./links.js";
+import { linksText, losesMany, problems } from "./links.js";
 import { capital, child, setData, write } from "./words.js";
 
 export class Notice {
@@ -16,20 +16,21 @@ export class Notice {
   draw(state) {
     const all = attention(state);
     const level = all.some(({ act }) => act) ? "bad" : all.length > 0 ? "note" : "quiet";
-    setData(this.notice, { level });
+    setData(this.notice, { level, loss: losesMany(state) });
     write(this["notice-quiet"], this.connection || (state.known ? linksText(state) : ""));
-    this.#say(all.length > 0 ? all[0].words : "");
+    this.#say(all.length > 0 ? all[0].brief : "");
     this["notice-all"].style.visibility = all.length > 0 ? "" : "hidden";
-    write(this["notice-all"], all.length > 1 ? `All ${all.length}` : "Details");
+    write(this["notice-all"], all.length > 1 ? `${all.length} messages` : "Details");
     if (all.length === 0 && this["notice-list"].matches(":popover-open")) this["notice-list"].hidePopover();
     const key = all.map(({ words }) => words).join("\n");
     if (key === this.listed) return "done";
     this.listed = key;
     this.findings.replaceChildren();
-    for (const { words, act } of all) {
+    for (const { brief, words, act } of all) {
       const item = child(this.findings, "li");
       setData(item, { act });
-      write(item, words);
+      if (brief !== words) write(child(item, "b"), brief);
+      child(item, "p").textContent = words;
     }
     return "done";
   }
@@ -44,11 +45,15 @@ export class Notice {
   }
 }
 
-// {words, act}: what the checks found, and what is wrong with the links; what must be acted on first.
+// {brief, words, act}: what the checks found, and what is wrong with the links; what must be acted on first. brief is one
+// plain sentence for the line at the top.
 export function attention(state) {
-  const found = state.findings.map(({ site, what, act }) => ({ words: capital(site ? `${site}: ${what}` : what), act }));
+  const found = state.findings.map(({ site, brief, what, act }) => {
+    const words = capital(site ? `${site}: ${what}` : what);
+    return { brief: capital(brief) || words, words, act };
+  });
   const texts = found.map(({ words }) => words);
   // a link repeats a defect as its trouble
-  const links = problems(state).filter((words) => !texts.some((text) => words.startsWith(text))).map((words) => ({ words, act: true }));
+  const links = problems(state).filter((words) => !texts.some((text) => words.startsWith(text))).map((words) => ({ brief: words, words, act: true }));
   return [...links, ...found].sort((a, b) => b.act - a.act);
 }

@@ -10,9 +10,12 @@ export function nameOf(plan, id) {
   return plan?.levels.find((level) => level.id === id)?.name ?? id;
 }
 
+// A name that is a mere number is that of a door.
+const atDoor = (door) => (/^\d/.test(door) ? `at door ${door}` : `at ${door}`);
+
 // Level of the wearer, and the room and a door close by if they have names.
 export function whereOf(plan, { level, room, door }) {
-  return [nameOf(plan, level), room, door && `at door ${door}`].filter(Boolean).join(", ");
+  return [nameOf(plan, level), room, door && atDoor(door)].filter(Boolean).join(", ");
 }
 
 // Note below a drawing of this level; "" when there is none.
@@ -21,7 +24,7 @@ export function noteOnPlan({ place, places, plan }, level) {
   if (!place) return "Where on the plan is not known yet.";
   if (!place.decided) return possible(place, plan);
   if (place.level !== level.id) return `The wearer is on ${whereOf(plan, place)}.`;
-  const where = [place.room && `in ${place.room}`, place.door && `at door ${place.door}`].filter(Boolean);
+  const where = [place.room && `in ${place.room}`, place.door && atDoor(place.door)].filter(Boolean);
   return where.length > 0 ? `The wearer is ${where.join(", ")}.` : "";
 }
 

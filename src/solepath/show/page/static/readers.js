@@ -54,18 +54,20 @@ const posture = (value) => {
   return { foot, task: text(task), target: number(target), pitch: number(pitch), lean: number(lean), still: still === true };
 };
 
+const rowsOf = (value) => list(value).slice(0, MAX_ITEMS).filter((row) => typeof row?.name === "string");
+
 const total = (value) => {
-  const { cadence, speed, stance } = record(value);
-  return { cadence: number(cadence), speed: number(speed), stance: number(stance) };
+  const { cadence, speed, rows } = record(value);
+  return { cadence: number(cadence), speed: number(speed), rows: rowsOf(rows) };
 };
 
-// {site: "" for both feet, what, act: results are wrong until somebody acts}
+// {site: "" for both feet, brief: one sentence, what: all of it, act: results are wrong until somebody acts}
 const findings = (value) =>
   list(value)
     .slice(0, MAX_ITEMS)
     .map(record)
     .filter(({ what }) => text(what) !== "")
-    .map(({ site, what, act }) => ({ site: text(site), what, act: act === true }));
+    .map(({ site, brief, what, act }) => ({ site: text(site), brief: text(brief), what, act: act === true }));
 
 // Members that a frame sends whole, with the function that checks each.
 export const READERS = { wearer, place, activity, pace, scales, support, touchdown, body, fused, gait, total, findings, playback, posture, toe_out };
@@ -134,16 +136,13 @@ function scales(value) {
 
 function gait(value) {
   if (value === null || typeof value !== "object") return null;
-  const rows = list(value.rows)
-    .slice(0, MAX_ITEMS)
-    .filter((row) => typeof row?.name === "string");
   return {
     running: value.running === true,
     cadence: number(value.cadence),
     coordination: number(value.coordination),
     strides: Object.fromEntries(FEET.map((foot) => [foot, number(value.strides?.[foot])])),
     enough: number(value.enough) ?? 0,
-    rows,
+    rows: rowsOf(value.rows),
   };
 }
 

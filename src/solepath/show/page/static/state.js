@@ -45,8 +45,8 @@ export class State {
     this.body = null; // {t, left, right: hip, knee, ankle, end of the foot as [ahead, up], m}
     this.fused = null; // {foot, length, similarity, errorIndex, share, chosen, distance}: the last fused stride
     this.gait = null;
-    this.total = null; // {cadence, speed, stance: asymmetry}: means of all steady strides
-    this.findings = []; // {site, what, act}: what the checks found
+    this.total = null; // {cadence, speed, rows}: means of all steady strides
+    this.findings = []; // {site, brief, what, act}: what the checks found
     this.links = {};
     this.playback = null;
     this.toe_out = null; // {task, distance: m or null, feet: [{foot, strides, along, angle, sigma, learnt, why}]}: a walk that calibrates
@@ -68,16 +68,10 @@ export class State {
     return this.playback === null ? this.over : this.playback.state === "ended";
   }
 
-  // Number of strides, or null before any foot has sent anything.
+  // Number of strides of each foot, or null before any foot has sent anything: that of the foot which has more.
   get strides() {
     const feet = FEET.map((foot) => this.feet[foot]).filter((foot) => foot !== null);
-    return feet.length > 0 ? feet.reduce((sum, foot) => sum + (foot.strides || 0), 0) : null;
-  }
-
-  // Distance walked, m: each foot goes about as far as the wearer. NaN before any foot has sent anything.
-  get distance() {
-    const lengths = FEET.map((foot) => this.feet[foot]).filter((foot) => foot !== null).map((foot) => foot.distance || 0);
-    return lengths.reduce((a, b) => a + b, 0) / lengths.length;
+    return feet.length > 0 ? Math.max(...feet.map((foot) => foot.strides || 0)) : null;
   }
 
   // Returns the names of what changed; a message of an unknown type changes nothing.
