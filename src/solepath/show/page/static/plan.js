@@ -2,6 +2,7 @@
 
 import { measured } from "./labels.js";
 import { outerWalls } from "./outer.js";
+import { isConnector } from "./position.js";
 import { nameIn, usualKind } from "./rooms.js";
 import { drawBadge, drawFlight, drawSymbol, badgeSize } from "./symbols.js";
 import { theme } from "./theme.js";
@@ -110,7 +111,7 @@ function spotsOf({ words, upright, slack }, [x, y], style) {
   return ways.flatMap((a) => ASIDE.map((share) => (lying ? [x + a, y + share * across] : [x + share * across, y + a])));
 }
 
-const callOf = (kind, name) => (/lift|elevator|stair|escalator|ramp/i.test(name) ? name : `${kind} ${name}`);
+const callOf = (kind, name) => (isConnector(name) ? name : `${kind} ${name}`);
 
 function seesRing(ring, px, { width, height }) {
   const points = ring.map(px);
