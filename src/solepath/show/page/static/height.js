@@ -104,7 +104,12 @@ export class Height {
 
 // Above the line of a level, at that end at which the track does not run there, or else below it.
 function levelSpots(points, x, y, z, width) {
-  const near = (from, to) => points.some(([t, at]) => x(t) >= from && x(t) <= to && Math.abs(y(at) + 11 - y(z)) < 8);
+  const between = (a, b, from, to) => Math.max(a, b) >= from && Math.min(a, b) <= to;
+  const near = (from, to) =>
+    points.some(([t, at], i) => {
+      const [before, under] = points[Math.max(0, i - 1)];
+      return between(x(before), x(t), from, to) && between(y(under), y(at), y(z) - 19, y(z) - 3);
+    });
   const ends = [[2, "left", 0, 110], [width - 12, "right", width - 110, width]];
   const free = ends.filter(([, , from, to]) => !near(from, to));
   return [...free, ...ends].map(([at, align]) => [at, y(z) - 11, align]);

@@ -5,23 +5,9 @@ import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import { Follower, Glide, heading } from "./following.js";
 import { Labels } from "./labels.js";
 import { Legend } from "./legend.js";
-import {
-  WEARER_RADIUS,
-  axes,
-  drawCandidates,
-  drawCross,
-  drawEllipse,
-  drawFoot,
-  drawGrid,
-  drawReport,
-  drawRuler,
-  drawSpread,
-  drawStart,
-  drawWearer,
-  nameStart,
-  stroke,
-} from "./marks.js";
-import { drawLevel, extent, nameLevel } from "./plan.js";
+import { WEARER_RADIUS, axes, drawCandidates, drawCross, drawEllipse, drawFoot, drawGrid } from "./marks.js";
+import { drawReport, drawRuler, drawSpread, drawStart, drawWearer, nameStart } from "./marks.js";
+import { coveredStop, drawLevel, extent, nameCovered, nameLevel } from "./plan.js";
 import { Possibility } from "./possibility.js";
 import { noteAlone, noteOnPlan, spokenOnPlan, spokenTrack } from "./position.js";
 import { roomAt } from "./rooms.js";
@@ -125,7 +111,8 @@ export class Track {
 
     this.shownPart = { x, y, scale, middle, level: level?.id ?? null };
     const here = onPlan && wearer ? roomAt(level, state.place.position) : -1;
-    this.#still(state, level, this.shownPart, here);
+    const covered = onPlan && wearer ? coveredStop(state.plan, level, wearer, scale) : -1;
+    this.#still(state, level, this.shownPart, here, covered);
     const context = this.surface.start();
     this.#labels(px, onPlan);
     this.area = false;
@@ -138,7 +125,8 @@ export class Track {
     if (this.pointing) drawCross(context, middle);
     drawRuler(context, this.labels, this.surface, scale);
     if (onPlan) avoidPlaces(this.labels, state.places, level.id, px);
-    if (onPlan) nameLevel(this.labels, state.plan, level, px, scale, here);
+    if (onPlan) nameLevel(this.labels, state.plan, level, px, scale, here, covered);
+    if (covered >= 0) nameCovered(context, this.labels, state.plan, level, covered, px(wearer), scale);
     this.labels.finish(context);
 
     const view = onPlan ? "plan" : "track";
@@ -210,15 +198,15 @@ export class Track {
     if (!onPlan) nameStart(labels, px([0, 0]));
   }
 
-  #still(state, level, part, here) {
+  #still(state, level, part, here, covered) {
     const { generation, thinned } = state;
     const since = level ? this.possibility.since(state) : 0;
-    const key = [theme.version, generation, thinned, level?.id, since, here, this.feetShown, this.trust].join(" ");
+    const key = [theme.version, generation, thinned, level?.id, since, here, covered, this.feetShown, this.trust].join(" ");
     const layer = this.still.begin(this.surface, part, part.middle, key, this.view.scaled);
     const { context, px, scale, size } = layer;
     if (this.still.fresh) this.drawn = { left: 0, right: 0, wearer: 0, places: 0 };
     if (level) {
-      if (this.still.fresh) drawLevel(context, state.plan, level, layer, here, this.extent);
+      if (this.still.fresh) drawLevel(context, state.plan, level, layer, here, this.extent, covered);
       if (this.trust === "none") return; // a dashed line is drawn at once
       const done = state.places.slice(0, -1); // the last line ends at the wearer's mark
       drawPlaces(context, done, this.drawn.places, since, level.id, px, LINE_WIDTHS.wearer);
