@@ -198,7 +198,9 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
         await view.until(f"{seen}.since === '4' && document.getElementById('track-note').hidden")
         await view.until("document.getElementById('track').ariaLabel.includes('The wearer is on')")
         scene.take(None, [evolve(place(6.0, 27.5, upper), room="<b>room 12</b>")])
-        await view.until(f"{seen}.level === '{upper}' && document.getElementById('track').ariaLabel.includes(', <b>room 12</b>')")
+        await view.until(
+            f"{seen}.level === '{upper}' && document.getElementById('track').ariaLabel.includes(', <b>room 12</b>')"
+        )
         assert await view.tab.evaluate(f"{seen}.since") == "4"
 
 

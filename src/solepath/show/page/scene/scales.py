@@ -23,7 +23,7 @@ END_MULTIPLES = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 FIRST_ENDS = {"kPa": 100.0, "N": 1.0, "counts": 1.0}
 """First end of a scale in each unit: in kPa the pressure of standing on both feet, in N and counts almost no load."""
 BEYOND_SHARE = 0.25
-"""Share of a foot's cells that may be above the end of the scale in a stance; a smaller insole may have one such cell."""
+"""Share of a foot's cells that may be above the end of the scale in a stance; a small insole may have one such cell."""
 MIN_SAMPLES = 3
 """Number of consecutive samples in which a cell must have a value for it to count."""
 
