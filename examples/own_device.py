@@ -40,20 +40,20 @@ def motion(sent, known):
     return Reading((sample,), sequence=sent.number, ticks=sent.ticks)
 
 
-READERS = {"shoe/motion": motion}
-DRIVER = Driver(PROFILE, FORMATS, READERS, sequence=65536, tick_rate=4096.0, tick_modulus=65536)
-vectors = json.loads(Path(__file__).with_suffix(".json").read_text())
-print(disagreements(DRIVER, vectors) or "the vectors agree")
+DRIVER = Driver(PROFILE, FORMATS, {"shoe/motion": motion}, sequence=65536, tick_rate=4096.0, tick_modulus=65536)
 
-session = Session(profiles=[DRIVER])
-for k, true in enumerate(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0)):
-    counts = {"acc": [round(v / ACC) for v in true.acc], "gyro": [round(v / GYRO) for v in true.gyro]}
-    data = DRIVER.write("shoe/motion", {"number": k, "ticks": round(4096 * true.t) % 65536, **counts})
-    if 500 <= k < 503:
-        continue  # three packets are lost
-    for event in session.feed(Packet(true.t + 0.01, Site.LEFT_FOOT, "shoe/motion", data)):
-        match event:
-            case StrideTaken(t=t, length=length, degraded=degraded):
-                print(f"{t:6.2f} s  stride of {length:.2f} m{', with a gap in it' if degraded else ''}")
-            case PacketsLost(t=t, count=count):
-                print(f"{t:6.2f} s  {count} packets lost")
+if __name__ == "__main__":  # `solepath track FILE --driver own_device.py` loads this file as well
+    vectors = json.loads(Path(__file__).with_suffix(".json").read_text())
+    print(disagreements(DRIVER, vectors) or "the vectors agree")
+    session = Session(profiles=[DRIVER])
+    for k, true in enumerate(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0)):
+        counts = {"acc": [round(v / ACC) for v in true.acc], "gyro": [round(v / GYRO) for v in true.gyro]}
+        data = DRIVER.write("shoe/motion", {"number": k, "ticks": round(4096 * true.t) % 65536, **counts})
+        if 500 <= k < 503:
+            continue  # three packets are lost
+        for event in session.feed(Packet(true.t + 0.01, Site.LEFT_FOOT, "shoe/motion", data)):
+            match event:
+                case StrideTaken(t=t, length=length, degraded=degraded):
+                    print(f"{t:6.2f} s  stride of {length:.2f} m{', with a gap in it' if degraded else ''}")
+                case PacketsLost(t=t, count=count):
+                    print(f"{t:6.2f} s  {count} packets lost")

@@ -121,21 +121,23 @@ def walked(printed: str) -> list[Row]:
 HEADLINES = (
     (
         "position",
-        "28 walks filmed by a motion-capture lab, one sensor on one shoe: off by {:.0f} cm (RMS, mean of the walks)",
+        "28 walks of 24 m (median) filmed by a motion-capture lab, one shoe: off by {:.0f} cm (RMS, mean of the walks)",
         "pyshoe_vicon",
         r"RMS, horizontal: mean ([\d.]+) m",
         100.0,
     ),
     (
         "strides",
-        "footprints measured on the floor: {} strides found, {} invented, lengths off by {} %",
+        "8 walks of 48 to 109 m, every footprint measured on the floor, one shoe: off by {} m on average; "
+        "{} strides found, {} invented, their lengths off by {} %",
         "gumushane_surveyed",
-        r"strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+) %",
+        r"footprints: mean ([\d.]+) m.*strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+) %",
         None,
     ),
     (
         "contacts",
-        "60 walks with radio losses, checked by hand: heel-strikes F1 {}, median offset {} ms; toe-offs F1 {}, {} ms",
+        "60 walks with radio losses, both feet, moments checked by hand: heel-strike F1 {}, median offset {} ms; "
+        "toe-off F1 {}, {} ms",
         "ipol_10m_uturn",
         r"heel-strikes: F1 ([\d.]+), median offset (-?\d+) ms.*toe-offs: F1 ([\d.]+), median offset (-?\d+) ms",
         None,
@@ -158,7 +160,7 @@ def headlines(short: list[Row], bench: str) -> list[str]:
     found = re.search(r"^real-time factor.*: (.+)$", bench, re.MULTILINE)
     if found is None:
         raise ValueError("the benchmark prints no real-time factor")
-    cost = f"two insoles of 96 cells at 100 Hz: {found[1]} times real time on one core, in plain Python"
+    cost = f"two insoles of 96 pressure cells at 100 Hz: {found[1]} times real time on one core, in plain Python"
     return [*table, f"| cost | {cost} | `python {BENCH}` |"]
 
 
