@@ -28,6 +28,7 @@ from solepath import (
     Placed,
     Session,
     Site,
+    ToeOff,
 )
 from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.route import Route
@@ -105,13 +106,25 @@ def layout_events() -> list[Event]:
     return list(known)
 
 
-def test_one_cell_with_a_peak_does_not_make_the_forefoot_pale() -> None:
-    forefoot = [300.0] * 30 + [0.0] * 66
-    peaked = [1500.0, *forefoot[1:]]
-    scene = shown([*layout_events(), *[pressed(2.0 + 0.01 * k, LEFT, peaked) for k in range(500)]])
-    assert frame(scene)["scales"] == {"kPa": {"top": 400.0, "beyond": True}}
-    scene = shown([*layout_events(), *[pressed(2.0 + 0.01 * k, LEFT, forefoot) for k in range(500)]])
-    assert frame(scene)["scales"] == {"kPa": {"top": 400.0, "beyond": False}}
+def test_what_presses_on_few_cells_does_not_make_the_forefoot_pale() -> None:
+    forefoot = [180.0] * 30 + [0.0] * 66
+    for peaked, top in ((0, 200.0), (1, 200.0), (20, 200.0), (30, 1000.0)):
+        values = [900.0] * peaked + forefoot[peaked:]
+        scene = shown([*layout_events(), *[pressed(2.0 + 0.01 * k, LEFT, values) for k in range(500)]])
+        assert frame(scene)["scales"] == {"kPa": {"top": top, "beyond": 0 < peaked < 30}}, peaked
+
+
+def test_a_scale_has_the_peaks_of_one_stance_and_not_of_several() -> None:
+    heel, toes = [300.0] * 20 + [0.0] * 76, [0.0] * 76 + [300.0] * 20
+    down, up = ([pressed(t + 0.01 * k, LEFT, some) for k in range(9)] for t, some in ((2.0, heel), (2.1, toes)))
+    toe_off = ToeOff(t=2.09, known_at=2.09, foot=LEFT)
+    assert frame(shown([*layout_events(), *down, *up]))["scales"]["kPa"]["top"] == 400.0
+    assert frame(shown([*layout_events(), *down, toe_off, *up]))["scales"]["kPa"]["top"] == FIRST_ENDS["kPa"]
+
+
+def test_the_first_strides_set_the_scale() -> None:
+    tops = [frame(scene_until(t))["scales"]["kPa"]["top"] for t in (2.0, 8.0, 12.0)]
+    assert tops[0] == FIRST_ENDS["kPa"] < tops[1] == tops[2] == frame(shown(walk()))["scales"]["kPa"]["top"]
 
 
 def test_a_knock_of_a_hundredth_of_a_second_does_not_either() -> None:

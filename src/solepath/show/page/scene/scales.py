@@ -1,8 +1,10 @@
 """Chooses the ends of the colour scales of pressure, once for all watchers, so that all see the same colours.
 
-A scale is for both feet, ends at a round number, and only ever grows. It grows when more than a twentieth of a foot's
-cells exceed its end in three samples in a row. A shoe's edge that presses on a single cell therefore does not make the
-load of a whole forefoot pale. A higher value is drawn as the end of the scale, and "beyond" says that there was one.
+A scale is for both feet, ends at a round number, and only ever grows. While a foot is on the ground, each cell has its
+highest pressure of that stance, as in the picture of peak pressures that gait laboratories use. The scale grows when
+more than a quarter of a foot's cells exceeded its end within one stance. So the first strides set it, the heel and the
+forefoot of a step reach its end, the load of standing is seen as well, and an edge that presses on a few cells does not
+make the rest pale. A higher value is drawn as the end of the scale, and "beyond" says that there was one.
 Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
@@ -20,10 +22,10 @@ END_MULTIPLES = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 """Multiples of a power of ten at which a scale may end."""
 FIRST_ENDS = {"kPa": 100.0, "N": 1.0, "counts": 1.0}
 """First end of a scale in each unit: in kPa the pressure of standing on both feet, in N and counts almost no load."""
-CELLS_PER_OUTLIER = 20
-"""One cell in this many may be above the end of the scale; a smaller insole may have one such cell, too."""
+BEYOND_SHARE = 0.25
+"""Share of a foot's cells that may be above the end of the scale in a stance; a small insole may have one such cell."""
 MIN_SAMPLES = 3
-"""Number of consecutive samples with too many cells above the end, after which the scale grows."""
+"""Number of consecutive samples in which a cell must have a value for it to count."""
 
 
 @define
@@ -46,8 +48,20 @@ class InsoleScale:
     unit: str
     factors: tuple[float, ...] | None
     """Factor for each cell from the sample's unit to `unit`; None where the units are the same."""
-    recent: tuple[float, ...] = ()
-    """Highest value, in `unit`, below those of the cells that may be above the end, in each of the newest samples."""
+    recent: tuple[tuple[float, ...], ...] = ()
+    """The newest samples in a row with a cell above the end of the scale, in `unit`."""
+    peaks: tuple[float, ...] = ()
+    """Highest value of each cell in those samples of the present stance, in `unit`."""
+
+    def add(self, values: tuple[float, ...]) -> float:
+        """Add a sample with a cell above the end; return the value that the allowed share of cells exceeded."""
+        self.recent = (*self.recent[1 - MIN_SAMPLES :], values)
+        if len(self.recent) < MIN_SAMPLES:
+            return 0.0
+        lasting = tuple(map(min, *self.recent))
+        self.peaks = tuple(map(max, self.peaks, lasting)) if len(self.peaks) == len(lasting) else lasting
+        allowed = min(max(1, int(BEYOND_SHARE * len(lasting))), len(lasting) - 1)
+        return sorted(self.peaks, reverse=True)[allowed]
 
 
 @define
@@ -82,11 +96,15 @@ class Scales:
         if not largest > scale.end:
             insole.recent = ()
             return
-        outliers = min(max(1, len(values) // CELLS_PER_OUTLIER), len(values) - 1)
-        insole.recent = (*insole.recent[1 - MIN_SAMPLES :], sorted(values, reverse=True)[outliers])
-        lowest = min(insole.recent)
-        if len(insole.recent) == MIN_SAMPLES and scale.end < lowest < inf:
-            scale.end = scale_end(lowest)
+        reached = insole.add(values)
+        if scale.end < reached < inf:
+            scale.end = scale_end(reached)
+
+    def end_stance(self, foot: Foot) -> None:
+        """Forget the peaks of a stance: the foot is in the air."""
+        insole = self.insoles.get(foot)
+        if insole is not None:
+            insole.peaks = ()
 
     def frame(self) -> dict[str, Any]:
         """Return the member "scales" of a frame."""

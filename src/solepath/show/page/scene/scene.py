@@ -146,7 +146,7 @@ class Scene:
             if foot_scene.phase is None or link is None or link.state(self.now) == "ok":
                 continue
             if not foot_scene.phase_started_after(link.silent_from):
-                foot_scene.mark_silent(min(self.now, link.silent_from))
+                foot_scene.mark_silent(self.now if link.last_sample_at is None else link.last_sample_at)
 
     def _connected(self, foot: Foot) -> bool:
         """Return whether a foot is connected; late samples of a broken connection do not count."""
@@ -164,6 +164,8 @@ class Scene:
     def _phase_started(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
         if self._connected(event.foot):
             self.feet[event.foot].start_phase(event.t, PHASE_OF_EVENT[type(event)])
+            if isinstance(event, ToeOff):
+                self.scales.end_stance(event.foot)
 
     def _stride_taken(self, event: StrideTaken) -> None:
         self.feet[event.foot].add_stride(event)

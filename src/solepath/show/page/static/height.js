@@ -2,6 +2,7 @@
 
 import { Alternative, Surface, round } from "./canvas.js";
 import { Labels } from "./labels.js";
+import { onPlanHeights } from "./heights.js";
 import { theme } from "./theme.js";
 import { clock, fixed, signed, write } from "./words.js";
 
@@ -31,7 +32,7 @@ export class Height {
     const { points, lines } = series(state);
     const last = points.at(-1);
     write(this.now, last ? `${lines.length > 0 ? fixed(last[1], 1) : signed(last[1], 1)} m` : "");
-    const against = lines.length > 0 ? "above the plan's zero" : "against the start";
+    const against = lines.length > 0 ? "in the heights of the plan" : "against the start";
     this.alternative.setText(() =>
       last ? `Height over time: now ${fixed(last[1], 1)} m ${against}` : "Height: no stride yet",
     );
@@ -103,7 +104,12 @@ export class Height {
 
 // Above the line of a level, at that end at which the track does not run there, or else below it.
 function levelSpots(points, x, y, z, width) {
-  const near = (from, to) => points.some(([t, at]) => x(t) >= from && x(t) <= to && Math.abs(y(at) + 11 - y(z)) < 8);
+  const between = (a, b, from, to) => Math.max(a, b) >= from && Math.min(a, b) <= to;
+  const near = (from, to) =>
+    points.some(([t, at], i) => {
+      const [before, under] = points[Math.max(0, i - 1)];
+      return between(x(before), x(t), from, to) && between(y(under), y(at), y(z) - 19, y(z) - 3);
+    });
   const ends = [[2, "left", 0, 110], [width - 12, "right", width - 110, width]];
   const free = ends.filter(([, , from, to]) => !near(from, to));
   return [...free, ...ends].map(([at, align]) => [at, y(z) - 11, align]);
@@ -115,7 +121,8 @@ function series({ plan, place, places, tracks, t }) {
     const lines = plan.levels
       .filter((level) => level.elevation !== null)
       .map(({ elevation, name }) => ({ z: elevation, name }));
-    const points = places.map(([t, , , , z]) => [t, z]);
+    const before = onPlanHeights(tracks.wearer, places).filter(([t]) => t < places[0][0]); // the ride or the stairs that gave the place
+    const points = [...before.map(([t, , , z]) => [t, z]), ...places.map(([t, , , , z]) => [t, z])];
     const now = place?.position[2]; // places are those whose level is decided
     if (Number.isFinite(now) && t > points.at(-1)[0]) points.push([t, now]);
     return { points, lines };

@@ -128,17 +128,20 @@ export function drawCross(context, [x, y]) {
   stroke(context, path, 2, theme.colours.ink);
 }
 
-export function drawEllipse(context, [x, y], { long, wide, angle }, scale) {
-  if (long * scale < TIP) return; // all of it is below the mark
+// dashed: it may be too small. Returns whether there was anything to see.
+export function drawEllipse(context, [x, y], { long, wide, angle }, scale, dashed) {
+  if (long * scale < TIP) return false; // all of it is below the mark
   context.beginPath();
   context.ellipse(x, y, Math.min(MAX_RADIUS, long * scale), Math.min(MAX_RADIUS, wide * scale), -angle, 0, 2 * Math.PI);
-  veil(context);
+  veil(context, dashed);
+  return true;
 }
 
-export function drawSpread(context, [x, y], radius) {
-  if (radius < TIP) return;
+export function drawSpread(context, [x, y], radius, dashed) {
+  if (radius < TIP) return false;
   circle(context, x, y, Math.min(MAX_RADIUS, Math.max(0, radius)));
-  veil(context);
+  veil(context, dashed);
+  return true;
 }
 
 // A candidate's mark is larger the likelier it is; on other levels it is faint. The likeliest, which comes first, has a
@@ -182,12 +185,14 @@ function circle(context, x, y, radius) {
   context.arc(x, y, radius, 0, 2 * Math.PI);
 }
 
-function veil(context) {
+function veil(context, dashed) {
   context.fillStyle = context.strokeStyle = theme.colours.wearer;
-  context.globalAlpha = 0.13;
+  context.globalAlpha = dashed ? 0.06 : 0.13;
   context.fill();
-  context.globalAlpha = 0.75;
-  context.lineWidth = 1;
+  context.globalAlpha = dashed ? 1 : 0.75;
+  context.lineWidth = dashed ? 1.5 : 1;
+  context.setLineDash(dashed ? [5, 5] : []);
   context.stroke();
+  context.setLineDash([]);
   context.globalAlpha = 1;
 }

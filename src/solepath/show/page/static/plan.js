@@ -2,6 +2,8 @@
 
 import { measured } from "./labels.js";
 import { outerWalls } from "./outer.js";
+import { WEARER_RADIUS } from "./marks.js";
+import { isConnector } from "./position.js";
 import { nameIn, usualKind } from "./rooms.js";
 import { drawBadge, drawFlight, drawSymbol, badgeSize } from "./symbols.js";
 import { theme } from "./theme.js";
@@ -13,6 +15,7 @@ const HERE = { bold: true, colour: "ink", ground: "here", weight: 6 }; // name o
 const ASIDE = [0, -0.5, 0.5, -1, 1]; // where a name may be across its room: shares of the way from its middle to the walls
 const LEAST_WAY = 90; // px between two places for a name along its room
 const NARROW = 8; // px; where a name has no more space to each side it is left out rather than put on the track
+const CLEAR = 22; // px from the middle of the wearer's mark within which nothing else is
 const MAX_PLACES = 12; // places for a name along its room, to each side of its middle
 
 // [least x, least y, greatest x, greatest y] of all levels, m; null for an empty plan.
@@ -36,8 +39,32 @@ export function extent(plan) {
 const stopsOf = (plan) => plan.connectors.flatMap(({ kind, name, stops }) => stops.map((stop) => ({ kind, name, stop })));
 const stopsOn = (plan, level) => stopsOf(plan).filter(({ stop }) => stop.level === level.id);
 
-// What does not move. px: ([x, y]) => [px, px]; scale: px per m; size: of the picture, px; here: number of the wearer's room
-export function drawLevel(context, plan, level, { px, scale, size }, here, whole) {
+// Number of the stairs or the lift on this level whose badge the wearer's mark at `at`, m, covers, or -1.
+export function coveredStop(plan, level, at, scale) {
+  const reach = WEARER_RADIUS + badgeSize(scale) / 2 + 3;
+  return stopsOn(plan, level).findIndex(({ stop }) => {
+    const middle = middleOf(stop);
+    return middle !== null && Math.hypot(middle[0] - at[0], middle[1] - at[1]) * scale < reach;
+  });
+}
+
+// The badge and the name that the wearer's mark at [x, y], px, would cover: above it, or below it at the top.
+export function nameCovered(context, labels, plan, level, covered, [x, y], scale) {
+  const { kind, name } = stopsOn(plan, level)[covered];
+  const badge = badgeSize(scale);
+  const off = CLEAR + badge / 2;
+  const at = [x, y > 2 * off ? y - off : y + off];
+  drawBadge(context, at, badge);
+  drawSymbol(context, kind, at, badge);
+  labels.keep(at[0] - badge / 2, at[1] - badge / 2, badge, badge);
+  const side = badge / 2 + 6;
+  const spots = [[at[0] + side, at[1], "left"], [at[0] - side, at[1], "right"]];
+  labels.add(name ? callOf(kind, name) : kind, spots, { size: NAME_SIZE, weight: 9, bold: true, colour: "ink", ground: "room" });
+}
+
+// What does not move. px: ([x, y]) => [px, px]; scale: px per m; size: of the picture, px; here: number of the wearer's room;
+// covered: number of the stop that has its badge elsewhere
+export function drawLevel(context, plan, level, { px, scale, size }, here, whole, covered = -1) {
   const { colours } = theme;
   const stops = stopsOn(plan, level);
   const outlines = stops.map(({ stop }) => stop.outline).filter((outline) => outline.length > 2);
@@ -57,20 +84,20 @@ export function drawLevel(context, plan, level, { px, scale, size }, here, whole
   lines(context, level.walls.filter((_, i) => seen[i] && outer[i]), px, colours.wall, thick, "round");
   // a door is a gap, also where the file draws the wall through it
   lines(context, level.doors.filter((door) => isSeen(door, px, size)), px, colours.room, thick + 0.5, "butt");
-  for (const { kind, stop } of stops) {
-    const middle = middleOf(stop);
+  stops.forEach(({ kind, stop }, i) => {
+    const middle = i === covered ? null : middleOf(stop);
     if (middle) drawBadge(context, px(middle), badgeSize(scale));
     if (middle) drawSymbol(context, kind, px(middle), badgeSize(scale));
-  }
+  });
 }
 
 // Names of rooms, stairs and lifts, where they fit.
-export function nameLevel(labels, plan, level, px, scale, here) {
+export function nameLevel(labels, plan, level, px, scale, here, covered = -1) {
   const badge = badgeSize(scale);
   const onScreen = ([x, y]) => x > -60 && y > -60 && x < labels.width + 60 && y < labels.height + 60;
-  for (const { kind, name, stop } of stopsOn(plan, level)) {
+  for (const [i, { kind, name, stop }] of stopsOn(plan, level).entries()) {
     const middle = middleOf(stop);
-    if (middle === null || !onScreen(px(middle))) continue;
+    if (i === covered || middle === null || !onScreen(px(middle))) continue;
     const [x, y] = px(middle);
     labels.keep(x - badge / 2, y - badge / 2, badge, badge);
     if (!name || stop.outline.length < 3) continue;
@@ -110,7 +137,7 @@ function spotsOf({ words, upright, slack }, [x, y], style) {
   return ways.flatMap((a) => ASIDE.map((share) => (lying ? [x + a, y + share * across] : [x + share * across, y + a])));
 }
 
-const callOf = (kind, name) => (/lift|elevator|stair|escalator|ramp/i.test(name) ? name : `${kind} ${name}`);
+const callOf = (kind, name) => (isConnector(name) ? name : `${kind} ${name}`);
 
 function seesRing(ring, px, { width, height }) {
   const points = ring.map(px);

@@ -1,6 +1,7 @@
 // Position of the wearer in words.
 
 import { axes } from "./marks.js";
+import { trustWords } from "./trust.js";
 import { fixed, percent } from "./words.js";
 
 // The wearer is between the feet; a foot's line has a point a stride, and nothing measures the distance between the feet.
@@ -10,6 +11,9 @@ export function nameOf(plan, id) {
   return plan?.levels.find((level) => level.id === id)?.name ?? id;
 }
 
+// Whether this is the name of stairs or of a lift.
+export const isConnector = (name) => /lift|elevator|stair|escalator|ramp/i.test(name);
+
 // A name that is a mere number is that of a door.
 const atDoor = (door) => (/^\d/.test(door) ? `at door ${door}` : `at ${door}`);
 
@@ -18,25 +22,27 @@ export function whereOf(plan, { level, room, door }) {
   return [nameOf(plan, level), room, door && atDoor(door)].filter(Boolean).join(", ");
 }
 
-// Note below a drawing of this level; "" when there is none.
-export function noteOnPlan({ place, places, plan }, level) {
+// Note over a drawing of this level; "" when there is none: the words above the drawing name the wearer's room.
+export function noteOnPlan(state, level) {
+  const { place, places, plan } = state;
   if (!place && places.length > 0) return "The place was lost; the track by itself goes on.";
   if (!place) return "Where on the plan is not known yet.";
   if (!place.decided) return possible(place, plan);
-  if (place.level !== level.id) return `The wearer is on ${whereOf(plan, place)}.`;
-  const where = [place.room && `in ${place.room}`, place.door && atDoor(place.door)].filter(Boolean);
-  return where.length > 0 ? `The wearer is ${where.join(", ")}.` : "";
+  return place.level === level.id ? trustWords(state) : `The wearer is on ${whereOf(plan, place)}.`;
 }
 
 // Note on the track without a plan.
-export function noteAlone({ place, places, plan }, feetShown) {
+export function noteAlone(state, feetShown) {
+  const { place, places, plan } = state;
+  const trust = trustWords(state);
+  if (trust) return trust;
   if (feetShown) return EACH_FOOT;
   return plan && !place && places.length === 0 ? "Where on the plan is not known yet; this is the track by itself." : "";
 }
 
 function possible(place, plan) {
   const best = Math.max(0, ...place.candidates.map((one) => one.weight));
-  return `${place.candidates.length} possible places; the likeliest (${whereOf(plan, place)}) has ${percent(best)}.`;
+  return `The wearer could be at ${place.candidates.length} places; most likely (${percent(best)}) ${whereOf(plan, place)}.`;
 }
 
 export function spokenOnPlan(state, level) {

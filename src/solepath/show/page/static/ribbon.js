@@ -14,6 +14,7 @@ const [TIMES_HEIGHT, BETWEEN] = [20, 12]; // px for the times below, and for the
 // Height of a phase at its start and at its end, as shares of the row.
 const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] };
 const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" };
+const [HATCH, LEAST_NAMED] = [7, 64]; // px between the lines where a foot sends nothing, and from which width on it says so
 const SLOW_INTERVAL = 500; // ms between pictures with reduced motion
 
 export class Ribbon {
@@ -78,11 +79,14 @@ export class Ribbon {
   // Draws a row and returns the spans on the ground.
   #row(context, phases, foot, [y, band], x, t) {
     const ground = [];
+    const silent = [];
     const paths = { "": new Path2D(), "-soft": new Path2D() };
     for (let i = 0; i < phases.length; i++) {
       const [from, phase] = phases[i];
       const to = Math.min(t, phases[i + 1]?.[0] ?? t);
-      if (to <= t - TIME_WINDOW || to <= from || phase === "") continue; // "": nothing comes of the foot
+      if (to <= t - TIME_WINDOW || to <= from) continue;
+      if (phase === "") silent.push([x(from), x(to)]); // nothing came of the foot
+      if (phase === "") continue;
       if (phase !== "SWING") ground.push([from, to]);
       const [rise, fall] = RAMPS[phase] ?? [0.5, 0.5];
       const path = paths[SHADES[phase] ?? "-soft"];
@@ -103,7 +107,26 @@ export class Ribbon {
       context.strokeStyle = theme.colours[foot];
       context.stroke(path);
     }
+    for (const [from, to] of silent) this.#silent(context, from, to, y, band);
     return ground;
+  }
+
+  // Hatched: what the foot did is not known.
+  #silent(context, from, to, y, band) {
+    context.save();
+    context.beginPath();
+    context.rect(from, y, to - from, band);
+    context.clip();
+    const path = new Path2D();
+    for (let at = from - band - (from % HATCH); at < to; at += HATCH) {
+      path.moveTo(at, y + band);
+      path.lineTo(at + band, y);
+    }
+    context.lineWidth = 1;
+    context.strokeStyle = theme.colours["sole-line"];
+    context.stroke(path);
+    context.restore();
+    if (to - from >= LEAST_NAMED) this.labels.add("no data", [[(from + to) / 2, y + band / 2]], { weight: 7, colour: "ink" });
   }
 }
 

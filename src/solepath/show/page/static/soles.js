@@ -14,7 +14,7 @@ const MIN_TEXT_INTERVAL = 120; // ms between changes of a number, so that it can
 
 export class Soles {
   // "second", since the newest number may not have been written yet
-  uses = ["feet", "scales", "links", "theme", "scene", "second"];
+  uses = ["feet", "scales", "links", "theme", "scene", "second", "playback"];
 
   constructor(redraw) {
     this.soles = FEET.map((foot) => new Sole(foot, redraw));
@@ -97,7 +97,7 @@ class Sole {
     const lost = link === "lost" || link === "silent";
     this.shows = shown(foot, layout);
     setData(this.figure, { link, shows: this.shows, phase: foot?.phase ?? "" });
-    this.#words(foot, layout, lost, link, now);
+    this.#words(foot, layout, lost, link, now, state.finished);
 
     const context = this.surface.start();
     const place = this.#placed();
@@ -118,10 +118,10 @@ class Sole {
   }
 
   // The text below the picture and its text alternative show one moment: both are written together.
-  #words(foot, layout, lost, link, now) {
+  #words(foot, layout, lost, link, now, finished) {
     const phase = foot?.phase ? wordOf(PHASES, foot.phase) : "–";
     const force = foot && foot.force !== null && !lost ? fixed(foot.force) : "";
-    write(this.phase, lost ? wordOf(LINKS, link) : phase);
+    write(this.phase, lost ? wordOf(LINKS, link) : finished && foot?.phase ? `last: ${phase}` : phase);
     this.#number(force && `${force} ${layout?.forces ? "N" : "counts"}`, phase, now);
     this.alternative.setText(() => {
       this.put();

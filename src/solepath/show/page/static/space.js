@@ -2,6 +2,7 @@
 // without perspective, with heights drawn larger where the track is flat. It is shown once there are heights to see.
 
 import { Alternative, Surface, round } from "./canvas.js";
+import { onPlanHeights } from "./heights.js";
 import { Labels } from "./labels.js";
 import { theme } from "./theme.js";
 import { fixed, setData, show, write } from "./words.js";
@@ -22,7 +23,7 @@ export const project = ([x, y, z], exaggeration) => [
 ];
 
 export class Space {
-  uses = ["tracks", "scene", "theme"];
+  uses = ["tracks", "places", "scene", "theme"];
   #drawnAt = -Infinity;
   #rise = 0; // m, and number of points for which it is
   #low = 0;
@@ -37,11 +38,12 @@ export class Space {
     this.note = document.getElementById("space-note");
   }
 
-  draw({ tracks, generation, thinned }, now, changed) {
-    const points = [tracks.wearer, tracks.left, tracks.right].find((some) => some.length > 1) ?? [];
-    const counted = `${generation} ${thinned} ${points.length}`;
+  draw({ tracks, places, plan, generation, thinned }, now, changed) {
+    const track = [tracks.wearer, tracks.left, tracks.right].find((some) => some.length > 1) ?? [];
+    const counted = `${generation} ${thinned} ${track.length} ${places.length}`;
     if (counted !== this.#counted) {
       this.#counted = counted;
+      const points = (this.points = plan && places.length > 1 ? onPlanHeights(track, places) : track);
       const [low, high] = range(points.map((point) => point[3]));
       [this.#low, this.#rise] = [low, points.length > 1 ? high - low : 0];
       show(this.card, this.#rise >= LEAST_RISE);
@@ -50,7 +52,7 @@ export class Space {
     if (now - this.#drawnAt < REDRAW_INTERVAL && !changed.has("theme") && !changed.has("scene")) return "later";
     this.#drawnAt = now;
     this.surface.fit(); // it had no size while the card was hidden
-    this.#picture(points.map((point) => point.slice(1)));
+    this.#picture(this.points.map((point) => point.slice(1)));
     return "done";
   }
 

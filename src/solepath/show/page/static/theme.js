@@ -29,7 +29,8 @@ const COLOUR_NAMES = [
 ];
 
 // Low to high: viridis (matplotlib, CC0). On a dark page it rises to bright yellow, on a light one it falls to dark
-// violet, so that load stands out against the sole, and lightness alone shows the order.
+// violet, so that load stands out against the sole, and lightness alone shows the order. The low end departs from the sole
+// at once: the load of standing is a quarter of the scale.
 const VIRIDIS = [
   [68, 1, 84],
   [71, 44, 122],
@@ -41,8 +42,8 @@ const VIRIDIS = [
   [170, 220, 50],
   [253, 231, 37],
 ];
-const DARK = [[28, 38, 48], [46, 42, 96], ...VIRIDIS.slice(2)];
-const LIGHT = [[237, 241, 244], [196, 228, 196], [112, 205, 138], ...VIRIDIS.slice(0, 6).reverse()];
+const DARK = [[28, 38, 48], [66, 72, 150], [58, 108, 170], [46, 138, 162], [38, 158, 146], [48, 182, 128], ...VIRIDIS.slice(6)];
+const LIGHT = [[237, 241, 244], [176, 222, 182], [104, 200, 134], ...VIRIDIS.slice(0, 6).reverse()];
 
 export const theme = { version: 0, dark: false, colours: {}, pressure: new Uint8Array(0), stops: [] };
 

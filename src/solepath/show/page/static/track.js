@@ -4,23 +4,10 @@
 import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import { Follower, Glide, heading } from "./following.js";
 import { Labels } from "./labels.js";
-import {
-  WEARER_RADIUS,
-  axes,
-  drawCandidates,
-  drawCross,
-  drawEllipse,
-  drawFoot,
-  drawGrid,
-  drawReport,
-  drawRuler,
-  drawSpread,
-  drawStart,
-  drawWearer,
-  nameStart,
-  stroke,
-} from "./marks.js";
-import { drawLevel, extent, nameLevel } from "./plan.js";
+import { Legend } from "./legend.js";
+import { WEARER_RADIUS, axes, drawCandidates, drawCross, drawEllipse, drawFoot, drawGrid } from "./marks.js";
+import { drawReport, drawRuler, drawSpread, drawStart, drawWearer, nameStart } from "./marks.js";
+import { coveredStop, drawLevel, extent, nameCovered, nameLevel } from "./plan.js";
 import { Possibility } from "./possibility.js";
 import { noteAlone, noteOnPlan, spokenOnPlan, spokenTrack } from "./position.js";
 import { roomAt } from "./rooms.js";
@@ -28,7 +15,8 @@ import { FEET } from "./state.js";
 import { Still } from "./still.js";
 import { theme } from "./theme.js";
 import { View } from "./view.js";
-import { avoidPlaces, boxOf, drawLine, drawPlaces } from "./walked.js";
+import { trustOf } from "./trust.js";
+import { DASH, avoidPlaces, boxOf, drawLine, drawPlaces } from "./walked.js";
 import { show, setData, write } from "./words.js";
 
 const [EDGE_MARGIN, BUTTON_MARGIN] = [20, 56]; // px around the fitted part, and at the buttons
@@ -37,7 +25,7 @@ const CALM_INTERVAL = 25; // ms between pictures while the wearer's mark moves, 
 const LINE_WIDTHS = { left: 1.5, right: 1.5, wearer: 4 };
 
 export class Track {
-  uses = ["tracks", "places", "reports", "feet", "wearer", "place", "scene", "theme"];
+  uses = ["tracks", "places", "reports", "feet", "wearer", "place", "findings", "links", "scene", "theme"];
   pointing = false; // true while a person chooses a place on the drawing
   level = null; // chosen by hand; null follows the wearer
   byItself = null; // chosen by hand: true without the plan, false on it; null on it once there is a place
@@ -61,8 +49,8 @@ export class Track {
       redraw();
     });
     this.alternative = new Alternative(canvas);
-    this.section = document.getElementById("track-section");
     this.possibility = new Possibility();
+    this.legend = new Legend(document.getElementById("track-section"));
     this.drawnAt = 0;
   }
 
@@ -113,6 +101,7 @@ export class Track {
     if (onPlan !== this.wasOnPlan && this.wasOnPlan !== undefined) this.view.all(true);
     if (onPlan !== this.wasOnPlan || level?.id !== this.wasLevel) this.glide.clear();
     [this.wasOnPlan, this.wasLevel] = [onPlan, level?.id];
+    this.trust = trustOf(state);
     this.#words(state, onPlan, level); // written before the view is fitted beside them
     const wearer = this.#wearer(state, level, now);
     const middle = this.#look(state, level, wearer, now);
@@ -122,9 +111,11 @@ export class Track {
 
     this.shownPart = { x, y, scale, middle, level: level?.id ?? null };
     const here = onPlan && wearer ? roomAt(level, state.place.position) : -1;
-    this.#still(state, level, this.shownPart, here);
+    const covered = onPlan && wearer ? coveredStop(state.plan, level, wearer, scale) : -1;
+    this.#still(state, level, this.shownPart, here, covered);
     const context = this.surface.start();
     this.#labels(px, onPlan);
+    this.area = false;
     if (width > 0 && height > 0) this.still.draw(context, this.surface, this.shownPart, middle);
     if (onPlan) this.#place(context, state, level, px, scale, wearer);
     else this.#now(context, state, px, scale, wearer);
@@ -134,13 +125,15 @@ export class Track {
     if (this.pointing) drawCross(context, middle);
     drawRuler(context, this.labels, this.surface, scale);
     if (onPlan) avoidPlaces(this.labels, state.places, level.id, px);
-    if (onPlan) nameLevel(this.labels, state.plan, level, px, scale, here);
+    if (onPlan) nameLevel(this.labels, state.plan, level, px, scale, here, covered);
+    if (covered >= 0) nameCovered(context, this.labels, state.plan, level, covered, px(wearer), scale);
     this.labels.finish(context);
 
     const view = onPlan ? "plan" : "track";
     const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
     setData(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
-    setData(this.section, { view, feet: this.feetShown ? "shown" : "" });
+    const possible = onPlan && state.place !== null && !state.place.decided;
+    this.legend.draw({ view, feetShown: this.feetShown, area: this.area, possible, dashed: this.trust === "none" });
     return "done";
   }
 
@@ -205,15 +198,16 @@ export class Track {
     if (!onPlan) nameStart(labels, px([0, 0]));
   }
 
-  #still(state, level, part, here) {
+  #still(state, level, part, here, covered) {
     const { generation, thinned } = state;
     const since = level ? this.possibility.since(state) : 0;
-    const key = [theme.version, generation, thinned, level?.id, since, here, this.feetShown].join(" ");
+    const key = [theme.version, generation, thinned, level?.id, since, here, covered, this.feetShown, this.trust].join(" ");
     const layer = this.still.begin(this.surface, part, part.middle, key, this.view.scaled);
     const { context, px, scale, size } = layer;
     if (this.still.fresh) this.drawn = { left: 0, right: 0, wearer: 0, places: 0 };
     if (level) {
-      if (this.still.fresh) drawLevel(context, state.plan, level, layer, here, this.extent);
+      if (this.still.fresh) drawLevel(context, state.plan, level, layer, here, this.extent, covered);
+      if (this.trust === "none") return; // a dashed line is drawn at once
       const done = state.places.slice(0, -1); // the last line ends at the wearer's mark
       drawPlaces(context, done, this.drawn.places, since, level.id, px, LINE_WIDTHS.wearer);
       this.drawn.places = done.length;
@@ -223,7 +217,7 @@ export class Track {
       drawGrid(context, { width: size[0], height: size[1] }, px([0, 0]), scale);
       drawStart(context, px([0, 0]));
     }
-    for (const name of this.feetShown ? [...FEET, "wearer"] : ["wearer"]) {
+    for (const name of this.trust === "none" ? [] : this.#lines()) {
       const points = name === "wearer" ? state.tracks.wearer.slice(0, -1) : state.tracks[name];
       const from = Math.max(0, this.drawn[name] - 1);
       if (points.length > from + 1) drawLine(context, points.slice(from), px, LINE_WIDTHS[name], theme.colours[name]);
@@ -231,8 +225,16 @@ export class Track {
     }
   }
 
+  #lines() {
+    return this.feetShown ? [...FEET, "wearer"] : ["wearer"];
+  }
+
   #now(context, { feet, wearer, tracks }, px, scale, at) {
-    if (wearer?.covariance) drawEllipse(context, px(wearer.position), axes(wearer.covariance), scale);
+    if (this.trust === "none") {
+      for (const name of this.#lines()) drawLine(context, tracks[name], px, LINE_WIDTHS[name], theme.colours[name], DASH);
+    } else if (wearer?.covariance) {
+      this.area = drawEllipse(context, px(wearer.position), axes(wearer.covariance), scale, this.trust === "old");
+    }
     for (const foot of this.feetShown ? FEET : []) {
       const place = feet[foot]?.position;
       if (!place) continue;
@@ -243,7 +245,7 @@ export class Track {
     }
     if (!at) return;
     const last = tracks.wearer.at(-2);
-    if (last) drawLine(context, [last, [0, ...at]], px, LINE_WIDTHS.wearer, theme.colours.wearer);
+    if (last && this.trust !== "none") drawLine(context, [last, [0, ...at]], px, LINE_WIDTHS.wearer, theme.colours.wearer);
     this.#mark(context, px(at), heading(tracks.wearer.slice(-6).map((point) => point.slice(1))));
   }
 
@@ -251,14 +253,15 @@ export class Track {
     if (!place) return;
     if (!place.decided) drawCandidates(context, this.labels, place.candidates, level.id, px);
     if (!at) return;
-    if (place.spread !== null) drawSpread(context, px(at), place.spread * scale);
+    const wrong = this.trust === "none";
+    if (place.spread !== null && !wrong) this.area = drawSpread(context, px(at), place.spread * scale, this.trust === "old");
     const last = places.slice(-6).filter(([, of]) => of === level.id);
     const since = this.possibility.since({ places, tracks, generation, thinned });
     const newest = places.at(-1); // it may be older than the mark
     const end = newest && newest[2] === place.position[0] && newest[3] === place.position[1] ? places.length - 1 : places.length;
-    const tail = [...places.slice(Math.max(0, places.length - 2), end), [0, level.id, ...at]];
+    const tail = [...places.slice(wrong ? 0 : Math.max(0, places.length - 2), end), [0, level.id, ...at]];
     const gone = Math.max(0, since - (end - tail.length + 1));
-    drawPlaces(context, tail, 1, gone, level.id, px, LINE_WIDTHS.wearer);
+    drawPlaces(context, tail, 1, gone, level.id, px, LINE_WIDTHS.wearer, wrong ? DASH : []);
     this.#mark(context, px(at), last.length > 1 ? heading(last.map((point) => point.slice(2))) : null);
   }
 

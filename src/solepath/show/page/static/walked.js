@@ -37,8 +37,10 @@ export function boxOf({ tracks, feet, wearer }, feetShown) {
   return box;
 }
 
+export const DASH = [5, 9]; // px, of a track that is wrong; its ends are round
+
 // A line through [t, x, y, ...]. Consecutive points on the same pixel are drawn as one.
-export function drawLine(context, points, px, width, colour) {
+export function drawLine(context, points, px, width, colour, dash = []) {
   const path = new Path2D();
   let [lastX, lastY] = [Infinity, Infinity];
   points.forEach(([, mx, my], i) => {
@@ -48,7 +50,9 @@ export function drawLine(context, points, px, width, colour) {
     else path.lineTo(x, y);
     [lastX, lastY] = [x, y];
   });
+  context.setLineDash(dash);
   stroke(context, path, width, colour);
+  context.setLineDash([]);
 }
 
 // Labels are rather not on the places [t, level, x, y, ...] of this level.
@@ -72,7 +76,7 @@ export function avoidPlaces(labels, places, level, px) {
 
 // Places [t, level, x, y, ...] from the index `from` on. Only a line between two places on this level is solid; on others it
 // is dotted. Before the index `since` the track of a rejected candidate is dashed.
-export function drawPlaces(context, places, from, since, level, px, width) {
+export function drawPlaces(context, places, from, since, level, px, width, dash = []) {
   const paths = { here: new Path2D(), elsewhere: new Path2D(), before: new Path2D() };
   for (let i = Math.max(1, from); i < places.length; i++) {
     const [[, a, x1, y1], [, b, x2, y2]] = [places[i - 1], places[i]];
@@ -86,6 +90,7 @@ export function drawPlaces(context, places, from, since, level, px, width) {
   stroke(context, paths.before, FAINT_WIDTH, theme.colours.muted);
   context.setLineDash([0.1, 5]);
   stroke(context, paths.elsewhere, 1.5 * FAINT_WIDTH, theme.colours.wearer);
-  context.setLineDash([]);
+  context.setLineDash(dash);
   stroke(context, paths.here, width, theme.colours.wearer);
+  context.setLineDash([]);
 }
