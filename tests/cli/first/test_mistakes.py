@@ -23,6 +23,8 @@ NAMES = [
     ("track walk.jsonl --recipie default", "there is no option --recipie: did you mean --recipe?"),
     ("track --recipie default", "there is no option --recipie: did you mean --recipe?"),
     ("track walk.jsonl --Out x", "there is no option --Out: did you mean --out?"),
+    ("live --dvice x", "there is no option --dvice (solepath live --help)"),
+    ("track walk.jsonl --out=", "--out: nothing is given: is a variable empty?"),
     ("track walk.jsonl --output x", "there is no option --output: did you mean --out?"),
     ("track walk.jsonl -o x", "there is no option -o: did you mean --out?"),
     ("track walk.jsonl -report x.html", "there is no option -report: did you mean --report?"),

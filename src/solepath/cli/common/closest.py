@@ -11,6 +11,8 @@ MIN_SIMILARITY = 0.6
 """Least similarity (Ratcliff and Obershelp's, 0 to 1) of a name that is suggested: the default of difflib."""
 MIN_FILE_SIMILARITY = 0.75
 """The same for names of files, which often share their ending; chosen by hand."""
+MIN_OPTION_SIMILARITY = 0.7
+"""The same for options, which are short, and of which a command has many; chosen by hand."""
 MAX_NAMES = 20
 """Largest number of names that are listed where none is similar; chosen by hand."""
 MAX_FILES = 2000

@@ -8,7 +8,7 @@ import shutil
 from collections.abc import Iterable, Sequence
 from typing import Any, NoReturn, TypeVar
 
-from .closest import closest, unknown
+from .closest import MIN_OPTION_SIMILARITY, closest, unknown
 from .failure import note
 
 WIDTH = 100
@@ -139,6 +139,9 @@ class Parser(argparse.ArgumentParser):
 
     def _check_options(self, words: Sequence[str]) -> None:
         for before, word in zip(["", *words], words, strict=False):
+            if word == "" or (word.startswith("--") and word.endswith("=")):
+                option = word.rstrip("=") or before
+                self.error(f"{option + ': ' if option.startswith('-') else ''}nothing is given: is a variable empty?")
             if word == "--" or (self.commands is not None and not word.startswith("-")):
                 return  # what follows belongs to a command
             if DASHED_VALUE.fullmatch(word) and before.startswith("--"):
@@ -154,12 +157,12 @@ class Parser(argparse.ArgumentParser):
     def _unknown_option(self, name: str) -> str:
         known = [one for one in self._option_string_actions if one.startswith("--")]
         bare = name.lstrip("-")
-        starts = [one for one in known if one.startswith(f"--{bare}")]
-        meant = starts[0] if starts else closest(f"--{bare}", known)
+        starts = [one for one in known if one.startswith(f"--{bare}") or f"--{bare}".startswith(one)]
+        meant = starts[0] if starts else closest(bare, [one.removeprefix("--") for one in known], MIN_OPTION_SIMILARITY)
         if self.commands is not None and meant is None:
             what = "the kind" if self.dest_of_commands == "kind" else "the command"
             return f"there is no option {name} here: options come after {what}"
-        return f"there is no option {name}" + (f": did you mean {meant}?" if meant else "")
+        return f"there is no option {name}" + (f": did you mean --{meant.removeprefix('--')}?" if meant else "")
 
     @property
     def dest_of_commands(self) -> str:
