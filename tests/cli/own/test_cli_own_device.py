@@ -6,12 +6,14 @@ import runpy
 from pathlib import Path
 
 import pytest
+from attrs import evolve
 from commands import rows_in, run, run_failing
 from here import EXAMPLES
 from programs import emulator
 from programs import run as run_program
 from recordings import recorded
 
+from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
@@ -111,6 +113,39 @@ def test_a_site_none_of_whose_packets_can_be_used_is_named_with_the_reasons(tmp_
     assert "left foot: none of its 9 packets can be used (truncated 9)" in run_failing("track", walk)
     done = run("check", walk)
     assert done.returncode == 1 and "none of its 9 packets" in done.stdout
+
+
+def test_a_layout_that_does_not_fit_is_an_error_though_the_setup_is_understood(
+    packets: list[Packet], tmp_path: Path
+) -> None:
+    # Only the packets of a channel other than the stream can be used: there is no sample.
+    (tmp_path / "long.py").write_text(
+        OWN.read_text()
+        .replace("Path(__file__)", f"Path({str(OWN)!r})")
+        .replace("Struct(", 'Struct("pad" / Int16ul, ', 1)
+    )
+    walk = recorded(tmp_path / "own.jsonl", [Packet(0.0, Site.LEFT_FOOT, "shoe/start", b"\xc2"), *packets])
+    sentence = f"left foot: only 1 of {len(packets) + 1} packets can be used (truncated {len(packets)})"
+    line = run_failing("track", walk, "--driver", tmp_path / "long.py", "--out", tmp_path / "out")
+    assert sentence in line and "the layout (of a driver, its Struct) does not fit these bytes" in line
+    assert not list((tmp_path / "out").iterdir())
+    done = run("check", walk, "--driver", tmp_path / "long.py")
+    assert done.returncode == 1 and sentence in done.stdout and "nothing must be mended" not in done.stdout
+
+
+def test_every_second_packet_cut_must_be_mended_and_a_bad_radio_not(tmp_path: Path) -> None:
+    good = list(emulate(WALKER.route, seed=3).packets)
+    cut = [evolve(one, data=one.data[: len(one.data) // (1 + k // 2 % 2)]) for k, one in enumerate(good)]
+    walk = recorded(tmp_path / "cut.jsonl", cut)
+    done = run("check", walk)
+    must = done.stdout.partition("worth knowing")[0]
+    assert done.returncode == 1 and must.count("truncated means shorter than the layout") == 2
+    done = run("track", walk)
+    assert done.returncode == 0 and done.stderr.count("truncated means") == 2
+    # Radio.corrupt of 0.05 is ten times what the demo has; a relay that sends everything twice takes nothing away.
+    noisy = Radio(loss=0.05, duplicate=1.0, corrupt=0.05, latency=0.015, jitter=0.03)
+    done = run("check", recorded(tmp_path / "noisy.jsonl", list(emulate(WALKER.route, seed=3, radio=noisy).packets)))
+    assert "duplicate" in done.stdout and " means " not in done.stdout
 
 
 def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) -> None:
