@@ -192,6 +192,31 @@ def test_a_file_without_a_device_gets_one_line(name: str, walk: Path, tmp_path: 
     assert expected in run_failing("track", walk, "--driver", tmp_path / name)
 
 
+def test_a_slip_in_a_reader_gets_one_line(walk: Path, tmp_path: Path) -> None:
+    text = OWN.read_text().replace("Path(__file__)", f"Path({str(OWN)!r})").replace("sent.number", "sent.numbr")
+    number = 1 + next(k for k, line in enumerate(text.splitlines()) if "sent.numbr" in line)
+    (tmp_path / "slip.py").write_text(text)
+    line = run_failing("track", walk, "--driver", tmp_path / "slip.py")
+    assert f"slip.py: line {number}: AttributeError: numbr" in line
+
+
+@pytest.mark.parametrize("name", ["absent.py", "syntax.py"])
+def test_a_file_is_named_as_it_was_given(
+    name: str, walk: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text, expected = BAD[name]
+    if text is not None:
+        Path(name).write_text(text)
+    assert f"--driver {expected}" in run_failing("track", walk, "--driver", name)
+
+
+def test_the_help_names_the_page_on_devices(walk: Path, tmp_path: Path) -> None:
+    (tmp_path / "empty.py").write_text("x = 1")
+    assert "docs/device.md" in run_failing("track", walk, "--driver", tmp_path / "empty.py")
+    assert "docs/device.md" in " ".join(run("track", "--help").stdout.split())
+
+
 def test_one_device_twice_gets_one_line_and_prints_go_to_stderr(walk: Path, tmp_path: Path) -> None:
     assert "there is a device 'shoe' already" in run("track", walk, "--driver", OWN, "--driver", OWN).stderr
     (tmp_path / "loud.py").write_text(

@@ -35,6 +35,8 @@ MAX_CHANNELS = 100
 """Largest number of unknown channels of a site that are remembered by name; chosen by hand."""
 NO_DEVICE = ("device", "receiver")
 """Prefixes of channels that belong to no kind of device."""
+MODULE = "solepath_device_"
+"""Start of the names of the modules that hold devices of one's own."""
 CAUSES = {
     Rejection.TRUNCATED: "shorter than the layout of its channel: the layout (of a driver, its Struct) does not fit "
     "these bytes, or they are cut on the way (by a small MTU)",
@@ -55,7 +57,7 @@ CAUSES = {
     Rejection.WRONG_DEVICE: "another device sends for this site: check which is where (Session.bind lets it)",
 }
 """The likely causes, in words, of each reason for which a packet or a sample is rejected (docs/events.md)."""
-ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/extending.md)"
+ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/device.md)"
 
 
 def add_own_devices(command: argparse.ArgumentParser) -> None:
@@ -67,7 +69,7 @@ def add_own_devices(command: argparse.ArgumentParser) -> None:
         type=Path,
         action="append",
         default=[],
-        help="a device of your own: a Python program whose variables hold its Driver (docs/extending.md); it is run;"
+        help="a device of your own: a Python program whose variables hold its Driver (docs/device.md); it is run;"
         " may be given again",
     )
 
@@ -92,7 +94,8 @@ def load_drivers(path: Path) -> list[Driver]:
     from ...link.driver import Driver
 
     name = f"--driver {printable(str(path))}"
-    spec = spec_from_file_location(f"solepath_device_{path.stem}", path) if path.suffix == ".py" else None
+    whole = path.absolute()  # as Python names the file in errors
+    spec = spec_from_file_location(f"{MODULE}{path.stem}", whole) if path.suffix == ".py" else None
     if spec is None or spec.loader is None:
         raise Failure(f"{name}: is no Python file (.py)")
     module, fault = module_from_spec(spec), ""
@@ -101,17 +104,26 @@ def load_drivers(path: Path) -> list[Driver]:
         with redirect_stdout(sys.stderr):
             spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
-        if isinstance(error, OSError) and error.filename == str(path):
-            fault = file_error_text(error)
+        if isinstance(error, OSError) and error.filename == str(whole):
+            fault = file_error_text(error, path)
         else:
-            fault = f"{printable(str(path))}: {_describe(error, path)}"
+            fault = f"{printable(str(path))}: {_describe(error, whole)}"
     if fault:  # raised here, so that no error of the system in the file takes the place of this sentence
         raise Failure(f"--driver {fault}")
     found = {id(value): value for value in vars(module).values() if isinstance(value, Driver)}
     drivers = [driver for driver in found.values() if not any(driver is one for one in DECLARED)]
     if not drivers:
-        raise Failure(f"{name}: no variable of it holds a Driver (docs/extending.md)")
+        raise Failure(f"{name}: no variable of it holds a Driver (docs/device.md)")
     return drivers
+
+
+def own_fault(error: BaseException) -> str | None:
+    """Return file, line and text of an error that a function of a device of one's own raised; None for any other."""
+    files = {name: module.__file__ for name, module in sys.modules.items() if name.startswith(MODULE)}
+    for file in filter(None, files.values()):
+        if any(_is_of(frame, Path(file)) for frame, _ in traceback.walk_tb(error.__traceback__)):
+            return f"--driver {printable(Path(file).name)}: {_describe(error, Path(file))}"
+    return None
 
 
 def _describe(error: BaseException, path: Path) -> str:
