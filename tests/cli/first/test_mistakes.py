@@ -56,6 +56,7 @@ MISSING = [
     ("track walk.jsonl --recipe", "--recipe: needs a value"),
     ("track walk.jsonl --out x --out y", "--out was given twice"),
     ("track walk.jsonl --start -1,2,3", "--start: a value that starts with a dash is written --start=-1,2,3"),
+    ("track a.csv --compare b.csv c.csv", "too much on the command line: c.csv: give --compare again for the second"),
     ("demo 20", "too much on the command line: 20"),
     ("demo --distance far", "--distance: 'far' is not a positive number"),
     ("demo --loss 5", "--loss: '5' is not a number from 0 to 1"),
