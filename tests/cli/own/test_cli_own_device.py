@@ -8,15 +8,17 @@ from pathlib import Path
 import pytest
 from attrs import evolve
 from commands import rows_in, run, run_failing
-from here import EXAMPLES
+from here import DOCS, EXAMPLES
 from programs import emulator
 from programs import run as run_program
 from recordings import recorded
 
+from solepath.cli.common.own_devices import CAUSES
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
+from solepath.events import Rejection
 from solepath.recording import read_packets
 from solepath.recording.mcap import McapWriter
 from solepath.types import Foot, Packet, Site
@@ -104,6 +106,11 @@ def test_a_few_packets_of_an_unknown_channel_are_only_worth_knowing(tmp_path: Pa
     done = run("check", walk)
     assert done.returncode == 0 and "20 packets rejected (unknown channel 20)" in done.stdout
     assert run("track", walk).stderr == ""
+
+
+@pytest.mark.parametrize("reason", Rejection)
+def test_the_page_on_events_has_the_cause_of_each_reason(reason: Rejection) -> None:
+    assert f"| `{reason.name}` ({reason.value}) | {CAUSES[reason]} |" in (DOCS / "events.md").read_text()
 
 
 def test_a_site_none_of_whose_packets_can_be_used_is_named_with_the_reasons(tmp_path: Path) -> None:
