@@ -155,7 +155,7 @@ def test_impossible_file_names_are_rejected(log, tmp_path):
     assert "--site and --handle are for btsnoop logs" in complaint(
         walk, tmp_path / "walk.mcap", "--site", f"{TAG}=pelvis"
     )
-    for source, flaw in ((tmp_path / "none.log", "there is no such file"), (tmp_path, "is a directory")):
+    for source, flaw in ((tmp_path / "none.log", "there is no such file"), (tmp_path, "is a folder")):
         assert f"{source}: {flaw}" in complaint(source, tmp_path / "other.jsonl")
     same = tmp_path / "same.jsonl"
     same.write_bytes(log.read_bytes())

@@ -73,7 +73,7 @@ FILES = [
     ("track wlak.jsonl", "wlak.jsonl: there is no such file: did you mean walk.jsonl?"),
     ("track walk.jsnol", "walk.jsnol: there is no such file: did you mean walk.jsonl?"),
     ("check nothing.csv", "nothing.csv: there is no such file"),
-    ("track folder", "folder: is a directory, not a recording"),
+    ("track folder", "folder: is a folder, not a recording"),
     ("track walk.jsonl/x", "walk.jsonl: is a file, not a folder"),
     ("track floder/walk.jsonl", "floder/walk.jsonl: there is no folder floder: did you mean folder?"),
     ("track walk.jsonl --out walk.jsonl", "walk.jsonl: is a file; --out needs a folder"),
