@@ -47,8 +47,6 @@ class SessionState:
             wrong = wrong if isinstance(site, Site) else "site"
             fault = f"this {wrong} is {getattr(packet, wrong)!r:.40}"
             raise TypeError(f"a packet holds a time, a Site, a channel's name, bytes and a device's address; {fault}")
-                f"a packet holds a time, a Site, a channel's name, bytes and an address, not this {wrong}: {getattr(packet, wrong)!r:.40}"
-            )
         texts_plain = packet.device.__class__ is packet.channel.__class__ is str
         if not (texts_plain and packet.t.__class__ is float and data.__class__ is bytes):
             t, channel, device = number("t of a packet", packet.t), text(packet.channel), text(packet.device)
