@@ -7,14 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from attrs import evolve
 from commands import run, run_failing
 from recordings import recorded
 from walks import columns_of
 
+from solepath.cli.check import words_beside
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
-from solepath.types import Foot
+from solepath.events import Defect, DefectFound
+from solepath.types import Foot, Site
 
 ROUTE = Route().stand(2.0).walk(30.0, speed=1.3).stop(1.5)
 
@@ -157,3 +160,19 @@ def test_a_lone_file_of_the_left_foot_is_taken_as_such(columns: dict[str, np.nda
     np.savez(tmp_path / "Left_shoe.npz", **columns)
     done = run("track", tmp_path / "Left_shoe.npz")
     assert done.returncode == 0 and "taken as the left one" in done.stderr and "left " in done.stdout
+
+
+def test_exchanged_axes_are_named_once_by_the_correction() -> None:
+    general = DefectFound(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, defect=Defect.AXES, what="do not fit")
+    exact = evolve(general, what="are mirrored", axes=(1, -2, 3))
+    other = evolve(general, site=Site.RIGHT_FOOT)
+    found = [general, other, exact]
+    assert [words_beside(one, found) for one in found] == [None, "do not fit", "are mirrored"]
+
+
+def test_a_range_beside_a_wrong_scale_gets_no_advice(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
+    doubled = np.clip(2.0 * columns["acc"], -19.7, 19.7)
+    done = run("check", saved(tmp_path, columns, acc=doubled), "--foot", "left")
+    (line,) = (line for line in done.stdout.splitlines() if "cuts off peaks" in line)
+    assert done.returncode == 1 and "reads 19.6" in done.stdout
+    assert "e+" not in line and line.endswith(" % of samples: correct its scale first")

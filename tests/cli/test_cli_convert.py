@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 import walks
 from commands import one_line, run
+from here import EXAMPLES
 from recordings import recorded
 from snooped import LEFT, RIGHT, TAG, Log, insoles_log
 
@@ -146,12 +147,15 @@ def test_impossible_file_names_are_rejected(log, tmp_path):
         "--subject writes a Motion-BIDS dataset"
     )
     assert complaint(walk, tmp_path / "other.jsonl").endswith(
-        "is no btsnoop log; a recording is converted to .mcap only"
+        "is no btsnoop log; a recording is converted to .mcap or .sto or, with --subject, into a Motion-BIDS dataset"
+    )
+    assert "a phone's log is read with the built-in devices only" in complaint(
+        log, tmp_path / "walk.mcap", "--driver", EXAMPLES / "own_device.py"
     )
     assert "--site and --handle are for btsnoop logs" in complaint(
         walk, tmp_path / "walk.mcap", "--site", f"{TAG}=pelvis"
     )
-    for source, flaw in ((tmp_path / "none.log", "there is no such file"), (tmp_path, "is a directory")):
+    for source, flaw in ((tmp_path / "none.log", "there is no such file"), (tmp_path, "is a folder")):
         assert f"{source}: {flaw}" in complaint(source, tmp_path / "other.jsonl")
     same = tmp_path / "same.jsonl"
     same.write_bytes(log.read_bytes())

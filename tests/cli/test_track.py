@@ -214,7 +214,7 @@ def test_packets_of_the_other_foot_only_are_an_error(tmp_path):
 
 def test_what_is_not_there_gets_one_line_and_status_2(tmp_path, packets):
     assert "there is no such file" in run_failing("track", tmp_path / "none.npz")
-    assert "is a directory" in run_failing("track", tmp_path)
+    assert "is a folder" in run_failing("track", tmp_path)
     assert "there is no recipe 'secret'; there are: default" in run_failing("track", packets, "--recipe", "secret")
     assert "is a file; --out needs a folder" in run_failing("track", packets, "--out", packets)
 

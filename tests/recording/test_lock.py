@@ -67,7 +67,9 @@ def test_a_recording_stays_until_the_first_packet_comes(tmp_path: Path) -> None:
 def test_a_recording_that_must_not_be_replaced_is_named(tmp_path: Path) -> None:
     path = recorded(tmp_path / "walk.jsonl", PACKETS)
     before = path.read_bytes()
-    with pytest.raises(RecordingError, match=r"walk\.jsonl: exists, and is not replaced"):
+    with pytest.raises(
+        RecordingError, match=r"walk\.jsonl: exists, and is not replaced; PacketWriter\(\.\.\., replace=True\) does"
+    ):
         PacketWriter(path)
     assert path.read_bytes() == before
     PacketWriter(path, replace=True).close()  # the lock is free

@@ -210,7 +210,7 @@ def test_whatever_a_recording_holds_can_be_exported(tmp_path):
 def test_a_file_with_content_is_replaced_only_on_request(tmp_path):
     path = tmp_path / "walk.mcap"
     path.write_bytes(b"of another program")
-    with pytest.raises(RecordingError, match="walk.mcap: exists, and is not replaced"):
+    with pytest.raises(RecordingError, match="walk.mcap: exists, and is not replaced; McapWriter"):
         McapWriter(path)
     assert path.read_bytes() == b"of another program"
     McapWriter(path, replace=True).close()

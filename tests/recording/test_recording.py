@@ -124,7 +124,7 @@ def test_an_empty_file_is_called_empty(tmp_path, nothing):
 
 def test_a_missing_file_and_a_directory_are_named(tmp_path):
     assert read_until_damage(tmp_path / "none.jsonl")[1].endswith("no such file or directory")
-    assert read_until_damage(tmp_path)[1].endswith("is a directory, not a recording")
+    assert read_until_damage(tmp_path)[1].endswith("is a folder, not a recording")
 
 
 def test_a_receivers_clock_that_was_set_back_is_left_to_the_decoder(tmp_path):

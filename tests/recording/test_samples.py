@@ -213,7 +213,7 @@ def test_a_missing_or_empty_file_and_a_directory_are_named(tmp_path, name):
     assert read_until_error(path)[1].endswith("is empty")
     path.unlink()
     path.mkdir()
-    assert read_until_error(path)[1].endswith("is a directory, not a recording")
+    assert read_until_error(path)[1].endswith("is a folder, not a recording")
 
 
 def test_a_foot_that_is_not_in_the_file_is_reported(tmp_path):

@@ -99,7 +99,7 @@ async def test_a_phone_shows_the_candidates_with_their_weights_until_one_is_left
             assert 2 <= len(candidates) < len(before["place"]["candidates"])
             assert first["weight"] > second["weight"] and abs(sum(one["weight"] for one in candidates) - 1.0) < 0.01
             room, weight = narrowed["place"]["room"], round(100.0 * first["weight"])
-            words = f"{len(candidates)} possible places; the likeliest (ground floor, {room}) has {weight} %."
+            words = f"The wearer could be at {len(candidates)} places; most likely ({weight} %) ground floor, {room}."
             await view.until(f"{NOTE} === '{words}'")
             rings = []
             for one in (first, second):
@@ -109,7 +109,7 @@ async def test_a_phone_shows_the_candidates_with_their_weights_until_one_is_left
             await check_pocket(view)
             decided = await shown(view, DECIDED)
             assert decided["place"]["decided"]
-            await view.until(f"{NOTE}.startsWith('The wearer is in corridor')")
+            await view.until("document.getElementById('where').innerText.startsWith('Ground floor, corridor')")
             [(level, x, y)] = way.places(emulated.walker, DECIDED)
             assert decided["place"]["level"] == level
             assert hypot(decided["place"]["position"][0] - x, decided["place"]["position"][1] - y) < 2.0

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from math import inf
 from typing import Any
 
-from ..events import DefectFound, Event, SampleGap, StrideTaken
+from ..events import Defect, DefectFound, Event, SampleGap, StrideTaken
 from ..recording import RecordingError, open_source, printable
 from ..recording.errors import UnusableValues
 from ..recording.source import label_files
@@ -132,7 +132,7 @@ def run(options: argparse.Namespace) -> int:
         return 1
     session = Session(recipe, calibration=calibration, poses=True, profiles=drivers)
     observer, unused = Observer(), UnusedPackets(make_kinds(drivers))
-    must: list[str] = []
+    must, found = list[str](), list[DefectFound]()
     may = [*filter(None, [assumed_foot(source)])]
     degraded = {foot: DegradedStrides() for foot in Foot}
 
@@ -141,8 +141,7 @@ def run(options: argparse.Namespace) -> int:
         unused.take(item, events)
         for event in events:
             if isinstance(event, DefectFound):
-                repair = axes_repair(source, event)
-                (must if event.needs_action else may).append(f"{event.site.words}: {event.what}{repair}")
+                found.append(event)
             foot = event.site.foot if isinstance(event, DefectFound | SampleGap) else getattr(event, "foot", None)
             if foot is not None:
                 degraded[foot].add(event)
@@ -157,6 +156,10 @@ def run(options: argparse.Namespace) -> int:
             raise
         must.append(_without_path(error))
     take(None, session.finish())
+    for defect in found:
+        if (what := words_beside(defect, found)) is not None:
+            sentence = f"{defect.site.words}: {what}{axes_repair(source, defect)}"
+            (must if defect.needs_action else may).append(sentence)
     bad_rows = source.bad_rows
     has_many = bad_rows is not None and bad_rows.count > LARGE_SHARE * (bad_rows.count + bad_rows.good)
     prefix = f"{printable(str(options.files[0]))}: " if is_one else ""
@@ -176,6 +179,16 @@ def run(options: argparse.Namespace) -> int:
         print(f"too few strides to check everything: {needed}")
     _print_list("not everything can be seen in the data; a check may miss, for example", UNSEEN)
     return 1 if must else 0
+
+
+def words_beside(defect: DefectFound, found: Sequence[DefectFound]) -> str | None:
+    """Return what to print of a defect beside the others; None if another one of its site says it more exactly."""
+    others = [one for one in found if one.site is defect.site and one is not defect]
+    if defect.defect is Defect.AXES and defect.axes is None and any(one.axes is not None for one in others):
+        return None
+    fault, _, advice = defect.what.partition(": choose a larger ")
+    is_scaled = any(one.defect is Defect.WRONG_SCALE for one in others) and "accelerometer" in fault
+    return f"{fault}: correct its scale first" if advice and is_scaled else defect.what
 
 
 def _without_path(error: RecordingError) -> str:

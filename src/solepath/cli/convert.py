@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ..recording.mcap import McapWriter
 
 RECORDING, MCAP = ".jsonl", ".mcap"
+TARGETS = f"a recording is converted to {MCAP} or {STORAGE} or, with --subject, into a Motion-BIDS dataset"
 
 
 def add_to(commands: Any) -> None:
@@ -41,7 +42,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
     add_tables(command, "IN")
-    add_own_devices(command)
+    add_own_devices(command, " (not of a phone's log)")
     command.add_argument(
         "out",
         metavar="OUT",
@@ -119,13 +120,15 @@ def run(options: argparse.Namespace) -> int:
     total = source.stat().st_size if source.is_file() else 0
     with progress_bar(printable(source.name), total) as show:
         if is_btsnoop(source):
+            if drivers:
+                raise Failure("--driver: a phone's log is read with the built-in devices only; convert a recording")
             log = _open_log(options)
             packets, header = _with_progress(log, show), log.header
         elif options.sites or options.handles:
             raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
         elif out.suffix.lower() == RECORDING:
             reject_pipe(source)
-            raise Failure(f"{printable(str(source))}: is no btsnoop log; a recording is converted to {MCAP} only")
+            raise Failure(f"{printable(str(source))}: is no btsnoop log; {TARGETS}")
         else:
             opened = open_packets(source, report=note, progress=show)
             packets, header = opened.packets, opened.header

@@ -20,6 +20,7 @@ from .bluetooth import emulate, live, scan
 from .calibrate import command as calibrate
 from .common.failure import Failure, note
 from .common.os_errors import file_error_text, in_words
+from .common.own_devices import own_fault
 from .common.parser import Parser
 from .completion import COMPLETING
 
@@ -129,6 +130,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except OSError as error:
         note(file_error_text(error) if error.filename else f"the output cannot be written: {file_error_text(error)}")
+    except Exception as error:
+        if (fault := own_fault(error)) is None:
+            raise
+        note(fault)
     return 2
 
 

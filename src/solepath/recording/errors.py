@@ -7,6 +7,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
+SAMPLE_SUFFIXES = (".npz", ".csv", ".tsv", ".txt", ".xlsx", ".xlsm", ".xls", ".ods", ".parquet")
+"""Suffixes of files that hold samples."""
+MAX_NAMED_FILES = 3
+"""Largest number of files that the error for a folder names; chosen by hand."""
+
 
 class RecordingError(Exception):
     """Error for a recording that cannot be used at all, or only up to `where`; its text has file, `where` and fault.
@@ -75,11 +80,18 @@ def os_error_text(error: OSError) -> str:
     return (error.strerror or str(error)).lower()
 
 
+def _recordings_in(folder: Path) -> str:
+    """Return the first files of a folder that may be recordings, by their names, as the end of a sentence."""
+    names = sorted(one.name for one in folder.iterdir() if one.suffix.lower() in (".jsonl", *SAMPLE_SUFFIXES))
+    more = " and others" if len(names) > MAX_NAMED_FILES else ""
+    return f"; it has {', '.join(map(printable, names[:MAX_NAMED_FILES]))}{more}" if names else ""
+
+
 def open_file(path: Path) -> BinaryIO:
-    """Return the file opened for reading bytes; RecordingError when it is missing, a directory, or not readable."""
+    """Return the file opened for reading bytes; RecordingError when it is missing, a folder, or not readable."""
     try:
         if path.is_dir():
-            raise RecordingError(path, "is a directory, not a recording")
+            raise RecordingError(path, f"is a folder, not a recording{_recordings_in(path)}")
         return path.open("rb")
     except OSError as error:
         raise RecordingError(path, os_error_text(error)) from error

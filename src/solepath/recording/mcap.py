@@ -127,7 +127,7 @@ class McapWriter:
         self._file = BufferedWriter(file)
         if self._had_content and not replace:
             self._file.close()
-            raise RecordingError(self.path, "exists, and is not replaced")
+            raise RecordingError(self.path, "exists, and is not replaced; McapWriter(..., replace=True) does")
         self._writer = Writer(self._file, chunk_size=CHUNK_SIZE, compression=CompressionType.ZSTD)
         if not self._had_content:
             with self._as_recording_error():

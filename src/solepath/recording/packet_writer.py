@@ -63,7 +63,7 @@ class PacketWriter:
             raise RecordingError(self._path, os_error_text(error)) from error
         if self._had_content and not replace:
             self._file.close()
-            raise RecordingError(self._path, "exists, and is not replaced")
+            raise RecordingError(self._path, "exists, and is not replaced; PacketWriter(..., replace=True) does")
         if not self._had_content:
             try:
                 self._write_header()

@@ -15,7 +15,7 @@ from .bad_rows import BadRows
 from .bids.names import MOTION_END, recording_of
 from .clock_offset import shift_clock
 from .decoded import decode_own
-from .errors import RecordingError, Report, printable, warn
+from .errors import SAMPLE_SUFFIXES, RecordingError, Report, printable, warn
 from .packets import OpenRecording, open_packets
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from .mapping import TableMapping
     from .samples import SampleRecording
 
-SAMPLE_SUFFIXES = (".npz", ".csv", ".tsv", ".txt", ".xlsx", ".xlsm", ".xls", ".ods", ".parquet")
-"""Suffixes of files that hold samples."""
 LONGEST_LABEL = 80
 """Largest number of characters of the names of several files in a title; chosen by hand."""
 MAX_AHEAD = 20_000

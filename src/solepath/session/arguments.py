@@ -51,7 +51,7 @@ def index_floorplan(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | 
     if isinstance(floorplan, IndexedPlan):
         return floorplan
     if not isinstance(floorplan, FloorPlan):
-        raise TypeError(f"floorplan must be a FloorPlan, not {type(floorplan).__name__}")
+        raise TypeError(f"floorplan must be a FloorPlan (read_floorplan), not {type(floorplan).__name__}")
     return IndexedPlan(floorplan)
 
 

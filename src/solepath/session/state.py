@@ -43,7 +43,10 @@ class SessionState:
         site, data, events = packet.site, packet.data, list[Event]()
         is_text = isinstance(packet.channel, str) and isinstance(packet.device, str)
         if not (is_text and isinstance(site, Site) and isinstance(data, bytes | bytearray | memoryview)):
-            raise TypeError("a packet holds a time, a Site, a channel's name, bytes and a device's address")
+            wrong = "data" if is_text else "device" if isinstance(packet.channel, str) else "channel"
+            wrong = wrong if isinstance(site, Site) else "site"
+            fault = f"this {wrong} is {getattr(packet, wrong)!r:.40}"
+            raise TypeError(f"a packet holds a time, a Site, a channel's name, bytes and a device's address; {fault}")
         texts_plain = packet.device.__class__ is packet.channel.__class__ is str
         if not (texts_plain and packet.t.__class__ is float and data.__class__ is bytes):
             t, channel, device = number("t of a packet", packet.t), text(packet.channel), text(packet.device)

@@ -6,15 +6,19 @@ import runpy
 from pathlib import Path
 
 import pytest
+from attrs import evolve
 from commands import rows_in, run, run_failing
-from here import EXAMPLES
+from here import DOCS, EXAMPLES
 from programs import emulator
 from programs import run as run_program
 from recordings import recorded
 
+from solepath.cli.common.own_devices import CAUSES
+from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
+from solepath.events import Rejection
 from solepath.recording import read_packets
 from solepath.recording.mcap import McapWriter
 from solepath.types import Foot, Packet, Site
@@ -104,6 +108,11 @@ def test_a_few_packets_of_an_unknown_channel_are_only_worth_knowing(tmp_path: Pa
     assert run("track", walk).stderr == ""
 
 
+@pytest.mark.parametrize("reason", Rejection)
+def test_the_page_on_events_has_the_cause_of_each_reason(reason: Rejection) -> None:
+    assert f"| `{reason.name}` ({reason.value}) | {CAUSES[reason]} |" in (DOCS / "events.md").read_text()
+
+
 def test_a_site_none_of_whose_packets_can_be_used_is_named_with_the_reasons(tmp_path: Path) -> None:
     walk = recorded(
         tmp_path / "noise.jsonl", [Packet(0.01 * k, Site.LEFT_FOOT, "insole/frame", b"?") for k in range(9)]
@@ -111,6 +120,39 @@ def test_a_site_none_of_whose_packets_can_be_used_is_named_with_the_reasons(tmp_
     assert "left foot: none of its 9 packets can be used (truncated 9)" in run_failing("track", walk)
     done = run("check", walk)
     assert done.returncode == 1 and "none of its 9 packets" in done.stdout
+
+
+def test_a_layout_that_does_not_fit_is_an_error_though_the_setup_is_understood(
+    packets: list[Packet], tmp_path: Path
+) -> None:
+    # Only the packets of a channel other than the stream can be used: there is no sample.
+    (tmp_path / "long.py").write_text(
+        OWN.read_text()
+        .replace("Path(__file__)", f"Path({str(OWN)!r})")
+        .replace("Struct(", 'Struct("pad" / Int16ul, ', 1)
+    )
+    walk = recorded(tmp_path / "own.jsonl", [Packet(0.0, Site.LEFT_FOOT, "shoe/start", b"\xc2"), *packets])
+    sentence = f"left foot: only 1 of {len(packets) + 1} packets can be used (truncated {len(packets)})"
+    line = run_failing("track", walk, "--driver", tmp_path / "long.py", "--out", tmp_path / "out")
+    assert sentence in line and "the layout (of a driver, its Struct) does not fit these bytes" in line
+    assert not list((tmp_path / "out").iterdir())
+    done = run("check", walk, "--driver", tmp_path / "long.py")
+    assert done.returncode == 1 and sentence in done.stdout and "nothing must be mended" not in done.stdout
+
+
+def test_every_second_packet_cut_is_a_fault_and_a_bad_radio_is_none(tmp_path: Path) -> None:
+    good = list(emulate(WALKER.route, seed=3).packets)
+    cut = [evolve(one, data=one.data[: len(one.data) // (1 + k // 2 % 2)]) for k, one in enumerate(good)]
+    walk = recorded(tmp_path / "cut.jsonl", cut)
+    done = run("check", walk)
+    must = done.stdout.partition("worth knowing")[0]
+    assert done.returncode == 1 and must.count("truncated means shorter than the layout") == 2
+    done = run("track", walk)
+    assert done.returncode == 0 and done.stderr.count("truncated means") == 2
+    # Radio.corrupt of 0.05 is ten times what the demo has; a relay that sends everything twice takes nothing away.
+    noisy = Radio(loss=0.05, duplicate=1.0, corrupt=0.05, latency=0.015, jitter=0.03)
+    done = run("check", recorded(tmp_path / "noisy.jsonl", list(emulate(WALKER.route, seed=3, radio=noisy).packets)))
+    assert "duplicate" in done.stdout and " means " not in done.stdout
 
 
 def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) -> None:
@@ -159,6 +201,31 @@ def test_a_file_without_a_device_gets_one_line(
     assert expected in run_failing("track", walk, "--driver", tmp_path / name)
     monkeypatch.chdir(tmp_path)
     assert f"--driver {expected}" in run_failing("track", walk, "--driver", name)
+
+
+def test_a_slip_in_a_reader_gets_one_line(walk: Path, tmp_path: Path) -> None:
+    text = OWN.read_text().replace("Path(__file__)", f"Path({str(OWN)!r})").replace("sent.number", "sent.numbr")
+    number = 1 + next(k for k, line in enumerate(text.splitlines()) if "sent.numbr" in line)
+    (tmp_path / "slip.py").write_text(text)
+    line = run_failing("track", walk, "--driver", tmp_path / "slip.py")
+    assert f"slip.py: line {number}: AttributeError: numbr" in line
+
+
+@pytest.mark.parametrize("name", ["absent.py", "syntax.py"])
+def test_a_file_is_named_as_it_was_given(
+    name: str, walk: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text, expected = BAD[name]
+    if text is not None:
+        Path(name).write_text(text)
+    assert f"--driver {expected}" in run_failing("track", walk, "--driver", name)
+
+
+def test_the_help_names_the_page_on_devices(walk: Path, tmp_path: Path) -> None:
+    (tmp_path / "empty.py").write_text("x = 1")
+    assert "docs/device.md" in run_failing("track", walk, "--driver", tmp_path / "empty.py")
+    assert "docs/device.md" in " ".join(run("track", "--help").stdout.split())
 
 
 def test_one_device_twice_gets_one_line_and_prints_go_to_stderr(walk: Path, tmp_path: Path) -> None:

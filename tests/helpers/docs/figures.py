@@ -131,7 +131,7 @@ HEADLINES = (
         "8 walks of 48 to 109 m, every footprint measured on the floor, one shoe: off by {} m on average; "
         "{} strides found, {} invented, their lengths off by {} %",
         "gumushane_surveyed",
-        r"footprints: mean ([\d.]+) m.*strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+) %",
+        r"footprints: mean ([\d.]+) m.*strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+)",
         None,
     ),
     (

@@ -169,7 +169,7 @@ async def test_a_revision_and_a_rejection_are_shown_and_announced_once(chromium:
         scene.take(None, [far, rejected])
         await view.until("document.getElementById('announcer').textContent.includes('this is 50 m off')")
         assert "Track revised" not in await view.tab.locator("#announcer").inner_text()
-        assert "position rejected: this is 50 m off" in await view.text("log")
+        assert "Position rejected: this is 50 m off" in await view.text("log")
         assert await view.tab.evaluate("solepath.state.tracks.wearer") == track
         assert await view.tab.locator("#here-legend").is_visible()
 

@@ -104,7 +104,8 @@ class RangeCheck:
         share = found.samples / (self.samples - found.first)
         if self.samples - found.first > RECENT_SAMPLES:
             found.samples, found.first = found.samples // 2, (found.first + self.samples) // 2
-        text = f"the {kind.name} cuts off peaks at {found.largest:.3g} {kind.unit}, in {100.0 * share:.2g} % of samples"
+        percent = f"{100.0 * share:.0f}" if share >= 0.1 else f"{100.0 * share:.2g}"
+        text = f"the {kind.name} cuts off peaks at {found.largest:.3g} {kind.unit}, in {percent} % of samples"
         return Finding(Defect.CLIPPED, f"{text}: choose a larger range, if it has one", spoils=share > SPOILING_SHARE)
 
     def _add_block(self, end: ChannelEnd, channel: list[float]) -> bool:

@@ -26,18 +26,43 @@ if TYPE_CHECKING:
     from ...link.driver import Driver
 
 LARGE_SHARE = 0.1
-"""Share of a site's packets from which on unknown channels are mentioned; chosen by hand."""
+"""Share of a site's packets from which on those that are not used are named; chosen by hand.
+
+The radio of `solepath demo` (3 in 100 lost, 5 in 1000 damaged) rejects 0.6 in 100, duplicates not counted, and one that
+damages 5 in 100 rejects 5. A tenth is twice that: no bad radio, but a wrong layout, a small MTU or a full queue."""
 MAX_NAMED = 3
 """Largest number of channels that a sentence names; chosen by hand."""
 MAX_CHANNELS = 100
 """Largest number of unknown channels of a site that are remembered by name; chosen by hand."""
 NO_DEVICE = ("device", "receiver")
 """Prefixes of channels that belong to no kind of device."""
-ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/extending.md)"
+MODULE = "solepath_device_"
+"""Start of the names of the modules that hold devices of one's own."""
+CAUSES = {
+    Rejection.TRUNCATED: "shorter than the layout of its channel: the layout (of a driver, its Struct) does not fit "
+    "these bytes, or they are cut on the way (by a small MTU)",
+    Rejection.OVERSIZED: "longer than the layout of its channel: the layout (of a driver, its Struct) does not fit "
+    "these bytes, or two packets are joined",
+    Rejection.CHECKSUM: "the checksum does not fit the bytes: they are damaged on the way, or of another firmware",
+    Rejection.MALFORMED: "a field holds what its layout does not allow: the layout does not fit these bytes, or they "
+    "are damaged on the way",
+    Rejection.UNKNOWN_CHANNEL: "no known device, or not the one at this site, has this channel: check its name, and "
+    "whether its driver is there",
+    Rejection.WRONG_SITE: "of another site than the one it came for: check which device is where",
+    Rejection.WRONG_LAYOUT: "another number of pressure cells than the insole's layout has: check its firmware",
+    Rejection.DUPLICATE: "it came twice: nothing is missing, but look for what sends twice",
+    Rejection.LATE: "an older one came after a newer: check your queue, or what else changes the order",
+    Rejection.NOT_FINITE: "a value or a time is infinite or no number: check what computes it",
+    Rejection.ABSURD: "a value or a time that no sensor gives: check its unit and layout",
+    Rejection.TIME_BACKWARDS: "its time is earlier than the one before: check the order, and that there is one clock",
+    Rejection.WRONG_DEVICE: "another device sends for this site: check which is where (Session.bind lets it)",
+}
+"""The likely causes, in words, of each reason for which a packet or a sample is rejected (docs/events.md)."""
+ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/device.md)"
 
 
-def add_own_devices(command: argparse.ArgumentParser) -> None:
-    """Add --driver to a command."""
+def add_own_devices(command: argparse.ArgumentParser, limit: str = "") -> None:
+    """Add --driver to a command; `limit` says in brackets where it is of no use."""
     command.add_argument(
         "--driver",
         metavar="FILE.py",
@@ -45,8 +70,8 @@ def add_own_devices(command: argparse.ArgumentParser) -> None:
         type=Path,
         action="append",
         default=[],
-        help="a device of your own: a Python program whose variables hold its Driver (docs/extending.md); it is run;"
-        " may be given again",
+        help=f"a device of your own{limit}: a Python program whose variables hold its Driver (docs/device.md); it is"
+        " run; may be given again",
     )
 
 
@@ -70,7 +95,8 @@ def load_drivers(path: Path) -> list[Driver]:
     from ...link.driver import Driver
 
     name = f"--driver {printable(str(path))}"
-    spec = spec_from_file_location(f"solepath_device_{path.stem}", path) if path.suffix == ".py" else None
+    whole = path.absolute()  # as Python names the file in errors
+    spec = spec_from_file_location(f"{MODULE}{path.stem}", whole) if path.suffix == ".py" else None
     if spec is None or spec.loader is None:
         raise Failure(f"{name}: is no Python file (.py)")
     module, fault = module_from_spec(spec), ""
@@ -82,14 +108,23 @@ def load_drivers(path: Path) -> list[Driver]:
         if isinstance(error, OSError) and error.filename == os.path.abspath(path):
             fault = file_error_text(error, path)
         else:
-            fault = f"{printable(str(path))}: {_describe(error, path)}"
+            fault = f"{printable(str(path))}: {_describe(error, whole)}"
     if fault:  # raised here, so that no error of the system in the file takes the place of this sentence
         raise Failure(f"--driver {fault}")
     found = {id(value): value for value in vars(module).values() if isinstance(value, Driver)}
     drivers = [driver for driver in found.values() if not any(driver is one for one in DECLARED)]
     if not drivers:
-        raise Failure(f"{name}: no variable of it holds a Driver (docs/extending.md)")
+        raise Failure(f"{name}: no variable of it holds a Driver (docs/device.md)")
     return drivers
+
+
+def own_fault(error: BaseException) -> str | None:
+    """Return file, line and text of an error that a function of a device of one's own raised; None for any other."""
+    files = {name: module.__file__ for name, module in sys.modules.items() if name.startswith(MODULE)}
+    for file in filter(None, files.values()):
+        if any(_is_of(frame, Path(file)) for frame, _ in traceback.walk_tb(error.__traceback__)):
+            return f"--driver {printable(Path(file).name)}: {_describe(error, Path(file))}"
+    return None
 
 
 def _describe(error: BaseException, path: Path) -> str:
@@ -117,33 +152,36 @@ class UnusedPackets:
     """Number of packets of devices, those of the receiver left out."""
     unknown: dict[Site, Counter[str]] = field(factory=dict)
     """Number of packets of channels that no device has, by site and channel."""
-    rejected: dict[Site, Counter[str]] = field(factory=dict)
+    rejected: dict[Site, Counter[Rejection]] = field(factory=dict)
     """Number of packets that were rejected for another reason, by site and reason."""
+    has_used: bool = False
+    """Flag: a packet of a stream, which holds samples, was used."""
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """Add an item that the session was fed, and the events that it returned."""
         if not isinstance(item, Packet) or item.channel.partition("/")[0] in NO_DEVICE:
             return
         self.count[item.site] += 1
+        kind, is_used = self.kinds.get(item.channel.partition("/")[0]), True
+        is_known = kind is not None and item.channel in kind.profile.channel_names
         for event in events:
             if isinstance(event, PacketRejected):
-                if event.reason is Rejection.UNKNOWN_CHANNEL and not self._is_known(item.channel):
+                is_used = False
+                if event.reason is Rejection.UNKNOWN_CHANNEL and not is_known:
                     channels = self.unknown.setdefault(item.site, Counter())
                     channels[item.channel if item.channel in channels or len(channels) < MAX_CHANNELS else ""] += 1
                 else:
-                    self.rejected.setdefault(item.site, Counter())[event.reason.value] += 1
-
-    def _is_known(self, channel: str) -> bool:
-        kind = self.kinds.get(channel.partition("/")[0])
-        return kind is not None and channel in kind.profile.channel_names
+                    self.rejected.setdefault(item.site, Counter())[event.reason] += 1
+        self.has_used |= is_used and kind is not None and item.channel in kind.profile.streams
 
     def sentences(self) -> list[str]:
-        """Return a sentence for each site with many packets of unknown channels, or of which no packet was used."""
+        """Return a sentence for each site of which no packet or many packets were not used, with the likely cause."""
         return [text for site in Site if site in self.count for text in self._sentences(site)]
 
     def _sentences(self, site: Site) -> Iterable[str]:
         count, unknown = self.count[site], self.unknown.get(site, Counter())
         total, others = unknown.total(), self.rejected.get(site, Counter())
+        missing = others.total() - others[Rejection.DUPLICATE]  # whose first copy was used
         if total > LARGE_SHARE * count:
             names = [printable(name, 80) for name, _ in unknown.most_common(MAX_NAMED) if name]
             more = " and others" if len(unknown) > len(names) else ""
@@ -151,12 +189,13 @@ class UnusedPackets:
                 f"{site.words}: {total} of {count} packets are of a channel that no known device has "
                 f"({', '.join(names)}{more}): {ADVICE}"
             )
-        elif total + others.total() >= count:
-            reasons = ", ".join(f"{reason} {number}" for reason, number in sorted(others.items()))
-            yield f"{site.words}: none of its {count} packets can be used ({reasons})"
+        if missing > LARGE_SHARE * count:
+            reasons = ", ".join(sorted(f"{reason.value} {number}" for reason, number in others.items()))
+            share = f"none of its {count} packets" if missing >= count else f"only {count - missing} of {count} packets"
+            chief = max(others, key=lambda one: others[one] * (one is not Rejection.DUPLICATE))
+            yield f"{site.words}: {share} can be used ({reasons}); {chief.value} means {CAUSES[chief]}"
 
     @property
     def is_all(self) -> bool:
-        """True if there were packets and none of any device was used."""
-        unused = sum([one.total() for one in (*self.unknown.values(), *self.rejected.values())])
-        return 0 < self.count.total() <= unused
+        """True if packets were not used, and none that holds samples was used."""
+        return bool(self.unknown or self.rejected) and not self.has_used

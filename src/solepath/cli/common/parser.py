@@ -134,8 +134,15 @@ class Parser(argparse.ArgumentParser):
             self._check_options(list(args))
         options, more = super().parse_known_args(args, namespace)
         if more and self.commands is None:
-            self.error(f"too much on the command line: {' '.join(more)}")
+            self.error(f"too much on the command line: {' '.join(more)}{self._repeated(list(args or ()), more[0])}")
         return options, more
+
+    def _repeated(self, words: list[str], extra: str) -> str:
+        """Return the option before the word that is too much, if it may be given again, as the end of a sentence."""
+        before = words[: words.index(extra)] if extra in words else []
+        name = before[-2] if len(before) > 1 else ""
+        action = self._option_string_actions.get(name)
+        return f": give {name} again for the second" if isinstance(action, argparse._AppendAction) else ""
 
     def _check_options(self, words: Sequence[str]) -> None:
         for before, word in zip(["", *words], words, strict=False):

@@ -7,7 +7,7 @@ from ...types import Foot, Site, Turn
 from ..links import LinkLedger
 from ..observer import Observer
 from ..tables.summary import link_health, sample_lines, wear_lines
-from ..tables.table import number
+from ..tables.table import counted, number
 from .clock import ReportClock, duration_text
 from .figures.activity import activity_words
 from .markup import whole_sentences
@@ -46,9 +46,11 @@ def overview(observer: Observer, clock: ReportClock, cycle_counts: dict[Foot, in
         directions = [f"{up_counts[up]} {'up' if up else 'down'}" for up in (True, False) if up_counts[up]]
         if directions:
             lines.append(f"{name}: {', '.join(directions)}.")
-    turns = [f"{observer.turns[turn]} {words}" for turn, words in TURNS.items() if observer.turns[turn]]
+    turns = [
+        f"{counted(observer.turns[turn], 'turn')} {words}" for turn, words in TURNS.items() if observer.turns[turn]
+    ]
     if turns:
-        lines.append(f"Turns: {', '.join(turns)}.")
+        lines.append(f"The wearer made {', '.join(turns)}.")
     return lines
 
 

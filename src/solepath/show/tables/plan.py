@@ -177,11 +177,11 @@ class PlanPicture:
             left += 160.0
         if width < NARROW_WIDTH:
             left, top = MARGIN + 5.0, top + 0.8 * SPACE_BELOW
-        for fill, opacity, word in (
-            (CANDIDATE_COLOUR, "0.4", "candidate"),
-            (STAIRS_COLOUR, "1", "stairs"),
-            (ELEVATOR_COLOUR, "1", "lift"),
-        ):
+        kinds = {connector.kind for connector in self.plan.connectors}
+        marks = [(CANDIDATE_COLOUR, "0.4", "candidate")]
+        marks += [(STAIRS_COLOUR, "1", "stairs")] * (ConnectorKind.STAIRS in kinds)
+        marks += [(ELEVATOR_COLOUR, "1", "lift")] * (ConnectorKind.LIFT in kinds)
+        for fill, opacity, word in marks:
             dot = {"cx": px(left), "cy": px(top + 6.0), "r": "5", "fill": fill, "fill-opacity": opacity}
             SubElement(svg, "circle", dot)
             write_text(svg, left + 10.0, top + 10.0, word, size=12.0)

@@ -15,9 +15,9 @@ from ...floorplan.checks import find_warnings
 from ...floorplan.importers.reading import read_floorplan
 from ...floorplan.index import IndexedPlan
 from ...recording import RecordingError, read_packets, read_start_time
+from ...recording.errors import SAMPLE_SUFFIXES
 from ...recording.packets import FORMAT as RECORDING_FORMAT
 from ...recording.packets import read_header
-from ...recording.source import SAMPLE_SUFFIXES
 from ..page.player.packed_items import PackedItems
 
 MAX_START = 4096

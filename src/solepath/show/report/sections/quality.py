@@ -110,7 +110,7 @@ def _samples(walk: MeasuredWalk) -> Judgement:
     if silences:
         missing.append(f"a foot was silent {times(silences)} while the other walked on")
     if not missing:
-        return Judgement("samples", QualityVerdict.GOOD, "None is missing.")
+        return Judgement("samples", QualityVerdict.GOOD, "No sample is missing.")
     verdict = QualityVerdict.GOOD if worst <= GOOD_GAP_SHARE and not silences else QualityVerdict.LOOK
     verdict = QualityVerdict.STOP if worst > MAX_GAP_SHARE else verdict
     return Judgement("samples", verdict, f"Missing: {'; '.join(missing)}.", "missing samples")
@@ -155,4 +155,4 @@ def _wear(walk: MeasuredWalk) -> Judgement | None:
 def _calibration(walk: MeasuredWalk) -> Judgement:
     if walk.calibrated:
         return Judgement("calibration", QualityVerdict.GOOD, "One of this wearer, these shoes or sensors was used.")
-    return Judgement("calibration", QualityVerdict.NOTE, "None was used: the sensors are taken as they are sold.")
+    return Judgement("calibration", QualityVerdict.NOTE, "No calibration was given: the sensors' own scale is used.")
