@@ -14,7 +14,7 @@ HEIGHTS = """async () => {
 NOTE = "document.getElementById('track-note').innerText"
 
 
-async def test_a_track_from_wrong_data_has_no_area_and_says_so(chromium: Browser) -> None:
+async def test_a_track_from_wrong_data_has_no_area_and_a_note(chromium: Browser) -> None:
     async with STATES["check-failed"].open(chromium) as view:
         await view.until(f"{NOTE}.startsWith('Not to be trusted')")
         assert not await view.tab.evaluate(AREA)
