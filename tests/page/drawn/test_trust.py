@@ -23,7 +23,7 @@ async def test_a_track_from_wrong_data_has_no_area_and_a_note(chromium: Browser)
 
 async def test_a_lost_foot_ends_its_phases_and_leaves_a_dashed_area(chromium: Browser) -> None:
     async with STATES["lost-link"].open(chromium) as view:
-        await view.until(f"{NOTE}.startsWith('Right foot alone')")
+        await view.until(f"{NOTE}.startsWith('Right foot only')")
         assert await view.tab.evaluate(AREA)
         last = await view.tab.evaluate("solepath.state.phases.left.at(-1)")
         assert last[1] == "" and 30.8 < last[0] <= 31.05, "from the last sample on nothing is known"

@@ -39,8 +39,8 @@ def test_what_the_checks_found_stands_until_it_no_longer_holds() -> None:
     assert found(scene) == [("left foot", True), ("", True), ("right foot", True), ("right foot", False)]
     assert frame(scene)["findings"][0]["what"] == "axis 2 is mirrored", "the same defect, known better"
     assert [one["brief"] for one in frame(scene)["findings"][:2]] == [
-        "left sensor is mounted or set up wrongly: its figures cannot be right.",
-        "the insoles may be swapped: left and right cannot be right.",
+        "left sensor is mounted or set up wrongly: its figures are wrong.",
+        "the insoles may be swapped: left is right, and right left.",
     ]
     assert scene.findings.unsound == {Foot.LEFT, RIGHT}
     assert frame(scene)["findings"][3]["what"].startswith("2 cells show no load; left out from now on.")

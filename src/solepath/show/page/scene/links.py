@@ -44,19 +44,19 @@ SILENT = "nothing comes while the other foot walks on. See whether the sensor is
 BRIEF_OF_DEFECT = {
     **dict.fromkeys(
         (Defect.AXES, Defect.CONTRADICTION, Defect.NO_GRAVITY, Defect.WRONG_SCALE),
-        "sensor is mounted or set up wrongly: its figures cannot be right",
+        "sensor is mounted or set up wrongly: its figures are wrong",
     ),
     **dict.fromkeys(
         (Defect.TIME_UNIT, Defect.ACC_UNIT, Defect.GYRO_UNIT, Defect.PRESSURE_UNIT),
-        "sensor sends a wrong unit: its figures cannot be right",
+        "sensor sends a wrong unit: its figures are wrong",
     ),
     Defect.LOOSE: "sensor is loose: fasten it",
-    Defect.CLOCKS: "sensor has another clock than the other: figures of both feet together cannot be right",
+    Defect.CLOCKS: "sensor has another clock than the other: figures of both feet together are wrong",
     Defect.MOVING_GROUND: "sensor: the ground carries the wearer",
     Defect.CALIBRATION: "sensor: the calibration of its heading does not fit",
 }
 """Sentence for the line at the top of a page, after the word left or right, by defect."""
-BRIEF_SPOILT = "sensor sends data that cannot be right, nor can its figures"
+BRIEF_SPOILT = "sensor sends wrong data: its figures are wrong"
 BRIEF_COARSE = "sensor: its figures are less accurate"
 
 
@@ -122,7 +122,7 @@ class SceneFindings:
                 self._add(event, site, "load", f"{site.words}: the insole is never without load.", UNLOADS_NEVER, False)
             case FeetSwapped():
                 self._add(
-                    event, None, "swapped", "the insoles may be swapped: left and right cannot be right.", SWAPPED, True
+                    event, None, "swapped", "the insoles may be swapped: left is right, and right left.", SWAPPED, True
                 )
             case FootSilent(foot=foot):
                 self._add(

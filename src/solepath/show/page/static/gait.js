@@ -1,13 +1,14 @@
 // Means of steady strides: five rows, and a folded table of all.
 
-import { MAIN, difference } from "./rows.js";
-import { unsound } from "./sound.js";
+import { MAIN, difference, doubleSupport } from "./rows.js";
+import { isWrong, unsound } from "./sound.js";
 import { child, fixed, percent, setData, show, signed, write } from "./words.js";
 
 const FULL_ASYMMETRY = 0.2; // asymmetry that fills half of its bar
 const FULL_SHARE = 0.1; // the same for a difference in shares of a stride
 const FULL_DIFFERENCE = 10; // difference that fills half of its bar, degrees
 const UNITS = { deg: "°" };
+const NONE = { left: NaN, right: NaN, both: NaN };
 
 export class Gait {
   uses = ["gait", "findings", "playback", "activity", "scene"];
@@ -32,7 +33,9 @@ export class Gait {
       setData(table, { left: !feet.has("left"), right: !feet.has("right"), both: feet.size === 0 });
     write(this["gait-note"], some ? few(gait, finished) : "");
     write(this["gait-coordination"], some ? coordinationText(gait) : "");
-    MAIN.forEach((make, k) => this.main[k].show(make(rows)));
+    // What needs both feet is not known while the data of one of them are wrong.
+    const wrong = isWrong(state);
+    MAIN.forEach((make, k) => this.main[k].show(wrong && make === doubleSupport ? { ...make(rows), ...NONE } : make(rows)));
     const all = some ? [{ name: "strides", label: "strides", digits: 0, ...gait.strides }, ...rows] : [];
     const names = all.map((row) => row.name);
     if (names.join() !== [...this.rows.keys()].join()) {

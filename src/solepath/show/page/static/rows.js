@@ -8,7 +8,7 @@ const find = (rows, name) => rows.find((row) => row.name === name);
 const named = (name, label, unit) => (rows) => find(rows, name) ?? { name, label, unit };
 
 // The time with both feet on the ground, from both of its parts; below zero it is the time with both in the air.
-function doubleSupport(rows) {
+export function doubleSupport(rows) {
   const parts = ["initial", "terminal"].map((part) => find(rows, `${part}_double_support`));
   const sums = Object.fromEntries(
     ["left", "right", "both"].map((key) => [key, parts.reduce((sum, part) => sum + (part?.[key] ?? NaN), 0)]),

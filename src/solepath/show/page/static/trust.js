@@ -18,5 +18,5 @@ export function trustWords(state) {
   if (trust === "none") return "Not to be trusted: the data of a sensor are wrong.";
   if (trust === "") return "";
   const left = FEET.filter((foot) => !isGone(state.links, `${foot} foot`) && state.feet[foot] !== null);
-  return left.length === 1 ? `${capital(left[0])} foot alone: less certain than the dashed area.` : "No data: the last known place.";
+  return left.length === 1 ? `${capital(left[0])} foot only: the wearer may be outside the dashed area.` : "No data: the last known place.";
 }
