@@ -39,11 +39,9 @@ from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server.server import Page
 from solepath.types import Foot
 
-PHONE_WIDTH = 360
-"""Width of a phone's screen, px."""
+PHONE_WIDTH = 360  # px
 MINUTE = 60.0
-MAX_HEAP_GROWTH = 0.7e6
-"""Largest growth of the heap that is allowed, bytes; eight more minutes of tracks are 1800 points."""
+MAX_HEAP_GROWTH = 0.7e6  # bytes; eight more minutes of tracks are 1800 points
 FEET = ("left", "right")
 
 

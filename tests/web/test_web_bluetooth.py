@@ -87,7 +87,7 @@ async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
             await view.until("document.getElementById('offline').innerText.includes('has stopped')")
             await view.tab.locator("#retry").click()
             await view.until(READY, patience=PATIENCE)
-            await view.until(f"{LOG}.filter((words) => words.includes('foot: connected to')).length === {4 + 3}")
+            await view.until(f"{LOG}.filter((words) => words.includes('foot: connected, ')).length === {4 + 3}")
             at_restart = await view.tab.evaluate(STRIDES)
             await view.until(f"{STRIDES}.every((count, foot) => count > {at_restart}[foot])")
             await radio.stop_reading()
@@ -122,7 +122,7 @@ async def test_a_sensortag_is_worn_at_the_chosen_site(chromium: Browser, site: P
             await view.tab.locator("#worn").select_option("pelvis")
             await radio.choose(tag.address)
             await view.until(f"{rows}.includes('{tag.name} on the pelvis: connected')")
-            await view.until(f"{LOG}.includes('pelvis: connected to {tag.name}')")
+            await view.until(f"{LOG}.includes('pelvis: connected, {tag.name}')")
             await view.tab.get_by_role("button", name=f"Disconnect {tag.name}").click()
             await view.until(f"{rows} === ''")
 
@@ -146,7 +146,7 @@ async def test_a_cc2541_whose_kind_is_chosen_is_set_to_20_hz(chromium: Browser, 
             await view.tab.locator("#worn").select_option("right_foot")
             assert periods() != {b"\x05"}  # 50 ms
             await radio.choose(tag.address)
-            await view.until(f"{LOG}.includes('right foot: connected to {tag.name}')")
+            await view.until(f"{LOG}.includes('right foot: connected, {tag.name}')")
             async with asyncio.timeout(MAX_WAIT):
                 while tag.read("cc2541/barometer-config", 0.0) != b"\x01":  # the last write
                     await asyncio.sleep(0.05)

@@ -169,9 +169,10 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
 
 
 def test_an_unknown_experiment_is_rejected_in_one_line():
-    assert run_failing("reproduce", "kupt") == (
-        "solepath: there is no experiment 'kupt'; there are: " + ", ".join(NAMES) + "\n"
+    assert run_failing("reproduce", "xyzzy") == (
+        "solepath: there is no experiment 'xyzzy'; there are: " + ", ".join(NAMES) + "\n"
     )
+    assert run_failing("reproduce", "kupt") == "solepath: there is no experiment 'kupt': did you mean kupt-dfpc?\n"
 
 
 @pytest.mark.parametrize("walks", ["0", "-1", "many", "1.5"])

@@ -58,8 +58,8 @@ VERSION = 1
 class Cursor:
     """The record of what a watcher has been sent.
 
-    `whole_count` is that of the scene that was sent whole. `numbers` holds for each list of the scene how many items
-    had been added to it, `values` for each other key the value that was sent last."""
+    `whole_count` is that of the scene that was sent whole, `numbers` how many items had been added to each list of it,
+    `values` the value that was sent last for each other key."""
 
     whole_count: int
     numbers: dict[str, int]
@@ -73,7 +73,6 @@ class Scene:
     Times are in s on the session's clock; positions in m, in the world frame, places on `plan` in the plan frame.
     `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. A player
     writes `playback`, who measures a shoe or a walk `guide`. The scene feeds `observer` and shows its counts.
-
     `take` is cheap: it is called for every packet. `message_since` takes some 0.1 ms and is for at most 30 calls a
     second. Memory is bounded. Two threads must not use a scene at once."""
 
@@ -96,8 +95,7 @@ class Scene:
     reports: SceneReports = field(factory=SceneReports, init=False)
     whole_count: int = field(default=0, init=False)
     """Number of layouts that became known and of revised tracks; after each a watcher needs the whole scene again."""
-    drawing: EncodedOnce | None = field(default=None, init=False, metadata=NOT_SAVED)
-    """Drawing of the plan, made once; None without a plan."""
+    drawing: EncodedOnce | None = field(default=None, init=False, metadata=NOT_SAVED)  # of the plan, made once
 
     def __attrs_post_init__(self) -> None:
         self.drawing = None if self.plan is None else draw_plan(self.plan)
