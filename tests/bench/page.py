@@ -33,8 +33,8 @@ sys.path[:0] = [str(HELPERS), str(HELPERS / "page")]
 
 from attrs import define, field  # noqa: E402
 from browsers import Browser, Browsing, Window, browsing, program, why_not, window  # noqa: E402
+from page_states import building_walk  # noqa: E402
 from shown import PacketEvents, open_page, show, square_walk, squares, walked  # noqa: E402
-from states import building_walk  # noqa: E402
 
 from solepath import Session  # noqa: E402
 from solepath.emulate.routes.building import BUILDING  # noqa: E402

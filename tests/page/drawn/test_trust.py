@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from browsers import Browser
-from states import STATES
+from page_states import STATES
 
 AREA = "!document.querySelector('.track .legend .of-track').hidden"
 HEIGHTS = """async () => {

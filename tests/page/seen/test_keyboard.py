@@ -7,7 +7,7 @@ import asyncio
 import pytest
 from browsers import Browser
 from measures import OPEN_ALL, SCREENS, SCRIPT, THEMES, focused, key_faults, tab_faults
-from states import STATES
+from page_states import STATES
 
 REDRAWING = 0.3
 """Time in which the page is drawn again in another size or theme, s."""

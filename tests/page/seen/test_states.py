@@ -1,4 +1,4 @@
-"""Tests what can be read on the page in eight states (tests/helpers/page/states.py), three widths and both themes."""
+"""Tests what can be read on the page in eight states (tests/helpers/page/page_states.py), three widths and both themes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import asyncio
 import pytest
 from browsers import Browser, Window
 from measures import NARROWEST, OPEN_ALL, SCREENS, SCRIPT, THEMES, axe_faults, text_faults
-from states import STATES
+from page_states import STATES
 
 REDRAWING = 0.3
 """Time in which the page is drawn again in another size or theme, s."""

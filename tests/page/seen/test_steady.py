@@ -8,8 +8,8 @@ import pytest
 from attrs import frozen
 from browsers import Browser, window
 from measures import SCREENS, SCRIPT, shifts
+from page_states import broken_walk, building_walk, reversed_walk
 from shown import CONNECTED, PacketEvents, open_page, show
-from states import broken_walk, building_walk, reversed_walk
 
 from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.plan import FloorPlan
