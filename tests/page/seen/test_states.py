@@ -1,4 +1,4 @@
-"""Tests what can be read on the page in eight states (tests/helpers/page/page_states.py), three widths and both themes."""
+"""Tests what can be read on the page in the eight states of page_states.py, in three widths and both themes."""
 
 from __future__ import annotations
 
