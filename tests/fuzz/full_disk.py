@@ -86,7 +86,7 @@ class Writer:
 
 SOLEPATH = ("-m", "solepath")
 TOO_LARGE = (os.strerror(EFBIG).lower(), "larger than this disk allows")
-"""Reason for a write beyond the limit, of the system and in the words of the command line; a program that ends for another one has not written."""
+"""Reason for a write beyond the limit, by the system and by the command line; other programs have not written."""
 WRITERS = (
     Writer(
         "track --out --report",
