@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import io
-from contextlib import redirect_stdout
 from typing import get_args, get_type_hints
 
 import event_fields
 import pytest
-from quoted import PAGES, blocks
+from quoted import PAGES, run_page
 
 from solepath import Event, Foot, GaitCycleMeasured, Session
 from solepath.emulate import Route, emulate
@@ -35,10 +33,8 @@ def test_every_number_has_its_unit_in_its_sentence(event: type) -> None:
 
 def test_the_program_of_the_page_selects_the_cycles_of_the_means() -> None:
     pytest.importorskip("pandas", reason="pandas is not installed")
-    (program,) = blocks(PAGES["docs/events.md"], "python")
-    with redirect_stdout(io.StringIO()) as out:
-        exec(compile(program, "docs/events.md", "exec"), {"__name__": "page"})
-    selected, of_session = map(float, out.getvalue().split())
+    (out,), _ = run_page("docs/events.md")
+    selected, of_session = map(float, out.split())
     assert selected == pytest.approx(of_session, rel=1e-9)
 
 

@@ -8,21 +8,18 @@ from typing import Any
 
 import pytest
 import walks
-from here import DOCS
 from programs import run
-from quoted import blocks
+from quoted import PAGES, blocks, run_page
 from recordings import recorded
 
 from solepath.cli.main import parser
 
-PAGE = (DOCS / "formats.md").read_text("utf-8")
+PAGE = PAGES["docs/formats.md"]
 
 
 @pytest.fixture(scope="module")
 def names() -> dict[str, Any]:
-    found: dict[str, Any] = {"__name__": "page"}
-    for program in blocks(PAGE, "python"):
-        exec(compile(program, "docs/formats.md", "exec"), found)
+    _, found = run_page("docs/formats.md")
     return found
 
 

@@ -17,7 +17,7 @@ import figures
 import pytest
 from commands import run, solepath
 from here import EXAMPLES, PROTOCOL, TESTS
-from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
+from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same, run_page
 from recordings import recorded
 from snooped import insoles_log
 
@@ -36,21 +36,11 @@ WALK = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), seed=1)
 
 
 @pytest.fixture
-def played(tmp_path, monkeypatch):
-    """Return a function that runs the programs of a page and returns (their outputs, their names)."""
+def here(tmp_path, monkeypatch):
+    """A folder with the examples, in which programs run."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(EXAMPLES, "examples")
-
-    def play(page: str) -> tuple[list[str], dict[str, Any]]:
-        names: dict[str, Any] = {"__name__": "page"}
-        printed = []
-        for program in blocks(PAGES[page], "python"):
-            with redirect_stdout(io.StringIO()) as out:
-                exec(compile(program, page, "exec"), names)
-            printed.append(out.getvalue())
-        return printed, names
-
-    return play
+    return tmp_path
 
 
 def test_every_program_is_run_by_a_test():
@@ -66,8 +56,8 @@ def test_a_command_prints_what_the_document_shows():
     assert not [mark for mark in marks if not below(mark)]
 
 
-def test_a_live_source_samples_and_a_saved_session(played):
-    (_, _, saved, rebooted), names = played("docs/session.md")
+def test_a_live_source_samples_and_a_saved_session(here):
+    (_, _, saved, rebooted), names = run_page("docs/session.md")
     assert saved.startswith("Position(t=")
     assert rebooted.startswith("ClockReset(t=") and "RIGHT_FOOT" in rebooted
     with redirect_stdout(io.StringIO()) as out:
@@ -84,41 +74,41 @@ def test_the_line_for_the_phases_prints_both_tables():
     assert ["SWING", "RIGHT", "RIGHT", "RIGHT", "FLIGHT"] in rows
 
 
-def test_activities_of_the_wearer_are_reported(played):
-    _, names = played("docs/activities.md")
+def test_activities_of_the_wearer_are_reported(here):
+    _, names = run_page("docs/activities.md")
     with redirect_stdout(io.StringIO()) as out:
         names["did"](LiftRidden(t=9.0, known_at=9.5, t_start=2.0, up=False, height=-3.0))
     assert out.getvalue() == "down -3.0\n"
 
 
-def test_gait_parameters_are_printed(played):
-    _, names = played("docs/gait.md")
+def test_gait_parameters_are_printed(here):
+    _, names = run_page("docs/gait.md")
     with redirect_stdout(io.StringIO()) as out:
         for event in names["session"].feed(emulate(Route().stand(2).walk(15).stop(2), seed=1).packets):
             names["measured"](event)
     assert out.getvalue().splitlines()[0].split()[0] in ("left", "right")
 
 
-def test_a_session_with_a_floor_plan_reports_the_place(played):
-    _, names = played("docs/floorplans.md")
+def test_a_session_with_a_floor_plan_reports_the_place(here):
+    _, names = run_page("docs/floorplans.md")
     names["indoors"].feed(WALK.packets)
     assert names["indoors"].place.level == "0"
 
 
-def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, tmp_path):
+def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(here):
     pytest.importorskip("bytewax", reason="bytewax has no release for this Python")
     testing, parquet = import_module("bytewax.testing"), import_module("pyarrow.parquet")
     walk = emulate(Route().stand(2).walk(3).stop(1), seed=1)
-    recorded(tmp_path / "walk.jsonl", walk.packets)
-    (tmp_path / "sent").mkdir()
+    recorded(here / "walk.jsonl", walk.packets)
+    (here / "sent").mkdir()
     sent = [sent_line(Sent("w-17", number, packet)) for number, packet in enumerate(walk.packets)]
     for hour in (11, 8, 10, 9):
         lines = sent[(hour - 8) * len(sent) // 4 : (hour - 7) * len(sent) // 4]
-        (tmp_path / "sent" / f"w-17-{hour:02}.jsonl").write_bytes(b"".join(lines))
-    (tmp_path / "sent" / "w-16.jsonl").write_bytes(b"\xff no line of anybody's \xff\n")
-    (emitted, _), names = played("docs/fleet.md")
+        (here / "sent" / f"w-17-{hour:02}.jsonl").write_bytes(b"".join(lines))
+    (here / "sent" / "w-16.jsonl").write_bytes(b"\xff no line of anybody's \xff\n")
+    (emitted, _), names = run_page("docs/fleet.md")
     testing.run_main(names["flow"])
-    nobody, *rows = sorted(parquet.read_table(tmp_path / "events").to_pylist(), key=lambda row: row["wearer"])
+    nobody, *rows = sorted(parquet.read_table(here / "events").to_pylist(), key=lambda row: row["wearer"])
     assert (nobody["wearer"], nobody["event"]) == ("", "SentRejected")
     assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
         (wearer, int(number), event) for wearer, number, event in map(str.split, emitted.splitlines())
@@ -152,9 +142,9 @@ def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
     assert f" {len(events) / last:.0f} events/s, {rows / last / 1000:.0f} kB/s as rows" in PAGES["docs/fleet.md"]
 
 
-def test_the_loop_over_bluetooth_is_a_program(played):
+def test_the_loop_over_bluetooth_is_a_program(here):
     """The loop runs in examples/bluetooth.py, against emulated insoles."""
-    _, names = played("docs/bluetooth.md")
+    _, names = run_page("docs/bluetooth.md")
     assert names["listen"].__name__ == "listen"
 
 

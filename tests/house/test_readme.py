@@ -1,8 +1,6 @@
 """The README is true: its program runs, its results are printed ones, and the pages behind it leave nothing out."""
 
-import io
 import re
-from contextlib import redirect_stdout
 from functools import cache
 from pathlib import Path
 from typing import get_args
@@ -10,7 +8,7 @@ from typing import get_args
 import figures
 import pytest
 from commands import solepath
-from quoted import NUMBER, PAGES, README, below, blocks
+from quoted import NUMBER, PAGES, README, below, blocks, run_page
 from recordings import recorded
 
 from solepath import Event
@@ -36,13 +34,11 @@ def test_its_loop_gets_every_stride_of_a_walk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
     recorded(Path("walk.jsonl"), walk.packets)
-    (program,) = blocks(README, "python")
-    with redirect_stdout(io.StringIO()) as out:
-        exec(compile(program, "README.md", "exec"), {"__name__": "readme"})
+    (out,), _ = run_page("README.md")
     for foot in Foot:
-        assert out.getvalue().count(f"{foot.value} stride of") == len(walk.truth.strides(foot))
-        assert f"s: {foot.value} heel-strike" in out.getvalue()
-    assert "a packet was not used: checksum" in out.getvalue()
+        assert out.count(f"{foot.value} stride of") == len(walk.truth.strides(foot))
+        assert f"s: {foot.value} heel-strike" in out
+    assert "a packet was not used: checksum" in out
 
 
 def test_the_loop_has_twelve_lines():

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 import re
 import subprocess
 import sys
-from contextlib import redirect_stdout
 from math import inf, nan, pi
 from pathlib import Path
 
 import pytest
 from commands import run_failing, solepath
-from here import DOCS, ROOT
+from here import ROOT
 from pages import parse_page
-from quoted import PAGES, blocks
+from quoted import PAGES, run_page
 from recordings import recorded
 from strides import cycle, cycles
 from walks import run_session
@@ -160,10 +158,8 @@ def test_references_are_those_of_their_tables_and_formulas() -> None:
 
 def test_the_page_of_documents_runs_and_names_the_columns() -> None:
     page = PAGES["docs/outcomes.md"]
-    (program,) = blocks((DOCS / "outcomes.md").read_text(encoding="utf-8"), "python")
-    with redirect_stdout(io.StringIO()) as out:
-        exec(compile(program, "docs/outcomes.md", "exec"), {"__name__": "page"})
-    lines = out.getvalue().splitlines()
+    (out,), _ = run_page("docs/outcomes.md")
+    lines = out.splitlines()
     assert lines[0].startswith("bout 1: ") and lines[2].startswith("2 bouts, ") and lines[-1].endswith(" False")
     assert f"`{','.join(BOUT_COLUMNS)}`" in page and f"`{','.join(OUTCOME_COLUMNS)}`" in page
 

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import io
-from contextlib import redirect_stdout
 from pathlib import Path
-from typing import Any
 
 import pytest
-from quoted import PAGES, blocks
+from quoted import PAGES, run_page
 from recordings import recorded
 
 from solepath.emulate import Route, emulate
@@ -20,13 +17,7 @@ for package in ("pandas", "polars", "pyarrow"):
 def test_the_lines_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     recorded(tmp_path / "walk.jsonl", emulate(Route().stand(2).walk(10).stop(2), seed=1).packets)
-    names: dict[str, Any] = {"__name__": "page"}
-    printed = []
-    for program in blocks(PAGES["docs/frames.md"], "python"):
-        with redirect_stdout(io.StringIO()) as out:
-            exec(compile(program, "docs/frames.md", "exec"), names)
-        printed.append(out.getvalue())
-    cycles, samples, arrow = printed
+    (cycles, samples, arrow), names = run_page("docs/frames.md")
     assert cycles.rstrip().endswith(" s") and "left" in cycles
     assert "gyro_y" in samples and len(names["samples"]) > 500
     assert "{b'unit': b's'}" in arrow and "GaitCycleMeasured" in arrow

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import io
 import json
 import re
 import shlex
 import subprocess
 import sys
-from contextlib import redirect_stdout
 from math import hypot
 from pathlib import Path
-from typing import Any
 
 import pytest
 from here import EXAMPLES
 from programs import run
-from quoted import PAGES, blocks
+from quoted import PAGES, blocks, run_page
 
 from solepath.emulate import Route, Walker
 from solepath.types import Foot
@@ -28,17 +25,6 @@ PATHS = ("docs/app.md", "docs/researcher.md", "docs/indoor.md", "docs/device.md"
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def played(page: str) -> tuple[list[str], dict[str, Any]]:
-    """Run the programs of a page one after the other; return what each printed, and their names."""
-    names: dict[str, Any] = {"__name__": "page"}
-    printed = []
-    for program in blocks(PAGES[page], "python"):
-        with redirect_stdout(io.StringIO()) as out:
-            exec(compile(program, page, "exec"), names)
-        printed.append(out.getvalue())
-    return printed, names
 
 
 def typed(page: str, start: str) -> None:
@@ -58,7 +44,7 @@ def test_a_path_is_short_and_names_its_readers_at_once(page: str) -> None:
 
 def test_an_app_counts_saves_and_goes_on(here: Path) -> None:
     typed("docs/app.md", "demo")
-    (loop, answers, channels, live, _), names = played("docs/app.md")
+    (loop, answers, channels, live, _), names = run_page("docs/app.md")
     assert "the left foot touches the floor" in loop and "the right foot has gone" in loop
     assert names["strides"] == loop.count("has gone") > 20
     assert "m ahead" in answers and "steps a minute" in answers
@@ -71,14 +57,14 @@ def test_tables_of_a_lab_become_frames_and_a_report(here: Path) -> None:
     subprocess.run([sys.executable, EXAMPLES / "researcher.py", "lab"], check=True, capture_output=True)
     typed("docs/researcher.md", "track")
     typed("docs/researcher.md", "check")
-    _, names = played("docs/researcher.md")
+    _, names = run_page("docs/researcher.md")
     assert set(names["steady"].foot) == {"left", "right"} and len(names["steady"]) > 20
     first = names["strides"].groupby("foot").t_start.min()
     assert (first < 1.0).all(), "the first stride contains the standing, as the page says"
 
 
 def test_a_plan_of_ones_own_is_walked_on_and_gives_the_room(here: Path) -> None:
-    (_, walked, places, *_), names = played("docs/indoor.md")
+    (_, walked, places, *_), names = run_page("docs/indoor.md")
     assert "packets" in walked
     rooms = [line.split()[2] for line in places.splitlines()[:-1]]
     assert rooms[0] == "office" and rooms[-1] == "hall" and "door: hall door" in places
@@ -92,7 +78,7 @@ def test_a_plan_of_ones_own_is_walked_on_and_gives_the_room(here: Path) -> None:
 
 
 def test_a_device_is_declared_proven_and_walked_with() -> None:
-    (*_, vectors, walked), _ = played("docs/device.md")
+    (*_, vectors, walked), _ = run_page("docs/device.md")
     assert vectors == "the vectors agree\n"
     true = len(Walker(Route().stand(2).walk(6).stop(2)).truth().strides(Foot.LEFT))
     assert sum(line.startswith("StrideTaken(") for line in walked.splitlines()) == true

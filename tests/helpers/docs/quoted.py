@@ -1,6 +1,9 @@
-"""Finds the blocks and tables below marks in README.md and docs/, and compares them with what is computed."""
+"""Finds blocks and tables in README.md and docs/, runs programs there, and compares what is quoted with what is new."""
 
+import io
 import re
+from contextlib import redirect_stdout
+from typing import Any
 
 import pytest
 from here import DOCS, ROOT
@@ -17,6 +20,17 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 def blocks(text: str, language: str) -> list[str]:
     """Return the blocks of code in that language."""
     return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+
+
+def run_page(page: str) -> tuple[list[str], dict[str, Any]]:
+    """Run the Python programs of a page one after the other; return what each printed, and their names."""
+    names: dict[str, Any] = {"__name__": "page"}
+    printed = []
+    for program in blocks(PAGES[page], "python"):
+        with redirect_stdout(io.StringIO()) as out:
+            exec(compile(program, page, "exec"), names)
+        printed.append(out.getvalue())
+    return printed, names
 
 
 def page_of(mark: str) -> str:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import io
 import re
 import shlex
-from contextlib import redirect_stdout
 from pathlib import Path
 
 import pytest
-from quoted import PAGES, blocks
+from quoted import PAGES, blocks, run_page
 
 from solepath.cli.common.tables import mapping_of
 from solepath.cli.main import parser
@@ -22,10 +20,8 @@ PAGE = PAGES["docs/tables.md"]
 
 def test_the_program_prints_samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    (program,) = blocks(PAGE, "python")
-    with redirect_stdout(io.StringIO()) as out:
-        exec(compile(program, "docs/tables.md", "exec"), {"__name__": "page"})
-    first, second = out.getvalue().splitlines()
+    (out,), _ = run_page("docs/tables.md")
+    first, second = out.splitlines()
     assert first.startswith("0.0 ") and second.startswith("0.01 ") and "9.80665" in second
 
 
