@@ -48,9 +48,10 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
 def test_evaluate_in_short_is_a_markdown_table(data):
     result = solepath("evaluate", data, "--markdown", "--recipe", "default")
     assert result.returncode == 0 and "not scored: " in result.stderr and "broken.npz: is empty" in result.stderr
-    head, rule, first, second, third, fourth = result.stdout.splitlines()
+    head, rule, length, first, second, third, fourth = result.stdout.splitlines()
     assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")
-    assert first.startswith("| a closed loop, one shoe: `xio_closed_walks`, 1 recording | from end to start, in space ")
+    assert length == "| a closed loop, one shoe: `xio_closed_walks`, 1 recording | length of the walk | 18.3 m |"
+    assert first.startswith("|  | from end to start, in space | 0.") and first.endswith(" m |")
     assert second.startswith("|  | from end to start, horizontal | 0.") and second.endswith(" m |")
     assert third.startswith("|  | from end to start, in height | 0.") and third.endswith(" m |")
     assert fourth.startswith("|  | drift of the heading | mean ") and fourth.endswith(" degrees/min |")

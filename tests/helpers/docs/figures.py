@@ -47,12 +47,18 @@ EXPERIMENTS = ("walking-modes",)
 """Experiments whose output docs/papers.md holds; the pages of the others have tables of several seeds."""
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
 IN_SHORT = {
-    "pyshoe_vicon": ("position error RMS, horizontal", "the same / sqrt 2 (ARMSE2d)", "strides", "stride length error"),
-    "gumushane_surveyed": ("position error at the footprints", "strides", "stride length error"),
+    "pyshoe_vicon": (
+        "length of the walk",
+        "position error RMS, horizontal",
+        "the same / sqrt 2 (ARMSE2d)",
+        "strides",
+        "stride length error",
+    ),
+    "gumushane_surveyed": ("length of the walk", "position error at the footprints", "strides", "stride length error"),
     "gumushane_counted": ("from end to start, horizontal", "strides", "length of a leg, by each foot's track"),
-    "xio_closed_walks": ("from end to start, in space",),
-    "openshoe_loops": ("from end to start, in space", "strides", "longest stride"),
-    "smart_insole_35": ("position error RMS, horizontal", "strides", "stride length error"),
+    "xio_closed_walks": ("length of the walk", "from end to start, in space"),
+    "openshoe_loops": ("length of the walk", "from end to start, in space", "strides", "longest stride"),
+    "smart_insole_35": ("length of the walk", "position error RMS, horizontal", "strides", "stride length error"),
     "ipol_10m_uturn": ("length of a leg, by each foot's track", "heel-strikes", "toe-offs"),
     "tripod_treadmill": ("stride length error", "heel-strikes", "toe-offs"),
     "gaitmap_examples": ("length of a leg, by each foot's track", "heel-strikes"),
@@ -121,42 +127,40 @@ def walked(printed: str) -> list[Row]:
 HEADLINES = (
     (
         "position",
-        "28 walks of 24 m (median) filmed by a motion-capture lab, one shoe: off by {:.0f} cm (RMS, mean of the walks)",
+        "{} walks of {} m (mean) filmed by a motion-capture lab, one shoe: off by {} m (RMS, mean of the walks)",
         "pyshoe_vicon",
-        r"RMS, horizontal: mean ([\d.]+) m",
-        100.0,
+        r"(\d+) recordings.*walk: mean ([\d.]+) m.*RMS, horizontal: mean ([\d.]+) m",
     ),
     (
         "strides",
-        "8 walks of 48 to 109 m, every footprint measured on the floor, one shoe: off by {} m on average; "
+        "{} walks of {} m (mean), every footprint measured on the floor, one shoe: off by {} m on average; "
         "{} strides found, {} invented, their lengths off by {} %",
         "gumushane_surveyed",
-        r"footprints: mean ([\d.]+) m.*strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+)",
-        None,
+        r"(\d+) recordings.*walk: mean ([\d.]+) m.*footprints: mean ([\d.]+) m.*"
+        r"strides: (\d+ of \d+) found, (\d+) invented; stride length error: mean ([\d.]+)",
     ),
     (
         "contacts",
-        "60 walks with radio losses, both feet, moments checked by hand: heel-strike F1 {}, median offset {} ms; "
+        "{} walks with radio losses, both feet, moments checked by hand: heel-strike F1 {}, median offset {} ms; "
         "toe-off F1 {}, {} ms",
         "ipol_10m_uturn",
-        r"heel-strikes: F1 ([\d.]+), median offset (-?\d+) ms.*toe-offs: F1 ([\d.]+), median offset (-?\d+) ms",
-        None,
+        r"(\d+) recordings.*heel-strikes: F1 ([\d.]+), median offset (-?\d+) ms.*"
+        r"toe-offs: F1 ([\d.]+), median offset (-?\d+) ms",
     ),
 )
-"""Rows of the README's table of results: title, sentence, data set, where its figures are, and their factor."""
+"""Rows of the README's table of results: title, sentence, data set, and where its figures are."""
 
 
 def headlines(short: list[Row], bench: str) -> list[str]:
     """Return the README's table of results, from the rows of `in_short` and the output of BENCH."""
     table = ["| result | measured | command |", "|---|---|---|"]
-    for title, sentence, data, pattern, factor in HEADLINES:
-        (row,) = (result for name, result in short if f"`{data}`" in name)
+    for title, sentence, data, pattern in HEADLINES:
+        (row,) = (f"{name}: {result}" for name, result in short if f"`{data}`" in name)
         found = re.search(pattern, row)
         if found is None:
             raise ValueError(f"{data}: {row!r} has no {pattern!r}")
-        values = [float(value) * factor for value in found.groups()] if factor else found.groups()
         command = f"`solepath evaluate DIR --only {data} --recipe default`"
-        table.append(f"| {title} | {sentence.format(*values)} | {command} |")
+        table.append(f"| {title} | {sentence.format(*found.groups())} | {command} |")
     found = re.search(r"^real-time factor.*: (.+)$", bench, re.MULTILINE)
     if found is None:
         raise ValueError("the benchmark prints no real-time factor")

@@ -80,10 +80,12 @@ def _line(*cells: str) -> str:
 
 
 def _position_lines(summary: Summary) -> list[tuple[str, str]]:
+    # errors in m need the length of the walk beside them, shares of the path do not
+    lengths = {} if PATH_SHARES.keys() & summary.mean.keys() else {"path": ("length of the walk", 1)}
     entries = []
-    for key, measured in POSITION_FIGURES.items():
+    for key, (measured, digits) in (lengths | {key: (name, 3) for key, name in POSITION_FIGURES.items()}).items():
         if key in summary.mean:
-            mean, median = (f"{number(averages[key], 3)} m" for averages in (summary.mean, summary.median))
+            mean, median = (f"{number(averages[key], digits)} m" for averages in (summary.mean, summary.median))
             entries.append((measured, mean if summary.count == 1 else f"mean {mean}, median {median}"))
     return entries
 
