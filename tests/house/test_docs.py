@@ -56,14 +56,10 @@ def test_a_command_prints_what_the_document_shows():
     assert not [mark for mark in marks if not below(mark)]
 
 
-def test_a_live_source_samples_and_a_saved_session(here):
-    (_, _, saved, rebooted), names = run_page("docs/session.md")
+def test_samples_and_a_saved_session(here):
+    (_, saved, rebooted), _ = run_page("docs/session.md")
     assert saved.startswith("Position(t=")
     assert rebooted.startswith("ClockReset(t=") and "RIGHT_FOOT" in rebooted
-    with redirect_stdout(io.StringIO()) as out:
-        names["notified"](bytearray())
-        names["every_second"]()
-    assert out.getvalue().startswith("PacketRejected(")
 
 
 def test_the_line_for_the_phases_prints_both_tables():

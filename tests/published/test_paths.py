@@ -50,6 +50,7 @@ def test_an_app_counts_saves_and_goes_on(here: Path) -> None:
     assert "m ahead" in answers and "steps a minute" in answers
     assert "insole/frame notify" in channels and "insole/control" in channels and "then write: (Write(" in channels
     assert "'event': 'PacketRejected'" in live
+    names["every_second"]()
     assert names["session"].position == names["session"].restore(names["saved"]["session"]).position
 
 
