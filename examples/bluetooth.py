@@ -1,7 +1,9 @@
-"""For an app with asyncio: two sensors over Bluetooth, `python bluetooth.py LEFT RIGHT`, addresses of `solepath scan`.
+"""For an app with asyncio: two sensors over Bluetooth.
 
-You see connections and strides. Without addresses they are those of two emulated insoles, through virtual Bluetooth
-controllers, of a wearer who walks 4 m.
+    python examples/bluetooth.py LEFT RIGHT   addresses of `solepath scan`
+    python examples/bluetooth.py              two emulated insoles, through virtual Bluetooth controllers
+
+You see connections and strides. The emulated wearer walks 4 m.
 """
 
 import asyncio

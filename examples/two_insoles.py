@@ -1,6 +1,8 @@
 """For owners of insoles: the noise of their cells is calibrated, and both feet together measure the distance walked.
 
-`python two_insoles.py` emulates a short walk for the calibration, and then a walk of 20 m, both at 30 Hz.
+    python examples/two_insoles.py
+
+Emulated are a short walk for the calibration, and then a walk of 20 m, both at 30 Hz.
 """
 
 from attrs import evolve
