@@ -110,7 +110,7 @@ def test_initial_contacts_are_those_of_motion_capture(evaluated: Evaluated) -> N
 
 @pytest.mark.soak
 def test_the_accuracy_that_is_quoted_is_what_evaluate_prints(evaluated: Evaluated, data_dir: Path) -> None:
-    """solepath evaluate DIR --markdown prints it, except for data that need training in folds: those take minutes."""
+    """solepath evaluate DIR --recipe default --markdown prints it, before the data that need training in folds."""
     results = [evaluated(found.name, "default") for found in find_data_sets(data_dir) if not found.folds]
     nearly_the_same(below("accuracy"), accuracy_table(results).splitlines())
 
