@@ -76,6 +76,16 @@ def short() -> list[figures.Row]:
     return figures.in_short(*(below(mark) for mark in ("accuracy", "activities", "emulated")))
 
 
+def test_tables_that_share_figures_agree():
+    known: dict[tuple[str, str], str] = {}
+    for mark in ("accuracy", "activities", "insoles"):  # the first column of each is the recipe `default`
+        data = ""
+        for line in below(mark)[2:]:
+            first, measure, result = (cell.strip() for cell in line.split("|")[1:4])
+            data = first or data
+            assert known.setdefault((data, measure), result) == result, f"{mark}: {data}, {measure}"
+
+
 def test_the_short_table_of_accuracy_is_the_long_ones_in_short():
     assert below("figures") == figures.lines("data", short())
 
