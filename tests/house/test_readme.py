@@ -1,6 +1,8 @@
 """The README is true: its program runs, its results are printed ones, and the pages behind it leave nothing out."""
 
 import re
+import subprocess
+import sys
 from functools import cache
 from pathlib import Path
 from typing import get_args
@@ -8,6 +10,7 @@ from typing import get_args
 import figures
 import pytest
 from commands import solepath
+from here import ROOT
 from quoted import NUMBER, PAGES, README, below, blocks, run_page
 from recordings import recorded
 
@@ -98,6 +101,12 @@ def test_its_results_are_those_of_the_long_tables():
 @pytest.mark.parametrize("name", figures.EXPERIMENTS)
 def test_the_output_of_an_experiment_has_its_place_in_the_docs(name):
     assert below(name)[0].startswith(f"{name}: ours is emulated (")
+
+
+def test_the_quick_tests_are_all_there():
+    command = [sys.executable, "-m", "pytest", "--collect-only", "@tests/quick.txt"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize(
