@@ -42,7 +42,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
     add_tables(command, "IN")
-    add_own_devices(command, " (not of a phone's log)")
+    add_own_devices(command)
     command.add_argument(
         "out",
         metavar="OUT",
@@ -120,9 +120,7 @@ def run(options: argparse.Namespace) -> int:
     total = source.stat().st_size if source.is_file() else 0
     with progress_bar(printable(source.name), total) as show:
         if is_btsnoop(source):
-            if drivers:
-                raise Failure("--driver: a phone's log is read with the built-in devices only; convert a recording")
-            log = _open_log(options)
+            log = _open_log(options, drivers)
             packets, header = _with_progress(log, show), log.header
         elif options.sites or options.handles:
             raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
@@ -143,16 +141,16 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _open_log(options: argparse.Namespace) -> BtsnoopLog:
-    from ..link.catalogue import PROFILES
+def _open_log(options: argparse.Namespace, own: Iterable[Driver]) -> BtsnoopLog:
     from ..recording.btsnoop import open_btsnoop
+    from ..recording.btsnoop.devices import known_devices
 
     sites, handles = _by_key("--site", options.sites), _by_key("--handle", options.handles)
-    known = {channel.name for profile in PROFILES for channel in profile.channels}
+    known = known_devices(own).channel_names
     for name in handles.values():
         if name not in known:
             raise Failure(unknown("channel", name, sorted(known)))
-    return open_btsnoop(options.files[0], sites=sites, handles=handles, report=note)
+    return open_btsnoop(options.files[0], sites=sites, handles=handles, profiles=own, report=note)
 
 
 def _by_key(option: str, pairs: Iterable[tuple[_Key, _Value]]) -> dict[_Key, _Value]:

@@ -12,6 +12,7 @@ from here import DOCS, EXAMPLES
 from programs import emulator
 from programs import run as run_program
 from recordings import recorded
+from snooped import LEFT, T_START, Log, start_connection
 
 from solepath.cli.common.own_devices import CAUSES
 from solepath.emulate.radio import Radio
@@ -161,6 +162,21 @@ def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) 
     assert len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
     done = run("check", walk, "--driver", OWN)
     assert done.returncode == 0 and f"left foot {STRIDES} strides" in done.stdout
+
+
+@pytest.mark.parametrize("is_discovered", [True, False])
+def test_a_phone_s_log_of_it_is_converted(is_discovered: bool, packets: list[Packet], tmp_path: Path) -> None:
+    motion = runpy.run_path(str(OWN))["MOTION"]
+    log = start_connection(Log(), characteristics={0x12: motion.characteristic} if is_discovered else {})
+    for packet in packets:
+        log.notify(0x40, 0x12, packet.data, t=T_START + 1_000_000 + round(packet.t * 1e6))
+    words = ["convert", log.save(tmp_path / "phone.log"), tmp_path / "walk.jsonl", "--site", f"{LEFT}=left_foot"]
+    words += [] if is_discovered else ["--handle", "0x12=shoe/motion"]
+    line = run_failing(*words)
+    assert ("holds no packets of a device" if is_discovered else "there is no channel 'shoe/motion'") in line
+    assert run(*words, "--driver", OWN).returncode == 0
+    done = run("track", tmp_path / "walk.jsonl", "--driver", OWN, "--out", tmp_path / "out")
+    assert done.returncode == 0 and len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
 
 
 def test_convert_and_calibrate_read_it_too(walk: Path, tmp_path: Path, packets: list[Packet]) -> None:

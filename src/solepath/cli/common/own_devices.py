@@ -61,8 +61,8 @@ CAUSES = {
 ADVICE = "a device of your own needs its driver: --driver FILE.py (docs/device.md)"
 
 
-def add_own_devices(command: argparse.ArgumentParser, limit: str = "") -> None:
-    """Add --driver to a command; `limit` says in brackets where it is of no use."""
+def add_own_devices(command: argparse.ArgumentParser) -> None:
+    """Add --driver to a command."""
     command.add_argument(
         "--driver",
         metavar="FILE.py",
@@ -70,7 +70,7 @@ def add_own_devices(command: argparse.ArgumentParser, limit: str = "") -> None:
         type=Path,
         action="append",
         default=[],
-        help=f"a device of your own{limit}: a Python program whose variables hold its Driver (docs/device.md); it is"
+        help="a device of your own: a Python program whose variables hold its Driver (docs/device.md); it is"
         " run; may be given again",
     )
 
