@@ -17,6 +17,7 @@ from snooped import LEFT, T_START, Log, start_connection
 from solepath.cli.common.own_devices import CAUSES
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Rejection
@@ -154,6 +155,17 @@ def test_every_second_packet_cut_is_a_fault_and_a_bad_radio_is_none(tmp_path: Pa
     noisy = Radio(loss=0.05, duplicate=1.0, corrupt=0.05, latency=0.015, jitter=0.03)
     done = run("check", recorded(tmp_path / "noisy.jsonl", list(emulate(WALKER.route, seed=3, radio=noisy).packets)))
     assert "duplicate" in done.stdout and " means " not in done.stdout
+
+
+@pytest.mark.parametrize("mtu", [247, 104])
+def test_a_bad_radio_is_named_only_where_it_costs_whole_frames_of_fragments(mtu: int, tmp_path: Path) -> None:
+    bad = Radio(loss=0.1, duplicate=0.02, corrupt=0.05, latency=0.015, jitter=0.03)
+    insoles = {site: Insole(mtu=mtu) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
+    sent = emulate(WALKER.route, seed=3, radio=bad, devices=insoles).packets
+    done = run("check", recorded(tmp_path / "bad.jsonl", list(sent)))
+    sentences = [line for line in done.stdout.splitlines() if " means " in line]
+    assert len(sentences) == (0 if mtu == 247 else 2)
+    assert all("or a fragment of an insole's frame got lost" in one for one in sentences)
 
 
 def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) -> None:
