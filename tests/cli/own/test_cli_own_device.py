@@ -239,6 +239,12 @@ def test_a_slip_in_a_reader_gets_one_line(walk: Path, tmp_path: Path) -> None:
     assert f"slip.py: line {number}: AttributeError: numbr" in line
 
 
+def test_an_error_that_other_code_raises_for_a_device_names_both_places(walk: Path, tmp_path: Path) -> None:
+    (tmp_path / "asks.py").write_text("from solepath import Site\nSite('nowhere')\n")
+    line = run_failing("track", walk, "--driver", tmp_path / "asks.py")
+    assert "asks.py: line 2: ValueError: 'nowhere' is not a valid Site (raised at " in line and "enum.py:" in line
+
+
 @pytest.mark.parametrize("name", ["absent.py", "syntax.py"])
 def test_a_file_is_named_as_it_was_given(
     name: str, walk: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -131,15 +131,19 @@ def own_fault(error: BaseException) -> str | None:
 
 
 def _describe(error: BaseException, path: Path) -> str:
-    """Return the line of the file at which the error was raised, its type and its text."""
+    """Return the line of the file that led to the error, type and text, and the place where other code raised it."""
+    raised = ""
     if isinstance(error, SyntaxError) and error.filename == os.path.abspath(path):
         line: int | None = error.lineno
     else:
-        lines = [number for frame, number in traceback.walk_tb(error.__traceback__) if _is_of(frame, path)]
+        calls = list(traceback.walk_tb(error.__traceback__))
+        lines = [number for frame, number in calls if _is_of(frame, path)]
         line = lines[-1] if lines else None
+        if calls and lines and not _is_of(calls[-1][0], path):
+            raised = f" (raised at {calls[-1][0].f_code.co_filename}:{calls[-1][1]})"
     where = "" if line is None else f"line {line}: "
     text = error.msg if isinstance(error, SyntaxError) else str(error)
-    return f"{where}{type(error).__name__}{f': {text}' if text else ''}"
+    return f"{where}{type(error).__name__}{f': {text}' if text else ''}{raised}"
 
 
 def _is_of(frame: object, path: Path) -> bool:
