@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 import walks
 from commands import one_line, run
-from here import EXAMPLES
 from recordings import recorded
 from snooped import LEFT, RIGHT, TAG, Log, insoles_log
 
@@ -148,9 +147,6 @@ def test_impossible_file_names_are_rejected(log, tmp_path):
     )
     assert complaint(walk, tmp_path / "other.jsonl").endswith(
         "is no btsnoop log; a recording is converted to .mcap or .sto or, with --subject, into a Motion-BIDS dataset"
-    )
-    assert "a phone's log is read with the built-in devices only" in complaint(
-        log, tmp_path / "walk.mcap", "--driver", EXAMPLES / "own_device.py"
     )
     assert "--site and --handle are for btsnoop logs" in complaint(
         walk, tmp_path / "walk.mcap", "--site", f"{TAG}=pelvis"

@@ -12,10 +12,12 @@ from here import DOCS, EXAMPLES
 from programs import emulator
 from programs import run as run_program
 from recordings import recorded
+from snooped import LEFT, T_START, Log, start_connection
 
 from solepath.cli.common.own_devices import CAUSES
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Rejection
@@ -155,12 +157,38 @@ def test_every_second_packet_cut_is_a_fault_and_a_bad_radio_is_none(tmp_path: Pa
     assert "duplicate" in done.stdout and " means " not in done.stdout
 
 
+@pytest.mark.parametrize("mtu", [247, 104])
+def test_a_bad_radio_is_named_only_where_it_costs_whole_frames_of_fragments(mtu: int, tmp_path: Path) -> None:
+    bad = Radio(loss=0.1, duplicate=0.02, corrupt=0.05, latency=0.015, jitter=0.03)
+    insoles = {site: Insole(mtu=mtu) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
+    sent = emulate(WALKER.route, seed=3, radio=bad, devices=insoles).packets
+    done = run("check", recorded(tmp_path / "bad.jsonl", list(sent)))
+    sentences = [line for line in done.stdout.splitlines() if " means " in line]
+    assert len(sentences) == (0 if mtu == 247 else 2)
+    assert all("or a fragment of an insole's frame got lost" in one for one in sentences)
+
+
 def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) -> None:
     done = run("track", walk, "--driver", OWN, "--out", tmp_path / "out")
     assert done.returncode == 0 and "rejected" not in done.stdout
     assert len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
     done = run("check", walk, "--driver", OWN)
     assert done.returncode == 0 and f"left foot {STRIDES} strides" in done.stdout
+
+
+@pytest.mark.parametrize("is_discovered", [True, False])
+def test_a_phone_s_log_of_it_is_converted(is_discovered: bool, packets: list[Packet], tmp_path: Path) -> None:
+    motion = runpy.run_path(str(OWN))["MOTION"]
+    log = start_connection(Log(), characteristics={0x12: motion.characteristic} if is_discovered else {})
+    for packet in packets:
+        log.notify(0x40, 0x12, packet.data, t=T_START + 1_000_000 + round(packet.t * 1e6))
+    words = ["convert", log.save(tmp_path / "phone.log"), tmp_path / "walk.jsonl", "--site", f"{LEFT}=left_foot"]
+    words += [] if is_discovered else ["--handle", "0x12=shoe/motion"]
+    line = run_failing(*words)
+    assert ("holds no packets of a device" if is_discovered else "there is no channel 'shoe/motion'") in line
+    assert run(*words, "--driver", OWN).returncode == 0
+    done = run("track", tmp_path / "walk.jsonl", "--driver", OWN, "--out", tmp_path / "out")
+    assert done.returncode == 0 and len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
 
 
 def test_convert_and_calibrate_read_it_too(walk: Path, tmp_path: Path, packets: list[Packet]) -> None:
@@ -209,6 +237,12 @@ def test_a_slip_in_a_reader_gets_one_line(walk: Path, tmp_path: Path) -> None:
     (tmp_path / "slip.py").write_text(text)
     line = run_failing("track", walk, "--driver", tmp_path / "slip.py")
     assert f"slip.py: line {number}: AttributeError: numbr" in line
+
+
+def test_an_error_that_other_code_raises_for_a_device_names_both_places(walk: Path, tmp_path: Path) -> None:
+    (tmp_path / "asks.py").write_text("from solepath import Site\nSite('nowhere')\n")
+    line = run_failing("track", walk, "--driver", tmp_path / "asks.py")
+    assert "asks.py: line 2: ValueError: 'nowhere' is not a valid Site (raised at " in line and "enum.py:" in line
 
 
 @pytest.mark.parametrize("name", ["absent.py", "syntax.py"])

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
-from attrs import define, field
+from attrs import define, field, frozen
 
 from ...link.catalogue import DECLARED, PROFILES
+from ...link.driver import Driver
+from ...link.kinds import make_kinds
 from ...link.profile import Access, Channel, Profile
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...wire.error import WireError
@@ -16,12 +18,6 @@ from .evidence import ValueEvidence
 Handles = Mapping[tuple[str, int], str]
 """Channel names that the caller gives, by device address ("" for any device) and attribute handle."""
 
-CHANNELS = frozenset(channel.name for profile in PROFILES for channel in profile.channels)
-"""Names of all channels of built-in devices."""
-CHARACTERISTICS = frozenset(channel.characteristic for profile in PROFILES for channel in profile.channels)
-"""UUIDs of all characteristics of built-in devices."""
-DRIVERS = {driver.name: driver for driver in DECLARED}
-"""Declared devices by name."""
 ACCESS_BY_OPERATION = {
     AttOperation.NOTIFIED: (Access.NOTIFY, Access.READ),
     AttOperation.READ: (Access.READ, Access.NOTIFY, Access.WRITE),
@@ -31,6 +27,54 @@ ACCESS_BY_OPERATION = {
 
 A characteristic may be one channel when it is read and another when it is written. The value of a channel for
 notification or writing may be read as well."""
+
+
+@frozen
+class KnownDevices:
+    """The devices that are looked for in a log."""
+
+    profiles: tuple[Profile, ...]
+    """Their profiles; those of an app's own devices are before the built-in ones."""
+    drivers: Mapping[str, Driver]
+    """Drivers of those that are declared, by name."""
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Channels of all of them."""
+        return tuple(channel for profile in self.profiles for channel in profile.channels)
+
+    @property
+    def channel_names(self) -> frozenset[str]:
+        """Names of all channels."""
+        return frozenset(channel.name for channel in self.channels)
+
+    def characteristic_of(self, name: str) -> list[Channel]:
+        """Return the channels of the characteristic to which the channel of this name belongs."""
+        profile = next(profile for profile in self.profiles if name in profile.channel_names)
+        return [
+            channel for channel in profile.channels if channel.characteristic == profile.channel(name).characteristic
+        ]
+
+    def find_profile(self, uuids: set[str]) -> Profile | None:
+        """Return the profile with the most channels in `uuids`, at least one of them a stream; the first of several."""
+        best_profile, most_matches = None, 0
+        for profile in self.profiles:
+            matches = sum(channel.characteristic in uuids for channel in profile.channels)
+            if matches > most_matches and any(
+                profile.channel(name).characteristic in uuids for name in profile.streams
+            ):
+                best_profile, most_matches = profile, matches
+        return best_profile
+
+
+def known_devices(own: Iterable[Driver] = ()) -> KnownDevices:
+    """Return the built-in devices and an app's own, which replace built-in ones of their names.
+
+    TypeError and ValueError as `Session(profiles=...)` raises them."""
+    drivers = {driver.name: driver for driver in make_kinds(own).drivers}
+    built_in = [profile for profile in PROFILES if profile.name not in drivers]
+    profiles = (*[driver.profile for driver in drivers.values()], *built_in)
+    return KnownDevices(profiles, {driver.name: driver for driver in DECLARED} | drivers)
 
 
 @define
@@ -58,23 +102,25 @@ class LoggedDevice:
         )
 
 
-def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Handles) -> set[tuple[str, int]]:
+def name_attributes(
+    device: LoggedDevice, known: KnownDevices, types: Mapping[int, str], handles: Handles
+) -> set[tuple[str, int]]:
     """Set the device's profile and channels from `handles`, discovery and values, and return the used `handles`.
 
     An entry of `handles` is not used if it contradicts the device's profile or a discovered channel. An entry for any
     device is not used for an attribute that was discovered with another type."""
-    device.profile = _find_profile(set(types.values()))
+    device.profile = known.find_profile(set(types.values()))
     used_handles: set[tuple[str, int]] = set()
     for handle, evidence in device.evidence_by_handle.items():
         channel_name = None
         for hint in ((device.address.upper(), handle), ("", handle)):
-            if hint in handles and _is_compatible(handles[hint], hint, device, types):
+            if hint in handles and _is_compatible(handles[hint], hint, device, known, types):
                 channel_name = channel_name or handles[hint]
                 used_handles.add(hint)
         if channel_name is None and handle not in types:
             channel_name = evidence.channel
         if channel_name is not None:
-            channels = _channels_of_characteristic(channel_name)
+            channels = known.characteristic_of(channel_name)
         elif device.profile is not None:
             channels = [channel for channel in device.profile.channels if channel.characteristic == types.get(handle)]
         else:
@@ -87,14 +133,17 @@ def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Han
     return used_handles
 
 
-def _is_compatible(channel_name: str, hint: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
+def _is_compatible(
+    channel_name: str, hint: tuple[str, int], device: LoggedDevice, known: KnownDevices, types: Mapping[int, str]
+) -> bool:
     """Return whether the attribute's discovery, if any, allows that it is the channel of this name."""
     address, handle = hint
     if device.profile is not None and channel_name not in device.profile.channel_names:
         return False
-    characteristics = {channel.characteristic for channel in _channels_of_characteristic(channel_name)}
+    characteristics = {channel.characteristic for channel in known.characteristic_of(channel_name)}
     uuid = types.get(handle)
-    return uuid is None or uuid in characteristics or (address != "" and uuid not in CHARACTERISTICS)
+    known_uuids = {channel.characteristic for channel in known.channels}
+    return uuid is None or uuid in characteristics or (address != "" and uuid not in known_uuids)
 
 
 def explain_unused(
@@ -118,36 +167,20 @@ def explain_unused(
     return f"{handle:#06x} of {device.address} {kind}, as its discovery says, not {channel}"
 
 
-def _channels_of_characteristic(name: str) -> list[Channel]:
-    """Return the channels of the characteristic to which the channel of this name belongs."""
-    profile = next(profile for profile in PROFILES if name in profile.channel_names)
-    return [channel for channel in profile.channels if channel.characteristic == profile.channel(name).characteristic]
-
-
-def _find_profile(uuids: set[str]) -> Profile | None:
-    """Return the profile with the most channels in `uuids`, at least one of them a stream; the first of several."""
-    best_profile, most_matches = None, 0
-    for profile in PROFILES:
-        matches = sum(channel.characteristic in uuids for channel in profile.channels)
-        if matches > most_matches and any(profile.channel(name).characteristic in uuids for name in profile.streams):
-            best_profile, most_matches = profile, matches
-    return best_profile
-
-
-def assign_site(device: LoggedDevice, site_by_address: Mapping[str, Site]) -> None:
+def assign_site(device: LoggedDevice, known: KnownDevices, site_by_address: Mapping[str, Site]) -> None:
     """Set the device's site from `site_by_address`, else from the foot that the device reports."""
     device.site = site_by_address.get(device.address.upper())
     for (handle, operation), channel in device.channels.items():
-        foot = _read_foot(channel, operation, device.evidence_by_handle[handle])
+        foot = _read_foot(channel, operation, device.evidence_by_handle[handle], known)
         if device.site is None and foot is not None:
             device.site = SITE_OF_FOOT[foot]
 
 
-def _read_foot(channel: str, operation: AttOperation, evidence: ValueEvidence) -> Foot | None:
+def _read_foot(channel: str, operation: AttOperation, evidence: ValueEvidence, known: KnownDevices) -> Foot | None:
     """Return the foot that a channel's values report; None if they report none."""
     if channel in ("insole/frame", "insole/info"):
         return evidence.foot
-    driver = DRIVERS.get(channel.partition("/")[0])
+    driver = known.drivers.get(channel.partition("/")[0])
     if operation is not AttOperation.READ or driver is None or channel not in driver.readers or evidence.read is None:
         return None
     try:

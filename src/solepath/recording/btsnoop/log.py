@@ -6,7 +6,7 @@ log. The second reading makes the packets, so that an hour of a phone's log need
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from datetime import UTC, datetime, timedelta
 from functools import partial
 from pathlib import Path
@@ -14,11 +14,12 @@ from typing import Any
 
 from attrs import define
 
+from ...link.driver import Driver
 from ...types import Packet, Site
 from ...wire.receiver import ConnectionFrame, build_connected
 from ..errors import RecordingError, Report, printable, warn
 from .att import AttOperation
-from .devices import CHANNELS, Handles, LoggedDevice, assign_site, explain_unused, name_attributes, with_article
+from .devices import Handles, LoggedDevice, assign_site, explain_unused, known_devices, name_attributes, with_article
 from .evidence import ValueEvidence
 from .hci import ConnectionChange
 from .records import reject_pipe
@@ -73,19 +74,25 @@ class BtsnoopLog:
 
 
 def open_btsnoop(
-    path: Path | str, *, sites: Mapping[str, Site] | None = None, handles: Handles | None = None, report: Report = warn
+    path: Path | str,
+    *,
+    sites: Mapping[str, Site] | None = None,
+    handles: Handles | None = None,
+    profiles: Iterable[Driver] = (),
+    report: Report = warn,
 ) -> BtsnoopLog:
     """Return the usable content of a btsnoop log.
 
     `sites`: site of each device, by address; an insole reports its foot itself. `handles`: channels of attributes whose
-    discovery is not in the log, because the host knew them before. `report` receives one sentence about each thing that
-    is left out. RecordingError for a file that is no btsnoop log, that has no packets of a device whose site is known,
-    or that does not have what `sites` and `handles` name. ValueError for a channel name that no device has."""
-    path = Path(path)
+    discovery is not in the log, because the host knew them before. `profiles`: an app's own devices, as for Session.
+    `report` receives one sentence about each thing that is left out. RecordingError for a file that is no btsnoop log,
+    that has no packets of a device whose site is known, or that does not have what `sites` and `handles` name.
+    ValueError for a channel name that no device has."""
+    path, known = Path(path), known_devices(profiles)
     reject_pipe(path)
     handles = {(device.upper(), handle): channel for (device, handle), channel in (handles or {}).items()}
     for channel in handles.values():
-        if channel not in CHANNELS:
+        if channel not in known.channel_names:
             raise ValueError(f"no device has a channel {channel!r}")
     site_by_address = {device.upper(): site for device, site in (sites or {}).items()}
     listener, devices, started_at = ValueListener(path, report), dict[str, LoggedDevice](), None
@@ -99,8 +106,8 @@ def open_btsnoop(
         damage = error  # iterating the result raises it again, after the packets before it
     used_handles: set[tuple[str, int]] = set()
     for device in devices.values():
-        used_handles |= name_attributes(device, listener.types.get(device.address, {}), handles)
-        assign_site(device, site_by_address)
+        used_handles |= name_attributes(device, known, listener.types.get(device.address, {}), handles)
+        assign_site(device, known, site_by_address)
     omissions = list(_describe_omissions(list(devices.values()), listener.types))
     omissions += [f"{what}: {count}" for what, count in listener.flaws.items()]
     usable = any(device.site is not None and device.count for device in devices.values())

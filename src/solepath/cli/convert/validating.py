@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from ..recording import printable
-from .common.failure import Failure, require
+from ...recording import printable
+from ..common.failure import Failure, require
 
 BIDS_PROGRAM = "from bids_validator_deno import cli; cli()"
 """Program that runs the official validator of BIDS, which the package brings with its own runtime."""

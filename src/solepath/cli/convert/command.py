@@ -9,23 +9,23 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..recording import PacketWriter, RecordingError, printable
-from ..recording.packets import open_packets
-from ..types import Packet, Site
-from ..types.extras import install_hint
-from .common.closest import unknown
-from .common.failure import Failure, note
-from .common.files import RECORDING as RECORDING_KIND
-from .common.files import OutputFile, add_force, check_outputs, replacements
-from .common.os_errors import file_error_text
-from .common.own_devices import add_own_devices, drivers_of
-from .common.tables import add_tables
+from ...recording import PacketWriter, RecordingError, printable
+from ...recording.packets import open_packets
+from ...types import Packet, Site
+from ...types.extras import install_hint
+from ..common.closest import unknown
+from ..common.failure import Failure, note
+from ..common.files import RECORDING as RECORDING_KIND
+from ..common.files import OutputFile, add_force, check_outputs, replacements
+from ..common.os_errors import file_error_text
+from ..common.own_devices import add_own_devices, drivers_of
+from ..common.tables import add_tables
 from .exchange import STORAGE, add_exchange, convert_computed
 
 if TYPE_CHECKING:
-    from ..link.driver import Driver
-    from ..recording.btsnoop import BtsnoopLog
-    from ..recording.mcap import McapWriter
+    from ...link.driver import Driver
+    from ...recording.btsnoop import BtsnoopLog
+    from ...recording.mcap import McapWriter
 
 RECORDING, MCAP = ".jsonl", ".mcap"
 TARGETS = f"a recording is converted to {MCAP} or {STORAGE} or, with --subject, into a Motion-BIDS dataset"
@@ -42,7 +42,7 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
     add_tables(command, "IN")
-    add_own_devices(command, " (not of a phone's log)")
+    add_own_devices(command)
     command.add_argument(
         "out",
         metavar="OUT",
@@ -102,9 +102,9 @@ _Value = TypeVar("_Value")
 
 def run(options: argparse.Namespace) -> int:
     """Convert the file; return the exit status."""
-    from ..recording.btsnoop import is_btsnoop
-    from ..recording.btsnoop.records import reject_pipe
-    from ..show.tables.progress import progress_bar
+    from ...recording.btsnoop import is_btsnoop
+    from ...recording.btsnoop.records import reject_pipe
+    from ...show.tables.progress import progress_bar
 
     source, out = options.files[0], options.out
     if options.subject is not None or out.suffix.lower() == STORAGE:
@@ -120,9 +120,7 @@ def run(options: argparse.Namespace) -> int:
     total = source.stat().st_size if source.is_file() else 0
     with progress_bar(printable(source.name), total) as show:
         if is_btsnoop(source):
-            if drivers:
-                raise Failure("--driver: a phone's log is read with the built-in devices only; convert a recording")
-            log = _open_log(options)
+            log = _open_log(options, drivers)
             packets, header = _with_progress(log, show), log.header
         elif options.sites or options.handles:
             raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
@@ -143,16 +141,16 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _open_log(options: argparse.Namespace) -> BtsnoopLog:
-    from ..link.catalogue import PROFILES
-    from ..recording.btsnoop import open_btsnoop
+def _open_log(options: argparse.Namespace, own: Iterable[Driver]) -> BtsnoopLog:
+    from ...recording.btsnoop import open_btsnoop
+    from ...recording.btsnoop.devices import known_devices
 
     sites, handles = _by_key("--site", options.sites), _by_key("--handle", options.handles)
-    known = {channel.name for profile in PROFILES for channel in profile.channels}
+    known = known_devices(own).channel_names
     for name in handles.values():
         if name not in known:
             raise Failure(unknown("channel", name, sorted(known)))
-    return open_btsnoop(options.files[0], sites=sites, handles=handles, report=note)
+    return open_btsnoop(options.files[0], sites=sites, handles=handles, profiles=own, report=note)
 
 
 def _by_key(option: str, pairs: Iterable[tuple[_Key, _Value]]) -> dict[_Key, _Value]:
@@ -186,7 +184,7 @@ def _writer_class(out: Path, own: Iterable[Driver]) -> OpenWriter:
             "what to write; --subject writes a Motion-BIDS dataset"
         )
     try:
-        from ..recording.mcap import McapWriter
+        from ...recording.mcap import McapWriter
     except ModuleNotFoundError as error:
         if error.name is None or error.name.partition(".")[0] != "mcap":
             raise

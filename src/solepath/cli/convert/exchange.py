@@ -6,19 +6,19 @@ import argparse
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
-from ..recording import RecordingError, printable
-from .common.failure import Failure, parse_whole_number
-from .common.files import RECORDING, OutputFile, check_outputs
-from .common.inputs import add_calibration, add_recipe, calibration_of, check_pressure, recipe_of
-from .common.inputs import source_of as open_recording
-from .common.own_devices import drivers_of
-from .common.tables import feet_of, mapping_of
+from ...recording import RecordingError, printable
+from ..common.failure import Failure, parse_whole_number
+from ..common.files import RECORDING, OutputFile, check_outputs
+from ..common.inputs import add_calibration, add_recipe, calibration_of, check_pressure, recipe_of
+from ..common.inputs import source_of as open_recording
+from ..common.own_devices import drivers_of
+from ..common.tables import feet_of, mapping_of
 from .validating import need_validator, validate_dataset, validate_storage
 
 if TYPE_CHECKING:
-    from ..events import Event
-    from ..recording import Source
-    from ..recording.posed import PosedSample
+    from ...events import Event
+    from ...recording import Source
+    from ...recording.posed import PosedSample
 
 STORAGE = ".sto"
 """End of the name of a storage file of OpenSim."""
@@ -67,8 +67,8 @@ def _source(options: argparse.Namespace) -> Source:
 
 
 def _to_storage(options: argparse.Namespace) -> int:
-    from ..saving.files import replace_whole
-    from ..show.opensim import OpensimWriter, Quantity
+    from ...saving.files import replace_whole
+    from ...show.opensim import OpensimWriter, Quantity
 
     output = OutputFile(options.out, RECORDING)
     check_outputs([output], [*options.files, options.mapping, options.calibration], force=options.force)
@@ -87,8 +87,8 @@ def _to_storage(options: argparse.Namespace) -> int:
 
 
 def _to_dataset(options: argparse.Namespace) -> int:
-    from ..recording.bids.names import Entities
-    from ..recording.bids.writer import MotionWriter
+    from ...recording.bids.names import Entities
+    from ...recording.bids.writer import MotionWriter
 
     try:
         entities = Entities(options.subject, options.task, options.session, options.repetition)
@@ -110,9 +110,9 @@ def _run(
     options: argparse.Namespace, source: Source, add: Callable[[Iterable[PosedSample], Iterable[Event]], None]
 ) -> RecordingError | None:
     """Run the recording, and pass samples and events to `add`; return the error that ended the recording, if any."""
-    from ..recording.posed import PosedSession
-    from ..session import Session
-    from ..show.tables.progress import progress_bar
+    from ...recording.posed import PosedSession
+    from ...session import Session
+    from ...show.tables.progress import progress_bar
 
     recipe = recipe_of(options)
     calibration, drivers = calibration_of(options), drivers_of(options)
