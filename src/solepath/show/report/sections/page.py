@@ -15,7 +15,7 @@ from ..markup import add, section, sentences, skeleton, table, whole_sentences
 from ..words import defects, limitations, link_rows, overview, problems, sensors
 from .comparison import comparison
 from .facts import facts_of
-from .gait_table import NO_STEADY, NO_STRIDE, definitions, gait_tables
+from .gait_table import NO_STEADY, definitions, gait_tables
 from .heading import add_heading, add_making, title_of
 from .headline import headline, warning
 from .key_figures import key_figures
@@ -44,14 +44,17 @@ def page_of(report: CollectedWalk) -> Element:
     _ways(main, report)
     if facts.walk.has_data:
         _course(main, report)
-    details = add(main, "div", class_="details" if report.before is None else "details compared")
+    has_strides = any(strides.count for strides in report.strides.values())
+    starts_page = has_strides and report.before is None
+    details = add(main, "div", class_="details second-page" if starts_page else "details")
     if report.before is not None:
         comparison(details, report.before, report, facts)
     if report.clinic is not None:
         from .clinical import clinical_sections
 
         clinical_sections(details, report.clinic)
-    _gait(details, report)
+    if has_strides:
+        _gait(details, report)
     if any(sole.samples for sole in report.soles.values()):
         parent = section(details, "pressure", "Pressure")
         pressure_figures(add(parent, "div", class_="figures thirds"), report.soles)
@@ -80,12 +83,9 @@ def _ways(main: Element, report: CollectedWalk) -> None:
 
 
 def _gait(parent: Element, report: CollectedWalk) -> None:
-    if not any(strides.count for strides in report.strides.values()):
-        return
     parent = section(parent, "gait", "Gait")
     if not gait_tables(parent, report.observer.gait):
-        any_stride = any(strides.count for strides in report.strides.values())
-        add(parent, "p", NO_STEADY if any_stride else NO_STRIDE)
+        add(parent, "p", NO_STEADY)
     figures = add(parent, "div", class_="figures")
     for running in (False, True):
         parameters = report.observer.gait.of(running)
