@@ -45,8 +45,9 @@ def page_of(report: CollectedWalk) -> Element:
     if facts.walk.has_data:
         _course(main, report)
     has_strides = any(strides.count for strides in report.strides.values())
-    starts_page = has_strides and report.before is None
-    details = add(main, "div", class_="details second-page" if starts_page else "details")
+    details = add(main, "div")
+    if has_strides and report.before is None:
+        details.set("class", "second-page")
     if report.before is not None:
         comparison(details, report.before, report, facts)
     if report.clinic is not None:
