@@ -1,4 +1,4 @@
-"""Renders the report in Chromium: two pages of A4 at most, nothing cut, letters of 12 px or more, without violations of axe."""
+"""Renders the report in Chromium: one or two pages of A4, nothing cut, letters of 12 px or more, nothing that axe finds."""
 
 from __future__ import annotations
 

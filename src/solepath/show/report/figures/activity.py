@@ -6,17 +6,13 @@ from xml.etree.ElementTree import Element
 
 from ....types import Activity
 from ...tables.svg import px
-from ..clock import ReportClock, duration_text
+from ...tables.table import duration_text
+from ..clock import ReportClock
 from ..markup import add, figure
 from .axes import AxisScale, drawing, grid, ticks, write
 
 ROW_HEIGHT = 20.0
 LEFT = 104.0
-
-
-def activity_words(activity: Activity) -> str:
-    """Return an activity in words, such as "stairs up"."""
-    return activity.value.replace("_", " ").lower().replace("elevator", "lift")
 
 
 def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: ReportClock) -> bool:
@@ -26,7 +22,7 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
         return False
     height = 8.0 + ROW_HEIGHT * len(rows) + 42.0
     totals = {row: sum([end - start for start, end, spanned in spans if spanned is row]) for row in rows}
-    texts = "; ".join([f"{activity_words(row)} {duration_text(totals[row])}" for row in rows])
+    texts = "; ".join([f"{row.words} {duration_text(totals[row])}" for row in rows])
     svg = drawing("activities", "Activities over time", f"How long in all: {texts}.", height)
     x = AxisScale(*clock.span, LEFT, 390.0)
     bottom = 8.0 + ROW_HEIGHT * len(rows)
@@ -34,7 +30,7 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
     for k, activity in enumerate(rows):
         y = 8.0 + ROW_HEIGHT * k
         lines.set("d", f"{lines.get('d')}M{px(LEFT)} {px(y + ROW_HEIGHT)}H390")
-        write(svg, LEFT - 6.0, y + 14.0, activity_words(activity), "tick", "end")
+        write(svg, LEFT - 6.0, y + 14.0, activity.words, "tick", "end")
         bars = []
         for t_start, t_end, spanned in spans:
             if spanned is activity:

@@ -12,7 +12,7 @@ from ..figures.space import space_figure
 from ..figures.stride import stride_figures
 from ..figures.track import height_figure, plan_figure, track_figure
 from ..markup import add, section, sentences, skeleton, table, whole_sentences
-from ..words import defects, limitations, link_rows, overview, problems, sensors
+from ..words import faults, link_rows, overview, sensors
 from .comparison import comparison
 from .facts import facts_of
 from .gait_table import NO_STEADY, definitions, gait_tables
@@ -116,19 +116,13 @@ def _health(parent: Element, report: CollectedWalk) -> None:
         return
     parent = section(parent, "health", "Sensors and links")
     table(parent, "From each sensor", header, rows, "numbers links")
-    if observer.defects:
-        add(parent, "h3", "Cannot be right")
-        sentences(parent, defects(observer))
-    faults = [fault for fault in problems(observer) if fault not in whole_sentences(observer.defects)]
-    if faults:
-        add(parent, "h3", "Missing or wrong")
-        sentences(parent, faults)
-    if not faults and not observer.defects:
+    found = {"Cannot be right": whole_sentences(observer.defects), "Missing or wrong": faults(observer)}
+    if not any(found.values()):
         add(parent, "p", "Nothing was wrong with the sensors and their links.")
-    limits = limitations(observer)
-    if limits:
-        add(parent, "h3", "Done without")
-        sentences(parent, limits)
+    for title, texts in {**found, "Done without": whole_sentences(observer.limitations)}.items():
+        if texts:
+            add(parent, "h3", title)
+            sentences(parent, texts)
 
 
 def _making(report: CollectedWalk) -> list[tuple[str, str]]:
