@@ -1,4 +1,4 @@
-"""Renders the report in Chromium: one or two pages of A4, nothing cut, letters of 12 px or more, nothing that axe finds."""
+"""Renders the report in Chromium: one or two pages of A4, nothing cut, letters of 12 px or more, no fault by axe."""
 
 from __future__ import annotations
 

@@ -44,7 +44,3 @@ class ReportClock:
     def axis_value(self, t: float) -> float:
         """Return `t`, s on the recording's clock, as a value on a time axis, in its unit."""
         return (t - self.origin) / self.per_unit
-
-    def text(self, t: float) -> str:
-        """Return `t`, s on the recording's clock, as text for a sentence."""
-        return f"{t - self.origin:.1f} s"
