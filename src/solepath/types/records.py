@@ -116,11 +116,6 @@ class Activity(Word):
     ELEVATOR_DOWN = "ELEVATOR_DOWN"
     UNKNOWN = "UNKNOWN"
 
-    @property
-    def words(self) -> str:
-        """Name of the activity in a sentence: "stairs up", "lift down"."""
-        return self.value.replace("_", " ").lower().replace("elevator", "lift")
-
 
 class Turn(Word):
     """A direction in which the wearer turned."""
@@ -128,11 +123,6 @@ class Turn(Word):
     LEFT = "LEFT"
     RIGHT = "RIGHT"
     ABOUT = "ABOUT"
-
-    @property
-    def words(self) -> str:
-        """The direction in a sentence: "to the left", "to the right", "about"."""
-        return "about" if self is Turn.ABOUT else f"to the {self.value.lower()}"
 
 
 @frozen

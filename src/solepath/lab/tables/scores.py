@@ -7,6 +7,7 @@ from functools import partial
 from math import degrees
 
 from ...show.tables.table import milliseconds, number, percent, table
+from ...show.tables.words import activity_words
 from ...types import Activity
 from ..emulated.heading import CHECKED_TIMES
 from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
@@ -114,7 +115,7 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "right_at_once": ("at once %", percent),
     **{name: (f"by {delay:g} s %", percent) for name, delay in DELAYS.items() if delay},
     "most_frequent": ("most freq %", percent),
-    **{f"f1_{activity.value.lower()}": (f"F1 {activity.words}", _three_digits) for activity in CLASSES},
+    **{f"f1_{activity.value.lower()}": (f"F1 {activity_words(activity)}", _three_digits) for activity in CLASSES},
     "rides_true": ("rides", _count),
     "rides_found": ("found", _count),
     "rides_invented": ("invented", _count),
@@ -168,8 +169,8 @@ def _confusion(summary: Summary) -> str:
         if (row := counts.get(activity.value)) is not None:
             total = sum(row.values())
             shares = [percent(row.get(other.value, 0) / total) for other in reported]
-            rows.append([activity.words, *shares, number(float(total), 0)])
-    return table(["% of the true activity, reported as", *[activity.words for activity in reported], "samples"], rows)
+            rows.append([activity_words(activity), *shares, number(float(total), 0)])
+    return table(["% of the true activity, reported as", *map(activity_words, reported), "samples"], rows)
 
 
 def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:

@@ -8,6 +8,7 @@ from ..links import LinkLedger
 from ..observer import Observer
 from ..tables.summary import link_health, sample_lines, wear_lines
 from ..tables.table import counted, duration_text, number
+from ..tables.words import activity_words, turn_words
 from .clock import ReportClock
 from .markup import whole_sentences
 
@@ -36,13 +37,13 @@ def overview(observer: Observer, clock: ReportClock, cycle_counts: dict[Foot, in
         lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
     durations = observer.timeline.durations(clock.end)
     if durations:
-        activities = [f"{activity.words} {duration_text(t)}" for activity, t in durations.items()]
+        activities = [f"{activity_words(activity)} {duration_text(t)}" for activity, t in durations.items()]
         lines.append(f"Activities: {', '.join(activities)}.")
     for up_counts, name in ((observer.flights, "Flights of stairs"), (observer.elevator_rides, "Lift rides")):
         directions = [f"{up_counts[up]} {'up' if up else 'down'}" for up in (True, False) if up_counts[up]]
         if directions:
             lines.append(f"{name}: {', '.join(directions)}.")
-    turns = [f"{counted(observer.turns[turn], 'turn')} {turn.words}" for turn in Turn if observer.turns[turn]]
+    turns = [f"{counted(observer.turns[turn], 'turn')} {turn_words(turn)}" for turn in Turn if observer.turns[turn]]
     if turns:
         lines.append(f"The wearer made {', '.join(turns)}.")
     return lines

@@ -7,6 +7,7 @@ from xml.etree.ElementTree import Element
 from ....types import Activity
 from ...tables.svg import px
 from ...tables.table import duration_text
+from ...tables.words import activity_words
 from ..clock import ReportClock
 from ..markup import add, figure
 from .axes import AxisScale, drawing, grid, ticks, write
@@ -22,7 +23,7 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
         return False
     height = 8.0 + ROW_HEIGHT * len(rows) + 42.0
     totals = {row: sum([end - start for start, end, spanned in spans if spanned is row]) for row in rows}
-    texts = "; ".join([f"{row.words} {duration_text(totals[row])}" for row in rows])
+    texts = "; ".join([f"{activity_words(row)} {duration_text(totals[row])}" for row in rows])
     svg = drawing("activities", "Activities over time", f"How long in all: {texts}.", height)
     x = AxisScale(*clock.span, LEFT, 390.0)
     bottom = 8.0 + ROW_HEIGHT * len(rows)
@@ -30,7 +31,7 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
     for k, activity in enumerate(rows):
         y = 8.0 + ROW_HEIGHT * k
         lines.set("d", f"{lines.get('d')}M{px(LEFT)} {px(y + ROW_HEIGHT)}H390")
-        write(svg, LEFT - 6.0, y + 14.0, activity.words, "tick", "end")
+        write(svg, LEFT - 6.0, y + 14.0, activity_words(activity), "tick", "end")
         bars = []
         for t_start, t_end, spanned in spans:
             if spanned is activity:
