@@ -83,6 +83,7 @@ def test_the_text_names_what_was_measured_and_what_it_is_not(tracked: tuple[str,
     text, _ = tracked
     assert "the recording ends before the six minutes do" in text
     assert "sitting to standing cannot be seen from a foot" in text
+    assert re.search("^bout +start s +.* steps/min +length m +speed m/s$", text, re.MULTILINE)
     assert LABEL in text and "not outcomes of its validated pipeline" in LABEL
     assert re.search(r"^total time +13\.00 +s +9\.20 \(8\.20 to 10\.20\)$", text, re.MULTILINE)
     assert "Bohannon 2006" in text and "Bohannon and Andrews 2011" in text

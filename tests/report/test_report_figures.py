@@ -15,13 +15,14 @@ from solepath import FootPressed, GaitCycleMeasured, WearerMoved
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import ThinnedList
-from solepath.show.report.clock import ReportClock, duration_text
+from solepath.show.report.clock import ReportClock
 from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
 from solepath.show.report.figures.cycle import gaps, overlaps, stance_spans
 from solepath.show.report.figures.pressure import SHADES
 from solepath.show.report.figures.space import project, space_figure
 from solepath.show.report.soles import MAX_SAMPLES, STATIONS, ReportSole
 from solepath.show.tables.plan import PlanPicture, blend
+from solepath.show.tables.table import duration_text
 from solepath.types import Cell, Foot, Layout, Vec3
 
 L, R = Foot.LEFT, Foot.RIGHT

@@ -66,5 +66,5 @@ def test_the_summary_lists_the_activities():
     observer.advance(20.0)
     lines = summary(observer, title="walk", seconds=0.0).splitlines()
     done, *counted = lines[-4:]
-    assert done == "activities: WALKING 12 s, ELEVATOR_DOWN 8 s"
-    assert counted == ["flights: 1 up", "lift rides: 1 down", "turns: LEFT 1"]
+    assert done == "activities: walking 12 s, lift down 8.0 s"
+    assert counted == ["flights: 1 up", "lift rides: 1 down", "turns: 1 to the left"]

@@ -36,7 +36,8 @@ def add_report(command: argparse.ArgumentParser) -> None:
         metavar="BEFORE",
         type=Path,
         action="append",
-        help="an earlier recording to compare with, run with the same recipe; twice for the files of two feet",
+        help="an earlier recording to compare with, run with the same recipe and calibration, without floor plan and "
+        "with its clocks as they are; twice for the files of two feet",
     )
 
 

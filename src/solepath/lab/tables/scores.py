@@ -7,6 +7,7 @@ from functools import partial
 from math import degrees
 
 from ...show.tables.table import milliseconds, number, percent, table
+from ...show.tables.words import activity_words
 from ...types import Activity
 from ..emulated.heading import CHECKED_TIMES
 from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
@@ -33,11 +34,6 @@ def _fine_degrees(value: float | None) -> str:
 
 def _degrees_a_minute(value: float | None) -> str:
     return _degrees(None if value is None else 60.0 * value)
-
-
-def _activity_name(activity: Activity) -> str:
-    """Return the activity's name as in `stairs up`, `lift down`."""
-    return activity.value.lower().replace("_", " ").replace("elevator", "lift")
 
 
 COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
@@ -119,7 +115,7 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "right_at_once": ("at once %", percent),
     **{name: (f"by {delay:g} s %", percent) for name, delay in DELAYS.items() if delay},
     "most_frequent": ("most freq %", percent),
-    **{f"f1_{activity.value.lower()}": (f"F1 {_activity_name(activity)}", _three_digits) for activity in CLASSES},
+    **{f"f1_{activity.value.lower()}": (f"F1 {activity_words(activity)}", _three_digits) for activity in CLASSES},
     "rides_true": ("rides", _count),
     "rides_found": ("found", _count),
     "rides_invented": ("invented", _count),
@@ -173,8 +169,8 @@ def _confusion(summary: Summary) -> str:
         if (row := counts.get(activity.value)) is not None:
             total = sum(row.values())
             shares = [percent(row.get(other.value, 0) / total) for other in reported]
-            rows.append([_activity_name(activity), *shares, number(float(total), 0)])
-    return table(["% of the true activity, reported as", *map(_activity_name, reported), "samples"], rows)
+            rows.append([activity_words(activity), *shares, number(float(total), 0)])
+    return table(["% of the true activity, reported as", *map(activity_words, reported), "samples"], rows)
 
 
 def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:

@@ -5,7 +5,7 @@ r"""Collects what outcomes need from a session's events, and puts the outcomes i
         clinic.add(event)
     print("\n".join(clinic.lines(clinic.results())))
 
-The report (show/report/clinical.py) and the files (files.py) show the same results."""
+The report (show/report/sections/clinical.py) and the files (files.py) show the same results."""
 
 from __future__ import annotations
 
@@ -56,6 +56,8 @@ NO_STEP = "No step was found between the marks: are they times of the recording'
 MARK_ERROR = 1.0
 """Time by which an observer's mark may lie before the first sample or after the last one, s; chosen by hand."""
 INTERVAL_HEADER = ("%", "95 % interval", "strides", "needed")
+BOUT_HEADER = ("bout", "start, s", "duration, s", "strides", "steps", "turns", "steps/min", "length, m", "speed, m/s")
+"""Header of the table of bouts; plain text leaves out the commas."""
 MAX_BOUTS = 12
 """Largest number of bouts that the text names one by one; bouts.csv has all of them."""
 
@@ -190,7 +192,7 @@ def bout_lines(bouts: Sequence[WalkingBout]) -> list[str]:
     """Return a table of the first bouts as lines of text."""
     if not bouts:
         return [NO_BOUT]
-    header = ["walking bout", "start s", "duration s", "strides", "steps", "turns", "cadence", "length m", "speed m/s"]
+    header = [name.replace(",", "") for name in BOUT_HEADER]
     lines = table(header, [bout_row(bout) for bout in bouts[:MAX_BOUTS]]).splitlines()
     return lines + ([f"and {len(bouts) - MAX_BOUTS} more"] if len(bouts) > MAX_BOUTS else [])
 

@@ -44,19 +44,3 @@ class ReportClock:
     def axis_value(self, t: float) -> float:
         """Return `t`, s on the recording's clock, as a value on a time axis, in its unit."""
         return (t - self.origin) / self.per_unit
-
-    def text(self, t: float) -> str:
-        """Return `t`, s on the recording's clock, as text for a sentence."""
-        return f"{t - self.origin:.1f} s"
-
-
-def duration_text(seconds: float) -> str:
-    """Return a duration as text in s, min or h."""
-    if seconds < 9.95:
-        return f"{seconds:.1f} s"
-    whole = round(seconds)
-    minutes, rest = divmod(whole, 60)
-    hours, minutes = divmod(minutes, 60)
-    if hours:
-        return f"{hours} h {minutes} min"
-    return f"{minutes} min {rest} s" if minutes else f"{rest} s"

@@ -58,7 +58,7 @@ def _list_of_each_foot() -> dict[Foot, ThinnedList[T]]:
 
 @define
 class CollectedWalk:
-    """Collects the events of a session with `poses` and `pressures`, in bounded memory, then writes the report.
+    """The events of a session with `poses` and `pressures`, in bounded memory, as far as a report needs them.
 
     `source` is the recording's name. `plan` is the session's floor plan. `recipe` is the name of the recipe. `when` is
     the date and time of the walk, as in "2026-11-26 09:40 UTC". `version` is that of solepath. The report feeds

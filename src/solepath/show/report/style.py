@@ -143,8 +143,8 @@ svg.plan { font-family: system-ui, sans-serif; }
   #health ~ ul { columns: 2; } ul { padding-left: 3.5mm; font-size: 7.5pt; line-height: 1.25; }
   dl.quality { grid-template-columns: 1fr 1fr; } dl.quality div { padding: 1mm 0; font-size: 8pt; }
   .verdict { font-size: 7.5pt; }
-  .details { break-before: page; } .details.compared { break-before: auto; }
-  .details > section:first-child h2 { margin-top: 0; }
+  .second-page { break-before: page; }
+  .second-page > section:first-child h2 { margin-top: 0; }
   table { margin: 1mm 0; font-size: 7.5pt; line-height: 1.2; break-inside: auto; } th, td { padding: .28mm 1.5mm; }
   thead th { font-size: 7pt; } h3 { margin: 1.5mm 0 .5mm; }
   tr, li { break-inside: avoid; } p, ul { margin: 1mm 0; max-width: none; }

@@ -16,10 +16,11 @@ from ...types import Activity, Foot
 
 LENGTH_ERROR = 0.02
 """Difference of stride lengths that two good sensors may show, as a share: each has a scale within 1 % by the data
-sheet of a common part (emulate/sensors/parts.py)."""
+sheet of the LSM6DSOX, a common part (emulate/sensors/parts.py)."""
 EVENT_ERROR = 0.010
 """Scatter of a foot's heel-strikes within a recording, s: larger than that of toe-offs, on the recorded walks of
-`tripod_treadmill` (docs/accuracy.md, by foot). Swing times of two feet differ by as much without a limp."""
+`tripod_treadmill` (docs/accuracy.md, by foot). On recorded walks whose swings are labelled, every difference that is
+named beyond it is of the labelled foot (docs/report.md)."""
 CLOCK_ERROR = 0.005
 """Largest difference of two settled clocks, s (docs/gait.md); an asymmetry of step times errs by twice as much."""
 

@@ -7,21 +7,19 @@ from ...types import Foot, Site, Turn
 from ..links import LinkLedger
 from ..observer import Observer
 from ..tables.summary import link_health, sample_lines, wear_lines
-from ..tables.table import counted, number
-from .clock import ReportClock, duration_text
-from .figures.activity import activity_words
+from ..tables.table import counted, duration_text, number
+from ..tables.words import activity_words, turn_words
+from .clock import ReportClock
 from .markup import whole_sentences
 
 MAX_NAME_LENGTH = 60
 """Largest number of characters of a device's name that are shown."""
-TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
 
 def overview(observer: Observer, clock: ReportClock, cycle_counts: dict[Foot, int]) -> list[str]:
     """Return the sentences on the course of the recording.
 
-    `cycle_counts`, the number of gait cycles of each foot, is used for a foot
-    without a track."""
+    `cycle_counts`, the number of gait cycles of each foot, is used for a foot without a track."""
     time = observer.covered_time
     lines = [f"The recording lasts {duration_text(time.total if time.span_count else clock.end - clock.start)}."]
     if time.span_count > 1:
@@ -29,45 +27,31 @@ def overview(observer: Observer, clock: ReportClock, cycle_counts: dict[Foot, in
     tracked = {foot: observer.feet[foot] for foot in Foot if foot in observer.feet and observer.feet[foot].strides}
     for foot, counts in tracked.items():
         distance = f" over {number(counts.distance, 1)} m" if counts.distance > 0.0 else ""
-        lines.append(f"The {foot} foot took {counts.strides} stride{'s' * (counts.strides != 1)}{distance}.")
+        lines.append(f"The {foot} foot took {counted(counts.strides, 'stride')}{distance}.")
     for foot, count in cycle_counts.items():
         if count and foot not in tracked:
-            lines.append(f"The {foot} foot took {count} stride{'s' * (count != 1)}; how far is not known.")
+            lines.append(f"The {foot} foot took {counted(count, 'stride')}; how far is not known.")
     if not tracked and not any(cycle_counts.values()):
         lines.append("No foot took a stride.")
     if observer.fused is not None:
         lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
     durations = observer.timeline.durations(clock.end)
     if durations:
-        lines.append(
-            f"Activities: {', '.join([f'{activity_words(what)} {duration_text(t)}' for what, t in durations.items()])}."
-        )
+        activities = [f"{activity_words(activity)} {duration_text(t)}" for activity, t in durations.items()]
+        lines.append(f"Activities: {', '.join(activities)}.")
     for up_counts, name in ((observer.flights, "Flights of stairs"), (observer.elevator_rides, "Lift rides")):
         directions = [f"{up_counts[up]} {'up' if up else 'down'}" for up in (True, False) if up_counts[up]]
         if directions:
             lines.append(f"{name}: {', '.join(directions)}.")
-    turns = [
-        f"{counted(observer.turns[turn], 'turn')} {words}" for turn, words in TURNS.items() if observer.turns[turn]
-    ]
+    turns = [f"{counted(observer.turns[turn], 'turn')} {turn_words(turn)}" for turn in Turn if observer.turns[turn]]
     if turns:
         lines.append(f"The wearer made {', '.join(turns)}.")
     return lines
 
 
-def defects(observer: Observer) -> list[str]:
-    """Return sentences on data that contradict themselves or physics; none without defects."""
-    return whole_sentences(observer.defects)
-
-
-def problems(observer: Observer) -> list[str]:
-    """Return sentences on the faults of sensors, their wearing and their links; none without faults."""
-    faults = [*observer.defects, *wear_lines(observer), *link_health(observer), *sample_lines(observer)]
-    return whole_sentences(faults)
-
-
-def limitations(observer: Observer) -> list[str]:
-    """Return sentences on what the recipe had to do without."""
-    return whole_sentences(observer.limitations)
+def faults(observer: Observer) -> list[str]:
+    """Return sentences on what is missing or wrong in sensors, their wearing and their links; none without faults."""
+    return whole_sentences([*wear_lines(observer), *link_health(observer), *sample_lines(observer)])
 
 
 def sensors(observer: Observer) -> str:

@@ -12,7 +12,8 @@ from ..links import LinkLedger
 from ..observer import GAIT_EVENTS, FootCounts, Observer
 from ..places import MAX_LISTED, PlaceCounts
 from .gait import gait_lines
-from .table import counted, milliseconds, number, table, times
+from .table import counted, duration_text, milliseconds, number, table, times
+from .words import activity_words, turn_words
 
 NO_DATA = "no data from either foot"
 
@@ -95,14 +96,15 @@ def activity_lines(observer: Observer) -> list[str]:
     """Return a line for activities, flights of stairs, elevator rides and turns each, if there were any."""
     lines = []
     if durations := observer.timeline.durations(observer.now):
-        lines.append("activities: " + ", ".join(f"{what} {number(t, 0)} s" for what, t in durations.items()))
+        activities = [f"{activity_words(activity)} {duration_text(t)}" for activity, t in durations.items()]
+        lines.append(f"activities: {', '.join(activities)}")
     for counts, name in ((observer.flights, "flight"), (observer.elevator_rides, "lift ride")):
         directions = [f"{counts[up]} {'up' if up else 'down'}" for up in (True, False) if counts[up]]
         if directions:
             lines.append(f"{name}s: {', '.join(directions)}")
     if observer.turns:
-        turns = ", ".join(f"{turn} {observer.turns[turn]}" for turn in Turn if observer.turns[turn])
-        lines.append(f"turns: {turns}")
+        turns = [f"{observer.turns[turn]} {turn_words(turn)}" for turn in Turn if observer.turns[turn]]
+        lines.append(f"turns: {', '.join(turns)}")
     return lines
 
 

@@ -6,17 +6,14 @@ from xml.etree.ElementTree import Element
 
 from ....types import Activity
 from ...tables.svg import px
-from ..clock import ReportClock, duration_text
+from ...tables.table import duration_text
+from ...tables.words import activity_words
+from ..clock import ReportClock
 from ..markup import add, figure
 from .axes import AxisScale, drawing, grid, ticks, write
 
 ROW_HEIGHT = 20.0
 LEFT = 104.0
-
-
-def activity_words(activity: Activity) -> str:
-    """Return an activity in words, such as "stairs up"."""
-    return activity.value.replace("_", " ").lower().replace("elevator", "lift")
 
 
 def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: ReportClock) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
 from ...outcomes.clinic import (
+    BOUT_HEADER,
     INTERVAL_HEADER,
     LABEL,
     MAX_BOUTS,
@@ -27,7 +28,6 @@ SIX_MINUTE_NOTE = (
     "The distance is the mean of what both feet went, stride by stride, turns included (ATS 2002 counts lengths of a "
     "course). Stops are breaks of more than 3 s."
 )
-BOUT_HEADER = ("bout", "start, s", "duration, s", "strides", "steps", "turns", "steps/min", "length, m", "speed, m/s")
 TOO_FEW = "There are too few steady strides for variability and asymmetry: four of a foot are needed."
 
 

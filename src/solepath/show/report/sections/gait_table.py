@@ -12,7 +12,6 @@ from ...tables.table import milliseconds, number, percent
 from ..markup import add, table, terms
 
 HEADER = ("parameter", "left", "right", "both", "CV %", "asymmetry")
-NO_STRIDE = "No stride was measured, so that there are no gait parameters."
 NO_STEADY = (
     "No stride was steady, so that there are no means: steady strides are neither first nor last of a walk, nor in a "
     "turn, on stairs or with samples missing."

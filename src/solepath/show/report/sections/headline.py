@@ -9,8 +9,7 @@ from collections.abc import Mapping
 from attrs import field, frozen
 
 from ...tables.summary import NO_DATA
-from ...tables.table import counted, number, times
-from ..clock import duration_text
+from ...tables.table import counted, duration_text, number, times
 from ..markup import whole_sentences
 from ..measures import Measure
 from ..walk_summary import STEP_TIME, STRIDE_LENGTH, SWING_TIME, FootDifference

@@ -12,10 +12,10 @@ from ..figures.space import space_figure
 from ..figures.stride import stride_figures
 from ..figures.track import height_figure, plan_figure, track_figure
 from ..markup import add, section, sentences, skeleton, table, whole_sentences
-from ..words import defects, limitations, link_rows, overview, problems, sensors
+from ..words import faults, link_rows, overview, sensors
 from .comparison import comparison
 from .facts import facts_of
-from .gait_table import NO_STEADY, NO_STRIDE, definitions, gait_tables
+from .gait_table import NO_STEADY, definitions, gait_tables
 from .heading import add_heading, add_making, title_of
 from .headline import headline, warning
 from .key_figures import key_figures
@@ -44,14 +44,18 @@ def page_of(report: CollectedWalk) -> Element:
     _ways(main, report)
     if facts.walk.has_data:
         _course(main, report)
-    details = add(main, "div", class_="details" if report.before is None else "details compared")
+    has_strides = any(strides.count for strides in report.strides.values())
+    details = add(main, "div")
+    if has_strides and report.before is None:
+        details.set("class", "second-page")
     if report.before is not None:
         comparison(details, report.before, report, facts)
     if report.clinic is not None:
         from .clinical import clinical_sections
 
         clinical_sections(details, report.clinic)
-    _gait(details, report)
+    if has_strides:
+        _gait(details, report)
     if any(sole.samples for sole in report.soles.values()):
         parent = section(details, "pressure", "Pressure")
         pressure_figures(add(parent, "div", class_="figures thirds"), report.soles)
@@ -80,12 +84,9 @@ def _ways(main: Element, report: CollectedWalk) -> None:
 
 
 def _gait(parent: Element, report: CollectedWalk) -> None:
-    if not any(strides.count for strides in report.strides.values()):
-        return
     parent = section(parent, "gait", "Gait")
     if not gait_tables(parent, report.observer.gait):
-        any_stride = any(strides.count for strides in report.strides.values())
-        add(parent, "p", NO_STEADY if any_stride else NO_STRIDE)
+        add(parent, "p", NO_STEADY)
     figures = add(parent, "div", class_="figures")
     for running in (False, True):
         parameters = report.observer.gait.of(running)
@@ -115,19 +116,13 @@ def _health(parent: Element, report: CollectedWalk) -> None:
         return
     parent = section(parent, "health", "Sensors and links")
     table(parent, "From each sensor", header, rows, "numbers links")
-    if observer.defects:
-        add(parent, "h3", "Cannot be right")
-        sentences(parent, defects(observer))
-    faults = [fault for fault in problems(observer) if fault not in whole_sentences(observer.defects)]
-    if faults:
-        add(parent, "h3", "Missing or wrong")
-        sentences(parent, faults)
-    if not faults and not observer.defects:
+    found = {"Cannot be right": whole_sentences(observer.defects), "Missing or wrong": faults(observer)}
+    if not any(found.values()):
         add(parent, "p", "Nothing was wrong with the sensors and their links.")
-    limits = limitations(observer)
-    if limits:
-        add(parent, "h3", "Done without")
-        sentences(parent, limits)
+    for title, texts in {**found, "Done without": whole_sentences(observer.limitations)}.items():
+        if texts:
+            add(parent, "h3", title)
+            sentences(parent, texts)
 
 
 def _making(report: CollectedWalk) -> list[tuple[str, str]]:
