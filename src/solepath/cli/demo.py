@@ -95,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
         _draw(demo, TERMINAL_SPEED if options.speed is None else options.speed)
     else:
         if sys.stdout.isatty():
-            note("the live view needs rich (pip install rich); plain text without it")
+            note(f"the live view needs rich: {install_hint('live')}; plain text without it")
         _print_progress(demo)
     print()
     lines = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
