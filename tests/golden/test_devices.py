@@ -1,0 +1,12 @@
+"""Every device, and every disorder of its packets: each event is what it was."""
+
+from __future__ import annotations
+
+import pytest
+from cases import PARTS
+from corpus import Case, differences
+
+
+@pytest.mark.parametrize("case", PARTS["devices"], ids=lambda case: case.name)
+def test_every_event_is_what_it_was(case: Case) -> None:
+    assert differences(case) == [], "`.ci/golden check` prints the first event that differs"

@@ -1,0 +1,12 @@
+"""Every fault of a sensor that a session must live with: each event is what it was."""
+
+from __future__ import annotations
+
+import pytest
+from cases import PARTS
+from corpus import Case, differences
+
+
+@pytest.mark.parametrize("case", PARTS["faults"], ids=lambda case: case.name)
+def test_every_event_is_what_it_was(case: Case) -> None:
+    assert differences(case) == [], "`.ci/golden check` prints the first event that differs"
