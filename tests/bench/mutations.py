@@ -352,12 +352,11 @@ def run_tests(folder: Path, *arguments: str, timeout: float | None = None, **var
         return -1, "it does not end"
 
 
-def make_contexts(jobs: int) -> Contexts:
-    """Return the contexts of this code, which a run of the suite makes unless they are there."""
+def make_contexts(jobs: int, tests: str) -> Contexts:
+    """Return the contexts of this code, which a run of the tests below a folder makes unless they are there."""
     from coverage import CoverageData
 
-    print_now = fingerprint()
-    folder = KEPT / print_now
+    folder = KEPT / f"{fingerprint()}-{tests.replace('/', '-')}"
     if not (folder / "seconds.json").exists():
         shutil.rmtree(KEPT, ignore_errors=True)
         folder.mkdir(parents=True)
@@ -366,7 +365,14 @@ def make_contexts(jobs: int) -> Contexts:
         began = time.monotonic()
         measured = ("--cov", f"--cov-config={folder / 'coveragerc'}", "--cov-context=test", "--cov-report=")
         status, output = run_tests(
-            ROOT, "-n", str(jobs), "--dist", "loadfile", *measured, MUTATIONS_SECONDS=str(folder / "seconds.json")
+            ROOT,
+            tests,
+            "-n",
+            str(jobs),
+            "--dist",
+            "loadfile",
+            *measured,
+            MUTATIONS_SECONDS=str(folder / "seconds.json"),
         )
         if status not in (0, 1):
             raise SystemExit(f"the tests do not run:\n{output[-2000:]}")
@@ -460,6 +466,7 @@ def main() -> int:
     options.add_argument("--seed", type=int, default=1, help="seed that draws them")
     options.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="bugs that are tried at once")
     options.add_argument("--list", action="store_true", help="print the bugs without planting them")
+    options.add_argument("--tests", default="tests", help="only tests below this folder")
     options.add_argument("--only", default="", help="only bugs in functions whose file and name contain this")
     given = options.parse_args()
     bugs = [bug for bug in draw(given.count, given.seed) if given.only in f"{bug.file} {bug.function}"]
@@ -467,7 +474,7 @@ def main() -> int:
         for bug in bugs:
             print(f"{bug.file} {bug.function} | {bug.change}")
         return 0
-    contexts = make_contexts(given.jobs)
+    contexts = make_contexts(given.jobs, given.tests)
     reasons = read_survivors()
     with tempfile.TemporaryDirectory() as work:
         copies: SimpleQueue[Path] = SimpleQueue()
