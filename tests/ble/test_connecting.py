@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -18,10 +17,8 @@ from virtual import now
 from solepath import Session
 from solepath.ble import Backend, DeviceConfig
 from solepath.emulate import Route
-from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.faults import Fault, FaultKind, parse_faults
-from solepath.types import Site
+from solepath.emulate.devices.faults import parse_faults
 from solepath.wire.fields import parse_text
 
 
@@ -47,39 +44,6 @@ def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_en
     [trouble] = [packet for packet in packets if packet.channel == "receiver/trouble"]
     assert trouble.t == pytest.approx(7.0, abs=0.1)
     assert trouble.data.decode().endswith("see that no other program or phone holds it")
-
-
-def test_failed_attempts_do_not_restart_patience():
-    """The device rejects its stream for a while, then stops advertising."""
-    device = Odd("strap 1", address(1), faults=parse_faults("5 * vanish"))
-
-    packets = received(logged_radio(device).backend, ONE, seconds=30.0)
-    trouble = [(p.t, p.data.decode()) for p in packets if p.channel == "receiver/trouble"]
-    unheard = [t for t, words in trouble if words.startswith("no strap")]
-    assert trouble[0][0] < 1.0 and len(unheard) == 1 and unheard[0] == pytest.approx(10.5, abs=2.0)
-
-
-class Odd(Strap):
-    """A strap whose stream cannot be subscribed."""
-
-    def subscribe(self, channel, on, now):
-        raise AttError(0x80)
-
-
-def weak(every, seconds):
-    """Return the packets received over `seconds` from a link that breaks every `every` s."""
-    cuts = [Fault(1.0 + every * k, Site.PELVIS, FaultKind.DISCONNECT) for k in range(int(seconds / every))]
-
-    device = Strap("strap 1", address(1), faults=cuts)
-    return received(logged_radio(device).backend, ONE, seconds=seconds)
-
-
-@pytest.mark.parametrize(("every", "share"), [(1.0, 0.5), (2.0, 0.75)])
-def test_a_link_that_breaks_every_second_is_made_again_each_time(every, share):
-    packets = weak(every, 60.0)
-    beats = [packet for packet in packets if packet.channel == "strap/beat"]
-    assert len(beats) > share * 60.0 * RATE
-    assert max(b.t - a.t for a, b in pairwise(beats)) < 1.5
 
 
 def test_a_scan_that_fails_later_is_reported_to_searches_and_is_restarted() -> None:

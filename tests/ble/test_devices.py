@@ -20,7 +20,7 @@ from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Access, Write
-from solepath.types import Packet, Site
+from solepath.types import Packet
 
 
 def got(belt: LoggedRadio, *configs: DeviceConfig, seconds: float = 5.0, **more: Any) -> list[Packet]:
@@ -69,12 +69,6 @@ def test_what_was_read_and_written_comes_as_packets_before_the_stream() -> None:
     events = Session().feed(packets)
     assert [type(e) for e in events if isinstance(e, LayoutKnown | BatteryLevel)] == [LayoutKnown, BatteryLevel]
     assert not [event for event in events if isinstance(event, PacketRejected)]
-
-
-def test_what_is_to_be_read_after_a_write_comes_right_after_it() -> None:
-    packets = got(logged_radio(strap()), DeviceConfig(PELVIS, address(1), READ_AFTER))
-    order = [channel for channel in channels(packets) if channel != "strap/beat"]
-    assert order[:4] == ["receiver/connected", "device/battery", "strap/control", "strap/page"]
 
 
 def test_a_battery_that_can_only_be_read_is_read_and_keeps_nobody_from_listening() -> None:
@@ -136,18 +130,6 @@ def test_without_packets_five_ticks_a_second_are_emitted() -> None:
     steps = [b.t - a.t for a, b in zip(packets, packets[1:], strict=False)]
     assert max(steps) <= 0.2501
     assert not Session().feed(packets)
-
-
-def test_seven_devices_stream_at_once_each_at_its_site() -> None:
-    belt = logged_radio(*(strap(n) for n in range(1, 8)))
-    configs = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(Site, 1)]
-    packets = got(belt, *configs)
-    for n, site in enumerate(Site, 1):
-        mine = [packet for packet in packets if packet.site is site and packet.channel == "strap/beat"]
-        assert len(mine) > 4 * RATE
-        assert {packet.device for packet in mine} == {address(n)}
-        counted = [int.from_bytes(packet.data[:4], "little") for packet in mine]
-        assert counted == list(range(counted[0], counted[0] + len(mine)))
 
 
 def test_a_device_that_does_not_answer_never_delays_another() -> None:

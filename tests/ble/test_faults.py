@@ -8,7 +8,7 @@ from typing import TypeVar
 import pytest
 from airs import TIERS, collect, in_virtual_time, whole
 from attrs import evolve
-from benches import LEFT, RIGHT
+from benches import LEFT
 
 from solepath import (
     ClockReset,
@@ -34,7 +34,6 @@ from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.devices.cc2650 import PROFILE as CC2650
-from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Write
 from solepath.types import Packet, Site
 from solepath.wire.insole import InsoleFrame, parse_frame
@@ -219,22 +218,3 @@ def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
     moved = [packet.t for packet in packets if packet.channel == "cc2650/movement"]
     assert moved and max(moved) < 30.0, "it did fall asleep"
     assert not of(StreamRestarted, found) and not of(StreamStale, found) and len(of(Connected, found)) == 1
-
-
-@both
-def test_two_devices_with_one_name_are_reported_with_both_addresses(tier: str) -> None:
-    configs = (DeviceConfig(LEFT, "CC2650 SensorTag"),)
-    found = events(receive(tier, "", 8.0, device=Tag(), configs=configs, sites=(LEFT, RIGHT)))
-    [trouble] = of(LinkTrouble, found)
-    assert FOOT_ADDRESS in trouble.what and "F0:5E:00:00:00:02" in trouble.what
-    assert not of(Connected, found)
-
-
-@both
-def test_two_feet_that_lose_their_links_at_once_both_come_back(tier: str) -> None:
-    configs = (DeviceConfig(None, profile=INSOLE),) * 2
-    found = events(receive(tier, "4 * disconnect", 7.0, configs=configs, sites=(LEFT, RIGHT)))
-    for site in (LEFT, RIGHT):
-        assert len([event for event in of(Connected, found) if event.site is site]) == 2
-        [gap] = [event for event in of(SampleGap, found) if event.site is site]
-        assert gap.duration < 1.0

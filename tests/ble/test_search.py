@@ -66,21 +66,6 @@ def test_any_two_insoles_report_their_feet_whichever_advertises_first(turned: bo
     assert not troubles(packets)
 
 
-def test_one_insole_of_either_foot_is_enough_for_a_config_of_any() -> None:
-    bench = feet(Insole())
-    packets = got((bench[RIGHT],), [DeviceConfig(None, profile=INSOLE)])
-    assert connected(packets) == {RIGHT: bench[RIGHT].address}
-    packets = got((bench[LEFT],), [DeviceConfig(None, "solepath L")])
-    assert connected(packets) == {LEFT: bench[LEFT].address}
-
-
-def test_a_left_insole_is_found_though_the_right_one_advertises_first() -> None:
-    bench = feet(Insole())
-    packets = got(bench.peripherals[::-1], [DeviceConfig(LEFT, profile=INSOLE)])
-    assert connected(packets) == {LEFT: bench[LEFT].address}
-    assert troubles(packets) == ["solepath R is a right foot one: expected at the left foot"]
-
-
 def test_the_insole_of_the_other_foot_is_rejected_with_a_reason() -> None:
     packets = got(feet(Insole()).peripherals, [DeviceConfig(RIGHT, "F0:5E:00:00:00:01")], seconds=30.0)
     assert not connected(packets)
@@ -95,13 +80,6 @@ def test_two_insoles_of_one_foot_are_not_taken_for_a_pair() -> None:
     assert [words.partition(" is ")[2] for words in troubles(packets)] == ["one more for the left foot"]
     packets = got((bench[LEFT], spare, bench[RIGHT]), [DeviceConfig(None, profile=INSOLE)] * 2)
     assert connected(packets).keys() == {LEFT, RIGHT}
-
-
-def test_a_config_of_any_does_not_take_a_device_named_by_another() -> None:
-    bench = feet(Insole())
-    for which in (bench[LEFT].address, "solepath L"):
-        packets = got(bench.peripherals, [DeviceConfig(None, profile=INSOLE), DeviceConfig(LEFT, which)])
-        assert connected(packets) == {site: bench[site].address for site in (LEFT, RIGHT)}
 
 
 def test_a_config_of_any_insole_gets_none_for_a_foot_that_is_configured() -> None:
@@ -140,12 +118,6 @@ def test_when_one_of_the_two_is_silent_for_a_while_the_other_is_still_not_guesse
     bench = feet(Tag(), faults="8 right_foot vanish 15")
     packets = got(bench.peripherals, [DeviceConfig(LEFT, "CC2650 SensorTag")], seconds=30.0)
     assert not connected(packets)
-
-
-def test_when_one_of_the_two_is_switched_off_the_other_is_taken() -> None:
-    bench = feet(Tag(), faults="8 right_foot vanish")
-    packets = got(bench.peripherals, [DeviceConfig(LEFT, "CC2650 SensorTag")], seconds=60.0)
-    assert connected(packets) == {LEFT: TAGS[0]}
 
 
 @pytest.mark.parametrize(
@@ -219,19 +191,6 @@ def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
     [connected_packet] = [packet for packet in packets if packet.channel == "receiver/trouble"]
     assert (connected_packet.site, connected_packet.device) == (LEFT, "")
     assert connected_packet.t == pytest.approx(7.0, abs=0.6)
-
-
-def test_an_absent_device_never_delays_another() -> None:
-    bench = feet(Insole())
-
-    def first(configs: list[DeviceConfig]) -> float:
-        packets = got((bench[RIGHT],), configs)
-        bench[RIGHT].disconnected(6.0)
-        return min(packet.t for packet in packets if packet.channel == "insole/frame")
-
-    alone = first([DeviceConfig(RIGHT, "F0:5E:00:00:00:02")])
-    bench = feet(Insole())
-    assert first([DeviceConfig(LEFT, "F0:5E:00:00:00:01"), DeviceConfig(RIGHT, "F0:5E:00:00:00:02")]) == alone < 1.0
 
 
 @virtually

@@ -8,20 +8,12 @@ from typing import Any
 import pytest
 from airs import others, received, troubles
 from belts import ONE, PELVIS, address, logged_radio, times
-from bleak.exc import (
-    BleakBluetoothNotAvailableError,
-    BleakBluetoothNotAvailableReason,
-    BleakDBusError,
-    BleakError,
-    BleakGATTProtocolError,
-    BleakGATTProtocolErrorCode,
-)
+from bleak.exc import BleakBluetoothNotAvailableError, BleakBluetoothNotAvailableReason, BleakDBusError, BleakError
 from memory_radio import MemoryRadio
 from strap import Strap
 from virtual import virtually
 
 from solepath.ble import Backend, BluetoothError, DeviceConfig, Devices, scan
-from solepath.ble.trouble import describe_error
 from solepath.emulate.devices.attributes import Outgoing
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 
@@ -65,18 +57,6 @@ async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_with_a_remedy(e
     assert not others()
     assert "\n" not in one
     assert any(words in one for words in REMEDY_WORDS)
-
-
-@pytest.mark.parametrize("words", ["Not connected", "disconnected", "the link was lost"])
-def test_a_lost_connection_is_reported_in_one_phrase_with_the_next_action(words: str) -> None:
-    assert describe_error(BleakError(words)).startswith("the connection was lost: the device is sought again")
-
-
-@pytest.mark.parametrize("code", list(BleakGATTProtocolErrorCode))
-def test_every_att_error_has_one_line(code: BleakGATTProtocolErrorCode) -> None:
-    words = describe_error(BleakGATTProtocolError(code))
-    assert words and "\n" not in words
-    assert "pair" in words or f"0x{int(code):02X}" in words
 
 
 class Fleeting(Strap):

@@ -1,6 +1,6 @@
 """A fleet on Quix Streams, with a broker that speaks Kafka on this machine.
 
-    pip install -e '.[test,kafka]' && pytest -m kafka tests/fleet/test_quix.py
+    pip install -e '.[test,kafka]' && pytest -m long tests/fleet/test_quix.py
 
 The broker keeps everything in memory, so what happens when it is restarted is not tried here; nor is exactly-once: it
 shows what was never committed to readers of what was.
@@ -13,7 +13,6 @@ import shutil
 import time
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -22,12 +21,12 @@ from walks import ROUGH, insoles, run_session
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN
-from solepath.fleet import End, Fleet, NumberedEvent, Once, Sent, event_row, sent_line
+from solepath.fleet import End, NumberedEvent, Once, Sent, event_row, sent_line
 
 if TYPE_CHECKING:
     from brokers import Broker, Message, Topics
 
-pytestmark = pytest.mark.kafka
+pytestmark = pytest.mark.long
 WEARERS = tuple(f"wearer {number}" for number in range(8))
 
 
@@ -208,15 +207,3 @@ def test_messages_without_key_or_sense_are_events_and_stall_nobody(kafka: Broker
     assert sum(row["wearer"].startswith("unkeyed/") for row in rejected) == 2 * 3 * len(NO_NAMES) + 1
     assert len(once(read_messages)["null"]) == len(once(read_messages)["someone"]) - 1 == 2 * 3
     assert max(len(message.value) for message in read_messages) < 20_000
-
-
-def test_a_topic_whose_values_are_read_as_json_is_rejected_at_once(kafka: Broker, tmp_path: Path) -> None:
-    from quixstreams import Application
-    from quixstreams.models import TopicConfig
-
-    from solepath.fleet.quix import gait
-
-    app = Application(kafka.address, consumer_group="json", state_dir=tmp_path)
-    topic = app.topic("json-sent", config=TopicConfig(1, 1, extra_config={"retention.ms": "86400000"}))
-    with pytest.raises(ValueError, match='value_deserializer="bytes"'):
-        gait(app.dataframe(topic), Fleet())

@@ -1,8 +1,7 @@
 """A fleet on Spark: the events of sessions, also past rows of anything and states of nobody.
 
 pip install solepath[spark,test], Java 17, then
-python -m pytest -m "spark and not soak" tests/fleet/test_spark*.py            # about three minutes
-python -m pytest -m "spark and soak" -s tests/fleet/test_spark*.py             # 1,000 wearers; prints its rate
+python -m pytest -m long tests/fleet/test_spark*.py
 """
 
 from __future__ import annotations
@@ -12,20 +11,16 @@ import random
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from struct import pack
 from typing import Any
 
 import pytest
 from here import HELPERS
 from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, read_output, sent
-from toys import BASE
 
-from solepath.fleet import EVENT_COLUMNS, Fleet, NumberedEvent, Sent, event_row, sent_line, sent_row
+from solepath.fleet import EVENT_COLUMNS, Fleet, event_row, sent_line, sent_row
 from solepath.recipes import by_name
-from solepath.session import Session
-from solepath.types import Packet, Site
 
-pytestmark = [pytest.mark.spark]
+pytestmark = [pytest.mark.long]
 _needed = pytest.fixture(needed, scope="module", autouse=True)
 
 
@@ -69,18 +64,6 @@ def test_events_through_spark_are_those_of_a_session(spark, tmp_path, recipe):
     assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in events}
 
 
-def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
-    """After a few batches Spark joins its lists of files into one."""
-    deliver(tmp_path / "sent", wearers=2, files=5)
-    events = run(stream(spark, tmp_path / "sent"), tmp_path)
-    assert list((tmp_path / "events/_spark_metadata").glob("*.compact"))
-    nobodys = tmp_path / "events" / "part-of-a-killed-task.snappy.parquet"
-    nobodys.write_bytes(b"PAR1")
-    assert read_output(tmp_path / "events") == events == in_order(
-        row.asDict() for row in spark.read.parquet(str(tmp_path / "events")).collect()
-    )  # fmt: skip
-
-
 def test_messages_as_kafka_has_them_give_the_same_events(spark, tmp_path):
     """Return messages whose key is the wearer and whose value holds the lines of about a second."""
     from pyarrow import parquet, table
@@ -110,23 +93,6 @@ def without_number(row: Row) -> Row:
     return {key: value for key, value in row.items() if key != "number"}
 
 
-def of_toys() -> Fleet:
-    """Return a fleet that cannot be pickled."""
-    return Fleet(profiles=[BASE])
-
-
-def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_path):
-    batteries = [0.5, float("nan"), 0.25]
-    data = [bytes([0]) + pack(">d", share) for share in batteries] + [bytes([11]) + pack(">d", 1.0)]
-    packets = [Packet(float(t), Site.LEFT_FOOT, "toy/more", one) for t, one in enumerate(data)]
-    (tmp_path / "sent").mkdir()
-    put(tmp_path / "sent/toy.parquet", [sent_row(Sent("w0", number, one)) for number, one in enumerate(packets)], 0)
-    events = run(stream(spark, tmp_path / "sent"), tmp_path, of_toys)
-    fed_events = Session(profiles=[BASE]).feed(packets)
-    assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
-    assert events == [event_row(NumberedEvent("w0", number, event)) for number, event in enumerate(fed_events)]
-
-
 def anything(count: int) -> Iterator[Row]:
     """Rows of wearers whose rows are filled at random: of any bytes, also where the rest is as it should be."""
     chance = random.Random(8)
@@ -152,24 +118,6 @@ def test_a_wearer_of_anything_stalls_no_other(spark, tmp_path):
     poisoned = [row for row in events if row["wearer"].startswith("poisoned")]
     assert {"SentRejected", "NumbersMissing"} <= {row["event"] for row in poisoned}
     assert any(row["wearer"] == "" and "wearer is no text" in row["fields"] for row in events)
-
-
-def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
-    """Parquet accepts any bytes as text."""
-    import pyarrow as pa
-    from pyarrow import parquet
-
-    (tmp_path / "sent").mkdir()
-    rows = [sent_row(one) for one in sent(0, 0)]
-    put(tmp_path / "sent/good.parquet", rows, 0)
-    bad = parquet.read_table(tmp_path / "sent/good.parquet").take([0, 0, 0])
-    for name in ("wearer", "site", "channel", "device"):
-        bytes_ = pa.array([b"\xff\xfe", b"w0\x80", b"\xed\xa0\x80"]).view(pa.string())
-        bad = bad.set_column(bad.column_names.index(name), name, bytes_)
-    parquet.write_table(bad, tmp_path / "sent/bad.parquet")
-    events = run(stream(spark, tmp_path / "sent"), tmp_path)
-    assert of_sessions(events) == expected(1)
-    assert [row["event"] for row in events if row["wearer"] != "w0"] == ["SentRejected"] * 3
 
 
 def test_a_state_that_cannot_go_on_is_reported_and_its_wearer_restarts(spark, tmp_path):

@@ -20,7 +20,7 @@ from solepath.fleet.spark_files import committed
 
 JOB = EXAMPLES / "spark_gait.py"
 
-pytestmark = [pytest.mark.spark]
+pytestmark = [pytest.mark.long]
 _needed = pytest.fixture(needed, scope="module", autouse=True)
 
 
@@ -87,7 +87,7 @@ def _is_dead(pid: int) -> bool:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="finds the processes of a job in /proc")
-@pytest.mark.parametrize(("wearers", "kills"), [(25, 2), pytest.param(1000, 1, marks=pytest.mark.soak)])
+@pytest.mark.parametrize(("wearers", "kills"), [(25, 2)])
 def test_a_job_that_is_killed_in_mid_stream_emits_the_events_of_one_that_is_not(tmp_path, wearers, kills):
     files = 10
     rows = deliver(tmp_path / "sent", wearers, files)

@@ -95,19 +95,6 @@ def test_after_three_kills_in_mid_walk_no_row_is_missing_or_there_twice(walked: 
         assert all([before["t_end"] <= after["t_start"] + 1e-9 for before, after in pairwise(taken)])
 
 
-def test_each_kill_is_a_gap_of_both_feet_and_the_stride_that_it_falls_in_is_degraded(walked: Path) -> None:
-    found = [row for _, _, row in rows(walked)]
-    for site, foot in (("left_foot", "left"), ("right_foot", "right")):
-        starts = [row["t"] for row in found if row["event"] == "Connected" and row["site"] == site]
-        assert len(starts) == 4
-        gaps = [row["t"] for row in found if row["event"] in ("SampleGap", "ClockReset") and row["site"] == site]
-        assert len(gaps) >= 3
-        for stride in found:
-            if stride["event"] == "StrideTaken" and stride["foot"] == foot:
-                has_gap = any(stride["t_start"] < start < stride["t_end"] for start in starts[1:])
-                assert stride["degraded"] or not has_gap
-
-
 def test_rows_of_a_box_that_was_killed_after_a_save_are_those_of_one_session(tmp_path: Path) -> None:
     module, database = example(), tmp_path / "box.db"
     first = module.Box(str(database), 0.0)
@@ -123,21 +110,6 @@ def test_rows_of_a_box_that_was_killed_after_a_save_are_those_of_one_session(tmp
     events = [json.loads(json.dumps(event.to_dict())) for event in Session().feed(PACKETS)]
     unsaved = [json.loads(json.dumps(event.to_dict())) for event in again.events]
     assert [row for _, _, row in rows(database)] + unsaved == events
-
-
-def test_a_kill_between_saves_costs_a_second_and_both_rows_and_session_are_those_of_the_save(tmp_path: Path) -> None:
-    module, database = example(), tmp_path / "box.db"
-    box = module.Box(str(database), 0.0)
-    saves = []
-    for packet in PACKETS[:HALF]:
-        save_at = box.save_at
-        box.receive(packet)
-        if box.save_at > save_at:
-            saves.append((packet.t, box.session.pack(), len(rows(database))))
-    t, state, count = saves[-1]
-    assert 0.0 < PACKETS[HALF - 1].t - t < 1.0 and len(saves) > 3
-    again = module.Box(str(database), PACKETS[HALF].t)
-    assert again.session.pack() == state and len(rows(database)) == count and again.events == []
 
 
 def test_after_an_update_of_solepath_the_rows_go_on_with_a_new_track(tmp_path: Path) -> None:

@@ -1,7 +1,7 @@
 """A walk there and back shows how the heading of each foot drifts, and every recipe takes it off."""
 
 from functools import cache
-from math import cos, pi, sin
+from math import pi
 
 import numpy as np
 import pytest
@@ -11,11 +11,10 @@ from solepath.calibration import Calibration, CalibrationError, HeadingCalibrati
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import sampled
 from solepath.events import StrideTaken
-from solepath.foot.navigate.bias import Bias
 from solepath.lab.emulated.heading import follow
 from solepath.lab.emulated.heading_walks import calibration_samples, insoles_of, wearer_of
 from solepath.session import Session
-from solepath.session.heading_walk import HeadingFit, fit_heading, heading_calibration, heading_walk
+from solepath.session.heading_walk import HeadingFit, heading_calibration, heading_walk
 from solepath.types import Foot, Sample, Site
 from solepath.types.attrs import evolve
 
@@ -132,14 +131,6 @@ def test_another_walk_is_no_calibration_for_a_stated_reason(route: Route, reason
         heading_walk(walk_of(route))
 
 
-def test_who_stands_longer_before_the_walk_is_surer_of_another_day() -> None:
-    sigmas = []
-    for seconds in (3.0, 20.0):
-        fits = heading_walk(walk_of(there_and_back(seconds, 6, 25.0)))
-        sigmas.append([fit.heading.drift_sigma for fit in fits])
-    assert all(long < 0.8 * short for short, long in zip(*sigmas, strict=True))
-
-
 def test_a_rest_after_the_walk_takes_off_what_a_wandering_bias_has_turned() -> None:
     """The bias of the left foot grows by 0.03 degrees/s from the first rest to the last one."""
     samples = [one for one in walk_of(there_and_back(15.0, 6, 20.0, 15.0)) if one.site is Site.LEFT_FOOT]
@@ -155,22 +146,3 @@ def test_a_rest_after_the_walk_takes_off_what_a_wandering_bias_has_turned() -> N
     wandered = [grown(one) for one in samples]
     steady, moved = (heading_walk(one)[0].heading for one in (samples, wandered))
     assert abs(moved.drift - steady.drift) < 0.3 * 0.5 * growth * 1.1
-
-
-def test_a_drift_that_no_calibration_may_hold_is_a_reason() -> None:
-    """Eight legs of five strides, in each of which the track turns by 3.4 degrees."""
-    samples = walk_of(Route().stand(3.0).walk(4.0).stop(2.0))
-    session = Session()
-    one, *_ = (event for sample in samples for event in session.feed(sample) if isinstance(event, StrideTaken))
-    strides, direction, t = [], 0.0, 0.0
-    for leg in range(8):
-        for turn, length in ((pi * (leg % 2 - 0.5) * 2.0, 0.3), *((0.0, 1.3),) * 5):
-            direction += turn - 0.06 * min(1.0, length / 0.8)
-            places = (length * cos(direction), length * sin(direction), 0.0)
-            strides.append(evolve(one, t_start=t, t=t + 1.0, length=length, displacement=places, heading_change=turn))
-            t += 1.0
-    assert str(fit_heading(Foot.LEFT, strides, Bias(), Bias())).startswith("headings.left.drift ")
-
-
-def test_no_stride_shows_nothing() -> None:
-    assert fit_heading(Foot.LEFT, [], Bias(), Bias()) == "0 straight legs of 6 m and more, of which 4 are needed"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import resource
 from collections.abc import Callable, Iterator, Sequence
-from math import dist
 from pathlib import Path
 from typing import Any
 
@@ -73,19 +72,6 @@ def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run,
     assert session.pack() == undisturbed.pack()
     rest = PACKETS[HALF + 300 :]
     assert session.feed(rest) + session.finish() == undisturbed.feed(rest) + undisturbed.finish()
-
-
-def test_a_replay_of_two_recordings_restarts_the_clock_between_them(run: Run) -> None:
-    rest = [evolve(packet, t=packet.t - PACKETS[HALF].t) for packet in PACKETS[HALF:]]
-    recorded(Path("walk-0002.jsonl"), rest, {"restarted_t": 0.0})
-    resumed, whole = run(CUT, TORN)["session"], fed(PACKETS)
-    position, expected = resumed.position, whole.position
-    assert position is not None and expected is not None
-    assert dist(position.position, expected.position) < 1.0 < expected.position[0]
-    session = run(CUT)["replay"](Session(), "walk-0001.jsonl")
-    first, *rest = read_packets("walk-0002.jsonl")
-    session.restart_clock(first.t)
-    assert not of(PacketRejected, session.feed([first, *rest]))
 
 
 @pytest.fixture
