@@ -14,7 +14,6 @@ from airs import others, troubles
 from bluez import Bluez
 from bus import DAEMON, message_bus
 
-from solepath import Connected, Disconnected, Session
 from solepath.ble import BluetoothError, DeviceConfig, Devices, scan
 from solepath.emulate import Route
 from solepath.emulate.devices.attributes import BATTERY_STEP
@@ -120,21 +119,6 @@ def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
     assert not troubles(received)
     assert idle and ended >= 3  # the search, and two connections
     assert not any(device.is_connected for device in pair.peripherals)
-
-
-def test_a_lost_link_is_made_again_and_the_stream_goes_on(on_a_bus):
-    worn = bench()
-
-    async def main(address):
-        async with Bluez(worn.peripherals).serving(address) as bluez, Devices([THE_LEFT]) as devices:
-            received = await until(devices, frames(10))
-            bluez.lose()
-            return received + await until(devices, frames(10))
-
-    connection_events = [
-        type(event) for event in Session().feed(on_a_bus(main)) if isinstance(event, Connected | Disconnected)
-    ]
-    assert connection_events == [Connected, Disconnected, Connected]
 
 
 def test_bluetooth_that_is_switched_off_is_reported_and_waited_for(on_a_bus):

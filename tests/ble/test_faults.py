@@ -6,7 +6,7 @@ from functools import cache
 from typing import TypeVar
 
 import pytest
-from airs import TIERS, collect, in_virtual_time, whole
+from airs import TIERS, collect, in_virtual_time
 from attrs import evolve
 from benches import LEFT
 
@@ -36,14 +36,13 @@ from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.profile import Write
 from solepath.types import Packet, Site
-from solepath.wire.insole import InsoleFrame, parse_frame
 
 E = TypeVar("E")
 STAND = Route().stand(9.0)
 WALK = Route().stand(3.0).walk(12.0).stop(3.0)
 FOOT_ADDRESS = "F0:5E:00:00:00:01"
 SMALL_INSOLE = Insole(cells=8, rate=50.0)
-both = pytest.mark.parametrize("tier", TIERS)
+both = pytest.mark.parametrize("tier", ["memory", pytest.param("bumble", marks=pytest.mark.soak)])
 
 
 @cache
@@ -73,10 +72,6 @@ def of(kind: type[E], found: list[Event]) -> list[E]:
     return [event for event in found if isinstance(event, kind)]
 
 
-def frames(packets: list[Packet]) -> list[Packet]:
-    return [packet for packet in packets if packet.channel == "insole/frame"]
-
-
 @both
 @pytest.mark.parametrize(
     ("faults", "reasons", "rejected", "lost"),
@@ -97,22 +92,6 @@ def test_spoilt_notifications_are_rejected_with_their_reason_and_those_that_neve
     assert sum(event.count for event in losses) == lost
     assert {(event.channel, event.site) for event in losses} <= {("insole/frame", LEFT)}
     assert not losses or losses[0].t == pytest.approx(4.0, abs=0.1)
-
-
-def by_number(packets: list[Packet]) -> dict[int, InsoleFrame]:
-    """Return the frames by number, with their fragments joined."""
-    return {frame.sequence: frame for frame in (parse_frame(packet.data) for packet in frames(whole(packets)))}
-
-
-@both
-def test_over_the_smallest_mtu_the_same_frames_come_in_fragments(tier: str) -> None:
-    wide, narrow = receive(tier, "", 5.0), receive(tier, "0 * mtu 23", 5.0)
-    assert max(len(packet.data) for packet in frames(narrow)) <= 20
-    one, other = by_number(wide), by_number(narrow)
-    common = one.keys() & other.keys()
-    assert len(common) > 200
-    assert all(one[number] == other[number] for number in common)
-    assert not of(PacketRejected, events(narrow)) and not of(PacketsLost, events(narrow))
 
 
 @both
@@ -173,16 +152,6 @@ def test_a_rejected_setup_is_reported_and_repeated(tier: str, device: Device, co
     assert restarted.t < 3.0 and len(of(Connected, found)) == 1
     packets = receive(tier, f"0 * refuse {control}", 8.0, device=device)
     assert [packet for packet in packets if packet.channel == restarted.channel and packet.t > 7.5]
-
-
-@both
-def test_a_rejection_beside_the_stream_is_reported_and_the_stream_goes_on(tier: str) -> None:
-    packets = receive(tier, "0 * refuse cc2650/barometer-config; 0 * refuse device/battery", 5.0, device=Tag())
-    found = events(packets)
-    words = [event.what for event in of(LinkTrouble, found)]
-    assert [what.partition(" ")[0] for what in words] == ["device/battery", "cc2650/barometer-config"]
-    assert not of(StreamRestarted, found)
-    assert len([packet for packet in packets if packet.channel == "cc2650/movement"]) > 35
 
 
 @both

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 
 import pytest
 from airs import TIERS, collect, in_virtual_time, troubles
-from bleak import BleakClient, BleakScanner
-from bleak.exc import BleakGATTProtocolError, BleakGATTProtocolErrorCode
-from virtual import virtually
 
-from solepath.ble import Backend, DeviceConfig, Devices
+from solepath.ble import DeviceConfig, Devices
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
@@ -31,10 +27,6 @@ KINDS: dict[str, tuple[Profile, Device]] = {
     "cc2650": (CC2650, sensortags.CC2650()),
     "cc2541": (CC2541, sensortags.CC2541()),
 }
-INFO = INSOLE.channel("insole/info").characteristic
-FRAME = INSOLE.channel("insole/frame").characteristic
-CONTROL = INSOLE.channel("insole/control").characteristic
-FIRMWARE = INSOLE.channel("device/firmware").characteristic
 
 
 def bench(faults: str, device: Device | None = None) -> Bench:
@@ -58,14 +50,6 @@ def receive(tier: str, faults: str, pair: bool, seconds: float, kind: str = "ins
 
 def streamed(packets: list[Packet], profile: Profile) -> list[float]:
     return [packet.t for packet in packets if packet.channel in profile.streams]
-
-
-async def client(
-    worn: Bench, backend: Backend, on_disconnect: Callable[[BleakClient], None] | None = None
-) -> BleakClient:
-    device = await BleakScanner.find_device_by_name(worn[LEFT].name, 5.0, backend=backend.scanner)
-    assert device is not None
-    return BleakClient(device, on_disconnect, backend=backend.client)
 
 
 @pytest.mark.parametrize("tier", TIERS)
@@ -106,23 +90,3 @@ def test_a_rejected_pairing_is_a_connection_that_fails_and_the_next_attempt_is_a
     (trouble,) = troubles(packets)
     assert "the device rejected the pairing" in trouble
     assert len(streamed(packets, INSOLE)) > 300
-
-
-@pytest.mark.parametrize("tier", TIERS)
-@virtually
-async def test_an_unpaired_link_reads_public_values_only(tier: str) -> None:
-    worn = bench("0 * pairing")
-    async with TIERS[tier](worn) as backend, await client(worn, backend) as host:
-        assert await host.read_gatt_char(FIRMWARE)
-        for request in (
-            host.read_gatt_char(INFO),
-            host.write_gatt_char(CONTROL, b"\x01", response=True),
-            host.start_notify(FRAME, print),
-        ):
-            with pytest.raises(BleakGATTProtocolError) as error:
-                await request
-            assert error.value.code == BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION
-        await host.pair()  # and on the same link it is encrypted from now on
-        assert await host.read_gatt_char(INFO)
-        await host.pair()
-        assert host.is_connected

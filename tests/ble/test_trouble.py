@@ -99,16 +99,6 @@ def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_ne
     )
 
 
-def test_links_that_break_before_anything_comes_are_made_less_and_less_often_until_one_holds() -> None:
-    device = Fleeting(*[0.3] * 5, 3.0, 3.0)
-    device.silent = 5
-    received(logged_radio(device).backend, ONE, seconds=30.0)
-    pauses = device.pauses()
-    assert pauses[0] < pauses[1] < pauses[2] < pauses[3] < pauses[4] < 5.0
-    assert pauses[5:] == [pytest.approx(3.1, abs=0.3)] * 2
-    assert device.is_connected is False  # it was left
-
-
 def test_a_request_that_is_never_answered_ends_the_attempt() -> None:
     class Mute(Strap):
         def read(self, channel: str, now: float) -> bytes | None:

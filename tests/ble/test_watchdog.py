@@ -43,24 +43,6 @@ def test_only_a_stream_that_was_silent_too_long_is_ever_named(moments: list[tupl
 
 
 @given(moments)
-def test_a_look_when_it_is_due_finds_something_and_no_look_before_does(moments: list[tuple[float, str | None]]) -> None:
-    dog, now = Watchdog(STREAMS, PATIENCE, t_start=0.0), 0.0
-    for wait, channel in moments:
-        due = dog.next_check_at()
-        assert due is not None and due >= now
-        if channel is not None and now + wait < due:
-            now += wait
-            dog.add_notification(channel, now)
-            assert dog.check(now) is None
-        else:
-            now = due
-            found = dog.check(now)
-            assert found is not None
-            if found[1] is Remedy.RECONNECT:
-                dog = Watchdog(STREAMS, PATIENCE, t_start=now)
-
-
-@given(moments)
 def test_a_device_is_reconnected_only_after_every_try_failed_in_a_row(moments: list[tuple[float, str | None]]) -> None:
     dog, now, remedied, tries = Watchdog(("acc",), PATIENCE, t_start=0.0), 0.0, 0.0, 0
     for wait, channel in moments:

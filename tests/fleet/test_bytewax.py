@@ -15,8 +15,8 @@ pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheel
 from bytewax import operators
 from bytewax.dataflow import Dataflow
 from bytewax.recovery import RecoveryConfig, init_db_dir
-from bytewax.testing import TestingSink, TestingSource, cluster_main, run_main
-from sites import RECIPES, site
+from bytewax.testing import TestingSink, TestingSource, run_main
+from sites import site
 
 from solepath.fleet import Fleet, NumberedEvent
 from solepath.fleet.bytewax import gait
@@ -25,13 +25,11 @@ INTERVAL = timedelta(milliseconds=20)
 """Time between two snapshots."""
 
 
-def job(
-    items: Iterable[Any], emitted: list[tuple[str, NumberedEvent]], recipe: str = "default", **options: Any
-) -> Dataflow:
+def job(items: Iterable[Any], emitted: list[tuple[str, NumberedEvent]]) -> Dataflow:
     """Run a fleet from a list to a list; the source saves its position in the recovery store, the sink nothing."""
     flow = Dataflow("job")
     sent = operators.input("sent", flow, TestingSource(items, batch_size=50))
-    operators.output("events", gait("gait", sent, Fleet(RECIPES[recipe]), **options), TestingSink(emitted))
+    operators.output("events", gait("gait", sent, Fleet()), TestingSink(emitted))
     return flow
 
 
@@ -51,29 +49,17 @@ def store(tmp_path: Path) -> RecoveryConfig:
     return RecoveryConfig(str(tmp_path))
 
 
-@pytest.mark.parametrize("recipe", RECIPES)
 def test_each_wearer_has_the_events_of_a_session_of_their_own_also_when_the_job_breaks_off_again_and_again(
-    recipe: str, store: RecoveryConfig
+    store: RecoveryConfig,
 ) -> None:
-    sent, events = site(recipe)
+    sent, events = site()
     items: list[Any] = list(sent)
     for place in sorted(Random(1).sample(range(len(items)), 3), reverse=True):
         items.insert(place, TestingSource.ABORT())
     emitted: list[tuple[str, NumberedEvent]] = []
-    flow = job(items, emitted, recipe)
+    flow = job(items, emitted)
     for _ in range(3):
         run_main(flow, epoch_interval=INTERVAL, recovery_config=store)
         assert by_wearer(emitted) != events
     run_main(flow, epoch_interval=INTERVAL, recovery_config=store)
-    assert by_wearer(emitted) == events
-
-
-def test_wearers_are_divided_among_workers_and_move_when_their_number_changes(store: RecoveryConfig) -> None:
-    sent, events = site()
-    third = len(sent) // 3
-    pause = TestingSource.EOF()
-    emitted: list[tuple[str, NumberedEvent]] = []
-    flow = job([*sent[:third], pause, *sent[third : 2 * third], pause, *sent[2 * third :]], emitted)
-    for workers in (2, 3, 1):
-        cluster_main(flow, [], 0, epoch_interval=INTERVAL, recovery_config=store, worker_count_per_proc=workers)
     assert by_wearer(emitted) == events

@@ -6,18 +6,15 @@ import json
 from typing import Any
 
 import pytest
-from attrs import evolve
-from fleets import WEARER, cut, shown, stepped, uses, walked
+from fleets import WEARER, cut, shown, stepped, uses
 from here import PROTOCOL
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.events import PacketRejected, Rejection, StrideTaken
-from solepath.fleet import End, Fleet, NumberedEvent, Sent, SentRejected, Tick, read_line
+from solepath.fleet import End, Fleet, NumberedEvent, Sent, Tick, read_line
 from solepath.fleet.step.sent import MAX_COUNT
 
 STORIES = json.loads((PROTOCOL / "fleet" / "stories.json").read_text())
-FLEET = Fleet()
 NARROW_FLEET = Fleet(window=3)
 
 
@@ -46,28 +43,6 @@ def test_rows_become_the_events_of_their_story(story: dict[str, Any]) -> None:
             used = [one["what"] for one in gives if one["what"] in ("used", "ended")]
             assert fleet.open(WEARER, state).ended is (used[-1] == "ended")
     assert numbers == list(range(len(numbers)))
-
-
-class OwnSent(Sent):
-    """A row of an app's own class, which never takes the short way of packets that are in their turn."""
-
-
-@settings(max_examples=60)
-@given(
-    arrived=st.lists(st.tuples(st.integers(0, 2), st.integers(0, 9)), max_size=60),
-    windows=st.tuples(st.integers(0, 6), st.integers(0, 6)),
-)
-def test_a_packet_in_its_turn_is_used_as_any_other_row_is(
-    arrived: list[tuple[int, int]], windows: tuple[int, int]
-) -> None:
-    sent = [shown(number, run) for run, number in sorted(arrived, key=lambda one: one[0] == 2)]
-    own = [OwnSent(one.wearer, one.number, one.what, one.run) for one in sent]
-    half, states = len(sent) // 2, [None, None]
-    for fleet, some in ((Fleet(window=windows[0]), slice(half)), (Fleet(window=windows[1]), slice(half, None))):
-        (states[0], events), (states[1], expected) = (
-            fleet.step(WEARER, state, one[some]) for state, one in zip(states, (sent, own), strict=True)
-        )
-        assert events == expected and states[0] == states[1]
 
 
 def rows(count: int, ended: bool) -> list[Sent]:
@@ -113,14 +88,6 @@ def test_how_rows_are_cut_into_calls_changes_nothing_whatever_they_are(arrived: 
     assert [one.number for one in emitted] == list(range(len(emitted)))
 
 
-def test_rows_are_waited_for_as_far_as_the_window_and_no_further() -> None:
-    window = 256
-    assert not uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 1)]))
-    emitted = uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 2)]))
-    assert emitted[0] == ("missing", 0, 0, 1)
-    assert [number for _, _, number, _ in emitted[1:]] == list(range(1, window + 2))
-
-
 def run(of: int, count: int, first: int = 0) -> list[Sent]:
     return [shown(number, of) for number in range(first, first + count)]
 
@@ -140,23 +107,3 @@ def test_whatever_came_before_a_new_run_is_used_except_a_window_of_rows(before: 
     _, emitted = NARROW_FLEET.step(WEARER, None, [*before, *run(new, 20)])
     used_numbers = [number for of, number in used(emitted) if of == new]
     assert len(used_numbers) >= 17 and used_numbers[-13:] == list(range(7, 20))
-
-
-def test_a_flood_of_rows_that_are_late_is_reported_ever_more_seldom() -> None:
-    state, _ = FLEET.step(WEARER, None, [*run(5, 3), shown(0, 9)])
-    flood = [one for k in range(2000) for one in (shown(3 + k, 5), shown(1 + k, 9))]
-    _, emitted = FLEET.step(WEARER, state, flood)
-    assert [one.event.count for one in emitted if isinstance(one.event, SentRejected)] == [2**k for k in range(11)]
-    assert len(used(emitted)) == 2000
-
-
-def test_a_phone_that_was_started_again_with_a_clock_at_nought_is_followed_after_19_packets_of_each_site() -> None:
-    sent = walked().sent
-    half = len(sent) // 2
-    shifted = [evolve(one, what=evolve(one.what, t=one.what.t + 50_000.0)) for one in sent[:half]]
-    state, _ = FLEET.step(WEARER, None, shifted)
-    again = [evolve(one, number=number, run=1) for number, one in enumerate(sent[half:])]
-    emitted = [one.event for one in FLEET.step(WEARER, state, again)[1]]
-    backwards = [e.reason for e in emitted if isinstance(e, PacketRejected)].count(Rejection.TIME_BACKWARDS)
-    assert 19 <= backwards <= 2 * 19  # the first site that shows it is enough
-    assert sum(isinstance(event, StrideTaken) for event in emitted) >= 2

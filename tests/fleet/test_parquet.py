@@ -77,41 +77,6 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
     ]  # fmt: skip
 
 
-def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:
-    runs = {}
-    for partition in ("0", "1"):
-        parts = PartFiles(tmp_path, partition)
-        for one in make_events(3):
-            put(parts, [one])
-        runs[partition] = parts.run
-    mine = [".part-1-00000009.parquet.writing", "notes.txt"]
-    for name in (".part-1-7-00000009.parquet.writing", ".part-0-7-00000003.parquet.writing", "notes.txt"):
-        (tmp_path / name).write_bytes(b"half")
-    assert PartFiles(tmp_path, "0", (runs["0"], 1)).close() == (runs["0"], 1)
-    assert names(tmp_path) == sorted([*mine, FIRST, *(f"part-1-0000000{n}.parquet" for n in range(3))])
-
-
-def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
-    parts, all_events = PartFiles(tmp_path), make_events(4)
-    known = [put(parts, [one]) for one in all_events[:3]]
-    put(PartFiles(tmp_path), all_events[:1])
-    assert rows(tmp_path) == [event_row(all_events[0])]
-    caplog.clear()
-    parts = PartFiles(tmp_path, "0", (known[0][0], 2))
-    assert rows(tmp_path) == [event_row(one) for one in all_events[:2]]
-    put(parts, all_events[2:])
-    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in all_events])
-    assert caplog.messages == [
-        f"{tmp_path}: an earlier run goes on, and its parts are back (2); those of another are hidden (1)"
-    ]
-    assert names(tmp_path)[0] == f".{FIRST}.replaced"
-    caplog.clear()
-    PartFiles(tmp_path, "0", parts.close())
-    assert caplog.messages == []
-
-
 @contextmanager
 def files_of_at_most(size: int) -> Iterator[None]:
     """Let the system reject any longer file of this process."""

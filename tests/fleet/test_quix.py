@@ -145,30 +145,6 @@ def test_a_killed_job_emits_everything_again_under_the_same_identity_and_nothing
     assert len(read_messages) > each_once(read_messages), "no kill fell between a commit and what was told after it"
 
 
-RECOVERED_TEXT = "Recovery process complete"
-"""Text in the log of a job that has read the changelog of a partition."""
-
-
-def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was(kafka: Broker) -> None:
-    """A second job with another disk joins, takes over a partition, and is killed; the first takes it back."""
-    from brokers import kill
-
-    walks = messages(lines=2)
-    with kafka.topics("moved") as topics:
-        topics.send(walks[: len(walks) // 3])
-        first = topics.start("one")
-        wait_for(topics, 20)
-        second, end = topics.start("two"), time.monotonic() + 90
-        while RECOVERED_TEXT not in topics.log("two"):
-            assert time.monotonic() < end and second.poll() is None, "the second job took nothing over"
-            time.sleep(0.2)
-        topics.send(walks[len(walks) // 3 : 2 * len(walks) // 3])
-        wait_for(topics, 40)
-        kill(second)
-        topics.send(walks[2 * len(walks) // 3 :])
-        each_once(topics.finish(first, "one"))
-
-
 MAX_KEY_BYTES = 999_900
 """Size of a key or header, bytes, with which a producer accepts a message, but not together with a row."""
 NO_NAMES: list[bytes | None] = [None, b"", b"\xff\xfe", b"k" * 257, b"unkeyed/0"]

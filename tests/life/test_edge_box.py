@@ -112,22 +112,6 @@ def test_rows_of_a_box_that_was_killed_after_a_save_are_those_of_one_session(tmp
     assert [row for _, _, row in rows(database)] + unsaved == events
 
 
-def test_after_an_update_of_solepath_the_rows_go_on_with_a_new_track(tmp_path: Path) -> None:
-    module, database = example(), tmp_path / "box.db"
-    box = module.Box(str(database), 0.0)
-    for packet in PACKETS[:HALF]:
-        box.receive(packet)
-    before = rows(database)
-    with box.database:
-        box.database.execute("update saved set session = ?", [b"of another version"])
-    again = module.Box(str(database), PACKETS[HALF].t)
-    for packet in PACKETS[HALF:]:
-        again.receive(packet)
-    found = rows(database)
-    assert found[: len(before)] == before and [number for number, _, _ in found] == list(range(1, len(found) + 1))
-    assert sum(row["event"] == "StrideTaken" for _, _, row in found[len(before) :]) >= 1
-
-
 def test_after_a_reboot_the_clock_restarts_and_after_a_kill_it_does_not(tmp_path: Path) -> None:
     module, database = example(), tmp_path / "box.db"
     resets = []

@@ -72,18 +72,6 @@ def test_on_another_day_the_heading_drifts_by_a_part_of_what_it_did() -> None:
     assert drifts["with"] < 0.5 * drifts["without"]
 
 
-def test_a_session_with_a_calibration_is_surer_of_its_heading() -> None:
-    samples = walk_of(Route().stand(3.0).walk(60.0, 1.3).stop(2.0))
-    sigmas = []
-    for calibration in (Calibration(), learnt()):
-        session = Session(calibration=calibration)
-        for sample in samples:
-            session.feed(sample)
-        assert session.position is not None
-        sigmas.append(session.position.heading_sigma or 0.0)
-    assert 0.0 < sigmas[1] < 0.7 * sigmas[0]
-
-
 @pytest.mark.parametrize("name", recipes.NAMES)
 def test_every_recipe_takes_the_drift_off(name: str) -> None:
     """By as much in every stride as the calibration says, here a whole degree."""

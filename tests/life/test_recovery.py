@@ -123,18 +123,3 @@ def test_after_a_reboot_no_packet_is_lost_and_the_track_continues(run: Run, shif
     strides = of(StrideTaken, events)
     assert len(strides) >= len(of(StrideTaken, Session().feed(PACKETS[HALF:]))) > 0
     assert position is not None and abs(strides[0].position[0] - position.position[0]) < 3.0
-
-
-@pytest.mark.parametrize("shift", [4000.0, -1e5], ids=["longer uptime", "shorter uptime"])
-def test_a_replay_restarts_the_clock_where_the_app_did(run: Run, shift: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    rest = [evolve(packet, t=packet.t + shift) for packet in PACKETS[HALF:]]
-    monkeypatch.setattr("time.monotonic", lambda: rest[0].t - 2.0)
-    names = run(CUT, TORN, FULL, REBOOTED)
-    for packet in rest:
-        names["received"](packet)
-    assert names["recording"] == "walk-0003.jsonl" and tuple(read_packets(names["recording"])) == tuple(rest)
-    assert names["resume"]().pack() == names["session"].pack()
-    names["save"](fed(PACKETS[:HALF]), "walk-0001.jsonl", HALF)
-    assert names["resume"]().pack() == names["session"].pack()
-    Path("walk-0001.jsonl").unlink()
-    assert names["next_recording"]() == "walk-0004.jsonl"

@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Awaitable, Callable
 
 import pytest
-from bleak import BleakClient, BleakScanner
+from bleak import BleakScanner
 from bleak.exc import BleakError, BleakGATTProtocolError
 from strap import BATTERY, BEAT, BOOK, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, standard
 from virtual import ONE, TWO, Host, find, linked, now, strap, virtually
@@ -120,21 +120,3 @@ async def test_a_link_with_an_interval_sends_everything_at_its_events_in_order()
         async with host.client:
             assert await host.client.read_gatt_char(CONTROL) == b"\0"
             assert len(host.received) == received
-
-
-@pytest.mark.parametrize("at", [1.15, 1.2, 1.25, 1.3, 1.4])
-@virtually
-async def test_a_link_that_is_lost_while_it_is_paired_or_discovered_is_an_error_and_the_next_one_stands(
-    at: float,
-) -> None:
-    device = strap(faults=f"0 * pairing; {at} * disconnect")
-    async with virtual_link([device], interval=0.03) as backend:
-        found = await find(backend)
-        await asyncio.sleep(1.0 - now())
-        client = BleakClient(found, backend=backend.client, pair=True)
-        with pytest.raises(BleakError, match="lost"):
-            await client.connect()
-        assert at - 0.01 < now() < at + 0.05
-        assert not client.is_connected
-        async with client:
-            assert await client.read_gatt_char(CONTROL) == b"\0"

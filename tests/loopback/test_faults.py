@@ -93,16 +93,3 @@ def test_a_frozen_stream_thaws_by_itself_or_when_it_is_set_up_again() -> None:
     assert not movements(device, 10.0)
     device.write("cc2650/movement-config", b"\x7f\x02", 10.0)
     assert len(movements(device, 12.0)) == pytest.approx(20, abs=1)
-
-
-def test_a_restarted_walk_has_the_faults_of_its_script_again() -> None:
-    device = tag("1 left_foot drop 3; 2 left_foot disconnect")
-    assert sum(t < 2.0 for t, _ in movements(device, 5.0)) > 5
-    assert device.fault_count == 2 and not device.is_connected
-    device.walk_from(10.0)
-    assert device.fault_count == 0
-    set_up(device, cc2650.PROFILE, now=9.0)
-    again = movements(device, 20.0)
-    assert device.fault_count == 2 and not device.is_connected
-    assert max(t for t, _ in again) < 12.0
-    assert max(b - a for (a, _), (b, _) in zip(again, again[1:], strict=False)) > 0.35, "three were dropped again"

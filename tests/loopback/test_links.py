@@ -8,7 +8,7 @@ import pytest
 from bleak import BleakClient
 from bleak.exc import BleakError
 from strap import CONTROL, LEVEL, PAGE
-from virtual import ONE, TWO, Host, find, linked, now, run, strap, virtually
+from virtual import ONE, TWO, Host, find, linked, now, strap, virtually
 
 from solepath.emulate.controllers.server import virtual_link
 
@@ -55,21 +55,3 @@ async def test_a_connection_that_its_caller_gives_up_leaves_nothing_behind() -> 
             assert now() - t_request < 0.5
         await asyncio.sleep(15.0)
         assert not absent.is_connected
-
-
-def test_the_same_devices_send_the_same_values_at_the_same_times() -> None:
-    runs: list[list[tuple[float, bytes]]] = []
-
-    async def main() -> None:
-        devices = [strap("one", ONE, "2 * drop 3; 3 * flip 5; 4 * disconnect"), strap("two", TWO)]
-        async with virtual_link(devices) as backend:
-            hosts = [Host(backend, device) for device in (await find(backend, "one"), await find(backend, "two"))]
-            await asyncio.gather(*(host.client.connect() for host in hosts))
-            await asyncio.gather(*(host.count(100) for host in hosts))
-            await asyncio.sleep(5.0)
-            runs.append(hosts[0].received + hosts[1].received)
-
-    run(main)
-    run(main)
-    assert len(runs[0]) > 800
-    assert runs[0] == runs[1]

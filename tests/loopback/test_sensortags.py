@@ -96,16 +96,6 @@ def test_values_of_wrong_length_or_meaning_are_rejected_with_the_codes_of_the_de
         assert error_code(tag, channel, value) == code, (channel, value)
 
 
-def test_the_barometer_sends_the_air_pressure_at_its_own_period() -> None:
-    tag = start(worn(CC2650()), "cc2650/barometer")
-    tag.write("cc2650/barometer-period", b"\x14", 0.0)
-    assert tag.next_due() is None
-    tag.write("cc2650/barometer-config", b"\x01", 0.0)
-    received = [parse("cc2650/barometer", o.value) for _, o in played(tag, 8.0)]
-    assert len(received) == pytest.approx(40, abs=3)
-    assert all(one.pressure == pytest.approx(101325.0, abs=300.0) for one in received)
-
-
 # the CC2541
 
 

@@ -22,23 +22,6 @@ from solepath.emulate.controllers.tcp import address_of, reach, serve
 
 HERE = HELPERS / "radio"
 
-LISTEN = """
-import asyncio, sys
-from bleak import BleakClient, BleakScanner
-from solepath.emulate.controllers.tcp import reach
-from strap import BEAT, CONTROL
-
-async def main():
-    async with reach(sys.argv[1]) as backend:
-        device = await BleakScanner.find_device_by_name("one", 5.0, backend=backend.scanner)
-        async with BleakClient(device, backend=backend.client) as client:
-            await client.start_notify(BEAT, lambda _, value: print(value.hex(), flush=True))
-            await client.write_gatt_char(CONTROL, bytes([50]), response=True)
-            await asyncio.sleep(60.0)
-
-asyncio.run(main())
-"""
-
 
 def really(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
     """Run an async test in real time; no task may be left running at the end."""
@@ -124,24 +107,6 @@ async def test_another_processs_devices_are_found_and_stream_until_it_is_killed_
                 await client.connect()
                 assert await client.read_gatt_char(LEVEL) == b"\x57"
                 await client.disconnect()
-
-
-@really
-async def test_a_killed_clients_device_advertises_again_and_the_next_client_connects() -> None:
-    strap = Strap("one", "F0:00:00:00:00:01")
-    async with serve([strap], "127.0.0.1", 0) as (_, port):
-        where = f"tcp:127.0.0.1:{port}"
-        async with program("-c", LISTEN, where) as first:
-            assert len(await line(first)) == 40
-            assert strap.is_connected
-            async with reach(where) as backend:
-                assert await BleakScanner.find_device_by_name("one", 0.5, backend=backend.scanner) is None
-                first.kill()
-                async with BleakClient(await find(backend), backend=backend.client) as client:
-                    await beats(client)
-            assert not strap.is_connected
-        async with reach(where) as backend, BleakClient(await find(backend), backend=backend.client) as client:
-            assert await client.read_gatt_char(LEVEL) == b"\x57"
 
 
 @really
