@@ -76,7 +76,7 @@ def test_a_fault_of_bleak_in_one_foots_client_is_reported_and_survived_and_does_
 @pytest.mark.parametrize("error", REJECTIONS, ids=["winrt", "bluez"])
 def test_a_rejection_beside_the_stream_is_reported_with_its_channel_and_the_foot_streams(error: Exception) -> None:
     for request in ("read_gatt_char", "start_notify"):
-        bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
+        bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8, rate=50.0)})
         backend = raising(MemoryRadio(bench.peripherals).backend, request, error, where="device/battery")
         packets = received(backend, DeviceConfig(LEFT, bench[LEFT].address), seconds=8.0)
         if request == "read_gatt_char":
@@ -84,13 +84,12 @@ def test_a_rejection_beside_the_stream_is_reported_with_its_channel_and_the_foot
             assert words.startswith("device/battery cannot be read: ")
         else:
             assert not [words for words in troubles(packets) if not words.startswith("device/battery cannot be sub")]
-        assert len([packet for packet in packets if packet.channel == "insole/frame"]) > 600
+        assert len([packet for packet in packets if packet.channel == "insole/frame"]) > 300
         assert len([packet for packet in packets if packet.channel == "receiver/connected"]) == 1
 
 
-@pytest.mark.parametrize("error", REJECTIONS, ids=["winrt", "bluez"])
-def test_a_stream_that_is_rejected_is_no_connection(error: Exception) -> None:
-    backend = raising(logged_radio(strap()).backend, "start_notify", error, where="strap/beat", until=3.0)
+def test_a_stream_that_is_rejected_is_no_connection() -> None:
+    backend = raising(logged_radio(strap()).backend, "start_notify", REJECTIONS[1], where="strap/beat", until=3.0)
     packets = received(backend, DeviceConfig(PELVIS, address(1), STRAP), seconds=12.0)
     assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
     assert [packet for packet in packets if packet.channel == "strap/beat"]

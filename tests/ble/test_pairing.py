@@ -29,6 +29,9 @@ KINDS: dict[str, tuple[Profile, Device]] = {
 }
 
 
+both = pytest.mark.parametrize("tier", ["memory", pytest.param("bumble", marks=pytest.mark.soak)])
+
+
 def bench(faults: str, device: Device | None = None) -> Bench:
     worn = Bench(ROUTE, devices={LEFT: device or Insole()}, faults=parse_faults(faults))
     worn.prepare()
@@ -52,7 +55,7 @@ def streamed(packets: list[Packet], profile: Profile) -> list[float]:
     return [packet.t for packet in packets if packet.channel in profile.streams]
 
 
-@pytest.mark.parametrize("tier", TIERS)
+@both
 @pytest.mark.parametrize("kind", KINDS)
 def test_without_pairing_only_the_need_to_pair_is_reported(tier: str, kind: str) -> None:
     packets = receive(tier, "0 * pairing", False, 20.0, kind)
@@ -63,7 +66,7 @@ def test_without_pairing_only_the_need_to_pair_is_reported(tier: str, kind: str)
     assert trouble.endswith("the device must be paired first: pair=True, or --pair")
 
 
-@pytest.mark.parametrize("tier", TIERS)
+@both
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_paired_device_streams_also_after_a_reconnect_without_pairing_again(tier: str, kind: str) -> None:
     # an attempt to pair on the second link would be refused, and told
@@ -77,14 +80,14 @@ def test_a_paired_device_streams_also_after_a_reconnect_without_pairing_again(ti
     assert second == pytest.approx(first, rel=0.1)
 
 
-@pytest.mark.parametrize("tier", TIERS)
+@both
 def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_the_remedy_is_reported(tier: str) -> None:
     packets = receive(tier, "4 * pairing", False, 12.0)
     assert 3.9 < max(streamed(packets, INSOLE)) < 4.1
     assert any("the device must be paired first" in what for what in troubles(packets))
 
 
-@pytest.mark.parametrize("tier", TIERS)
+@both
 def test_a_rejected_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another(tier: str) -> None:
     packets = receive(tier, "0 * pairing; 0 * refuse pairing 2", True, 5.0)  # two, since each search is good for two
     (trouble,) = troubles(packets)

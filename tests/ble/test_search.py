@@ -24,6 +24,7 @@ from solepath.types import Packet, Site
 from solepath.wire.receiver import parse_connected
 
 PELVIS = Site.PELVIS
+INSOLE_DEVICE = Insole(cells=8, rate=50.0)
 
 
 def feet(device: Device, faults: str = "") -> Bench:
@@ -47,7 +48,7 @@ def streams(packets: list[Packet], channel: str = "insole/frame") -> set[Site]:
 
 @pytest.mark.parametrize("which", ["f0:5e:00:00:00:02", "solepath R"])
 def test_a_device_is_found_by_its_address_or_by_its_name(which: str) -> None:
-    packets = got(feet(Insole()).peripherals, [DeviceConfig(RIGHT, which)])
+    packets = got(feet(INSOLE_DEVICE).peripherals, [DeviceConfig(RIGHT, which)])
     assert connected(packets) == {RIGHT: "F0:5E:00:00:00:02"}
     assert streams(packets) == {RIGHT}
     assert not troubles(packets)
@@ -58,7 +59,7 @@ def test_a_device_is_found_by_its_address_or_by_its_name(which: str) -> None:
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_any_two_insoles_report_their_feet_whichever_advertises_first(turned: bool) -> None:
-    bench = feet(Insole())
+    bench = feet(INSOLE_DEVICE)
     peripherals = bench.peripherals[::-1] if turned else bench.peripherals
     packets = got(peripherals, [DeviceConfig(None, profile=INSOLE)] * 2)
     assert connected(packets) == {site: bench[site].address for site in (LEFT, RIGHT)}
@@ -67,13 +68,13 @@ def test_any_two_insoles_report_their_feet_whichever_advertises_first(turned: bo
 
 
 def test_the_insole_of_the_other_foot_is_rejected_with_a_reason() -> None:
-    packets = got(feet(Insole()).peripherals, [DeviceConfig(RIGHT, "F0:5E:00:00:00:01")], seconds=30.0)
+    packets = got(feet(INSOLE_DEVICE).peripherals, [DeviceConfig(RIGHT, "F0:5E:00:00:00:01")], seconds=30.0)
     assert not connected(packets)
     assert troubles(packets) == ["solepath L is a left foot one: expected at the right foot"]
 
 
 def test_two_insoles_of_one_foot_are_not_taken_for_a_pair() -> None:
-    bench, spare = feet(Insole()), Bench(ROUTE, devices={LEFT: Insole()}, seed=4)[LEFT]
+    bench, spare = feet(INSOLE_DEVICE), Bench(ROUTE, devices={LEFT: INSOLE_DEVICE}, seed=4)[LEFT]
     spare.address = "F0:5E:00:00:00:09"
     packets = got((bench[LEFT], spare), [DeviceConfig(None, profile=INSOLE)] * 2)
     assert len(connected(packets)) == 1
@@ -163,7 +164,7 @@ def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
 
 
 def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
-    packets = got((), [DeviceConfig(LEFT, "solepath L")], seconds=300.0, patience=7.0)
+    packets = got((), [DeviceConfig(LEFT, "solepath L")], seconds=100.0, patience=7.0)
     [words] = troubles(packets)
     assert words.startswith("no device 'solepath L' is in range: switch it on, bring it near")
     [connected_packet] = [packet for packet in packets if packet.channel == "receiver/trouble"]
@@ -187,7 +188,7 @@ async def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() ->
 @virtually
 async def test_a_scan_lists_known_and_unknown_devices() -> None:
     started_at = now()
-    found = await scan(2.0, backend=MemoryRadio((*feet(Insole()).peripherals, strap())).backend)
+    found = await scan(2.0, backend=MemoryRadio((*feet(INSOLE_DEVICE).peripherals, strap())).backend)
     assert now() - started_at == pytest.approx(2.0)
     kinds = {one.address: one.profile.name if one.profile else None for one in found}
     assert kinds == {TAGS[0]: "insole", TAGS[1]: "insole", address(1): None}

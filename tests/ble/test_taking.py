@@ -27,7 +27,7 @@ def taken_late(capacity: int, wait: float) -> list[Packet]:
     """Return the packets of an app that takes nothing for a while, and then all."""
 
     async def main() -> list[Packet]:
-        bench = Bench(Route().stand(25.0), seed=3)
+        bench = Bench(Route().stand(12.0), seed=3)
         configs = [DeviceConfig(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
         async with Devices(configs, backend=MemoryRadio(bench.peripherals).backend, capacity=capacity) as devices:
             await asyncio.sleep(wait)
@@ -44,10 +44,10 @@ def taken_late(capacity: int, wait: float) -> list[Packet]:
 
 
 def test_what_an_app_is_too_slow_for_goes_from_the_oldest_on_and_is_counted() -> None:
-    packets = taken_late(capacity=300, wait=20.0)
+    packets = taken_late(capacity=300, wait=8.0)
     frames = [packet for packet in packets if packet.channel == "insole/frame"]
     assert len(frames) in range(290, 301)
-    assert min(packet.t for packet in frames) > 18.0
+    assert min(packet.t for packet in frames) > 6.0
     for site in (LEFT, RIGHT):
         mine = [packet for packet in packets if packet.site is site]
         assert [packet.t for packet in mine] == sorted(packet.t for packet in mine)

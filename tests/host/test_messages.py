@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath.session.json_host import HANDLERS, JsonHost
@@ -75,6 +75,7 @@ KEYS = [
 ]
 
 
+@settings(max_examples=40)
 @given(
     st.lists(
         st.fixed_dictionaries({"type": st.sampled_from([*HANDLERS])}, optional={key: VALUES for key in KEYS}),

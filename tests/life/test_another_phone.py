@@ -16,7 +16,7 @@ from walks import insoles, of
 from solepath import ClockReset, DefectFound, LayoutKnown, Packet, PacketRejected, Rejection, Session, Site, StrideTaken
 
 CUT, TORN, FULL, *_, PHONE = blocks(PAGES["docs/app_life.md"], "python")
-PACKETS = insoles().packets
+PACKETS = insoles(cells=24).packets
 HALF = len(PACKETS) // 2
 OLD = {Site.LEFT_FOOT: "F0:5E:00:00:00:01", Site.RIGHT_FOOT: "F0:5E:00:00:00:02"}
 NEW = {Site.LEFT_FOOT: "9C4E2A10-0001", Site.RIGHT_FOOT: "9C4E2A10-0002"}

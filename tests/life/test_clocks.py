@@ -16,7 +16,7 @@ from walks import insoles, of
 from solepath import ClockReset, Packet, PacketRejected, Rejection, Session, StreamStale, StrideTaken
 
 CUT, TORN, FULL, _, REBOOTED, ZONE, _ = blocks(PAGES["docs/app_life.md"], "python")
-PACKETS = insoles().packets
+PACKETS = insoles(cells=24).packets
 HALF = len(PACKETS) // 2
 EPOCH = 1.8e9
 """Time of an app that stamps with the date, s since 1970."""

@@ -25,7 +25,7 @@ from walks import insoles
 
 from solepath import Session
 
-PACKETS = insoles().packets
+PACKETS = insoles(cells=24).packets
 HALF = len(PACKETS) // 2
 
 ADDRESSES = ("F0:5E:00:00:00:01", "F0:5E:00:00:00:02")
@@ -73,25 +73,23 @@ def strides(database: Path) -> int:
         return 0
 
 
-@pytest.fixture(scope="module")
-def walked(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the database of a box that was killed three times in one walk."""
-    database = tmp_path_factory.mktemp("box") / "box.db"
-    with emulator("--duration", "600") as (_, address):
-        for kill in range(4):
-            with box(database, address):
+@pytest.mark.soak
+def test_killed_twice_in_mid_walk_a_box_has_every_row_once_and_gives_systemd_signs_of_life(tmp_path: Path) -> None:
+    database, notify = tmp_path / "box.db", tmp_path / "notify"
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as systemd, emulator("--duration", "600") as (_, address):
+        systemd.bind(str(notify))
+        systemd.settimeout(TAKES)
+        for kill in range(3):
+            with box(database, address, NOTIFY_SOCKET=str(notify)):
                 wait_for_strides(database, (strides(database) if kill else 0) + 3 + kill)
-    return database
-
-
-def test_after_three_kills_in_mid_walk_no_row_is_missing_or_there_twice(walked: Path) -> None:
-    found = rows(walked)
+        assert [systemd.recv(100) for _ in range(2)] == [b"READY=1\nWATCHDOG=1"] * 2
+    found = rows(database)
     assert [number for number, _, _ in found] == list(range(1, len(found) + 1))
     known = [row["known_at"] for _, _, row in found]
     assert known == sorted(known)
     for foot in ("left", "right"):
         taken = [row for _, _, row in found if row["event"] == "StrideTaken" and row["foot"] == foot]
-        assert len(taken) >= 6
+        assert len(taken) >= 4
         assert all([before["t_end"] <= after["t_start"] + 1e-9 for before, after in pairwise(taken)])
 
 
@@ -127,18 +125,9 @@ def test_after_a_reboot_the_clock_restarts_and_after_a_kill_it_does_not(tmp_path
     assert not [row for _, _, row in rows(database) if row["event"] == "PacketRejected"]
 
 
-def test_systemd_starts_it_again_after_every_end_and_gets_signs_of_life(tmp_path: Path) -> None:
-    unit = configparser.RawConfigParser(strict=False, interpolation=None)
-    unit.optionxform = str  # type: ignore[assignment]
+def test_systemd_is_told_to_start_it_again_after_every_end() -> None:
+    unit = configparser.RawConfigParser(strict=False)
     unit.read(EXAMPLES / "edge_box.service")
     service = unit["Service"]
     assert (service["Restart"], service["Type"]) == ("always", "notify") and float(service["WatchdogSec"]) >= 5.0
     assert service["ExecStart"].split()[1].endswith("/edge_box.py") and len(service["ExecStart"].split()) == 5
-    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as systemd:
-        systemd.bind(str(tmp_path / "notify"))
-        systemd.settimeout(TAKES)
-        with (
-            emulator("--duration", "600") as (_, address),
-            box(tmp_path / "box.db", address, NOTIFY_SOCKET=str(tmp_path / "notify")),
-        ):
-            assert [systemd.recv(100) for _ in range(2)] == [b"READY=1\nWATCHDOG=1"] * 2
