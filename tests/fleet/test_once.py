@@ -46,13 +46,6 @@ def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(number
     assert len(state["_received"]) == limit
 
 
-def test_of_more_wearers_than_there_is_room_for_the_one_silent_longest_is_forgotten() -> None:
-    once = Once(limit=2)
-    assert [once.accept(wearer, 0) for wearer in ("anna", "bert", "anna", "carl", "anna", "bert")] == [
-        True, True, False, True, False, True,
-    ]  # fmt: skip
-
-
 def test_a_reader_restarts_from_the_newest_number_of_each_wearer_that_its_table_holds() -> None:
     once = Once.after({"anna": 7})
     assert [once.accept("anna", number) for number in (0, 6, 7, 8)] == [False, False, False, True]

@@ -77,7 +77,7 @@ def test_what_is_sent_is_read_again_from_its_row_and_from_its_line(sent: Sent) -
     assert all(value is None or type(value) is SENT_COLUMNS[name] for name, value in row.items())
 
 
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(row=st.one_of(ANYTHING, st.fixed_dictionaries({}, optional=dict.fromkeys(SENT_COLUMNS, ANYTHING))))
 def test_a_row_of_anything_is_read_or_is_unreadable(row: Any) -> None:
     assert isinstance(read_sent(row), Sent | Unreadable)

@@ -57,6 +57,7 @@ def test_the_walk_explains_most_of_what_its_legs_are_apart() -> None:
         assert 2e-4 < fit.heading.drift_sigma < 1e-3 and fit.heading.turning_sigma < 0.004
 
 
+@pytest.mark.soak
 def test_on_another_day_the_heading_drifts_by_a_part_of_what_it_did() -> None:
     """Arcs to both sides, which show no drift by themselves."""
     route = Route().stand(3.0)
@@ -126,6 +127,7 @@ def test_another_walk_is_no_calibration_for_a_stated_reason(route: Route, reason
         heading_walk(walk_of(route))
 
 
+@pytest.mark.soak
 def test_a_rest_after_the_walk_takes_off_what_a_wandering_bias_has_turned() -> None:
     """The bias of the left foot grows by 0.03 degrees/s from the first rest to the last one."""
     samples = [one for one in walk_of(there_and_back(15.0, 6, 10.0, 15.0)) if one.site is Site.LEFT_FOOT]
