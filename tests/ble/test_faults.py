@@ -118,15 +118,13 @@ def test_a_link_that_is_lost_while_a_frozen_stream_is_set_up_again_is_made_again
     assert trouble.what.startswith("the connection was lost: the device is sought again")
 
 
-@both
-def test_a_device_that_restarts_is_a_clock_reset(tier: str) -> None:
-    [reset] = of(ClockReset, events(receive(tier, "4 * restart", 7.0)))
+def test_a_device_that_restarts_is_a_clock_reset() -> None:
+    [reset] = of(ClockReset, events(receive("memory", "4 * restart", 7.0)))
     assert reset.restarted
 
 
-@both
-def test_a_device_that_vanishes_for_a_minute_is_stale_then_searched_for_and_back_within_seconds(tier: str) -> None:
-    found = events(receive(tier, "4 * vanish 60", 75.0))
+def test_a_device_that_vanishes_for_a_minute_is_stale_then_searched_for_and_back_within_seconds() -> None:
+    found = events(receive("memory", "4 * vanish 60", 75.0))
     order = of((StreamStale, Disconnected, LinkTrouble, Connected, StreamResumed), found)  # type: ignore[arg-type]
     kinds = [type(event) for event in order]
     assert kinds == [Connected, Disconnected, StreamStale, LinkTrouble, Connected, StreamResumed]
@@ -177,12 +175,11 @@ def test_a_stream_that_stays_frozen_is_connected_again(tier: str) -> None:
 WAKING = evolve(CC2650, setup=(CC2650.setup[0], Write("cc2650/movement-config", b"\xff\x02"), *CC2650.setup[2:]))
 
 
-@both
-def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
+def test_a_device_that_wakes_on_motion_may_be_silent() -> None:
     """The wearer stands, walks and stands; the tag sleeps 10 s after its last motion."""
     route = Route().stand(8.0).walk(5.0).stop(25.0)
     configs = (DeviceConfig(LEFT, FOOT_ADDRESS, WAKING),)
-    packets = receive(tier, "", 36.0, device=Tag(), route=route, configs=configs)
+    packets = receive("memory", "", 36.0, device=Tag(), route=route, configs=configs)
     found = events(packets)
     moved = [packet.t for packet in packets if packet.channel == "cc2650/movement"]
     assert moved and max(moved) < 30.0, "it did fall asleep"

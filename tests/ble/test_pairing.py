@@ -55,10 +55,9 @@ def streamed(packets: list[Packet], profile: Profile) -> list[float]:
     return [packet.t for packet in packets if packet.channel in profile.streams]
 
 
-@both
 @pytest.mark.parametrize("kind", KINDS)
-def test_without_pairing_only_the_need_to_pair_is_reported(tier: str, kind: str) -> None:
-    packets = receive(tier, "0 * pairing", False, 20.0, kind)
+def test_without_pairing_only_the_need_to_pair_is_reported(kind: str) -> None:
+    packets = receive("memory", "0 * pairing", False, 20.0, kind)
     assert streamed(packets, KINDS[kind][0]) == []
     first = {"insole": "insole/info cannot be read", "cc2650": "cc2650/movement cannot be subscribed"}
     [trouble] = set(troubles(packets))
@@ -80,16 +79,16 @@ def test_a_paired_device_streams_also_after_a_reconnect_without_pairing_again(ti
     assert second == pytest.approx(first, rel=0.1)
 
 
-@both
-def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_the_remedy_is_reported(tier: str) -> None:
-    packets = receive(tier, "4 * pairing", False, 12.0)
+def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_the_remedy_is_reported() -> None:
+    packets = receive("memory", "4 * pairing", False, 12.0)
     assert 3.9 < max(streamed(packets, INSOLE)) < 4.1
     assert any("the device must be paired first" in what for what in troubles(packets))
 
 
-@both
-def test_a_rejected_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another(tier: str) -> None:
-    packets = receive(tier, "0 * pairing; 0 * refuse pairing 2", True, 5.0)  # two, since each search is good for two
+def test_a_rejected_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another() -> None:
+    packets = receive(
+        "memory", "0 * pairing; 0 * refuse pairing 2", True, 5.0
+    )  # two, since each search is good for two
     (trouble,) = troubles(packets)
     assert "the device rejected the pairing" in trouble
     assert len(streamed(packets, INSOLE)) > 300
