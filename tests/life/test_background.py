@@ -26,7 +26,7 @@ from solepath import (
 from solepath.emulate import Insole, Route, emulate
 
 CUT, TORN, FULL, BACKGROUND, *_ = blocks(PAGES["docs/app_life.md"], "python")
-AWAY = 10.4
+AWAY = 10.22
 """Time at which the app goes to the background, s."""
 
 
