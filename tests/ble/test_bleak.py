@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 from airs import received, troubles
-from attrs import evolve
-from belts import RATE, READ_AFTER, STRAP, address, logged_radio, strap
+from belts import RATE, STRAP, address, logged_radio, strap
 from benches import LEFT, RIGHT
 from bleak.exc import BleakDBusError, BleakError
 from memory_radio import MemoryRadio
@@ -18,7 +17,6 @@ from solepath.ble import Backend, DeviceConfig
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.sensors.insole_device import Insole
-from solepath.link.profile import Access
 from solepath.types import Site
 
 PELVIS = Site.PELVIS
@@ -78,7 +76,7 @@ def test_a_fault_of_bleak_in_one_foots_client_is_reported_and_survived_and_does_
 @pytest.mark.parametrize("error", REJECTIONS, ids=["winrt", "bluez"])
 def test_a_rejection_beside_the_stream_is_reported_with_its_channel_and_the_foot_streams(error: Exception) -> None:
     for request in ("read_gatt_char", "start_notify"):
-        bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
+        bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8, rate=50.0)})
         backend = raising(MemoryRadio(bench.peripherals).backend, request, error, where="device/battery")
         packets = received(backend, DeviceConfig(LEFT, bench[LEFT].address), seconds=8.0)
         if request == "read_gatt_char":
@@ -86,27 +84,12 @@ def test_a_rejection_beside_the_stream_is_reported_with_its_channel_and_the_foot
             assert words.startswith("device/battery cannot be read: ")
         else:
             assert not [words for words in troubles(packets) if not words.startswith("device/battery cannot be sub")]
-        assert len([packet for packet in packets if packet.channel == "insole/frame"]) > 600
+        assert len([packet for packet in packets if packet.channel == "insole/frame"]) > 300
         assert len([packet for packet in packets if packet.channel == "receiver/connected"]) == 1
 
 
-def test_a_rejected_setting_is_reported_and_so_is_the_read_after_it() -> None:
-    more = evolve(STRAP.channel("strap/page"), name="strap/beside", access=Access.WRITE)
-    profile = evolve(
-        READ_AFTER,
-        channels=(*READ_AFTER.channels, more),
-        setup=(evolve(READ_AFTER.setup[0], channel="strap/beside"), *READ_AFTER.setup),
-    )
-    backend = raising(logged_radio(strap()).backend, "write_gatt_char", REJECTIONS[0], where="strap/page")
-    packets = received(backend, DeviceConfig(PELVIS, address(1), profile), seconds=5.0)
-    [words] = troubles(packets)
-    assert words.startswith("strap/beside was not set to 0a: ")
-    assert len([packet for packet in packets if packet.channel == "strap/beat"]) > 4 * RATE
-
-
-@pytest.mark.parametrize("error", REJECTIONS, ids=["winrt", "bluez"])
-def test_a_stream_that_is_rejected_is_no_connection(error: Exception) -> None:
-    backend = raising(logged_radio(strap()).backend, "start_notify", error, where="strap/beat", until=3.0)
+def test_a_stream_that_is_rejected_is_no_connection() -> None:
+    backend = raising(logged_radio(strap()).backend, "start_notify", REJECTIONS[1], where="strap/beat", until=3.0)
     packets = received(backend, DeviceConfig(PELVIS, address(1), STRAP), seconds=12.0)
     assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
     assert [packet for packet in packets if packet.channel == "strap/beat"]

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import signal
 import sys
-from collections import Counter
 from collections.abc import Callable, Coroutine
 from pathlib import Path
 from time import monotonic
@@ -16,7 +14,6 @@ from airs import others, troubles
 from bluez import Bluez
 from bus import DAEMON, message_bus
 
-from solepath import Connected, Disconnected, Session
 from solepath.ble import BluetoothError, DeviceConfig, Devices, scan
 from solepath.emulate import Route
 from solepath.emulate.devices.attributes import BATTERY_STEP
@@ -25,8 +22,6 @@ from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650
-from solepath.link.devices.cc2650 import PROFILE
-from solepath.recording import read_packets
 from solepath.types import Packet, Site
 
 pytestmark = [
@@ -126,35 +121,6 @@ def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
     assert not any(device.is_connected for device in pair.peripherals)
 
 
-def test_a_sensortag_obeys_its_setup(on_a_bus):
-    tag = bench(left_foot=CC2650())
-
-    async def main(address):
-        async with Bluez(tag.peripherals).serving(address), Devices([DeviceConfig(LEFT, tag[LEFT].address)]) as devices:
-            return await until(devices, lambda received: len(of(received, "cc2650/movement")) == 10)
-
-    received = on_a_bus(main)
-    assert all(any(data[6:12]) for data in of(received, "cc2650/movement"))  # axes that are off are zero
-    for write in PROFILE.setup:
-        assert write.value in of(received, write.channel)
-    assert not troubles(received)
-
-
-def test_a_lost_link_is_made_again_and_the_stream_goes_on(on_a_bus):
-    worn = bench()
-
-    async def main(address):
-        async with Bluez(worn.peripherals).serving(address) as bluez, Devices([THE_LEFT]) as devices:
-            received = await until(devices, frames(10))
-            bluez.lose()
-            return received + await until(devices, frames(10))
-
-    connection_events = [
-        type(event) for event in Session().feed(on_a_bus(main)) if isinstance(event, Connected | Disconnected)
-    ]
-    assert connection_events == [Connected, Disconnected, Connected]
-
-
 def test_bluetooth_that_is_switched_off_is_reported_and_waited_for(on_a_bus):
     worn = bench()
 
@@ -189,21 +155,6 @@ def test_a_bluetooth_service_that_dies_is_reported_and_its_successor_used(on_a_b
     dead = "the Bluetooth service does not run: systemctl start bluetooth"
     assert troubles(before) == [dead, f"cannot look for devices: {dead}"]
     assert len(of(after, "receiver/connected")) == 1
-
-
-def test_a_device_that_must_be_paired_is_reported_and_is_paired_on_request(on_a_bus):
-    worn = bench("0 left_foot pairing")
-
-    async def main(address):
-        async with Bluez(worn.peripherals).serving(address):
-            async with Devices([THE_LEFT]) as devices:
-                rejected = await until(devices, lambda received: bool(troubles(received)))
-            async with Devices([THE_LEFT], pair=True) as devices:
-                return rejected, await until(devices, frames(10))
-
-    rejected, received = on_a_bus(main)
-    assert troubles(rejected) == ["insole/info cannot be read: the device must be paired first: pair=True, or --pair"]
-    assert not troubles(received)
 
 
 def test_a_write_that_is_rejected_is_reported_with_the_devices_own_code(on_a_bus):
@@ -246,31 +197,3 @@ def test_without_a_bus_there_is_no_bluetooth_but_a_sentence(monkeypatch, address
     with pytest.raises(BluetoothError) as caught:
         asyncio.run(scan(0.1))
     assert "\n" not in str(caught.value)
-
-
-def test_record_ends_with_ctrl_c_disconnected_and_with_all_that_came(on_a_bus, tmp_path):
-    worn = bench()
-    worn[LEFT].log = []
-    path = tmp_path / "walk.jsonl"
-
-    async def main(address):
-        async with Bluez(worn.peripherals).serving(address) as bluez:
-            command = ["-m", "solepath", "record", "--left", worn[LEFT].address, "--out", str(path)]
-            pipe = asyncio.subprocess.PIPE
-            program = await asyncio.create_subprocess_exec(sys.executable, *command, stdout=pipe, stderr=pipe)
-            try:
-                while not path.exists() or path.read_text(encoding="utf-8").count("insole/frame") < 50:
-                    await asyncio.sleep(0.05)
-                program.send_signal(signal.SIGINT)
-                _, errors = await program.communicate()
-            finally:
-                if program.returncode is None:
-                    program.kill()
-            return program.returncode, errors.decode(), Counter(bluez.calls), bluez.is_idle
-
-    status, errors, calls, idle = on_a_bus(main)
-    assert (status, errors) == (0, "")
-    assert calls["Device1.Connect"] == calls["Device1.Disconnect"] == 1 and idle
-    recorded = of(list(read_packets(path)), "insole/frame")
-    assert len(recorded) >= 50
-    assert recorded == [sent.value for sent in worn[LEFT].log if sent.channel == "insole/frame"][: len(recorded)]

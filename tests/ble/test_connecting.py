@@ -3,36 +3,16 @@
 from __future__ import annotations
 
 import asyncio
-from itertools import pairwise
-from typing import Any
 
 import pytest
 from airs import received
-from belts import ONE, PELVIS, RATE, STRAP, address, failing, logged_radio, strap, times
+from belts import ONE, PELVIS, STRAP, address, failing, logged_radio, strap, times
 from benches import LEFT
 from bleak.exc import BleakDBusError, BleakError
 from memory_radio import MemoryRadio
 from strap import Strap
-from virtual import now
 
-from solepath import Session
 from solepath.ble import Backend, DeviceConfig
-from solepath.emulate import Route
-from solepath.emulate.devices.attributes import AttError
-from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.faults import Fault, FaultKind, parse_faults
-from solepath.types import Site
-from solepath.wire.fields import parse_text
-
-
-def test_a_device_that_left_before_it_was_connected_is_soon_searched_for_again():
-    bench = Bench(Route().stand(5.0), faults=parse_faults("0.005 left_foot vanish 300"))
-
-    packets = received(MemoryRadio(bench.peripherals).backend, DeviceConfig(None, "solepath L"), seconds=60.0)
-    troubles = [(p.t, parse_text(p.data)) for p in packets if p.channel == "receiver/trouble"]
-    (connecting, unanswered), (searching, unheard) = troubles
-    assert unanswered.startswith("the device does not answer: bring it near") and connecting == pytest.approx(10.0)
-    assert unheard.startswith("no device 'solepath L' is in range") and 20.0 < searching < 30.0
 
 
 def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_ends_not_later():
@@ -49,39 +29,6 @@ def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_en
     assert trouble.data.decode().endswith("see that no other program or phone holds it")
 
 
-def test_failed_attempts_do_not_restart_patience():
-    """The device rejects its stream for a while, then stops advertising."""
-    device = Odd("strap 1", address(1), faults=parse_faults("5 * vanish"))
-
-    packets = received(logged_radio(device).backend, ONE, seconds=30.0)
-    trouble = [(p.t, p.data.decode()) for p in packets if p.channel == "receiver/trouble"]
-    unheard = [t for t, words in trouble if words.startswith("no strap")]
-    assert trouble[0][0] < 1.0 and len(unheard) == 1 and unheard[0] == pytest.approx(10.5, abs=2.0)
-
-
-class Odd(Strap):
-    """A strap whose stream cannot be subscribed."""
-
-    def subscribe(self, channel, on, now):
-        raise AttError(0x80)
-
-
-def weak(every, seconds):
-    """Return the packets received over `seconds` from a link that breaks every `every` s."""
-    cuts = [Fault(1.0 + every * k, Site.PELVIS, FaultKind.DISCONNECT) for k in range(int(seconds / every))]
-
-    device = Strap("strap 1", address(1), faults=cuts)
-    return received(logged_radio(device).backend, ONE, seconds=seconds)
-
-
-@pytest.mark.parametrize(("every", "share"), [(1.0, 0.5), (2.0, 0.75)])
-def test_a_link_that_breaks_every_second_is_made_again_each_time(every, share):
-    packets = weak(every, 60.0)
-    beats = [packet for packet in packets if packet.channel == "strap/beat"]
-    assert len(beats) > share * 60.0 * RATE
-    assert max(b.t - a.t for a, b in pairwise(beats)) < 1.5
-
-
 def test_a_scan_that_fails_later_is_reported_to_searches_and_is_restarted() -> None:
     errors: list[Exception | None] = [None, None, BleakDBusError("org.bluez.Error.NotReady", []), BleakError("odd")]
     backend = failing(MemoryRadio([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)
@@ -93,40 +40,3 @@ def test_a_scan_that_fails_later_is_reported_to_searches_and_is_restarted() -> N
     ]
     assert len([p for p in packets if p.channel == "receiver/connected" and p.site is PELVIS]) == 2
     assert times(packets, "strap/beat")[-1] > 11.0
-
-
-def test_a_scan_without_advertisements_is_restarted() -> None:
-    """Bluetooth was switched off and on, on systems that do not report it."""
-    device = strap(faults="5 * disconnect")
-    memory_backend = MemoryRadio([device]).backend
-    scanner: Any = memory_backend.scanner
-
-    class Scanner(scanner):
-        started_at = 0.0
-
-        async def start(self) -> None:
-            self.started_at = now()
-            await super().start()
-
-        def call_detection_callbacks(self, *given: Any) -> None:
-            if now() < 5.0 or self.started_at > 20.0:
-                super().call_detection_callbacks(*given)
-
-    packets = received(Backend(memory_backend.client, Scanner), ONE, seconds=90.0)
-    connected_at = times(packets, "receiver/connected")
-    assert len(connected_at) == 2 and connected_at[1] < 75.0
-    assert device.sent["strap/beat"] > 10 * RATE
-
-
-def test_a_signal_that_no_radio_measures_and_a_name_that_is_no_text_are_no_fault() -> None:
-    beneath = MemoryRadio([strap()]).backend
-    scanner: Any = beneath.scanner
-
-    class Scanner(scanner):
-        def call_detection_callbacks(self, device: Any, advertisement: Any) -> None:
-            super().call_detection_callbacks(device, advertisement._replace(rssi=127, local_name="str\ud800p"))
-
-    packets = received(Backend(beneath.client, Scanner), ONE, seconds=3.0)
-    assert times(packets, "strap/beat")
-    [event] = Session().feed([packet for packet in packets if packet.channel == "receiver/connected"])
-    assert (event.name, event.signal) == ("str?p", None)  # type: ignore[attr-defined]

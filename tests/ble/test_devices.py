@@ -9,18 +9,17 @@ from airs import received, troubles
 from attrs import evolve
 from belts import ONE, PELVIS, RATE, READ_AFTER, STRAP, LoggedRadio, address, logged_radio, strap, times
 from benches import LEFT, RIGHT, ROUTE
-from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, Strap
+from strap import BATTERY
 
 from solepath import BatteryLevel, LayoutKnown, PacketRejected, Session
 from solepath.ble import DeviceConfig
-from solepath.emulate.devices.attributes import Characteristic, Service
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Access, Write
-from solepath.types import Packet, Site
+from solepath.types import Packet
 
 
 def got(belt: LoggedRadio, *configs: DeviceConfig, seconds: float = 5.0, **more: Any) -> list[Packet]:
@@ -71,42 +70,6 @@ def test_what_was_read_and_written_comes_as_packets_before_the_stream() -> None:
     assert not [event for event in events if isinstance(event, PacketRejected)]
 
 
-def test_what_is_to_be_read_after_a_write_comes_right_after_it() -> None:
-    packets = got(logged_radio(strap()), DeviceConfig(PELVIS, address(1), READ_AFTER))
-    order = [channel for channel in channels(packets) if channel != "strap/beat"]
-    assert order[:4] == ["receiver/connected", "device/battery", "strap/control", "strap/page"]
-
-
-def test_a_battery_that_can_only_be_read_is_read_and_keeps_nobody_from_listening() -> None:
-    device = strap()
-    belt = logged_radio(device)
-    packets = got(belt, ONE)
-    assert times(packets, "device/battery") and len(times(packets, "strap/beat")) > 4 * RATE
-    assert ("subscribe", "device/battery") not in belt.of(device, "subscribe")
-    assert not times(packets, "receiver/trouble")
-
-
-class Odd(Strap):
-    """A device whose control takes commands only, with two battery services and one stream that it rejects."""
-
-    def __init__(self, number: int = 1) -> None:
-        super().__init__(f"strap {number}", address(number))
-        level = Characteristic(LEVEL, "device/battery", frozenset({"read"}))
-        control = Characteristic(CONTROL, "strap/control", frozenset({"write-without-response"}))
-        beat = Characteristic(BEAT, "strap/beat", frozenset({"notify"}))
-        self.services = (Service(HEART_RATE, (beat, control)), *(Service(BATTERY, (level,)) for _ in range(2)))
-        self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
-
-
-def test_a_device_that_takes_only_commands_and_has_a_service_twice_is_listened_to() -> None:
-    device = Odd()
-    belt = logged_radio(device)
-    packets = got(belt, ONE)
-    assert len(times(packets, "strap/beat")) > 4 * RATE
-    assert ("command", "strap/control") in belt.of(device, "write", "command")
-    assert not times(packets, "receiver/trouble")
-
-
 def test_a_missing_setting_is_reported_and_skipped() -> None:
     device = strap()
     more = evolve(STRAP.channel("strap/control"), name="strap/nothing", characteristic=BATTERY)
@@ -136,25 +99,3 @@ def test_without_packets_five_ticks_a_second_are_emitted() -> None:
     steps = [b.t - a.t for a, b in zip(packets, packets[1:], strict=False)]
     assert max(steps) <= 0.2501
     assert not Session().feed(packets)
-
-
-def test_seven_devices_stream_at_once_each_at_its_site() -> None:
-    belt = logged_radio(*(strap(n) for n in range(1, 8)))
-    configs = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(Site, 1)]
-    packets = got(belt, *configs)
-    for n, site in enumerate(Site, 1):
-        mine = [packet for packet in packets if packet.site is site and packet.channel == "strap/beat"]
-        assert len(mine) > 4 * RATE
-        assert {packet.device for packet in mine} == {address(n)}
-        counted = [int.from_bytes(packet.data[:4], "little") for packet in mine]
-        assert counted == list(range(counted[0], counted[0] + len(mine)))
-
-
-def test_a_device_that_does_not_answer_never_delays_another() -> None:
-    quick = strap(2)
-    alone = got(logged_radio(quick), DeviceConfig(LEFT, address(2), STRAP))
-    hanging = strap(1, faults="0 * hang; 5 * hang; 9 * hang")
-    both = got(logged_radio(hanging, strap(2)), ONE, DeviceConfig(LEFT, address(2), STRAP))
-    assert times(both, "receiver/trouble")
-    mine = [packet for packet in both if packet.site is LEFT and packet.channel != "receiver/tick"]
-    assert mine == [packet for packet in alone if packet.channel != "receiver/tick"]

@@ -9,13 +9,12 @@ from typing import Any
 
 import pytest
 from airs import collect, in_virtual_time, others
-from belts import ONE, PELVIS, STRAP, address, failing, logged_radio, strap, times
+from belts import ONE, PELVIS, STRAP, address, logged_radio, strap, times
 from benches import LEFT, RIGHT
-from bleak.exc import BleakError
 from memory_radio import MemoryRadio
 from virtual import now, virtually
 
-from solepath.ble import Backend, BluetoothError, ConnectionState, DeviceConfig, Devices
+from solepath.ble import ConnectionState, DeviceConfig, Devices
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
 from solepath.link.devices.insole import PROFILE as INSOLE
@@ -28,7 +27,7 @@ def taken_late(capacity: int, wait: float) -> list[Packet]:
     """Return the packets of an app that takes nothing for a while, and then all."""
 
     async def main() -> list[Packet]:
-        bench = Bench(Route().stand(25.0), seed=3)
+        bench = Bench(Route().stand(12.0), seed=3)
         configs = [DeviceConfig(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
         async with Devices(configs, backend=MemoryRadio(bench.peripherals).backend, capacity=capacity) as devices:
             await asyncio.sleep(wait)
@@ -45,10 +44,10 @@ def taken_late(capacity: int, wait: float) -> list[Packet]:
 
 
 def test_what_an_app_is_too_slow_for_goes_from_the_oldest_on_and_is_counted() -> None:
-    packets = taken_late(capacity=300, wait=20.0)
+    packets = taken_late(capacity=300, wait=8.0)
     frames = [packet for packet in packets if packet.channel == "insole/frame"]
     assert len(frames) in range(290, 301)
-    assert min(packet.t for packet in frames) > 18.0
+    assert min(packet.t for packet in frames) > 6.0
     for site in (LEFT, RIGHT):
         mine = [packet for packet in packets if packet.site is site]
         assert [packet.t for packet in mine] == sorted(packet.t for packet in mine)
@@ -73,26 +72,6 @@ async def test_a_reported_position_comes_in_its_turn_also_when_an_app_is_too_slo
     assert [packet.t for packet in packets] == sorted(packet.t for packet in packets)
     (report,) = [packet for packet in packets if packet.channel == "receiver/position"]
     assert report == Packet(reported_at, PELVIS, "receiver/position", build_position(position))
-
-
-@virtually
-async def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order() -> None:
-    device, packets = strap(), list[Packet]()
-    device.log = []
-    async with Devices([ONE], backend=logged_radio(device).backend, capacity=5) as devices:
-        async for packet in devices:
-            packets.append(packet)
-            await asyncio.sleep(0.35)
-            if packet.t > 20.0:
-                break
-    assert [packet.t for packet in packets] == sorted(packet.t for packet in packets)
-    while packets[-1].channel != "strap/beat":
-        packets.pop()  # what was dropped after the last beat
-    numbers = [int.from_bytes(p.data[:4], "little") for p in packets if p.channel == "strap/beat"]
-    dropped = sum(parse_dropped(p.data) for p in packets if p.channel == "receiver/dropped")
-    assert device.log is not None
-    assert len(numbers) + dropped == numbers[-1] + 1 - int.from_bytes(device.log[0].value[:4], "little")
-    assert dropped > 50 and len(numbers) > 20
 
 
 @virtually
@@ -181,33 +160,3 @@ async def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets(
 async def test_devices_that_were_never_entered_do_not_end_silently() -> None:
     with pytest.raises(RuntimeError, match="entered"):
         await anext(Devices([ONE], backend=logged_radio().backend))
-
-
-@virtually
-async def test_entering_twice_at_once_is_an_error() -> None:
-    """This holds also while the first entry still waits for Bluetooth; an entry that failed does not count."""
-    device = strap()
-    open_devices = logged_radio(device)
-    devices = Devices([ONE], backend=slowly(open_devices.backend))
-    first, second = await asyncio.gather(devices.__aenter__(), devices.__aenter__(), return_exceptions=True)
-    assert first is devices and isinstance(second, RuntimeError)
-    await collect(devices, 3.0)
-    await devices.__aexit__(None, None, None)
-    assert not others() and open_devices.scanning == 0 and not device.is_connected
-    broken = Devices([ONE], backend=failing(open_devices.backend, [BleakError("odd")]))
-    with pytest.raises(BluetoothError):
-        await broken.__aenter__()
-    async with broken:
-        assert times(await collect(broken, 3.0), "strap/beat")
-
-
-def slowly(beneath: Backend) -> Backend:
-    """Return a backend whose scans start slowly."""
-    scanner: Any = beneath.scanner
-
-    class Scanner(scanner):
-        async def start(self) -> None:
-            await asyncio.sleep(0.05)
-            await super().start()
-
-    return Backend(beneath.client, Scanner)

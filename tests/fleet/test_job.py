@@ -4,24 +4,21 @@ from __future__ import annotations
 
 import pickle
 import struct
-from collections.abc import Callable, Iterator, Mapping
-from copy import copy, deepcopy
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import pytest
 import toys
-from attrs import astuple, evolve, frozen
+from attrs import evolve
 from fleets import WEARER, stepped, walked
 from walks import LEFT
 
-from solepath import Calibration, CalibrationError, recipes
+from solepath import Calibration, recipes
 from solepath.calibration import ShoeGeometry
-from solepath.fleet import End, Fleet, NumberedEvent, Sent, Tick, Unreadable, WearerFailed
+from solepath.fleet import Fleet, Sent, WearerFailed
 from solepath.link.driver import Reading
 from solepath.session import Session
 from solepath.types import Packet
-
-FLEET = Fleet()
 
 
 def raises(sent: Any, known: Any) -> Reading:
@@ -87,19 +84,6 @@ def test_a_calibration_is_read_when_a_session_starts_and_its_faults_are_reported
         assert (events[failures:] == plain) is (wearer != "known")
 
 
-def test_a_job_that_is_wrong_for_every_wearer_is_rejected_when_it_is_made() -> None:
-    with pytest.raises(TypeError, match="Recipe"):
-        Fleet("default")  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match="mapping"):
-        Fleet(calibrations=Calibration())  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="window"):
-        Fleet(window=-1)
-    with pytest.raises(TypeError, match="FloorPlan"):
-        Fleet(floorplan="house")  # type: ignore[arg-type]
-    with pytest.raises(CalibrationError):
-        Session(calibration=Registry()["odd"])
-
-
 class Ours(Fleet):
     """A job with a device of an app's own, whose constructs cannot be pickled."""
 
@@ -115,50 +99,3 @@ def test_a_job_with_devices_of_its_own_goes_to_its_workers_by_name() -> None:
         pickle.dumps(Fleet(profiles=[WRONG_DRIVER]))
     walk = [make_sent(k, k) for k in range(40)]
     assert pickle.loads(pickle.dumps(Ours())).step(WEARER, None, walk) == Ours().step(WEARER, None, walk)
-
-
-def test_input_and_events_can_be_sent_between_workers() -> None:
-    _, emitted = FLEET.step(WEARER, None, walked().sent[:350])
-    both: list[Sent | NumberedEvent | Unreadable] = [*walked().sent[:10], *emitted, Unreadable(WEARER, "no JSON", 1, 2)]
-    assert pickle.loads(pickle.dumps(both)) == both
-
-
-@frozen
-class Located(Packet):
-    """A packet with further fields."""
-
-    where: str = "gym"
-
-
-@frozen
-class Ward(Sent):
-    bed: int = 7
-
-
-class Pause(Tick):
-    """A tick of another name."""
-
-
-class Off(End):
-    """An end of another name."""
-
-
-@pytest.mark.parametrize("again", [copy, deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
-def test_a_copy_of_what_an_app_made_of_a_packet_is_what_the_app_made(again: Callable[[Any], Any]) -> None:
-    packet = walked().sent[0].what
-    located = Located(packet.t, packet.site, packet.channel, packet.data, where="hall")
-    for one in (packet, located, Sent(WEARER, 0, packet), Ward(WEARER, 0, located, bed=3)):
-        assert again(one) == one and type(again(one)) is type(one)
-        assert again(one) is not one
-
-
-def test_packets_ticks_and_ends_of_classes_of_an_apps_own_are_used_as_what_they_are() -> None:
-    sent = [*walked().sent[:200], Sent(WEARER, 200, Tick(90.0)), Sent(WEARER, 201, End())]
-    own: list[Any] = [Located(*astuple(one.what, recurse=False)) for one in sent[:200]]
-    own = [Ward(WEARER, number, what) for number, what in enumerate([*own, Pause(90.0), Off()])]
-    fleet = Fleet()
-    expected = fleet.step(WEARER, None, sent)
-    assert fleet.step(WEARER, None, own) == expected
-    state, emitted = fleet.step(WEARER, None, own[1:])  # held, for want of the first
-    after, rest = fleet.step(WEARER, state, own[:1])
-    assert (after, [*emitted, *rest]) == expected

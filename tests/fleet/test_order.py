@@ -6,18 +6,15 @@ import json
 from typing import Any
 
 import pytest
-from attrs import evolve
-from fleets import WEARER, cut, shown, stepped, uses, walked
+from fleets import WEARER, cut, shown, stepped, uses
 from here import PROTOCOL
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.events import PacketRejected, Rejection, StrideTaken
-from solepath.fleet import End, Fleet, NumberedEvent, NumbersMissing, Sent, SentRejected, Tick, read_line
+from solepath.fleet import End, Fleet, NumberedEvent, Sent, Tick, read_line
 from solepath.fleet.step.sent import MAX_COUNT
 
 STORIES = json.loads((PROTOCOL / "fleet" / "stories.json").read_text())
-FLEET = Fleet()
 NARROW_FLEET = Fleet(window=3)
 
 
@@ -46,28 +43,6 @@ def test_rows_become_the_events_of_their_story(story: dict[str, Any]) -> None:
             used = [one["what"] for one in gives if one["what"] in ("used", "ended")]
             assert fleet.open(WEARER, state).ended is (used[-1] == "ended")
     assert numbers == list(range(len(numbers)))
-
-
-class OwnSent(Sent):
-    """A row of an app's own class, which never takes the short way of packets that are in their turn."""
-
-
-@settings(max_examples=60)
-@given(
-    arrived=st.lists(st.tuples(st.integers(0, 2), st.integers(0, 9)), max_size=60),
-    windows=st.tuples(st.integers(0, 6), st.integers(0, 6)),
-)
-def test_a_packet_in_its_turn_is_used_as_any_other_row_is(
-    arrived: list[tuple[int, int]], windows: tuple[int, int]
-) -> None:
-    sent = [shown(number, run) for run, number in sorted(arrived, key=lambda one: one[0] == 2)]
-    own = [OwnSent(one.wearer, one.number, one.what, one.run) for one in sent]
-    half, states = len(sent) // 2, [None, None]
-    for fleet, some in ((Fleet(window=windows[0]), slice(half)), (Fleet(window=windows[1]), slice(half, None))):
-        (states[0], events), (states[1], expected) = (
-            fleet.step(WEARER, state, one[some]) for state, one in zip(states, (sent, own), strict=True)
-        )
-        assert events == expected and states[0] == states[1]
 
 
 def rows(count: int, ended: bool) -> list[Sent]:
@@ -113,62 +88,12 @@ def test_how_rows_are_cut_into_calls_changes_nothing_whatever_they_are(arrived: 
     assert [one.number for one in emitted] == list(range(len(emitted)))
 
 
-@settings(max_examples=40)
-@given(arrived=st.lists(st.builds(shown, st.integers(0, 40), st.integers(0, 3)), max_size=60))
-def test_no_row_is_used_twice_and_those_of_a_run_are_used_in_order(arrived: list[Sent]) -> None:
-    keyed = NARROW_FLEET.open(WEARER, None)
-    used = [(run, number) for what, run, number, _ in uses(keyed.feed(arrived)) if what == "used"]
-    assert len(used) == len(set(used))
-    assert all(numbers == sorted(numbers) for run in range(4) for numbers in [[n for of, n in used if of == run]])
-
-
-def test_rows_are_waited_for_as_far_as_the_window_and_no_further() -> None:
-    window = 256
-    assert not uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 1)]))
-    emitted = uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 2)]))
-    assert emitted[0] == ("missing", 0, 0, 1)
-    assert [number for _, _, number, _ in emitted[1:]] == list(range(1, window + 2))
-
-
-def test_what_was_given_up_long_ago_is_forgotten_but_nothing_is_used_twice() -> None:
-    keyed = Fleet(window=0).open(WEARER, None)
-    keyed.feed([shown(number) for number in range(0, 100, 2)])
-    late = uses(keyed.feed([shown(number) for number in range(100)]))
-    known = [(67, "late"), (69, ("late", 2)), (73, ("late", 4)), (81, ("late", 8)), (97, ("late", 16))]
-    assert late == [*[("rejected", 0, *one) for one in known], ("used", 0, 99, None)], "16 spans are remembered"
-
-
-FUTURE_RUN, THIS_RUN = 4_000_000_000_000, 1_790_000_000_000
-
-
 def run(of: int, count: int, first: int = 0) -> list[Sent]:
     return [shown(number, of) for number in range(first, first + count)]
 
 
 def used(emitted: list[NumberedEvent]) -> list[tuple[int | None, int | None]]:
     return [(of, number) for what, of, number, _ in uses(emitted) if what == "used"]
-
-
-def test_a_phone_whose_clock_is_put_right_loses_a_window_of_rows_and_no_more() -> None:
-    state, _ = FLEET.step(WEARER, None, run(FUTURE_RUN, 20))
-    for again in (run(FUTURE_RUN, 20), []):
-        _, emitted = FLEET.step(WEARER, state, [*again, *run(THIS_RUN, 400)])
-        assert used(emitted) == [(THIS_RUN, number) for number in range(256, 400)]
-        assert [one.event.count for one in emitted if isinstance(one.event, SentRejected)] == [2**k for k in range(9)]
-        assert [one.event.count for one in emitted if isinstance(one.event, NumbersMissing)] == [256]
-        assert [one.number for one in emitted] == list(range(20, 20 + len(emitted)))
-
-
-def test_one_row_of_the_largest_run_there_is_does_not_silence_a_wearer() -> None:
-    _, emitted = FLEET.step(
-        WEARER, None, [*run(THIS_RUN, 20), shown(0, MAX_COUNT), *run(THIS_RUN, 400, 20), *run(THIS_RUN + 1, 5)]
-    )
-    there = [*range(20), *range(276, 420)]
-    assert sorted(used(emitted)) == [
-        *[(THIS_RUN, number) for number in there],
-        *[(THIS_RUN + 1, k) for k in range(5)],
-        (MAX_COUNT, 0),
-    ]
 
 
 ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MAX_COUNT), st.integers(0, 3) | st.integers(0, MAX_COUNT))
@@ -182,42 +107,3 @@ def test_whatever_came_before_a_new_run_is_used_except_a_window_of_rows(before: 
     _, emitted = NARROW_FLEET.step(WEARER, None, [*before, *run(new, 20)])
     used_numbers = [number for of, number in used(emitted) if of == new]
     assert len(used_numbers) >= 17 and used_numbers[-13:] == list(range(7, 20))
-
-
-@settings(max_examples=60)
-@given(late=st.lists(st.integers(0, 3), min_size=20, max_size=20), change=st.integers(1, 15))
-def test_rows_that_the_next_run_overtakes_do_not_lead_back(late: list[int], change: int) -> None:
-    ordered = [*run(0, change), *run(1, 20 - change)]
-    arrived = [ordered[k] for k in sorted(range(20), key=lambda k: (k + late[k], k))]
-    _, emitted = NARROW_FLEET.step(WEARER, None, arrived)
-    assert [number for of, number in used(emitted) if of == 1] == list(range(20 - change))
-    assert not [one for one in emitted if isinstance(one.event, NumbersMissing) and one.event.run == 1]
-
-
-def test_rows_of_all_that_was_ever_sent_come_again_and_none_is_used_twice() -> None:
-    sent = [one for of in range(60) for one in run(5 * of, 9)]
-    state, emitted = NARROW_FLEET.step(WEARER, None, sent)
-    assert len(used(emitted)) == len(sent)
-    after, emitted = NARROW_FLEET.step(WEARER, state, sent)
-    assert used(emitted) == [] and all([isinstance(one.event, SentRejected) for one in emitted])
-    assert len(after) < len(state) + 10
-
-
-def test_a_flood_of_rows_that_are_late_is_reported_ever_more_seldom() -> None:
-    state, _ = FLEET.step(WEARER, None, [*run(5, 3), shown(0, 9)])
-    flood = [one for k in range(2000) for one in (shown(3 + k, 5), shown(1 + k, 9))]
-    _, emitted = FLEET.step(WEARER, state, flood)
-    assert [one.event.count for one in emitted if isinstance(one.event, SentRejected)] == [2**k for k in range(11)]
-    assert len(used(emitted)) == 2000
-
-
-def test_a_phone_that_was_started_again_with_a_clock_at_nought_is_followed_after_19_packets_of_each_site() -> None:
-    sent = walked().sent
-    half = len(sent) // 2
-    shifted = [evolve(one, what=evolve(one.what, t=one.what.t + 50_000.0)) for one in sent[:half]]
-    state, _ = FLEET.step(WEARER, None, shifted)
-    again = [evolve(one, number=number, run=1) for number, one in enumerate(sent[half:])]
-    emitted = [one.event for one in FLEET.step(WEARER, state, again)[1]]
-    backwards = [e.reason for e in emitted if isinstance(e, PacketRejected)].count(Rejection.TIME_BACKWARDS)
-    assert 19 <= backwards <= 2 * 19  # the first site that shows it is enough
-    assert sum(isinstance(event, StrideTaken) for event in emitted) >= 2

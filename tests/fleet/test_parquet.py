@@ -20,7 +20,7 @@ from pyarrow import parquet
 
 from solepath.events import ActivityChanged, HeelStrike
 from solepath.fleet import EVENT_COLUMNS, NumberedEvent, StateRejected, event_row
-from solepath.fleet.parquet import MAX_GROUPS, PartFiles
+from solepath.fleet.parquet import PartFiles
 from solepath.types import Activity, Foot
 
 FIRST = "part-0-00000000.parquet"
@@ -75,63 +75,6 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
     assert [str(kind) for kind in table.schema.types] == [
         "string", "int64", "string", "double", "double", "bool", "string", "string",
     ]  # fmt: skip
-
-
-def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
-    parts = PartFiles(tmp_path, group=2)
-    parts.write(make_events(2 * MAX_GROUPS + 1))
-    assert names(tmp_path) == [FIRST]
-    assert parts.close() == (parts.run, 2)
-    assert parquet.ParquetFile(file(tmp_path)).num_row_groups == MAX_GROUPS
-    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in make_events(2 * MAX_GROUPS + 1)])
-
-
-def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:
-    runs = {}
-    for partition in ("0", "1"):
-        parts = PartFiles(tmp_path, partition)
-        for one in make_events(3):
-            put(parts, [one])
-        runs[partition] = parts.run
-    mine = [".part-1-00000009.parquet.writing", "notes.txt"]
-    for name in (".part-1-7-00000009.parquet.writing", ".part-0-7-00000003.parquet.writing", "notes.txt"):
-        (tmp_path / name).write_bytes(b"half")
-    assert PartFiles(tmp_path, "0", (runs["0"], 1)).close() == (runs["0"], 1)
-    assert names(tmp_path) == sorted([*mine, FIRST, *(f"part-1-0000000{n}.parquet" for n in range(3))])
-
-
-def test_without_a_state_the_parts_of_a_run_before_are_hidden_with_a_warning(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
-    for count in (1, 2, 3):
-        put(PartFiles(tmp_path), make_events(count))
-        assert rows(tmp_path) == by_identity([event_row(one) for one in make_events(count)])
-    assert names(tmp_path) == [f".{FIRST}.replaced"] * 2 + [FIRST]
-    kept = [parquet.ParquetFile(path).metadata.num_rows for path in sorted(tmp_path.iterdir())]
-    assert kept == [1, 2, 3]
-    warning = f"{tmp_path}: a new run begins, and the parts of the one before are hidden (1). "
-    assert [message.startswith(warning) for message in caplog.messages] == [True, True]
-
-
-def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
-    parts, all_events = PartFiles(tmp_path), make_events(4)
-    known = [put(parts, [one]) for one in all_events[:3]]
-    put(PartFiles(tmp_path), all_events[:1])
-    assert rows(tmp_path) == [event_row(all_events[0])]
-    caplog.clear()
-    parts = PartFiles(tmp_path, "0", (known[0][0], 2))
-    assert rows(tmp_path) == [event_row(one) for one in all_events[:2]]
-    put(parts, all_events[2:])
-    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in all_events])
-    assert caplog.messages == [
-        f"{tmp_path}: an earlier run goes on, and its parts are back (2); those of another are hidden (1)"
-    ]
-    assert names(tmp_path)[0] == f".{FIRST}.replaced"
-    caplog.clear()
-    PartFiles(tmp_path, "0", parts.close())
-    assert caplog.messages == []
 
 
 @contextmanager
@@ -209,35 +152,6 @@ def test_a_restart_with_fewer_partitions_hides_the_parts_of_the_others(tmp_path:
     assert listed(tmp_path) == [("w0", 0), ("w0", 1), ("w1", 0), ("w1", 1)], (
         "and the second, without those of the first"
     )
-
-
-def test_a_job_on_bytewax_hides_the_parts_of_partitions_that_it_does_not_have(tmp_path: Path) -> None:
-    pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheels for Python 3.13 and later")
-    from solepath.fleet.bytewax import ParquetSink
-
-    written(tmp_path, [None] * 2)
-    part = ParquetSink(tmp_path).build_part("files", "0", None)
-    part.write_batch([NumberedEvent("w0", 0, STRIKE), NumberedEvent("w1", 0, STRIKE)])
-    part.snapshot()
-    assert listed(tmp_path) == [("w0", 0), ("w1", 0)]
-
-
-@pytest.mark.parametrize("name", ["part-0-{run}-00000001.parquet", ".part-0-{run}-00000001.parquet.writing"])
-def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is_in_the_way(
-    tmp_path: Path, name: str
-) -> None:
-    parts = PartFiles(tmp_path)
-    place = put(parts, [NumberedEvent("w", 0, STRIKE)])
-    strange = tmp_path / name.format(run=parts.run)
-    strange.mkdir()
-    parts = PartFiles(tmp_path, "0", place)
-    parts.write([NumberedEvent("w", 1, STRIKE)])
-    with pytest.raises(OSError) as error:
-        parts.close()
-    assert error.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
-    strange.rmdir()
-    put(PartFiles(tmp_path, "0", place), [NumberedEvent("w", 1, STRIKE)])
-    assert listed(tmp_path) == [("w", 0), ("w", 1)]
 
 
 @pytest.mark.parametrize(

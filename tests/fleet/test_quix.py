@@ -1,6 +1,6 @@
 """A fleet on Quix Streams, with a broker that speaks Kafka on this machine.
 
-    pip install -e '.[test,kafka]' && pytest -m kafka tests/fleet/test_quix.py
+    pip install -e '.[test,kafka]' && pytest -m long tests/fleet/test_quix.py
 
 The broker keeps everything in memory, so what happens when it is restarted is not tried here; nor is exactly-once: it
 shows what was never committed to readers of what was.
@@ -13,7 +13,6 @@ import shutil
 import time
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -22,12 +21,12 @@ from walks import ROUGH, insoles, run_session
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN
-from solepath.fleet import End, Fleet, NumberedEvent, Once, Sent, event_row, sent_line
+from solepath.fleet import End, NumberedEvent, Once, Sent, event_row, sent_line
 
 if TYPE_CHECKING:
     from brokers import Broker, Message, Topics
 
-pytestmark = pytest.mark.kafka
+pytestmark = pytest.mark.long
 WEARERS = tuple(f"wearer {number}" for number in range(8))
 
 
@@ -146,30 +145,6 @@ def test_a_killed_job_emits_everything_again_under_the_same_identity_and_nothing
     assert len(read_messages) > each_once(read_messages), "no kill fell between a commit and what was told after it"
 
 
-RECOVERED_TEXT = "Recovery process complete"
-"""Text in the log of a job that has read the changelog of a partition."""
-
-
-def test_a_partition_that_moves_to_another_machine_and_back_goes_on_where_it_was(kafka: Broker) -> None:
-    """A second job with another disk joins, takes over a partition, and is killed; the first takes it back."""
-    from brokers import kill
-
-    walks = messages(lines=2)
-    with kafka.topics("moved") as topics:
-        topics.send(walks[: len(walks) // 3])
-        first = topics.start("one")
-        wait_for(topics, 20)
-        second, end = topics.start("two"), time.monotonic() + 90
-        while RECOVERED_TEXT not in topics.log("two"):
-            assert time.monotonic() < end and second.poll() is None, "the second job took nothing over"
-            time.sleep(0.2)
-        topics.send(walks[len(walks) // 3 : 2 * len(walks) // 3])
-        wait_for(topics, 40)
-        kill(second)
-        topics.send(walks[2 * len(walks) // 3 :])
-        each_once(topics.finish(first, "one"))
-
-
 MAX_KEY_BYTES = 999_900
 """Size of a key or header, bytes, with which a producer accepts a message, but not together with a row."""
 NO_NAMES: list[bytes | None] = [None, b"", b"\xff\xfe", b"k" * 257, b"unkeyed/0"]
@@ -208,15 +183,3 @@ def test_messages_without_key_or_sense_are_events_and_stall_nobody(kafka: Broker
     assert sum(row["wearer"].startswith("unkeyed/") for row in rejected) == 2 * 3 * len(NO_NAMES) + 1
     assert len(once(read_messages)["null"]) == len(once(read_messages)["someone"]) - 1 == 2 * 3
     assert max(len(message.value) for message in read_messages) < 20_000
-
-
-def test_a_topic_whose_values_are_read_as_json_is_rejected_at_once(kafka: Broker, tmp_path: Path) -> None:
-    from quixstreams import Application
-    from quixstreams.models import TopicConfig
-
-    from solepath.fleet.quix import gait
-
-    app = Application(kafka.address, consumer_group="json", state_dir=tmp_path)
-    topic = app.topic("json-sent", config=TopicConfig(1, 1, extra_config={"retention.ms": "86400000"}))
-    with pytest.raises(ValueError, match='value_deserializer="bytes"'):
-        gait(app.dataframe(topic), Fleet())

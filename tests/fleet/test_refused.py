@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from typing import Any
 
 import pytest
-import toys
-from attrs import evolve
 from fleets import WEARER, shown, uses, walked
 from here import PROTOCOL
 
 from solepath import SnapshotError, recipes
-from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, StateRejected, Tick, Unreadable
+from solepath.fleet import Fleet, NumbersMissing, Sent, StateRejected
 from solepath.fleet.step.order import MAX_HELD_BYTES
-from solepath.fleet.step.sent import MAX_COUNT, MAX_DATA_LENGTH
+from solepath.fleet.step.sent import MAX_DATA_LENGTH
 from solepath.fleet.step.state import StateHead, StateRest, read_rest, write_state
 from solepath.session import Session
 from solepath.types import Packet, Site
@@ -32,33 +29,6 @@ def test_where_only_the_session_cannot_go_on_what_is_held_does(vector: dict[str,
     assert (rest.ended, rest.session) == (expected["ended"], None)
     assert [[span.run, span.first, span.end] for span in rest.unused.spans] == expected["spans"]
     assert [list(place) for place in rest.held_rows] == expected["held"]
-
-
-def test_rows_that_were_held_when_a_session_was_lost_are_used_in_their_turn() -> None:
-    state, emitted = Fleet(window=4).step(WEARER, None, [*walked().sent[:100], shown(102), shown(103)])
-    damaged = state[:-1] + bytes([state[-1] ^ 1])
-    _, (rejected, *rest) = Fleet(window=4).step(WEARER, damaged, [shown(100), shown(101)])
-    assert isinstance(rejected.event, StateRejected) and rejected.number == len(emitted)
-    assert uses(rest) == [("used", 0, number, None) for number in (100, 101, 102, 103)]
-
-
-IN_ORDER = StateRest(held_rows={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0): End()})
-
-
-@pytest.mark.parametrize(
-    "held",
-    [[(6, 298)], [(5, 900)], [(6, 301), (6, 200)], [(6, MAX_COUNT + 1)], [(MAX_COUNT + 1, 0)]],
-    ids=["used", "older run", "one of two", "number", "run"],
-)
-def test_a_state_that_holds_what_cannot_be_held_is_rejected(held: list[tuple[int, int]]) -> None:
-    """The checksum is right: the writer had a fault, or the data were damaged before."""
-    identity = StateHead(6, 299, 1200, 12.25)
-    assert read_rest(write_state(identity, IN_ORDER)) == IN_ORDER
-    state = write_state(identity, StateRest(held_rows={place: Tick(1.0) for place in held}))
-    after, emitted = Fleet(window=0).step(WEARER, state, [shown(305, 6), shown(306, 6)])
-    assert isinstance(emitted[0].event, StateRejected)
-    assert uses(emitted[1:]) == [("missing", 6, 299, 6), ("used", 6, 305, None), ("used", 6, 306, None)]
-    assert FLEET.open(WEARER, after).state() == after
 
 
 @pytest.mark.parametrize("state", ["spfl", 0.5, 10**30, 41, [115, 112], {}], ids=repr)
@@ -91,13 +61,6 @@ def test_a_session_that_cannot_go_on_is_not_adopted_and_no_state_goes_on_from_a_
     assert uses(rest) == [("used", 0, 0, None)]
 
 
-def test_the_clock_of_a_new_run_may_stand_before_that_of_the_last_and_event_times_do_not_go_back() -> None:
-    wrong = Unreadable(WEARER, "no JSON")
-    sent = [Sent(WEARER, 0, Tick(10.0)), Sent(WEARER, 1, End()), wrong, Sent(WEARER, 0, Tick(1.0), 1), wrong]
-    _, emitted = FLEET.step(WEARER, None, [*sent, Sent(WEARER, 1, Tick(12.0), 1), wrong])
-    assert [(one.event.t, one.event.known_at) for one in emitted] == [(10.0, 10.0), (10.0, 10.0), (12.0, 12.0)]
-
-
 def test_the_held_bytes_are_limited_as_in_the_protocol() -> None:
     def large(number: int, size: int) -> Sent:
         return Sent(WEARER, number, Packet(0.0, Site.PELVIS, "c", bytes(size - 4), "dev"))
@@ -109,24 +72,3 @@ def test_the_held_bytes_are_limited_as_in_the_protocol() -> None:
     assert FLEET.open(WEARER, None).feed(exactly) == []
     emitted = FLEET.open(WEARER, None).feed([*exactly[:-1], large(len(sizes), most + 1)])
     assert isinstance(emitted[0].event, NumbersMissing) and emitted[0].event.count == 1
-
-
-def runs_out(after: int, sent: Any, known: Any) -> Any:
-    if sent.what > after:
-        raise MemoryError
-    return toys.more(sent, known)
-
-
-def test_out_of_memory_is_raised_and_the_last_state_can_continue() -> None:
-    """Too little memory is no fault of the wearer: with more memory the same packet is used."""
-
-    def fleet(most: int) -> Fleet:
-        return Fleet(profiles=[evolve(toys.NUMBERED, readers={"toy/more": partial(runs_out, most)})])
-
-    battery = Sent(WEARER, 0, Packet(1.0, Site.LEFT_FOOT, "toy/more", b"\x00" + bytes(8)))
-    keyed = fleet(-1).open(WEARER, None)
-    state = keyed.state()
-    with pytest.raises(MemoryError):
-        keyed.feed([battery])
-    _, emitted = fleet(255).step(WEARER, state, [battery])
-    assert emitted and not any(isinstance(one.event, SentRejected) for one in emitted)

@@ -1,8 +1,7 @@
 """A fleet on Spark: the events of sessions, also past rows of anything and states of nobody.
 
 pip install solepath[spark,test], Java 17, then
-python -m pytest -m "spark and not soak" tests/fleet/test_spark*.py            # about three minutes
-python -m pytest -m "spark and soak" -s tests/fleet/test_spark*.py             # 1,000 wearers; prints its rate
+python -m pytest -m long tests/fleet/test_spark*.py
 """
 
 from __future__ import annotations
@@ -12,20 +11,16 @@ import random
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from struct import pack
 from typing import Any
 
 import pytest
 from here import HELPERS
-from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, read_output, sent
-from toys import BASE
+from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, read_output, sent
 
-from solepath.fleet import EVENT_COLUMNS, Fleet, NumberedEvent, Sent, event_row, sent_line, sent_row
+from solepath.fleet import EVENT_COLUMNS, Fleet, sent_line
 from solepath.recipes import by_name
-from solepath.session import Session
-from solepath.types import Packet, Site
 
-pytestmark = [pytest.mark.spark]
+pytestmark = [pytest.mark.long]
 _needed = pytest.fixture(needed, scope="module", autouse=True)
 
 
@@ -69,18 +64,6 @@ def test_events_through_spark_are_those_of_a_session(spark, tmp_path, recipe):
     assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in events}
 
 
-def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
-    """After a few batches Spark joins its lists of files into one."""
-    deliver(tmp_path / "sent", wearers=2, files=5)
-    events = run(stream(spark, tmp_path / "sent"), tmp_path)
-    assert list((tmp_path / "events/_spark_metadata").glob("*.compact"))
-    nobodys = tmp_path / "events" / "part-of-a-killed-task.snappy.parquet"
-    nobodys.write_bytes(b"PAR1")
-    assert read_output(tmp_path / "events") == events == in_order(
-        row.asDict() for row in spark.read.parquet(str(tmp_path / "events")).collect()
-    )  # fmt: skip
-
-
 def test_messages_as_kafka_has_them_give_the_same_events(spark, tmp_path):
     """Return messages whose key is the wearer and whose value holds the lines of about a second."""
     from pyarrow import parquet, table
@@ -108,95 +91,6 @@ def _bundles(wearer: int) -> Iterator[list[bytes]]:
 
 def without_number(row: Row) -> Row:
     return {key: value for key, value in row.items() if key != "number"}
-
-
-def of_toys() -> Fleet:
-    """Return a fleet that cannot be pickled."""
-    return Fleet(profiles=[BASE])
-
-
-def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_path):
-    batteries = [0.5, float("nan"), 0.25]
-    data = [bytes([0]) + pack(">d", share) for share in batteries] + [bytes([11]) + pack(">d", 1.0)]
-    packets = [Packet(float(t), Site.LEFT_FOOT, "toy/more", one) for t, one in enumerate(data)]
-    (tmp_path / "sent").mkdir()
-    put(tmp_path / "sent/toy.parquet", [sent_row(Sent("w0", number, one)) for number, one in enumerate(packets)], 0)
-    events = run(stream(spark, tmp_path / "sent"), tmp_path, of_toys)
-    fed_events = Session(profiles=[BASE]).feed(packets)
-    assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
-    assert events == [event_row(NumberedEvent("w0", number, event)) for number, event in enumerate(fed_events)]
-
-
-def anything(count: int) -> Iterator[Row]:
-    """Rows of wearers whose rows are filled at random: of any bytes, also where the rest is as it should be."""
-    chance = random.Random(8)
-    good = [sent_row(one) for one in sent(0, 0)]
-
-    def flawed(row: Row) -> Row:
-        longer = chance.choice([chance.randbytes(40), chance.randbytes(5000), b"", None])
-        odd = chance.choice([None, "", "left_foot", "tick", "end", "insole/frame", "\u0000", "x" * 300])
-        numbers = chance.choice([None, -1, 0, 2**63 - 1, -(2**63), chance.randrange(2000)])
-        times = chance.choice([None, float("nan"), float("inf"), -1e308, 0.0])
-        key = chance.choice(sorted(row))
-        value = {"data": longer, "t": times, "run": numbers, "number": numbers}.get(key, odd)
-        return {**row, "wearer": f"poisoned {chance.randrange(5)}", key: value}
-
-    for row in chance.choices(good, k=count):
-        yield flawed(row)
-
-
-def test_a_wearer_of_anything_stalls_no_other(spark, tmp_path):
-    deliver(tmp_path / "sent", wearers=3, files=5, more=anything(2000))
-    events = run(stream(spark, tmp_path / "sent"), tmp_path)
-    assert of_sessions(events) == expected(3)
-    poisoned = [row for row in events if row["wearer"].startswith("poisoned")]
-    assert {"SentRejected", "NumbersMissing"} <= {row["event"] for row in poisoned}
-    assert any(row["wearer"] == "" and "wearer is no text" in row["fields"] for row in events)
-
-
-def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
-    """Parquet accepts any bytes as text."""
-    import pyarrow as pa
-    from pyarrow import parquet
-
-    (tmp_path / "sent").mkdir()
-    rows = [sent_row(one) for one in sent(0, 0)]
-    put(tmp_path / "sent/good.parquet", rows, 0)
-    bad = parquet.read_table(tmp_path / "sent/good.parquet").take([0, 0, 0])
-    for name in ("wearer", "site", "channel", "device"):
-        bytes_ = pa.array([b"\xff\xfe", b"w0\x80", b"\xed\xa0\x80"]).view(pa.string())
-        bad = bad.set_column(bad.column_names.index(name), name, bytes_)
-    parquet.write_table(bad, tmp_path / "sent/bad.parquet")
-    events = run(stream(spark, tmp_path / "sent"), tmp_path)
-    assert of_sessions(events) == expected(1)
-    assert [row["event"] for row in events if row["wearer"] != "w0"] == ["SentRejected"] * 3
-
-
-def test_a_state_that_cannot_go_on_is_reported_and_its_wearer_restarts(spark, tmp_path):
-    """The state has version 250, as after a return to an older release."""
-    from binascii import crc32
-
-    fleet = Fleet()
-    states, before = {}, {}
-    for wearer in range(3):
-        first = sent(wearer, wearer)[:400]
-        states[f"w{wearer}"], events = fleet.step(f"w{wearer}", None, first)
-        before[f"w{wearer}"] = [event_row(one) for one in events]
-    head = states["w1"][:4] + bytes([250]) + states["w1"][5:37]
-    states["w1"] = head + crc32(head).to_bytes(4, "little") + states["w1"][41:]
-    states["w2"] = b"nothing that anybody wrote"
-
-    (tmp_path / "sent").mkdir()
-    put(tmp_path / "sent/rest.parquet", [sent_row(one) for wearer in range(3) for one in sent(wearer, wearer)[400:]], 0)
-    frame = spark.createDataFrame(list(states.items()), "wearer string, state binary")
-    events = run(stream(spark, tmp_path / "sent"), tmp_path, fleet, frame)
-    of = {wearer: [row for row in events if row["wearer"] == wearer] for wearer in states}
-    assert before["w0"] + of["w0"] == [row for row in expected(1) if row["wearer"] == "w0"]
-    for wearer, reason in (("w1", "version 250"), ("w2", "")):
-        first, *rest = of[wearer]
-        assert first["event"] == "StateRejected" and reason in first["fields"]
-        assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in rest}
-        assert first["number"] >= len(before[wearer]), "no identity is used twice"
 
 
 def test_states_of_a_checkpoint_go_on_in_a_job_of_more_partitions(spark, tmp_path):

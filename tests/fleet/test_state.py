@@ -9,7 +9,7 @@ from math import inf
 from typing import Any
 
 import pytest
-from attrs import astuple, define, evolve, field
+from attrs import astuple, evolve
 from fleets import WEARER, shown, uses, walked
 from here import PROTOCOL
 from hypothesis import given, settings
@@ -20,12 +20,10 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, Sent, StateRejected, Tick, Unreadable
 from solepath.fleet.step.keyed import first_event_number
 from solepath.fleet.step.order import RejectedItem
-from solepath.fleet.step.state import READERS, VERSION, StateHead, read_head, read_rest, write_state
-from solepath.foot.stance.stance import Detector, Load, Stance
+from solepath.fleet.step.state import StateHead, read_head, read_rest, write_state
 from solepath.recipes import DEFAULT
 from solepath.session import Session
-from solepath.types import Packet, Quat, Site, Vec3
-from solepath.types.vector import IDENTITY, ZERO
+from solepath.types import Packet, Site
 
 STATES = json.loads((PROTOCOL / "fleet" / "states.json").read_text())
 FLEET = Fleet()
@@ -75,11 +73,6 @@ def test_a_state_is_as_in_the_protocol(vector: dict[str, Any]) -> None:
     assert FLEET.open(WEARER, state).state() == state
 
 
-def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
-    shown = {bytes.fromhex(vector["hex"])[4] for vector in STATES["states"] if vector["result"] == "valid"}
-    assert shown == set(READERS) == set(range(1, VERSION + 1))
-
-
 @settings(max_examples=40)
 @given(state=st.one_of(st.binary(max_size=80), st.binary(max_size=60).map(lambda rest: halfway()[0][:41] + rest)))
 def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> None:
@@ -100,28 +93,6 @@ def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(
     _, emitted = FLEET.step(WEARER, bytes(damaged), walked().sent[MIDDLE : MIDDLE + 5])
     assert isinstance(emitted[0].event, StateRejected)
     assert emitted[0].number >= before
-
-
-def test_a_rejected_state_is_reported_once_and_not_before_it_is_needed() -> None:
-    state, before = halfway()
-    torn = state[:-3]
-    keyed = FLEET.open(WEARER, torn)
-    assert keyed.state() == torn, "nothing happened yet"
-    assert [one.number for one in keyed.feed([])] == [before]
-    assert keyed.feed([]) == []
-    after, emitted = FLEET.step(WEARER, torn, [])
-    assert after == keyed.state() and isinstance(emitted[0].event, StateRejected)
-    assert FLEET.step(WEARER, after, []) == (after, [])
-
-
-def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one() -> None:
-    keyed = Fleet(window=0).open(WEARER, b"not a state")
-    assert keyed.feed([Unreadable(WEARER, "no row"), Sent(WEARER, -1, End())]) == []
-    assert keyed.state() == b"not a state"
-    emitted = keyed.feed([shown(12, 1_763_800_000_000)])
-    assert emitted[0].number == 64 * (1_763_800_000_000 + 13)
-    assert isinstance(emitted[0].event, StateRejected)
-    assert uses(emitted[1:]) == [("missing", 1_763_800_000_000, 0, 12), ("used", 1_763_800_000_000, 12, None)]
 
 
 def test_a_session_of_another_recipe_or_of_a_building_is_rejected_and_the_numbers_go_on() -> None:
@@ -163,36 +134,6 @@ def test_a_state_keeps_what_is_held_whatever_it_is() -> None:
     rest = [shown(0), shown(1), shown(0, 7)]
     assert cut.feed(rest) == whole.feed(rest)
     assert cut.ended and whole.ended and cut.state() == whole.state()
-
-
-@define
-class Unsound(Detector):
-    """A detector that after some time holds a value that cannot be saved."""
-
-    updates: int = field(default=0, init=False)
-    held: float = field(default=0.0, init=False)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        self.updates += 1
-        if self.updates > 100:
-            self.held = "a text"  # type: ignore[assignment]
-        return Stance(ZERO, inf, 0.0, None)
-
-
-def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_session_and_no_more() -> None:
-    fleet = Fleet(evolve(DEFAULT, name="unsound", detector=Unsound()), parts=[Unsound])
-    keyed = fleet.open(WEARER, None)
-    before = len(keyed.feed(walked().sent[:MIDDLE]))
-    state = keyed.state()
-    assert len(state) < 1000
-    restored = fleet.open(WEARER, state)
-    rest = walked().sent[MIDDLE : MIDDLE + 100]
-    emitted = keyed.feed(rest)
-    assert type(emitted[0].event).__name__ == "WearerFailed" and emitted[0].number == before
-    assert restored.feed(rest) == emitted, "in memory and from bytes it goes on alike"
-    assert restored.state() == keyed.state()
 
 
 def test_a_phone_hands_its_wearer_over() -> None:

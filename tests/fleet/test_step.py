@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, nan
+from math import nan
 from typing import Any
 
 import pytest
@@ -20,7 +20,6 @@ from solepath.types import Packet, Site
 
 FLEET = Fleet()
 TESTED_RECIPES = [DEFAULT, recipes.by_name("kupt-dfpc")]
-LONG_NAME = "w" * 10_000
 
 
 @pytest.mark.parametrize("recipe", TESTED_RECIPES, ids=lambda recipe: recipe.name)
@@ -35,17 +34,6 @@ def test_the_events_of_a_wearer_are_those_of_a_session_with_the_same_packets(rec
     keyed = fleet.open(WEARER, None)
     assert [one for piece in pieces for one in keyed.feed(piece)] == emitted
     assert keyed.state() == state
-
-
-@pytest.mark.parametrize("recipe", recipes.NAMES)
-def test_a_wearer_leaves_no_trace_in_what_all_wearers_share(recipe: str) -> None:
-    made = recipes.by_name(recipe)
-    fresh = Session(made)
-    before, blank = fresh.snapshot(), fresh.pack()
-    fleet = Fleet(made)
-    state, _ = fleet.step(WEARER, None, walked().sent[:200])
-    fleet.step(WEARER, state, walked().sent[200:300])
-    assert Session.unpack(blank, made).snapshot() == before
 
 
 def test_passing_time_gives_the_events_of_a_session() -> None:
@@ -72,23 +60,14 @@ def test_a_wearer_goes_on_in_a_new_run_and_restarts_after_an_end() -> None:
 
 ODD_PACKETS: list[Any] = [
     Packet("soon", LEFT, "c", b""),  # type: ignore[arg-type]
-    Packet(True, LEFT, "c", b""),
     Packet(1.0, "left_foot", "c", b""),  # type: ignore[arg-type]
-    Packet(1.0, LEFT, 3, b""),  # type: ignore[arg-type]
     Packet(1.0, LEFT, "c", "00"),  # type: ignore[arg-type]
-    Packet(1.0, LEFT, "c", None),  # type: ignore[arg-type]
     Packet(1.0, LEFT, "c", b"", None),  # type: ignore[arg-type]
     Packet(1.0, LEFT, "c", bytes(1_000_000)),
-    Packet(1.0, LEFT, "c" * 1_000_000, b""),
-    Packet(1.0, LEFT, "c", b"", "d" * 1_000_000),
     Tick(nan),
-    Tick(inf),
-    Tick(1e300),
     Tick(10**400),
     Tick("noon"),  # type: ignore[arg-type]
     None,
-    b"",
-    Session,
 ]
 
 
@@ -105,52 +84,24 @@ def test_what_cannot_be_used_is_rejected_in_its_turn_and_the_next_is_used(what: 
 
 
 @pytest.mark.parametrize(
-    "packet",
-    [
-        Packet(1, LEFT, "insole/frame", b"\x00"),
-        Packet(10**400, LEFT, "insole/frame", b"\x00"),
-        Packet(-inf, LEFT, "insole/frame", b"\x00"),
-        Packet(1.0, LEFT, "insole/frame", bytearray(b"\x00")),  # type: ignore[arg-type]
-        Packet(1.0, LEFT, "insole/frame", memoryview(b"\x00")),  # type: ignore[arg-type]
-    ],
-    ids=["whole", "huge", "infinite", "bytearray", "memoryview"],
-)
-def test_what_a_session_takes_or_rejects_by_itself_is_left_to_it(packet: Packet) -> None:
-    (emitted,) = FLEET.step(WEARER, None, [Sent(WEARER, 0, packet)])[1]
-    assert repr(emitted.event) == repr(Session().feed(packet)[0])
-
-
-@pytest.mark.parametrize(
     "item",
     [
         None,
-        7,
-        "row",
         Sent("somebody else", 0, End()),
         Sent(None, 0, End()),  # type: ignore[arg-type]
         Sent(WEARER, -1, End()),
         Sent(WEARER, 2**53, End()),
         Sent(WEARER, True, End()),
-        Sent(WEARER, 0.0, End()),  # type: ignore[arg-type]
-        Sent(WEARER, [], End()),  # type: ignore[arg-type]
         Sent(WEARER, 0, End(), -1),
-        Sent(WEARER, 0, End(), None),  # type: ignore[arg-type]
         Unreadable(WEARER, "no JSON"),
-        Unreadable(WEARER, None, 0, "first"),  # type: ignore[arg-type]
         Unreadable(WEARER, "x" * 1_000_000, -4, 3),
     ],
-    ids=range(15),
+    ids=range(9),
 )
 def test_what_has_no_place_in_the_order_is_rejected_at_once(item: Any) -> None:
     state, emitted = FLEET.step(WEARER, None, [item, shown(0)])
     assert [(what, number) for what, _, number, _ in uses(emitted)] == [("rejected", None), ("used", 0)]
     assert len(emitted[0].event.detail) <= 200 and len(state) < 1000
-
-
-@pytest.mark.parametrize("wearer", ["", LONG_NAME, "\ud83d", "ü\n"], ids=["none", "long", "half", "odd"])
-def test_any_text_is_a_wearer(wearer: str) -> None:
-    state, emitted = FLEET.step(wearer, None, [shown(0, wearer=wearer), Unreadable("", "no JSON")])
-    assert [one.wearer for one in emitted] == [wearer, wearer] and len(state) < 1000
 
 
 REAL_DATA = st.deferred(lambda: st.sampled_from([one.what.data for one in walked().sent[:40]]))

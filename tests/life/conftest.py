@@ -15,7 +15,7 @@ from walks import insoles
 def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., dict[str, Any]]:
     """Return a function that runs programs of the page one after the other, and returns their names."""
     monkeypatch.chdir(tmp_path)
-    packets = insoles().packets
+    packets = insoles(cells=24).packets
     recorded(Path("walk-0001.jsonl"), packets[: len(packets) // 2])
 
     def run_programs(*programs: str) -> dict[str, Any]:

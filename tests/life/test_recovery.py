@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import resource
-from collections.abc import Callable, Iterator, Sequence
-from math import dist
+from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,20 +15,26 @@ from quoted import PAGES, blocks
 from recordings import recorded
 from walks import insoles, of
 
-from solepath import ClockReset, Packet, PacketRejected, Rejection, Session, StrideTaken
+from solepath import ClockReset, PacketRejected, Rejection, Session, StrideTaken
 from solepath.recording import RecordingWarning, read_packets
 
 CUT, TORN, FULL, _, REBOOTED, *_ = blocks(PAGES["docs/app_life.md"], "python")
 """The programs of the page, in their order."""
-PACKETS = insoles().packets
+PACKETS = insoles(cells=24).packets
 HALF = len(PACKETS) // 2
 Run = Callable[..., dict[str, Any]]
 
 
-def fed(packets: Sequence[Packet]) -> Session:
+@cache
+def state_after(count: int) -> bytes:
     session = Session()
-    session.feed(packets)
-    return session
+    session.feed(PACKETS[:count])
+    return session.pack()
+
+
+def fed(count: int) -> Session:
+    """Return a session that was fed so many packets of the walk."""
+    return Session.unpack(state_after(count))
 
 
 def test_a_recording_that_was_cut_gives_the_session_up_to_its_last_whole_line(run: Run) -> None:
@@ -36,25 +42,22 @@ def test_a_recording_that_was_cut_gives_the_session_up_to_its_last_whole_line(ru
     path.write_bytes(path.read_bytes()[:-30])
     with pytest.warns(RecordingWarning, match="cut off"):
         session = run(CUT)["session"]
-    undisturbed = fed(PACKETS[: HALF - 1])
+    undisturbed = fed(HALF - 1)
     assert session.pack() == undisturbed.pack()
     assert session.feed(PACKETS[HALF - 1 :]) == undisturbed.feed(PACKETS[HALF - 1 :])
 
 
 @pytest.mark.parametrize(
     ("damage", "saved_after"),
-    [
-        *((damage, HALF + 200) for damage in ("torn", "changed", "nested", "no session", "absent", "none")),
-        ("none", HALF // 3),
-    ],
+    [*((damage, HALF + 200) for damage in ("torn", "changed", "absent", "none")), ("none", HALF // 3)],
 )
 def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run, damage: str, saved_after: int) -> None:
     recorded(Path("walk-0002.jsonl"), PACKETS[HALF : HALF + 300])
     names = run(CUT, TORN)
     if saved_after > HALF:
-        names["save"](fed(PACKETS[:saved_after]), "walk-0002.jsonl", saved_after - HALF)
+        names["save"](fed(saved_after), "walk-0002.jsonl", saved_after - HALF)
     else:
-        names["save"](fed(PACKETS[:saved_after]), "walk-0001.jsonl", saved_after)
+        names["save"](fed(saved_after), "walk-0001.jsonl", saved_after)
     saved = Path("session.json")
     text = saved.read_text()
     if damage == "torn":
@@ -63,29 +66,12 @@ def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run,
         changed = json.loads(text)
         changed["session"]["state"]["now"] += 1.0
         saved.write_text(json.dumps(changed))
-    elif damage == "nested":
-        saved.write_text("[" * 100_000)
-    elif damage == "no session":
-        saved.write_text("{}")
     elif damage == "absent":
         saved.unlink()
-    session, undisturbed = names["resume"](), fed(PACKETS[: HALF + 300])
+    session, undisturbed = names["resume"](), fed(HALF + 300)
     assert session.pack() == undisturbed.pack()
     rest = PACKETS[HALF + 300 :]
     assert session.feed(rest) + session.finish() == undisturbed.feed(rest) + undisturbed.finish()
-
-
-def test_a_replay_of_two_recordings_restarts_the_clock_between_them(run: Run) -> None:
-    rest = [evolve(packet, t=packet.t - PACKETS[HALF].t) for packet in PACKETS[HALF:]]
-    recorded(Path("walk-0002.jsonl"), rest, {"restarted_t": 0.0})
-    resumed, whole = run(CUT, TORN)["session"], fed(PACKETS)
-    position, expected = resumed.position, whole.position
-    assert position is not None and expected is not None
-    assert dist(position.position, expected.position) < 1.0 < expected.position[0]
-    session = run(CUT)["replay"](Session(), "walk-0001.jsonl")
-    first, *rest = read_packets("walk-0002.jsonl")
-    session.restart_clock(first.t)
-    assert not of(PacketRejected, session.feed([first, *rest]))
 
 
 @pytest.fixture
@@ -117,12 +103,12 @@ def test_on_a_full_disk_the_walk_goes_on_and_its_packets_are_written_when_there_
     for packet in PACKETS[HALF + 150 :]:
         events += received(packet)
     assert tuple(read_packets(recording)) == PACKETS[HALF:]
-    assert events == fed(PACKETS[:HALF]).feed(PACKETS[HALF:])
+    assert events == fed(HALF).feed(PACKETS[HALF:])
     assert names["resume"]().pack() == names["session"].pack()
     assert "safe" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("shift", [-1e5, -3.0, 1e5], ids=["after a reboot", "set back by 3 s", "set forward"])
+@pytest.mark.parametrize("shift", [-1e5, 1e5], ids=["after a reboot", "set forward"])
 def test_after_a_reboot_no_packet_is_lost_and_the_track_continues(run: Run, shift: float) -> None:
     names = run(CUT, TORN)
     position = names["session"].position
@@ -137,18 +123,3 @@ def test_after_a_reboot_no_packet_is_lost_and_the_track_continues(run: Run, shif
     strides = of(StrideTaken, events)
     assert len(strides) >= len(of(StrideTaken, Session().feed(PACKETS[HALF:]))) > 0
     assert position is not None and abs(strides[0].position[0] - position.position[0]) < 3.0
-
-
-@pytest.mark.parametrize("shift", [4000.0, -1e5], ids=["longer uptime", "shorter uptime"])
-def test_a_replay_restarts_the_clock_where_the_app_did(run: Run, shift: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    rest = [evolve(packet, t=packet.t + shift) for packet in PACKETS[HALF:]]
-    monkeypatch.setattr("time.monotonic", lambda: rest[0].t - 2.0)
-    names = run(CUT, TORN, FULL, REBOOTED)
-    for packet in rest:
-        names["received"](packet)
-    assert names["recording"] == "walk-0003.jsonl" and tuple(read_packets(names["recording"])) == tuple(rest)
-    assert names["resume"]().pack() == names["session"].pack()
-    names["save"](fed(PACKETS[:HALF]), "walk-0001.jsonl", HALF)
-    assert names["resume"]().pack() == names["session"].pack()
-    Path("walk-0001.jsonl").unlink()
-    assert names["next_recording"]() == "walk-0004.jsonl"

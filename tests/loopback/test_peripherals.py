@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import pytest
 from attrs import evolve
-from benches import LEFT, RIGHT, ROUTE, Received, error_code, played, set_up, start, walker, worn
+from benches import LEFT, RIGHT, Received, error_code, played, set_up, start, walker, worn
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.device import Device, device_rng
 from solepath.emulate.sensors.insole_device import TICK_RATE, Insole
@@ -21,7 +20,6 @@ from solepath.wire.insole import InsoleFrame, parse_frame
 from solepath.wire.insole_control import Resend, SetInterval, build_control
 from solepath.wire.insole_info import parse_info
 
-START, STOP = b"\x01", b"\x02"
 DEVICES: list[tuple[Device, Profile]] = [
     (Insole(), insole.PROFILE),
     (CC2650(), cc2650.PROFILE),
@@ -34,17 +32,6 @@ def frames(received: Received) -> list[InsoleFrame]:
 
 
 # every device
-
-
-@pytest.mark.parametrize(("device", "profile"), DEVICES)
-def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device: Device, profile: Profile) -> None:
-    table = {(s.uuid, c.uuid): c for s in worn(device).services for c in s.characteristics}
-    for channel in profile.channels:
-        served = table[channel.service, channel.characteristic]
-        assert served.channel == channel.name
-        assert ("write" if channel.access is Access.WRITE else channel.access.value) in served.properties
-    assert any(c.channel == "device/manufacturer" for c in table.values())
-    assert len({c.channel for c in table.values()}) == len(table)
 
 
 @pytest.mark.parametrize(("device", "profile"), DEVICES)
@@ -85,29 +72,6 @@ def test_only_what_is_subscribed_is_sent_and_only_while_connected(device: Device
 
 
 @pytest.mark.parametrize(("device", "profile"), DEVICES)
-def test_attributes_reject_requests_that_they_do_not_support(device: Device, profile: Profile) -> None:
-    tag = start(worn(device))
-    assert error_code(tag, "device/firmware", b"x") == 0x03
-    assert error_code(tag, "no such channel") == 0x02
-    with pytest.raises(Exception, match="0x06"):
-        tag.subscribe("device/firmware", True, 0.0)
-    keys = f"{profile.name}/keys"
-    assert error_code(tag, "insole/frame" if profile is insole.PROFILE else keys) == 0x02
-
-
-@pytest.mark.parametrize(("device", "profile"), DEVICES)
-def test_the_streams_never_dry_up_before_and_after_the_walk(device: Device, profile: Profile) -> None:
-    tag = set_up(worn(device, started_at=1000.0), profile, now=900.0)
-    stream = profile.streams[0]
-    assert len(played(tag, 910.0, stream)) == pytest.approx(10.0 * profile.nominal_rate, rel=0.02)
-    tag.disconnected(910.0)
-    set_up(tag, profile, now=5000.0)
-    received = played(tag, 5010.0, stream)
-    assert len(received) == pytest.approx(10.0 * profile.nominal_rate, rel=0.02)
-    assert all(5000.0 <= t <= 5010.0 for t, _ in received)
-
-
-@pytest.mark.parametrize(("device", "profile"), DEVICES)
 @settings(max_examples=40)
 @given(st.lists(st.tuples(st.integers(0, 30), st.binary(max_size=4)), max_size=12))
 def test_every_write_is_obeyed_or_rejected(device: Device, profile: Profile, writes: list[tuple[int, bytes]]) -> None:
@@ -129,31 +93,6 @@ _BENCHES: dict[str, Peripheral] = {}
 def _lasting(device: Device) -> Peripheral:
     """Return one device for all examples, so that each signal is computed once."""
     return _BENCHES.setdefault(type(device).__name__, worn(device))
-
-
-def test_a_walk_may_start_when_the_devices_already_run() -> None:
-    tag = set_up(worn(Insole(), started_at=1e6), insole.PROFILE)
-    still = frames(played(tag, 3.0))
-    tag.walk_from(3.0)
-    walk = frames(played(tag, 3.0 + walker().duration))
-    assert len({frame.samples for frame in still}) == 1
-    assert len({frame.samples for frame in walk}) > 0.9 * len(walk)
-
-
-def test_a_name_that_an_advertisement_cannot_hold_is_the_callers_mistake() -> None:
-    with pytest.raises(ValueError, match="31 fit"):
-        worn(Insole(), faults='0 * name "a name that is far too long"')
-
-
-def test_a_bench_distinguishes_devices_by_address_and_names_insoles_by_side() -> None:
-    bench = Bench(ROUTE)
-    assert [p.name for p in bench.peripherals] == ["solepath L", "solepath R"]
-    tags = Bench(ROUTE, devices={RIGHT: CC2650(), LEFT: CC2650()})
-    assert [p.site for p in tags.peripherals] == [LEFT, RIGHT]
-    assert {p.name for p in tags.peripherals} == {"CC2650 SensorTag"}
-    assert len({p.address for p in tags.peripherals}) == 2
-    with pytest.raises(ValueError, match="only feet"):
-        Bench(ROUTE, devices={Site.PELVIS: Insole()})
 
 
 # the insole
@@ -178,13 +117,6 @@ def test_frames_are_byte_for_byte_those_that_the_emulator_emits(device: Insole, 
     assert [t for t, _ in walked] == pytest.approx([n.t for n in emitted], abs=1e-9)
 
 
-def test_sequence_and_ticks_count_through_before_during_and_after_the_walk() -> None:
-    found = frames(played(set_up(worn(Insole()), insole.PROFILE, now=-5.0), walker().duration + 5.0))
-    for one, following in zip(found, found[1:], strict=False):
-        assert following.sequence == (one.sequence + 1) % 2**16
-        assert following.ticks == (one.ticks + one.interval) % 2**32
-
-
 @pytest.mark.parametrize("interval", [164, 656, 1000, 3277])
 def test_an_interval_set_while_it_runs_goes_on_in_sequence_and_on_the_same_clock(interval: int) -> None:
     tag = set_up(worn(Insole(ppm=0.0)), insole.PROFILE)
@@ -200,12 +132,6 @@ def test_an_interval_set_while_it_runs_goes_on_in_sequence_and_on_the_same_clock
     assert parse_info(tag.read("insole/info", 8.0) or b"").interval == interval
 
 
-def test_a_too_short_interval_becomes_the_shortest_and_info_reports_it() -> None:
-    tag = start(worn(Insole(cells=24)))
-    tag.write("insole/control", build_control(SetInterval(1)), 0.0)
-    assert parse_info(tag.read("insole/info", 0.0) or b"").interval == 82
-
-
 def test_frames_are_sent_again_flagged_and_otherwise_the_same() -> None:
     tag = set_up(worn(Insole()), insole.PROFILE)
     first = frames(played(tag, 3.0))
@@ -215,21 +141,3 @@ def test_frames_are_sent_again_flagged_and_otherwise_the_same() -> None:
     assert [evolve(f, retransmitted=False) for f in after if f.retransmitted] == requested
     fresh = [f.sequence for f in after if not f.retransmitted]
     assert fresh[0] == (first[-1].sequence + 1) % 2**16
-
-
-def test_frames_older_than_twenty_seconds_are_not_resent() -> None:
-    tag = set_up(worn(Insole(cells=24)), insole.PROFILE)
-    first = frames(played(tag, 25.0))
-    tag.write("insole/control", build_control(Resend(first[0].sequence, 255)), 25.0)
-    tag.write("insole/control", build_control(Resend((first[-1].sequence + 100) % 2**16, 5)), 25.0)
-    assert not [f for f in frames(played(tag, 26.0)) if f.retransmitted]
-
-
-def test_with_a_small_mtu_frames_go_in_fragments_and_large_batches_shrink() -> None:
-    tag = set_up(worn(Insole(batch=8)), insole.PROFILE, mtu=23)
-    received = played(tag, 1.0, "insole/frame")
-    assert max(len(outgoing.value) for _, outgoing in received) == 20
-    decoder, samples = Decoder(site=LEFT), []
-    for t, outgoing in received:
-        samples += [o for o in decoder.feed(Packet(t, LEFT, outgoing.channel, outgoing.value)) if isinstance(o, Sample)]
-    assert len(samples) > 90

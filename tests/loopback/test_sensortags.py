@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from benches import ROUTE, error_code, played, set_up, start, worn
+from benches import ROUTE, error_code, played, start, worn
 
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.routes.route import Route
@@ -13,7 +13,6 @@ from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.link.devices import cc2541, cc2650
-from solepath.link.profile import Access
 from solepath.wire.fields import parse_whole
 
 # the CC2650
@@ -43,19 +42,6 @@ def test_an_axis_that_is_off_reads_zero(bit: int, sensor: str, axis: int) -> Non
     alone = movements(configured((0x0200 | 1 << bit).to_bytes(2, "little")), 8.0)
     assert any(getattr(movement, sensor)[axis] for _, movement in alone)
     assert not any(movement.mag != (0, 0, 0) for _, movement in alone)
-
-
-def test_the_magnetometer_is_switched_as_a_whole() -> None:
-    assert all(m.mag == (0, 0, 0) for _, m in movements(configured(b"\x3f\x02"), 4.0))
-    assert all(0 not in m.mag and m.acc == (0, 0, 0) for _, m in movements(configured(b"\x40\x02"), 4.0))
-
-
-@pytest.mark.parametrize("config", [b"\x00\x00", b"\x00\x02", b"\x00\x7f", b"\x80\x02"])
-def test_without_any_axis_the_tag_is_silent(config: bytes) -> None:
-    tag = configured(config)
-    assert tag.next_due() is None
-    assert tag.read("cc2650/movement", 1.0) == bytes(18)
-    assert tag.read("cc2650/movement-config", 1.0) == config
 
 
 @pytest.mark.parametrize(
@@ -110,57 +96,7 @@ def test_values_of_wrong_length_or_meaning_are_rejected_with_the_codes_of_the_de
         assert error_code(tag, channel, value) == code, (channel, value)
 
 
-def test_the_barometer_sends_the_air_pressure_at_its_own_period() -> None:
-    tag = start(worn(CC2650()), "cc2650/barometer")
-    tag.write("cc2650/barometer-period", b"\x14", 0.0)
-    assert tag.next_due() is None
-    tag.write("cc2650/barometer-config", b"\x01", 0.0)
-    received = [parse("cc2650/barometer", o.value) for _, o in played(tag, 8.0)]
-    assert len(received) == pytest.approx(40, abs=3)
-    assert all(one.pressure == pytest.approx(101325.0, abs=300.0) for one in received)
-
-
-def test_keys_are_reported_when_pressed_and_when_released() -> None:
-    presses = (4.0, 1.0)
-    for device, keys in ((CC2650(presses=presses), "cc2650/keys"), (CC2541(presses=presses), "cc2541/keys")):
-        received = played(start(worn(device), keys), 10.0)
-        expected = [(1.0, True), (1.25, False), (4.0, True), (4.25, False)]
-        assert [(round(t, 3), parse(keys, o.value).left) for t, o in received] == expected
-        assert not played(start(worn(device), keys, now=5.0), 10.0), "what is over is not told later"
-
-
-@pytest.mark.parametrize(("device", "full"), [(Insole(), 87), (CC2650(), 91)])
-def test_a_battery_empties_and_reports_it(device: Device, full: int) -> None:
-    tag = start(worn(device), "device/battery")
-    assert tag.read("device/battery", 0.0) == bytes([full])
-    received = played(tag, 1900.0)
-    assert [(round(t), o.value[0]) for t, o in received] == [(600, full - 1), (1200, full - 2), (1800, full - 3)]
-    assert tag.read("device/battery", 1900.0) == bytes([full - 3])
-
-
-def test_a_disconnected_tag_forgets_what_was_written() -> None:
-    tag = set_up(worn(CC2650()), cc2650.PROFILE)
-    tag.disconnected(3.0)
-    start(tag, "cc2650/movement", now=4.0)
-    assert tag.read("cc2650/movement-config", 4.0) == b"\x00\x00"
-    assert tag.read("cc2650/movement-period", 4.0) == b"\x64"
-    assert tag.next_due() is None
-
-
 # the CC2541
-
-
-def test_each_sensor_has_a_period_of_its_own() -> None:
-    tag = start(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.access is Access.NOTIFY))
-    tag.write("cc2541/accelerometer-period", b"\x05", 0.0)
-    tag.write("cc2541/gyroscope-period", b"\x14", 0.0)
-    for sensor, on in (("accelerometer", 3), ("gyroscope", 7), ("magnetometer", 1), ("barometer", 1)):
-        tag.write(f"cc2541/{sensor}-config", bytes([on]), 0.0)
-    played(tag, 10.0)
-    assert tag.sent["cc2541/accelerometer"] == pytest.approx(100, abs=2), "stock firmware takes 100 ms at the least"
-    assert tag.sent["cc2541/gyroscope"] == pytest.approx(50, abs=1)
-    assert tag.sent["cc2541/magnetometer"] == pytest.approx(5, abs=1)
-    assert tag.sent["cc2541/barometer"] == pytest.approx(10, abs=1)
 
 
 def test_coefficients_can_be_read_after_they_were_fetched_and_not_before() -> None:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-import signal
 import socket
 import sys
 from collections.abc import AsyncIterator, Awaitable, Callable
-from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager, suppress
+from contextlib import asynccontextmanager, suppress
 from functools import wraps
 from typing import Any
 
@@ -19,28 +18,9 @@ from strap import BEAT, CONTROL, LEVEL, Strap
 from virtual import find
 
 from solepath.ble.scanning import Backend
-from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import address_of, reach, serve
-from solepath.emulate.devices.faults import parse_faults
 
 HERE = HELPERS / "radio"
-
-LISTEN = """
-import asyncio, sys
-from bleak import BleakClient, BleakScanner
-from solepath.emulate.controllers.tcp import reach
-from strap import BEAT, CONTROL
-
-async def main():
-    async with reach(sys.argv[1]) as backend:
-        device = await BleakScanner.find_device_by_name("one", 5.0, backend=backend.scanner)
-        async with BleakClient(device, backend=backend.client) as client:
-            await client.start_notify(BEAT, lambda _, value: print(value.hex(), flush=True))
-            await client.write_gatt_char(CONTROL, bytes([50]), response=True)
-            await asyncio.sleep(60.0)
-
-asyncio.run(main())
-"""
 
 
 def really(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
@@ -127,82 +107,6 @@ async def test_another_processs_devices_are_found_and_stream_until_it_is_killed_
                 await client.connect()
                 assert await client.read_gatt_char(LEVEL) == b"\x57"
                 await client.disconnect()
-
-
-@really
-async def test_a_running_scan_finds_the_devices_of_a_restarted_server() -> None:
-    async with program("strap.py", "0") as server:
-        port = await line(server)
-        async with reach(f"tcp:127.0.0.1:{port}") as backend:
-            numbers = asyncio.Event()
-            async with BleakScanner(lambda device, output: numbers.set(), backend=backend.scanner):
-                await asyncio.wait_for(numbers.wait(), 5.0)
-                server.kill()
-                await server.wait()
-                await asyncio.sleep(0.1)
-                numbers.clear()
-                async with program("strap.py", port) as restarted:
-                    await line(restarted)
-                    await asyncio.wait_for(numbers.wait(), 5.0)
-
-
-@really
-async def test_a_server_that_hangs_is_an_error_until_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(radio, "CONTROLLER_TIMEOUT", 0.3)
-    async with program("strap.py", "0") as server:
-        port = await line(server)
-        async with reach(f"tcp:127.0.0.1:{port}") as backend:
-            client, lost = await connected(backend)
-            server.send_signal(signal.SIGSTOP)
-            await client.disconnect()
-            assert not client.is_connected
-            await asyncio.wait_for(lost.wait(), 1.0)
-            for _ in range(2):
-                with pytest.raises(BleakError, match=port):
-                    await BleakScanner.discover(0.1, backend=backend.scanner)
-            monkeypatch.undo()  # it has all the time that it needs
-            server.send_signal(signal.SIGCONT)
-            async with BleakClient(await find(backend), backend=backend.client) as again:
-                assert await again.read_gatt_char(LEVEL) == b"\x57"
-
-
-@really
-async def test_a_killed_clients_device_advertises_again_and_the_next_client_connects() -> None:
-    strap = Strap("one", "F0:00:00:00:00:01")
-    async with serve([strap], "127.0.0.1", 0) as (_, port):
-        where = f"tcp:127.0.0.1:{port}"
-        async with program("-c", LISTEN, where) as first:
-            assert len(await line(first)) == 40
-            assert strap.is_connected
-            async with reach(where) as backend:
-                assert await BleakScanner.find_device_by_name("one", 0.5, backend=backend.scanner) is None
-                first.kill()
-                async with BleakClient(await find(backend), backend=backend.client) as client:
-                    await beats(client)
-            assert not strap.is_connected
-        async with reach(where) as backend, BleakClient(await find(backend), backend=backend.client) as client:
-            assert await client.read_gatt_char(LEVEL) == b"\x57"
-
-
-@really
-async def test_a_device_that_has_forgotten_its_pairing_is_an_error_until_it_is_unpaired_here_too() -> None:
-    def serving(port: int) -> AbstractAsyncContextManager[tuple[str, int]]:
-        strap = Strap("one", "F0:00:00:00:00:01", faults=parse_faults("0 * pairing"))
-        return serve([strap], "127.0.0.1", port)
-
-    async with AsyncExitStack() as host:
-        async with serving(0) as (_, port):
-            backend = await host.enter_async_context(reach(f"tcp:127.0.0.1:{port}"))
-            device = await find(backend)
-            async with BleakClient(device, backend=backend.client, pair=True) as client:
-                assert await client.read_gatt_char(CONTROL) == b"\0"
-        async with serving(port):
-            client = BleakClient(device, backend=backend.client, pair=True)
-            with pytest.raises(BleakError, match="has forgotten the pairing"):
-                await client.connect()
-            await client.unpair()
-            async with client:
-                assert await client.read_gatt_char(CONTROL) == b"\0"
 
 
 @really

@@ -11,25 +11,22 @@ from fleets import walked
 
 from solepath.events import Event
 from solepath.fleet import Sent
-from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC
-from solepath.recipes import DEFAULT
 from solepath.session import Session
 from solepath.types import Packet, Site
 
-RECIPES = {recipe.name: recipe for recipe in (DEFAULT, KUPT_DFPC)}
 Keyed = tuple[str, Any]
 
 
 @cache
-def site(recipe: str = "default") -> tuple[tuple[Keyed, ...], Mapping[str, list[Event]]]:
+def site() -> tuple[tuple[Keyed, ...], Mapping[str, list[Event]]]:
     """What is sent, keyed by wearer, and each wearer's events. All walk as one did over a bad radio, but "late" begins
     to send later and "limping" wears one insole; only "whole" takes the sensors off in the end."""
     packets = [one.what for one in walked().sent if isinstance(one.what, Packet)]
     inputs = {"late": packets[300:], "limping": [packet for packet in packets if packet.site is Site.LEFT_FOOT]}
     sent = {wearer: [Sent(wearer, n, packet) for n, packet in enumerate(inputs[wearer])] for wearer in inputs}
-    events = {wearer: Session(RECIPES[recipe]).feed(inputs[wearer]) for wearer in inputs}
+    events = {wearer: Session().feed(inputs[wearer]) for wearer in inputs}
     sent["whole"] = [Sent("whole", one.number, one.what) for one in walked().sent]
-    session = Session(RECIPES[recipe])
+    session = Session()
     events["whole"] = session.feed(packets) + session.finish()
     return mixed(sent), events
 

@@ -84,11 +84,6 @@ def in_order(rows: Iterable[Row]) -> list[Row]:
     return sorted(rows, key=lambda row: (row["wearer"], row["number"]))
 
 
-def of_sessions(rows: Iterable[Row]) -> list[Row]:
-    """Those of the wearers w0, w1, ..."""
-    return in_order(row for row in rows if re.fullmatch(r"w\d+", row["wearer"]))
-
-
 def deliver(directory: Path, wearers: int, files: int, more: Iterable[Row] = ()) -> int:
     """Files of what all wearers send at the same time; in each the rows are shuffled, some are late by a file, some
     are there twice. Returns how many rows.

@@ -142,8 +142,6 @@ class Bluez(bus.Service):
             case "Device1.Disconnect":
                 if path in self._links:
                     self._links[path].lose()
-            case "Device1.Pair":
-                await self._pair(path)
             case "Properties.Set":
                 interface, name, value = body
                 self.change(path, interface, **{name: value})
@@ -198,15 +196,6 @@ class Bluez(bus.Service):
             if interface == _CHARACTERISTIC:
                 self._channels[attribute] = path, _channel(device.services, properties["UUID"].value)
         self.change(path, _DEVICE, ServicesResolved=Variant("b", True))
-
-    async def _pair(self, path: str) -> None:
-        if path not in self._links:
-            await self._connect(path)
-        device = self._devices[path]
-        if not await self._links[path].request(device.accepts_pairing):
-            raise DBusError("org.bluez.Error.AuthenticationFailed", "Authentication Failed")
-        device.is_encrypted = True
-        self.change(path, _DEVICE, Paired=Variant("b", True))
 
     async def _request(self, path: str, do: Callable[[Peripheral, str, float], T | None]) -> T:
         """Return the device's answer to a request to the characteristic; raise DBusError when it rejects it."""
