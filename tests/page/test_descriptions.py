@@ -3,29 +3,12 @@
 from __future__ import annotations
 
 from browsers import Browser
-from shown import open_page, packets_between, scene_after, show
+from shown import open_page, scene_after
 
 from solepath import Disconnected
 from solepath.types import SITE_OF_FOOT, Foot
 
 FIGURES = ("cadence", "speed")
-WATCH_SCRIPT = """() => {
-    window.unlike = [];
-    window.changes = 0;
-    const words = (id) => document.getElementById(id).textContent;
-    for (const foot of ["left", "right"]) {
-        const look = () => {
-            const label = document.getElementById(`sole-${foot}`).ariaLabel;
-            const [phase, force] = [words(`phase-${foot}`), words(`force-${foot}`).replace(" N", " newton")];
-            window.changes += 1;
-            if (!label.includes(`: ${phase}, ${force}`)) window.unlike.push([label, phase, force]);
-        };
-        const sole = document.getElementById(`sole-${foot}`);
-        new MutationObserver(look).observe(sole, { attributeFilter: ["aria-label"] });
-    }
-}"""
-
-
 async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser) -> None:
     scene = scene_after(12.0)
     async with open_page(chromium, scene) as (view, _):
@@ -47,26 +30,6 @@ async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser
         await view.until("document.getElementById('announcer').textContent.includes('Not known, last: walking')")
         links = await view.text("links")
         assert "of packets lost" not in links and "lost" in links
-
-
-async def test_all_see_the_colours_that_the_session_chose(chromium: Browser) -> None:
-    scene = scene_after(12.0)
-    top = scene.scales.units["kPa"].end
-    scale_text = f"document.getElementById('scale-top').textContent.endsWith('{top:.0f} kPa')"
-    async with open_page(chromium, scene) as (first, _):
-        await first.until(scale_text)
-        async with open_page(chromium, scene) as (late, _):
-            await late.until(scale_text)
-
-
-async def test_picture_and_words_of_a_sole_are_of_one_moment(chromium: Browser) -> None:
-    scene = scene_after(6.0)
-    async with open_page(chromium, scene) as (view, _):
-        await view.until("document.getElementById('sole-left').ariaLabel.includes(' newton')")
-        await view.tab.evaluate(WATCH_SCRIPT)
-        await show(scene, packets_between(6.0, 10.0))
-        await view.until("window.changes >= 4")
-        assert await view.tab.evaluate("window.unlike") == []
 
 
 def strides(gait: object) -> list[int]:

@@ -5,18 +5,16 @@ The addresses 127.0.0.x of this machine stand for several machines."""
 from __future__ import annotations
 
 import asyncio
-import socket
 import sys
 from collections.abc import AsyncIterator
-from contextlib import AsyncExitStack, asynccontextmanager, suppress
+from contextlib import asynccontextmanager, suppress
 from importlib.resources import files
 
 import pytest
 from aiohttp import ClientSession, TCPConnector
 from served import TOKEN, Connection, check_watching, close_code, handshake, rejection_status, scene_of, served
 
-from solepath.show.page.server import server
-from solepath.show.page.server.open_connections import ACCEPTED_AT_ONCE, MAX_CONNECTIONS, OpenConnections, peer_of
+from solepath.show.page.server.open_connections import MAX_CONNECTIONS, OpenConnections, peer_of
 from solepath.show.page.server.server import MAX_WATCHERS, Page
 
 OWNER = "127.0.0.1"
@@ -108,42 +106,6 @@ async def test_idle_connections_and_reconnections_keep_nobody_out(peers: tuple[s
                 one[1].close()
 
 
-async def test_a_slow_browser_is_answered_unless_192_connections_from_its_own_address_came_before_its_request() -> None:
-    """Its request may come long after its connection, as through a slow mobile network."""
-    async with served() as (page, _, _), AsyncExitStack() as closing:
-        for _ in range(3):
-            connection = await knock(page, OWNER, b"")
-            assert connection is not None
-            for _ in range(MAX_CONNECTIONS - 2):
-                if (one := await knock(page, OWNER, b"")) is not None:
-                    closing.callback(one[1].close)
-            connection[1].write(GET)
-            assert await connection[0].read(15) == b"HTTP/1.1 200 OK"
-            connection[1].close()
-
-
-@several_addresses
-async def test_a_thousand_connections_at_once_do_not_close_the_one_that_sends_its_request(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """All are waiting when the page accepts them, the owner's among the first."""
-    monkeypatch.setattr(server, "MAX_CONNECTIONS", 64)
-    async with served() as (page, _, _), AsyncExitStack() as closing:
-
-        def connect(sent: bytes) -> socket.socket:
-            one = closing.enter_context(socket.create_connection(("127.0.0.1", page.port)))
-            one.sendall(sent)
-            return one
-
-        for _ in range(10):  # nothing is accepted before the next await
-            first = connect(GET)
-            others = [connect(b"") for _ in range(100)]
-            first.setblocking(False)
-            async with asyncio.timeout(5.0):
-                assert await asyncio.get_running_loop().sock_recv(first, 15) == b"HTTP/1.1 200 OK"
-            assert len(others) > 64 > 5 * ACCEPTED_AT_ONCE
-
-
 async def test_watchers_without_the_token_make_room_for_one_who_has_it() -> None:
     async with served() as (page, client, url):
         watching = [await client.ws_connect(f"{url}ws") for _ in range(MAX_WATCHERS)]
@@ -155,20 +117,6 @@ async def test_watchers_without_the_token_make_room_for_one_who_has_it() -> None
         assert await rejection_status(client.ws_connect(f"{url}ws")) == 503
         assert await rejection_status(client.ws_connect(f"{url}ws?token={TOKEN}")) == 503
         assert len(page._watchers) == MAX_WATCHERS
-
-
-async def test_a_watcher_that_reads_nothing_makes_room_too() -> None:
-    async with served() as (page, client, url):
-        silent = [await asyncio.open_connection("127.0.0.1", page.port) for _ in range(MAX_WATCHERS)]
-        for _, writer in silent:
-            writer.transport.pause_reading()
-            writer.write(handshake())
-        while len(page._watchers) < MAX_WATCHERS:
-            await asyncio.sleep(0.01)
-        for _ in range(3):
-            await check_watching(client, url, params={"token": TOKEN})
-        for _, writer in silent:
-            writer.close()
 
 
 class Kept:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from attrs import evolve
-from page_events import events_of_all_kinds, foot_moved
+from page_events import foot_moved
 from shown import shown
 
 from solepath import (
@@ -22,12 +22,6 @@ from solepath import (
 )
 from solepath.show.page.scene.log import sentence
 from solepath.types import Turn
-
-
-def test_every_event_is_either_a_sentence_or_none() -> None:
-    lines = [line for event in events_of_all_kinds() if (line := sentence(event)) is not None]
-    assert {kind for kind, _ in lines} <= {"fault", "link", "wear", "gait", "place", "here"}
-    assert all(text and "\n" not in text and "_" not in text for _, text in lines)
 
 
 def test_the_log_speaks_of_feet_and_not_of_events() -> None:

@@ -39,19 +39,6 @@ def test_an_event_dated_before_an_earlier_one_takes_its_place():
     assert line.spans(5.0) == [(1.0, 3.0, Activity.STANDING), (3.0, 5.0, Activity.STAIRS_UP)]
 
 
-def test_time_before_the_first_activity_and_after_the_end_counts_for_none():
-    line = timeline(changed(2.0, Activity.WALKING))
-    assert line.spans(1.0) == [] and line.durations(2.0) == {}
-
-
-def test_a_timeline_of_too_many_changes_leaves_out_what_was_short_and_keeps_the_newest():
-    line = Timeline()
-    for k, t in enumerate((0.0, 10.0, 20.0, 20.5, 30.0)):
-        line.add(changed(t, Activity.WALKING if k % 2 else Activity.STANDING), 4)
-    assert line.last == (30.0, Activity.STANDING)
-    assert line.spans(40.0) == [(10.0, 30.0, Activity.WALKING), (30.0, 40.0, Activity.STANDING)]
-
-
 def test_the_summary_lists_the_activities():
     observer = Observer()
     for event in (

@@ -8,14 +8,11 @@ from math import hypot
 from pathlib import Path
 from typing import Any
 
-from browsers import MAX_WAIT, Browser, Window
+from browsers import Browser, Window
 from plain_tabs import OPEN_FILE, plain_tab
 from scripted_sensors import WALK_AT_ONCE, connect
-from web_bluetooth import web_bluetooth
 from web_pages import PATIENCE, WORDS, open_site, ready
 
-from solepath.emulate.devices.bench import Bench
-from solepath.emulate.routes.route import Route
 from solepath.emulate.routes.ways import BuildingWalk, case_study
 from solepath.emulate.walk import EmulatedWalk
 from solepath.floorplan.importers.geojson import write_floorplan
@@ -171,41 +168,3 @@ async def test_a_walk_goes_on_while_the_page_is_hidden_and_after_it_was_frozen(
             await view.evaluate("document.getElementById('end').click()")
             await view.until("document.querySelectorAll('#walks li').length === 1")
             assert recorded(await view.evaluate(RECORDED)) == sent(LATE)
-
-
-async def test_sensors_stay_connected_and_are_measured_while_the_page_is_hidden(chromium: Browser, site: Path) -> None:
-    bench = Bench(Route().stand(4.0).walk(100.0), seed=3)
-    bench.prepare()
-    strides = "['left', 'right'].map((foot) => solepath.state.feet[foot]?.strides ?? 0)"
-    with serving(site) as url:
-        async with plain_tab(chromium, url) as view, web_bluetooth(view, bench.peripherals) as radio:
-            await ready(view)
-            bench.walk_from(asyncio.get_running_loop().time())
-            for device in bench.peripherals:
-                await view.choose(device.address)
-            await view.until(f"{strides}.every((count) => count >= 1)")
-            await view.hide()
-            before, frames = await view.evaluate(strides), radio.frames_read
-            async with asyncio.timeout(MAX_WAIT):
-                while radio.frames_read < frames + 1000:  # 5 s of both feet
-                    await asyncio.sleep(0.1)
-            await radio.stop_reading()  # nothing comes after the page is seen again
-            await view.show()
-            await view.until(f"{strides}.every((count, foot) => count >= [{before[0]}, {before[1]}][foot] + 3)")
-            assert await view.evaluate("solepath.state.log.every(([, , words]) => !words.includes('lost'))")
-
-
-async def test_the_cover_stays_while_no_sensor_sends_and_comes_off_when_computing_has_stopped(
-    chromium: Browser, site: Path
-) -> None:
-    covered, limit = "document.getElementById('cover').open", 10.0
-    with serving(site) as url:
-        async with open_site(chromium, url) as view:
-            await connect(view, walk()[1].packets, PROFILE_20HZ)
-            await go_on(view.tab, 5.0)
-            await view.tab.locator("#pocket").click()
-            await asyncio.sleep(limit + 2.0)
-            assert await view.tab.evaluate(covered)
-            await view.tab.evaluate("computer.kill()")
-            await view.until(f"!{covered}", patience=limit + 10.0)
-            await view.until("document.getElementById('offline').innerText.includes('has stopped')")

@@ -9,7 +9,6 @@ from page_events import events_of_all_kinds
 from shown import packet_events, walked
 
 from solepath.emulate import Route
-from solepath.emulate.routes.building import BUILDING
 from solepath.saving.codec import SnapshotError
 from solepath.show.page.messages import encode
 from solepath.show.page.scene.saved_scene import restore_scene, save_scene
@@ -40,13 +39,6 @@ def test_a_restored_scene_gives_the_same_message_and_goes_on_alike() -> None:
         other.take(packet, events)
     assert text_of(scene) == text_of(other)
     assert scene == other
-
-
-def test_events_of_all_kinds_and_a_floor_plan_are_there_again() -> None:
-    scene = Scene("a walk", "default", plan=BUILDING)
-    for event in events_of_all_kinds():
-        scene.take(None, [event])
-    assert text_of(saved_and_restored(scene)) == text_of(scene)
 
 
 def test_a_damaged_scene_and_one_without_anything_are_rejected() -> None:

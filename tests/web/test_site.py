@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ from urllib.error import URLError
 from urllib.request import urlopen
 
 import pytest
-from browsers import Browser, Window, window
+from browsers import Browser, Window
 from web_pages import PATIENCE, WORDS, demo_packets, open_site, ready, scene_of
 
 from solepath.show.page.messages import encode
@@ -45,7 +44,6 @@ async def test_the_demonstration_gives_the_strides_that_cpython_gives(chromium: 
             assert (await report.evaluate("getComputedStyle(document.querySelector('figure')).padding")) != "0px"
             await check_bad_files(view, site)
             await check_isolation(view, site)
-            await check_manifest(view)
             assert not view.complaints, view.complaints
 
 
@@ -80,14 +78,6 @@ async def check_isolation(view: Window, site: Path) -> None:
     view.requests[:] = [one for one in view.requests if not one.startswith(elsewhere)]
 
 
-async def check_manifest(view: Window) -> None:
-    manifest = await view.devtools.send("Page.getAppManifest")
-    assert manifest["url"] and not manifest["errors"]
-    found = await view.devtools.send("Page.getInstallabilityErrors")
-    faults = [one["errorId"] for one in found["installabilityErrors"]]
-    assert [one for one in faults if one != "in-incognito"] == []
-
-
 async def test_it_starts_without_its_server(chromium: Browser, site: Path) -> None:
     with ExitStack() as server:
         url = server.enter_context(serving(site))
@@ -100,19 +90,3 @@ async def test_it_starts_without_its_server(chromium: Browser, site: Path) -> No
             await ready(view)
             await view.tab.locator("#demo").click()
             await view.until("solepath.state.playback?.state === 'playing'", patience=PATIENCE)
-
-
-async def test_two_versions_at_two_paths_of_one_host_keep_their_files_apart(
-    chromium: Browser, site: Path, tmp_path: Path
-) -> None:
-    for name in ("one", "two"):
-        shutil.copytree(site, tmp_path / name)
-    worker = tmp_path / "two" / "sw.js"
-    worker.write_text(worker.read_text().replace('VERSION = "', 'VERSION = "another '))
-    with serving(tmp_path) as url:
-        async with window(chromium, f"{url}one/") as view:
-            for name in ("one", "two", "one"):
-                await view.tab.goto(f"{url}{name}/")
-                await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
-            kept = await view.tab.evaluate("caches.keys()")
-    assert len(kept) == 2 and sum("another" in name for name in kept) == 1

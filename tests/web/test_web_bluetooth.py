@@ -14,7 +14,7 @@ from web_pages import PATIENCE, READY, WORDS, open_site, ready
 from solepath import Connected, Packet, PacketRejected, PacketsLost, SampleGap, Session, StrideTaken
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.sensors.sensortags import CC2541
 from solepath.recording import read_packets
 from solepath.show.web.serve import serving
 from solepath.types import Foot, Site
@@ -106,25 +106,6 @@ async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
     assert {event.site for event in events if isinstance(event, SampleGap)} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
     frames = sum(packet.channel == "insole/frame" for packet in packets)
     assert 0 <= radio.frames_read - frames <= IN_FLIGHT
-
-
-async def test_a_sensortag_is_worn_at_the_chosen_site(chromium: Browser, site: Path) -> None:
-    bench = Bench(ROUTE, devices={Site.LEFT_FOOT: CC2650()}, seed=3)
-    bench.prepare()
-    [tag] = bench.peripherals
-    rows = "document.getElementById('sensors').innerText"
-    with serving(site) as url:
-        async with open_site(chromium, url) as view, web_bluetooth(view, bench.peripherals) as radio:
-            bench.walk_from(asyncio.get_running_loop().time())
-            await radio.choose(tag.address)
-            await view.until(f"{WORDS}.includes('does not say where it is worn')")
-            await view.until(f"{rows} === ''")
-            await view.tab.locator("#worn").select_option("pelvis")
-            await radio.choose(tag.address)
-            await view.until(f"{rows}.includes('{tag.name} on the pelvis: connected')")
-            await view.until(f"{LOG}.includes('pelvis: connected, {tag.name}')")
-            await view.tab.get_by_role("button", name=f"Disconnect {tag.name}").click()
-            await view.until(f"{rows} === ''")
 
 
 async def test_a_cc2541_whose_kind_is_chosen_is_set_to_20_hz(chromium: Browser, site: Path) -> None:

@@ -11,7 +11,6 @@ import pytest
 from shown import frame, scene_after, walked
 
 from solepath import Event, Foot, Packet, Session, Site
-from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.events import PositionRejected, PositionReported, TrackRevised
 from solepath.show.page.messages import encode
@@ -96,27 +95,6 @@ def test_the_drawn_track_ends_where_the_session_is_after_a_revision(report: int)
         assert (now[1] or 0.0) - (was[1] or 0.0) == pytest.approx(events[1].by[0], abs=0.06)
 
 
-def test_a_foot_is_drawn_with_the_correction_although_it_has_it_only_after_its_next_stride() -> None:
-    session, before, scene, events = show_until(reported_walk(), 0)
-    (revised,) = [event for event in events if isinstance(event, TrackRevised)]
-    after = [packet for packet in reported_walk() if packet.t > revised.t]
-    for foot in Foot:
-        assert scene.feet[foot].lag == revised.by
-        was, now = before.feet[foot].position, scene.feet[foot].position
-        assert was is not None and now == pytest.approx((was[0] + revised.by[0], was[1] + revised.by[1], was[2]))
-    for packet in after:
-        places = {foot: one.position for foot, one in scene.feet.items()}
-        scene.take(packet, session.feed(packet))
-        for foot, one in scene.feet.items():
-            was, now = places[foot], one.position
-            assert was is not None and now is not None and hypot(now[0] - was[0], now[1] - was[1]) < 0.08
-        if packet.t > REPORT_TIMES[0] + 2.0:
-            break
-    assert {one.lag for one in scene.feet.values()} == {(0.0, 0.0)}
-    for foot, tracker in session.feet.items():
-        assert scene.feet[foot].position == tracker.position
-
-
 def test_the_track_is_bent_more_and_more_from_the_position_that_was_reported_before() -> None:
     _, before, scene, events = show_until(reported_walk(), 1)
     revised = events[1]
@@ -130,22 +108,6 @@ def test_the_track_is_bent_more_and_more_from_the_position_that_was_reported_bef
     for node in revised.nodes[:-1]:
         nearest = min(hypot((p[1] or 0.0) - node.x, (p[2] or 0.0) - node.y) for p in scene.wearer.track.points)
         assert nearest < 0.5, "the drawn track passes the nodes"
-
-
-def test_a_wearer_who_has_stood_still_is_drawn_in_one_place() -> None:
-    """The correction belongs to the way there, however long the wearer stands before the report."""
-    session, scene = Session(poses=True, pressures=True), Scene("a walk", "default")
-    for packet in walked(Route().stand(1.0).walk(9.0, 1.3).stop(20.0), cells=8):
-        scene.take(packet, session.feed(packet))
-    assert session.position is not None and session.now is not None
-    x, y, _ = session.position.position
-    drawn = scene.wearer.track.points[-1]
-    scene.take(None, session.feed(position_packet(session.now, (x + 0.3, y + 0.3))))
-    at_the_stop = next(point for point in scene.wearer.track.points if point[0] == drawn[0])
-    end = scene.wearer.track.points[-1]
-    assert (drawn[0] or 0.0) < session.now - 15.0
-    moved_by = [(now or 0.0) - (was or 0.0) for was, now in zip(drawn, at_the_stop, strict=True)]
-    assert moved_by[1:3] == pytest.approx([(end[1] or 0.0) - x, (end[2] or 0.0) - y], abs=0.02)
 
 
 def test_a_revision_is_a_sentence_and_a_mark() -> None:
@@ -168,22 +130,6 @@ def test_a_position_that_contradicts_the_track_is_shown_and_nothing_is_moved() -
     assert scene.reports.marks.items[-1][4] is False
     was, now = (json.loads(encode(one.whole_message()[0])) for one in (before, scene))
     assert was["tracks"] == now["tracks"] and was["frame"]["wearer"] == now["frame"]["wearer"]
-
-
-def test_a_watcher_gets_the_whole_scene_when_the_track_is_revised_and_then_changes_again() -> None:
-    packets = reported_walk()
-    session, scene = Session(poses=True, pressures=True), Scene("a walk", "default")
-    kinds: list[str] = []
-    _, cursor = scene.whole_message()
-    for packet in packets:
-        scene.take(packet, session.feed(packet))
-        message, cursor = scene.message_since(cursor)
-        if packet.channel == "receiver/position":
-            assert message is not None
-            kinds.append(message["type"])
-        elif kinds and message is not None:
-            assert message["type"] == "frame" or packet.t > REPORT_TIMES[1]
-    assert kinds == ["scene", "scene"]
 
 
 @pytest.mark.parametrize("off", [(0.3, -0.2), (30.0, 0.0)])
@@ -211,12 +157,6 @@ def test_a_seek_over_reports_shows_the_same_as_playing(off: tuple[float, float])
         assert whole(sought) == straight[k]
 
 
-def test_a_scene_with_reports_is_saved_and_restored() -> None:
-    _, _, scene, _ = show_until(reported_walk(), 1)
-    restored = restore_scene(json.loads(json.dumps(save_scene(scene))))
-    assert encode(restored.whole_message()[0]) == encode(scene.whole_message()[0])
-
-
 def test_back_at_the_start_and_a_named_place_are_marked_where_they_are() -> None:
     scene = scene_after(12.0)
     moved_to = scene.wearer.moved
@@ -229,12 +169,3 @@ def test_back_at_the_start_and_a_named_place_are_marked_where_they_are() -> None
     first, second = lines_here(scene)
     assert first == "reported: back where the walk started"
     assert second.startswith("reported: at door") and second.isprintable()
-
-
-def test_a_position_on_the_plan_is_marked_and_named_on_its_level() -> None:
-    scene = Scene("a walk", "default", plan=BUILDING)
-    level = BUILDING.levels[1]
-    report = PositionReported(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, position=(12.0, 3.0), level=level.id, sigma=1.0)
-    scene.take(None, [report])
-    assert [mark[1:] for mark in scene.reports.marks.items] == [(level.id, 12.0, 3.0, None)]
-    assert lines_here(scene) == [f"reported: {level.name or f'level {level.id}'}, at x 12.0 m, y 3.0 m"]

@@ -35,6 +35,7 @@ PARTS = {
 }
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("name", PARTS)
 async def test_nothing_jumps_during_a_walk(chromium: Browser, name: str) -> None:
     part = PARTS[name]
