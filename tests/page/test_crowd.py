@@ -4,49 +4,14 @@ from __future__ import annotations
 
 import asyncio
 import socket
-from contextlib import suppress
 
 import pytest
-from aiohttp import ClientError, ClientSession
-from served import Connection, close_code, frame_of, handshake, open_raw, scene_of, served
+from aiohttp import ClientSession
+from served import Connection, close_code, handshake, open_raw, scene_of, served
 
 from solepath.show.page.scene.scene import Scene
-from solepath.show.page.server import connection, server, watcher
-from solepath.show.page.server.server import MAX_WATCHERS, Page
-
-GET = b"GET /style.css HTTP/1.1\r\nHost: localhost\r\n\r\n"
-
-
-@pytest.mark.parametrize("requests", [(GET * 2000,), (handshake(), frame_of(1, b"{"))], ids=["files", "socket"])
-async def test_a_client_that_requests_and_does_not_read_is_closed_soon(
-    requests: tuple[bytes, ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.5)
-    monkeypatch.setattr(connection, "MAX_UNWATCHED_TIME", 0.7)
-    monkeypatch.setattr(server, "MAX_CONNECTIONS", MAX_WATCHERS)
-    async with served(scene=Scene("x" * 120_000, "default")) as (page, client, url):
-        silent = []
-        for _ in range(MAX_WATCHERS):
-            one = socket.socket()
-            one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-            one.setblocking(False)
-            await asyncio.get_running_loop().sock_connect(one, ("127.0.0.1", page.port))
-            silent.append(one)
-        for part in requests:
-            for one in silent:
-                with suppress(TimeoutError):
-                    async with asyncio.timeout(0.05):
-                        await asyncio.get_running_loop().sock_sendall(one, part)
-            await asyncio.sleep(0.1)
-        while True:
-            try:
-                async with client.get(url) as answer:
-                    assert answer.status == 200
-                    break
-            except ClientError:
-                await asyncio.sleep(0.1)
-        for one in silent:
-            one.close()
+from solepath.show.page.server import watcher
+from solepath.show.page.server.server import Page
 
 
 async def deaf(page: Page, room: int = 4096) -> Connection:

@@ -13,29 +13,20 @@ from solepath.show.page.posture import ShownPosture
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.toe_out import ShownFoot, ShownToeOut
 
-TOE_OUT = radians(8.0)
-"""Toe-out of the emulated wearer, rad."""
-
 
 async def test_the_page_shows_pitch_target_and_task_as_they_change(chromium: Browser) -> None:
     posture = ShownPosture(Foot.LEFT, "Stand flat.")
     scene = shown([foot_moved(1.0)], Scene("A shoe", "", guide=posture))
     async with open_page(chromium, scene) as (view, _):
         await view.until("document.getElementById('posture-task').innerText === 'Stand flat.'")
-        target = view.tab.locator("#posture-target")
-        assert await view.text("posture-pitch") == "–°"
         assert await view.text("posture-words") == "Left foot: unsteady"
-        assert await target.get_attribute("visibility") == "hidden"
-        for card, visible in (("posture", True), ("links", True), ("soles", False), ("track", False)):
-            assert await view.tab.locator(f".card.{card}").is_visible() == visible, card
         posture.task, posture.target = "Raise the heel.", radians(22.0)
         posture.pitch, posture.lean, posture.is_still = radians(-23.44), radians(-7.2), True
         await view.until("document.getElementById('posture-task').innerText === 'Raise the heel.'")
         assert await view.text("posture-pitch") == "−23.4°"
         assert await view.text("posture-words") == "Left foot: steady, leans 7° sideways"
-        assert await view.tab.locator("#posture-shoe").get_attribute("transform") == "rotate(-23.4 150,126)"
-        assert await target.get_attribute("transform") == "rotate(22.0 150,126)"
-        assert await target.get_attribute("visibility") == "visible"
+        target = await view.tab.locator("#posture-target").get_attribute("transform")
+        assert target == "rotate(22.0 150,126)"
 
 
 async def test_a_walk_that_bends_shows_why_nothing_is_learnt(chromium: Browser) -> None:

@@ -8,7 +8,7 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 from browsers import Browser, Window
-from shown import meanwhile, open_page, scene_after, walked
+from shown import meanwhile, open_page, walked
 
 from solepath import Session
 from solepath.emulate.routes.route import Route
@@ -17,8 +17,6 @@ from solepath.show.page.player.player import Player
 from solepath.show.page.player.player_loop import PlayerLoop
 from solepath.show.page.scene.scene import Playback, Scene
 
-NARROW_WIDTH = 360
-"""Width of a narrow window, px."""
 WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
 """Walk of about 16 s."""
 
@@ -51,17 +49,3 @@ async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Br
         await view.tab.keyboard.press("Shift+ArrowLeft")
         await view.until("Number(document.getElementById('seek').value) < 0.3")
         await view.until("!(Number(document.getElementById('strides').textContent) > 0)")
-
-
-async def test_during_a_seek_the_page_shows_its_position_and_its_target(chromium: Browser) -> None:
-    scene = scene_after(22.0)
-    scene.playback = Playback(start=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
-    async with open_page(chromium, scene, width=NARROW_WIDTH, height=740) as (view, _):
-        await view.until("document.getElementById('seeking').innerText === 'Going to 1:55, now at 0:22'")
-        await view.until("document.querySelector('main').ariaBusy === 'true'")
-        await view.until("document.getElementById('announcer').textContent.includes('Going to 1:55')")
-        assert await view.text("time-now") == "0:22"
-        scene.playback = Playback(start=0.0, end=150.0, t=115.0, state="playing")
-        await view.tab.locator("#seeking").wait_for(state="hidden")
-        await view.until("document.querySelector('main').ariaBusy === 'false'")
-        assert await view.tab.locator("#seek").get_attribute("aria-valuetext") == "1:55 of 2:30"

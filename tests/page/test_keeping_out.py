@@ -14,7 +14,7 @@ import pytest
 from aiohttp import ClientSession, TCPConnector
 from served import TOKEN, Connection, check_watching, close_code, handshake, rejection_status, scene_of, served
 
-from solepath.show.page.server.open_connections import MAX_CONNECTIONS, OpenConnections, peer_of
+from solepath.show.page.server.open_connections import MAX_CONNECTIONS, peer_of
 from solepath.show.page.server.server import MAX_WATCHERS, Page
 
 OWNER = "127.0.0.1"
@@ -117,30 +117,6 @@ async def test_watchers_without_the_token_make_room_for_one_who_has_it() -> None
         assert await rejection_status(client.ws_connect(f"{url}ws")) == 503
         assert await rejection_status(client.ws_connect(f"{url}ws?token={TOKEN}")) == 503
         assert len(page._watchers) == MAX_WATCHERS
-
-
-class Kept:
-    def __init__(self, peer: str) -> None:
-        self.peer = peer
-        self.is_closed = False
-
-    def close_for_another(self) -> None:
-        self.is_closed = True
-
-
-def test_the_oldest_of_the_peer_with_most_connections_is_closed() -> None:
-    connections = OpenConnections(4)
-    first, *others = few = [Kept("a"), Kept("b"), Kept("b"), Kept("b")]
-    for one in few:
-        assert not connections.renew(one)
-    connections.renew(others[0])  # it did something
-    assert connections.renew(Kept("c")) and [one.is_closed for one in few] == [False, False, True, False]
-    assert connections.renew(Kept("d")) and [one.is_closed for one in few] == [False, False, True, True]
-    assert connections.renew(Kept("e")) and first.is_closed, "each has one: it is the oldest"
-    assert len(connections) == 4
-    connections.remove(first)
-    connections.remove(others[0])
-    assert len(connections) == 3
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,9 @@ import json
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from served import LOGGER, check_watching, frame_of, handshake, open_raw, rejection_status, served
+from served import LOGGER, check_watching, frame_of, handshake, open_raw, served
 
 from solepath.show.page.messages import CommandError, parse_command
-from solepath.show.page.server import client_errors
 from solepath.wire.receiver import build_position
 
 
@@ -75,10 +74,3 @@ async def test_what_is_malformed_is_answered_with_a_close_and_one_line(
         writer.close()
         await check_watching(client, url)
     assert [one.name for one in caplog.records] == [LOGGER]
-
-
-async def test_repeated_errors_of_a_client_do_not_fill_the_log(caplog: pytest.LogCaptureFixture) -> None:
-    async with served() as (_, client, url):
-        for _ in range(100):
-            assert await rejection_status(client.ws_connect(f"{url}ws?token=wrong")) == 403
-    assert len(caplog.records) <= client_errors.BURST_SIZE + 1

@@ -16,7 +16,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate
 from solepath.show.page.messages import Command
-from solepath.show.page.player.packed_items import CHUNK_SIZE, PackedItems
+from solepath.show.page.player.packed_items import PackedItems
 from solepath.show.page.player.player import Player
 from solepath.show.page.scene.scene import Scene
 
@@ -192,15 +192,3 @@ def test_a_damaged_recording_plays_up_to_the_damage_and_reports_it():
     assert shown(player)["log"][-1][1:] == ("link", "walk.jsonl: line 500: is not JSON")
     stop_at(player, START)
     assert all("line 500" not in line[2] for line in shown(player)["log"])
-
-
-@given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK_SIZE), st.integers(0, 2**32))
-def test_packed_items_come_out_unchanged_and_are_due_in_order(times, seed):
-    packets = [Packet(t, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]), str(seed)) for k, t in enumerate(times)]
-    kept = PackedItems(packets)
-    assert [kept[k] for k in range(len(kept))] == packets
-    assert [kept[k] for k in reversed(range(len(kept)))] == packets[::-1]
-    due = [kept.t(k) for k in range(len(kept))]
-    assert due == sorted(due) and all(at >= packet.t for at, packet in zip(due, packets, strict=True))
-    if times:
-        assert (kept.start, kept.end) == (times[0], max(times))

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import base64
-import json
 from math import inf, nan
 
 from attrs import evolve
 from page_events import feed_session, foot_moved, rough_walk
 from shown import frame, later, shown
-from walks import SHORT, insoles
+from walks import insoles
 
 from solepath import (
     Activity,
     ActivityChanged,
     Connected,
     Disconnected,
+    Event,
     Foot,
     FootPressed,
     Site,
@@ -25,11 +25,6 @@ from solepath import (
     WearerMoved,
 )
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.sensortags import CC2650
-from solepath.emulate.walk import emulate
-from solepath.show.page.messages import encode
-from solepath.show.page.player.playback import Playback
-from solepath.show.page.scene.scene import Scene
 from solepath.show.tables.gait import gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -80,30 +75,6 @@ def test_the_gait_is_the_table_of_the_terminal() -> None:
         assert f"{row['both']:.{row['digits']}f}" in line
 
 
-def test_support_is_known_only_while_both_feet_send() -> None:
-    scene = shown([foot_moved(1.0), foot_moved(1.0, foot=RIGHT)])
-    assert frame(scene)["support"] == "FLIGHT"
-    shown([foot_moved(1.0 + 0.1 * k) for k in range(30)], scene)
-    scene.tick(4.0)
-    content = frame(scene)
-    assert content["support"] is None
-    assert content["feet"]["right"]["phase"] is None
-    assert content["feet"]["left"]["phase"] == "SWING"
-
-
-def test_sensors_without_cells_show_strides_and_no_soles() -> None:
-    _, events = feed_session(
-        emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(), Site.RIGHT_FOOT: CC2650()}, seed=1).packets
-    )
-    message = json.loads(encode(shown(events).whole_message()[0]))
-    assert message["layouts"] == {"left": None, "right": None}
-    for foot in Foot:
-        one = message["frame"]["feet"][foot.value]
-        assert one["cells"] is None and one["force"] is None and one["centre"] is None
-        assert one["position"] is not None
-        assert len(message["tracks"][foot.value]) > 2
-
-
 def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
     _, events = rough_walk()
     scene = shown(events)
@@ -122,28 +93,21 @@ def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
 
 def test_a_link_is_waiting_then_ok_then_lost_and_ok_again() -> None:
     site = Site.LEFT_FOOT
-    scene = shown([Connected(t=0.0, known_at=0.0, site=site, device="", name="Insole", signal=-50)])
-
-    def state() -> str:
-        return str(frame(scene)["links"]["left foot"]["state"])
-
-    assert state() == "waiting"
-    shown([foot_moved(1.0 + 0.01 * k) for k in range(100)], scene)
-    assert state() == "ok"
-    assert frame(scene)["links"]["left foot"]["rate"] == 100
-    shown([Disconnected(t=2.0, known_at=2.0, site=site), foot_moved(1.99, known_at=2.05)], scene)
-    assert state() == "lost", "what was still under way is no connection"
-    scene.tick(7.0)
-    assert frame(scene)["links"]["left foot"]["silent_for"] > 4.9
-    assert frame(scene)["links"]["left foot"]["rate"] == 0
-    shown([Connected(t=7.5, known_at=7.5, site=site, device="", name="Insole", signal=-50)], scene)
-    assert state() == "waiting"
-    shown([foot_moved(8.0)], scene)
-    assert state() == "ok"
-    shown([StreamStale(t=8.5, known_at=9.0, site=site, silent_for=1.0)], scene)
-    assert state() == "silent"
-    shown([StreamResumed(t=9.4, known_at=9.4, site=site, silent_for=1.4), foot_moved(9.4)], scene)
-    assert state() == "ok"
+    connected = Connected(t=0.0, known_at=0.0, site=site, device="", name="Insole", signal=-50)
+    under_way = foot_moved(1.99, known_at=2.05)  # which is no connection
+    steps: list[tuple[list[Event], str]] = [
+        ([connected], "waiting"),
+        ([foot_moved(1.0 + 0.01 * k) for k in range(100)], "ok"),
+        ([Disconnected(t=2.0, known_at=2.0, site=site), under_way], "lost"),
+        ([later(connected, 7.5)], "waiting"),
+        ([foot_moved(8.0)], "ok"),
+        ([StreamStale(t=8.5, known_at=9.0, site=site, silent_for=1.0)], "silent"),
+        ([StreamResumed(t=9.4, known_at=9.4, site=site, silent_for=1.4), foot_moved(9.4)], "ok"),
+    ]
+    scene = shown([])
+    for events, state in steps:
+        link = frame(shown(events, scene))["links"]["left foot"]
+        assert link["state"] == state
 
 
 def test_an_activity_that_was_taken_back_is_not_shown() -> None:
@@ -163,16 +127,3 @@ def test_numbers_that_are_not_finite_are_shown_as_null() -> None:
     assert content["position"] == [None, None, None]
     assert content["force"] is None
     assert len(base64.b64decode(content["cells"])) == 3
-
-
-def test_a_frame_holds_the_state_of_playback() -> None:
-    scene = Scene("a walk", "default", "recording", playback=Playback(start=0.0, end=9.0, t=0.0))
-    _, cursor = scene.whole_message()
-    assert scene.playback is not None
-    scene.playback.state, scene.playback.t = "playing", 1.0
-    news, _ = scene.message_since(cursor)
-    assert news == {
-        "type": "frame",
-        "t": 0.0,
-        "playback": {"begin": 0.0, "end": 9.0, "t": 1.0, "state": "playing", "speed": 1.0, "seeking": None},
-    }

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from pages import Node, parse_page, read_page
 from walks import insoles, of, run_session
 
-from solepath import Connected, Defect, DefectFound, LinkTrouble, PacketsLost, PlaceLost, Site
+from solepath import Connected, LinkTrouble, PacketsLost, PlaceLost, Site
 from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
@@ -46,10 +46,6 @@ def report_of(*events: Event, source: str = "a walk", **more: Any) -> Report:
 
 def shown(report: Report) -> Node:
     return parse_page(report.text())
-
-
-def captions(page: Node) -> list[str]:
-    return [one.first("strong").text for one in page.all("figcaption")]
 
 
 def rows_of(page: Node) -> dict[str, list[str]]:
@@ -104,17 +100,6 @@ def test_faults_are_shown_in_words_and_in_the_table_of_links() -> None:
     assert "left foot (sole 7)" in page.all("dl")[-1].text
     assert "Nothing was wrong" not in health.text
     assert "Nothing was wrong" in shown(report_of(link[0])).text
-
-
-def test_data_that_cannot_be_right_come_first_in_the_report() -> None:
-    what = "the axes of the gyroscope do not fit those of the accelerometer"
-    defect = DefectFound(t=3.0, known_at=3.0, site=Site.RIGHT_FOOT, defect=Defect.AXES, what=what)
-    page = shown(report_of(*walk_events(), defect))
-    assert "Do not use the figures before this is checked: data that cannot be right." in page.named("warning").text
-    assert "Cannot be right" in [one.text for one in page.all("h3")]
-    whole = page.text
-    assert whole.index("Do not use") < whole.index("The recording lasts") < whole.index(what)
-    assert "Cannot be right" not in shown(report_of(*walk_events())).text
 
 
 def test_the_file_leads_nowhere_and_runs_nothing(tmp_path: Path) -> None:

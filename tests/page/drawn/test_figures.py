@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import radians
 
-from attrs import evolve
 from page_events import foot_moved
 from shown import frame, shown
 from walks import insoles
@@ -24,12 +22,10 @@ from solepath import (
     Site,
     ToeOff,
 )
-from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.show.page.scene.scales import FIRST_ENDS
 from solepath.show.page.scene.scene import Scene
-from solepath.show.tables.gait import gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 WALK = Route().stand(1.5).walk(14.0, 1.3).stop(6.0)
@@ -103,53 +99,17 @@ def test_a_scale_has_the_peaks_of_one_stance_and_not_of_several() -> None:
 def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
     scene = Scene("a walk", "default")
 
-    def feed_samples(start: float, end: float) -> None:
+    def loss_after(start: float, end: float) -> tuple[int, float]:
         for k in range(round(100 * (end - start))):
             t = start + 0.01 * k
             scene.take(Packet(t + 0.02, Site.LEFT_FOOT, "insole/frame", b""), [foot_moved(t, known_at=t + 0.02)])
+        link = frame(scene)["links"]["left foot"]
+        return link["lost"], link["loss"]
 
-    feed_samples(0.0, 2.0)
+    loss_after(0.0, 2.0)
     shown([PacketsLost(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, channel="insole/frame", count=1000)], scene)
-    feed_samples(12.0, 14.0)
-    link = frame(scene)["links"]["left foot"]
-    assert (link["lost"], 0.7 < link["loss"] < 0.9) == (1000, True)
-    feed_samples(14.0, 24.0)
-    link = frame(scene)["links"]["left foot"]
-    assert (link["lost"], link["loss"]) == (1000, 0.0)
+    lost, share = loss_after(12.0, 14.0)
+    assert lost == 1000 and 0.7 < share < 0.9
+    assert loss_after(14.0, 24.0) == (1000, 0.0)
     scene.tick(27.0)
-    link = frame(scene)["links"]["left foot"]
-    assert (link["state"], link["lost"], link["loss"]) == ("silent", 1000, None), "nothing comes"
-
-
-def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[GaitCycleMeasured]:
-    """Return strides of each foot, one more than the `count` that are steady."""
-    first = next(event for event in walk() if isinstance(event, GaitCycleMeasured) and event.steady)
-    angle = dict(zip(Foot, angles, strict=True))
-    return [
-        evolve(first, foot=foot, t_start=1.0 + k, t=2.0 + k, known_at=2.3 + k, toe_off_angle=angle[foot])
-        for k in range(count + 1)
-        for foot in feet
-    ]
-
-
-def test_one_foot_alone_has_nothing_of_both() -> None:
-    gait_frame = frame(shown(strides((RIGHT,), 7)))["gait"]
-    assert gait_frame["strides"] == {"left": None, "right": 7}
-    for row in gait_frame["rows"]:
-        assert row["left"] is None and row["both"] is None and row["sd"] is None and row["asymmetry"] is None
-        assert row["difference"] is None
-
-
-def test_angles_that_lean_to_either_side_differ_by_degrees_and_not_by_hundreds_of_per_cent() -> None:
-    means = GaitMeans()
-    for stride in strides((LEFT, RIGHT), 7, (radians(3.0), radians(-1.0))):
-        means.add(stride)
-    parameters = means.of(False)
-    assert parameters is not None
-    rows = {row.name: row for row in gait_rows(parameters)}
-    row = rows["toe_off_angle"]
-    assert (round(row.difference or 0.0, 6), row.asymmetry, row.cv) == (-4.0, None, None)
-    assert row.asymmetry_text == "-4.0 deg"
-    assert rows["stride_time"].difference is None and rows["stride_time"].asymmetry_text == "+0.0 %"
-    (line,) = [line for line in gait_lines(means) if line.startswith("toe-off angle")]
-    assert line.endswith("-4.0 deg")
+    assert frame(scene)["links"]["left foot"]["loss"] is None, "nothing comes"

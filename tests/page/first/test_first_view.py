@@ -48,15 +48,9 @@ async def test_a_recording_at_its_end_is_shown_as_finished_with_the_means_of_the
     assert total is not None and total.both.speed is not None
     async with open_page(chromium, scene) as (view, _):
         await view.until(text_is("activity", "Finished"))
-        strides = max(counts.strides for counts in scene.observer.feet.values())
         assert await view.text("where") == f"after {int(end)} s"
-        words = f" m in {int(end)} s, {strides} strides of each foot"
         assert await view.text("speed") == f"{total.both.speed.mean:.2f}"
         assert await view.text("speed-label") == "mean speed, m/s"
-        assert await view.text("since") == ""
-        await view.until(f"document.getElementById('announcer').textContent.includes('{words}')")
-        scene.playback.state, scene.playback.t = "playing", 5.0
-        await view.until(f"{text_is('speed-label', 'speed now, m/s')} && !({text_is('activity', 'Finished')})")
 
 
 async def test_what_needs_attention_is_at_the_top_the_worst_first(chromium: Browser) -> None:

@@ -51,17 +51,14 @@ def test_a_command_holds_the_position_that_it_reports() -> None:
 async def test_who_has_the_token_reports_a_position_and_nobody_else_does(caplog: pytest.LogCaptureFixture) -> None:
     reported: list[PositionFrame] = []
     async with served(commands=lambda command: reported.append(position_of(command, None))) as (_, client, url):
-        async with client.ws_connect(f"{url}ws") as watching:
-            assert (await scene_of(watching))["control"] is False
-            await watching.send_str(HERE)
-            assert await close_code(watching) == 1008
-        assert reported == [] and [one.name for one in caplog.records] == [LOGGER]
-        async with client.ws_connect(f"{url}ws?token={TOKEN}") as watching:
-            assert (await scene_of(watching))["control"] is True
-            await watching.send_str(HERE)
-            await watching.send_str('{"do":"dance"}')
-            assert await close_code(watching) == 1008
-    assert reported == [PositionFrame((3.25, -1.5), 0.5)]
+        for query, control in (("", False), (f"?token={TOKEN}", True)):
+            async with client.ws_connect(f"{url}ws{query}") as watching:
+                assert (await scene_of(watching))["control"] is control
+                await watching.send_str(HERE)
+                await watching.send_str('{"do":"dance"}')
+                assert await close_code(watching) == 1008
+            assert reported == [PositionFrame((3.25, -1.5), 0.5)] * control
+    assert {one.name for one in caplog.records} == {LOGGER}
 
 
 @pytest.mark.parametrize(

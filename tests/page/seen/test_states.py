@@ -24,7 +24,10 @@ OPERATED = ("plan", "finished")
 """States with all controls that there are."""
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[] if name == "plan" else pytest.mark.soak) for name in STATES])
+SLOW = [pytest.param(name, marks=pytest.mark.soak) for name in STATES if name != "plan"]
+
+
+@pytest.mark.parametrize("name", ["plan", *SLOW])
 async def test_all_is_readable_reached_by_keys_and_without_violation_by_axe(chromium: Browser, name: str) -> None:
     pytest.importorskip("axe_playwright_python", reason="axe-playwright-python is not installed")
     found: dict[str, list[str]] = {}
