@@ -6,8 +6,7 @@ from __future__ import annotations
 
 import asyncio
 import sys
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager, suppress
+from contextlib import suppress
 from importlib.resources import files
 
 import pytest
@@ -17,33 +16,15 @@ from served import TOKEN, Connection, check_watching, close_code, handshake, rej
 from solepath.show.page.server.open_connections import MAX_CONNECTIONS, peer_of
 from solepath.show.page.server.server import MAX_WATCHERS, Page
 
-OWNER = "127.0.0.1"
 PEERS = ("127.0.0.2", "127.0.0.3", "127.0.0.4", "127.0.0.5")
-IDLE, RECONNECTIONS = 200, 1000
+IDLE, RECONNECTIONS = 200, 400
 GET = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
-SENT = {
-    "nothing": b"",
-    "half a head": b"GET / HTTP/1.1\r\nHost: loc",
-    "a request": GET,
-    "many requests": GET * 20,
-    "no token": handshake(),
-    "a wrong token": handshake().replace(b"/ws", b"/ws?token=wrong"),
-}
 NAMES = sorted(one.name for one in (files("solepath.show.page") / "static").iterdir())
 
-several_addresses = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only 127.0.0.1 is this machine")
-
-
-@asynccontextmanager
-async def owner(page: Page, peer: str = OWNER) -> AsyncIterator[tuple[ClientSession, str]]:
-    """Yield a new browser of the owner, and the address that it opens."""
-    async with ClientSession(connector=TCPConnector(local_addr=(peer, 0), limit_per_host=6)) as client:
-        yield client, f"http://127.0.0.1:{page.port}/"
-
-
-async def visit(page: Page, peer: str = OWNER) -> None:
+async def visit(page: Page) -> None:
     """Load the whole page as the owner does, and watch; any failure raises."""
-    async with owner(page, peer) as (client, url), asyncio.TaskGroup() as loading:
+    url = f"http://127.0.0.1:{page.port}/"
+    async with ClientSession(connector=TCPConnector(limit_per_host=6)) as client, asyncio.TaskGroup() as loading:
 
         async def load(name: str) -> None:
             async with client.get(url + name) as answer:
@@ -52,7 +33,7 @@ async def visit(page: Page, peer: str = OWNER) -> None:
 
         for name in ("", *NAMES):
             loading.create_task(load(name))
-    async with owner(page, peer) as (client, url):
+    async with ClientSession() as client:
         await check_watching(client, url, params={"token": TOKEN})
 
 
@@ -65,25 +46,12 @@ async def knock(page: Page, peer: str, sent: bytes) -> Connection | None:
     return None
 
 
-QUICK = ("nothing", "a request")
-"""What idle connections have sent in the tests that always run; `-m soak` runs the others."""
-
-
-@several_addresses
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only 127.0.0.1 is this machine")
 @pytest.mark.parametrize(
-    ("peers", "sent"),
-    [
-        *[
-            pytest.param(PEERS[:1], sent, id=f"one peer, {name}", marks=[] if name in QUICK else [pytest.mark.soak])
-            for name, sent in SENT.items()
-        ],
-        pytest.param(PEERS, SENT["many requests"], id="several peers, many requests"),
-        pytest.param((OWNER,), SENT["nothing"], id="the owner's own, nothing"),
-    ],
+    ("peers", "sent"), [(PEERS[:1], b""), (PEERS, GET * 20), (("127.0.0.1",), handshake())], ids=["1", "4", "own"]
 )
 async def test_idle_connections_and_reconnections_keep_nobody_out(peers: tuple[str, ...], sent: bytes) -> None:
-    host = "0.0.0.0" if peers is PEERS else "127.0.0.1"
-    async with served(host=host) as (page, _, _):
+    async with served(host="0.0.0.0" if len(peers) > 1 else "127.0.0.1") as (page, _, _):
         idle = [await knock(page, peers[number % len(peers)], sent) for number in range(IDLE)]
 
         async def reconnect(peer: str) -> None:
@@ -92,18 +60,16 @@ async def test_idle_connections_and_reconnections_keep_nobody_out(peers: tuple[s
                 if (old := idle.pop(0)) is not None:
                     old[1].close()
 
-        await visit(page)
         storm = asyncio.gather(*map(reconnect, peers))
         visits = 0
-        while not storm.done():
+        while not storm.done() or not visits:
             await visit(page)
             visits += 1
         await storm
-        assert visits >= 1 and len(page._open) <= MAX_CONNECTIONS
+        assert len(page._open) <= MAX_CONNECTIONS
         await visit(page)
-        for one in idle:
-            if one is not None:
-                one[1].close()
+        for one in filter(None, idle):
+            one[1].close()
 
 
 async def test_watchers_without_the_token_make_room_for_one_who_has_it() -> None:

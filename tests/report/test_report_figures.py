@@ -51,19 +51,3 @@ def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes
     assert len(path) == STATIONS
     assert path[0] == pytest.approx((0.05, 0.0), abs=0.004) and path[-1] == pytest.approx((0.2, 0.0), abs=0.004)
     assert [x for x, _ in path] == sorted([x for x, _ in path])
-
-
-@pytest.mark.parametrize(
-    "other",
-    [
-        {"degraded": True, "steady": False},
-        {"stance_time": 0.3},
-        {"t_toe_off": 0.4},
-        {"t_start": -9.0, "t_toe_off": -8.0},
-        {"t_start": -9.0},
-    ],
-)
-def test_a_contact_that_is_run_missing_or_too_long_does_not_count(other: dict[str, object]) -> None:
-    sole = walked_sole()
-    sole.add_cycle(stride(3.0, 3.6, 4.0, **other))
-    assert sole.contacts == 3

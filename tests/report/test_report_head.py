@@ -60,21 +60,6 @@ def test_the_first_sentence_has_distance_time_speed_and_cadence() -> None:
     assert sentence.endswith(f" and {cadence} steps a minute.")
 
 
-@pytest.mark.parametrize(
-    ("name", "words"),
-    [
-        ("run", ["Ran "]),
-        ("stairs", ["Walked ", "of stairs"]),
-        ("lift", ["Walked ", "rode a lift up once"]),
-        ("standing", ["Stood for 20 s; no stride was taken."]),
-    ],
-)
-def test_the_first_sentence_names_runs_stairs_lifts_and_standing(name: str, words: list[str]) -> None:
-    sentence = sentence_of(events_of(name))
-    assert all(word in sentence for word in words), sentence
-    assert ("Walked" in sentence) == ("Walked " in words)
-
-
 def with_factor(name: str, factor: float) -> list[Event]:
     """Return the gait cycles of a walk with a parameter of the right foot that is `factor` times as large."""
     changed: list[Event] = []

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from solepath import Activity, ActivityChanged, FlightClimbed, LiftRidden, Turn, TurnMade
-from solepath.show.observer import Observer
-from solepath.show.tables.summary import summary
+from solepath import Activity, ActivityChanged
 from solepath.show.timeline import Timeline
 
 
@@ -37,21 +35,3 @@ def test_standing_that_turns_out_to_be_a_lift_ride_was_never_standing():
 def test_an_event_dated_before_an_earlier_one_takes_its_place():
     line = timeline(changed(1.0, Activity.STANDING), changed(4.0, Activity.WALKING), changed(3.0, Activity.STAIRS_UP))
     assert line.spans(5.0) == [(1.0, 3.0, Activity.STANDING), (3.0, 5.0, Activity.STAIRS_UP)]
-
-
-def test_the_summary_lists_the_activities():
-    observer = Observer()
-    for event in (
-        changed(0.0, Activity.WALKING),
-        changed(12.0, Activity.ELEVATOR_DOWN),
-        LiftRidden(t=18.0, known_at=19.0, t_start=12.0, up=False, height=-4.2),
-        FlightClimbed(t=9.0, known_at=9.0, t_start=3.0, up=True, steps=10, height=1.6),
-        TurnMade(t=5.0, known_at=5.0, t_start=4.0, angle=1.5, turn=Turn.LEFT),
-        TurnMade(t=7.0, known_at=7.0, t_start=6.0, angle=0.2, turn=None),
-    ):
-        observer.add(event)
-    observer.advance(20.0)
-    lines = summary(observer, title="walk", seconds=0.0).splitlines()
-    done, *counted = lines[-4:]
-    assert done == "activities: walking 12 s, lift down 8.0 s"
-    assert counted == ["flights: 1 up", "lift rides: 1 down", "turns: 1 to the left"]

@@ -27,11 +27,6 @@ STRIDE = stride(
 )  # fmt: skip
 
 
-def test_a_straight_walk_is_a_straight_line_from_start_to_foot():
-    lines = plot([(Foot.LEFT, float(x), 0.0) for x in range(11)], 21, 5)
-    assert [line.strip() for line in lines] == ["", "", "S . . . . . . . . . L", "", ""]
-
-
 @given(
     st.lists(st.tuples(st.sampled_from(Foot), st.floats(-1e3, 1e3), st.floats(-1e3, 1e3)), max_size=20),
     st.integers(2, 80),

@@ -11,7 +11,7 @@ from browsers import Browser, Window
 from web_bluetooth import web_bluetooth
 from web_pages import PATIENCE, READY, WORDS, open_site, ready
 
-from solepath import Connected, Packet, PacketRejected, PacketsLost, SampleGap, Session, StrideTaken
+from solepath import Connected, Packet, PacketRejected, Session, StrideTaken
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.routes.route import Route
 from solepath.recording import read_packets
@@ -98,8 +98,5 @@ async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
     assert not [event for event in events if isinstance(event, PacketRejected)]
     connections = [event for event in events if isinstance(event, Connected)]
     assert Counter(event.site for event in connections) == {Site.LEFT_FOOT: 4, Site.RIGHT_FOOT: 3}
-    for lost in (event for event in events if isinstance(event, PacketsLost)):  # measured without a connection
-        assert any(event.site is lost.site and 0.0 <= lost.known_at - event.t < 1.0 for event in connections)
-    assert {event.site for event in events if isinstance(event, SampleGap)} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
     frames = sum(packet.channel == "insole/frame" for packet in packets)
     assert 0 <= radio.frames_read - frames <= IN_FLIGHT

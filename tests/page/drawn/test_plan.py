@@ -47,12 +47,6 @@ OUTER = """import('./outer.js').then(({ outerWalls }) => {
     return outerWalls(level, [], [0, 0, 9, 6]);
 })"""
 ROOM = "(place) => import('./rooms.js').then(({ roomAt }) => roomAt(solepath.state.plan.levels[0], place))"
-NAME = """([ring, name, scale, kind]) => import('./rooms.js').then(({ nameIn }) => {
-    const found = nameIn(ring, name, scale, {}, kind);
-    return found && [found.words, found.upright, ...found.at];
-})"""
-
-
 def placed(
     t: float, x: float, y: float, *others: tuple[float, float, float], level: str = "0", z: float = 0.0
 ) -> list[Any]:
@@ -99,19 +93,6 @@ async def test_rooms_have_names_and_outer_walls_are_found(chromium: Browser) -> 
         assert await view.tab.evaluate(ROOM, [1.0, 1.0]) == 0
         assert await view.tab.evaluate(ROOM, [6.0, 1.0]) == 1
         assert await view.tab.evaluate(ROOM, [20.0, 1.0]) == -1
-
-
-async def test_a_name_is_where_it_fits_or_shorter_or_left_out(chromium: Browser) -> None:
-    square, corridor = [[0, 0], [5, 0], [5, 4], [0, 4]], [[0, 0], [2, 0], [2, 30], [0, 30]]
-    async with open_page(chromium, Scene("a flat", "default", "live", plan=FLAT)) as (view, _):
-        for ring, words, scale, expected in (
-            (square, "room 12", 20.0, ["room 12", False, 2.5, 2.0]),
-            (square, "room 12", 7.0, ["12"]),
-            (square, "Laboratory", 6.0, []),
-            (corridor, "corridor 3", 12.0, ["corridor 3", True]),
-        ):
-            found = await view.tab.evaluate(NAME, [ring, words, scale, "room"]) or []
-            assert found[: len(expected) or None] == expected
 
 
 async def test_the_view_follows_the_wearer_once_the_place_is_decided(chromium: Browser) -> None:

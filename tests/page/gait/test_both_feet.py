@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from attrs import evolve
 from browsers import Browser
 from page_events import foot_moved
-from shown import frame, open_page, shown
+from shown import open_page, shown
 
 from solepath import Foot, StrideFused
 from solepath.events import TouchedDown
@@ -44,15 +43,6 @@ DOWN = TouchedDown(
     compensation=(0.0, 0.0, 0.0),
     legs=(standing(0.08, -0.3), standing(-0.08, 0.3)),
 )
-
-
-def test_the_body_is_seen_from_the_right_whichever_way_the_wearer_faces() -> None:
-    assert frame(shown([evolve(DOWN, legs=None)]))["body"] is None
-    assert frame(shown([DOWN]))["body"] == {
-        "t": 1.2,
-        "left": [[0.0, 0.0], [-0.15, -0.42], [-0.3, -0.83], [-0.15, -0.91]],
-        "right": [[0.0, 0.0], [0.15, -0.42], [0.3, -0.83], [0.45, -0.91]],
-    }
 
 
 async def test_the_page_draws_the_legs_and_names_the_figures_of_the_fused_stride(chromium: Browser) -> None:

@@ -24,30 +24,32 @@ OPERATED = ("plan", "finished")
 """States with all controls that there are."""
 
 
-SLOW = [pytest.param(name, marks=pytest.mark.soak) for name in STATES if name != "plan"]
+QUICK = ((360, "dark"), (1280, "light"))
+"""Screens of the state that is always tested."""
+ALL = tuple((width, theme) for width in SCREENS | NARROWEST for theme in THEMES)
 
 
-@pytest.mark.parametrize("name", ["plan", *SLOW])
-async def test_all_is_readable_reached_by_keys_and_without_violation_by_axe(chromium: Browser, name: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "screens"), [("plan", QUICK), *(pytest.param(name, ALL, marks=pytest.mark.soak) for name in STATES)]
+)
+async def test_all_is_readable_reached_by_keys_and_without_violation_by_axe(
+    chromium: Browser, name: str, screens: tuple[tuple[int, str], ...]
+) -> None:
     pytest.importorskip("axe_playwright_python", reason="axe-playwright-python is not installed")
     found: dict[str, list[str]] = {}
     async with STATES[name].open(chromium, script=SCRIPT) as view:
         await view.until(SEEN.get(name, "true"))
         await view.tab.evaluate("measured.read()")
-        for width, height in (SCREENS | NARROWEST).items():
-            await view.tab.set_viewport_size({"width": width, "height": height})
-            for theme in THEMES:
-                await view.tab.emulate_media(color_scheme=theme)
-                await asyncio.sleep(REDRAWING)
-                found[f"{width} {theme}"] = await text_faults(view)
-                if width == min(SCREENS):
-                    found[f"{width} {theme} by axe"] = await axe_faults(view)
-            if width in SCREENS:
-                found[f"{width} by Tab"] = await tab_faults(view)
+        for width, theme in screens:
+            await view.tab.set_viewport_size({"width": width, "height": (SCREENS | NARROWEST)[width]})
+            await view.tab.emulate_media(color_scheme=theme)
+            await asyncio.sleep(REDRAWING)
+            found[f"{width} {theme}"] = await text_faults(view)
+            if (width, theme) in QUICK:
+                found[f"{width} {theme}, by axe and by Tab"] = await axe_faults(view) + await tab_faults(view)
         await view.tab.evaluate(OPEN_ALL)
         await view.tab.evaluate("document.getElementById('notice-list').showPopover()")
-        await asyncio.sleep(REDRAWING)
-        found["all is open"] = await text_faults(view) + await axe_faults(view)
-        if name in OPERATED:
+        found["all is open"] = await axe_faults(view)
+        if name in OPERATED and screens is ALL:
             found["keys"] = await key_faults(view)
     assert {where: faults for where, faults in found.items() if faults} == {}
