@@ -76,11 +76,6 @@ def stop_at(player: Player, t: float, items: int = 100) -> None:
     settle(player, items)
 
 
-def run_out(player: Player) -> None:
-    while player.run_through(slices(1000)):
-        pass
-
-
 def shown(player: Player) -> dict:
     """Return the message that a new watcher gets, without the state and the speed of the playback."""
     message, _ = player.scene.whole_message()
@@ -181,14 +176,3 @@ def test_a_computer_that_slept_plays_on_where_it_was():
     player = make_player()
     pass_by(player, 3600.0)
     assert player.playback.t < START + 1.0
-
-
-def test_a_damaged_recording_plays_up_to_the_damage_and_reports_it():
-    half = PACKETS[: len(PACKETS) // 2]
-    player = make_player(PackedItems(half), fault="walk.jsonl: line 500: is not JSON")
-    assert all("line 500" not in line[2] for line in shown(player)["log"])
-    run_out(player)
-    assert player.playback.t == half[-1].t and player.playback.state == "ended"
-    assert shown(player)["log"][-1][1:] == ("link", "walk.jsonl: line 500: is not JSON")
-    stop_at(player, START)
-    assert all("line 500" not in line[2] for line in shown(player)["log"])

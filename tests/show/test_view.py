@@ -1,8 +1,6 @@
 """Tests tables, plots and summaries for people."""
 
 from attrs import evolve
-from hypothesis import given
-from hypothesis import strategies as st
 from strides import stride
 
 from solepath.events import (
@@ -17,7 +15,6 @@ from solepath.events import (
 )
 from solepath.session import Session
 from solepath.show.observer import Observer
-from solepath.show.tables.plot import plot
 from solepath.show.tables.summary import link_health, status, summary
 from solepath.types import Foot, Packet, Sample, Site
 
@@ -25,16 +22,6 @@ STRIDE = stride(
     Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.0, 0.0), degraded=True,
     covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
 )  # fmt: skip
-
-
-@given(
-    st.lists(st.tuples(st.sampled_from(Foot), st.floats(-1e3, 1e3), st.floats(-1e3, 1e3)), max_size=20),
-    st.integers(2, 80),
-    st.integers(2, 30),
-)
-def test_any_track_fits_its_frame(track, width, height):
-    lines = plot(track, width, height)
-    assert len(lines) == height and all(len(line) == width for line in lines)
 
 
 def test_a_summary_counts_the_events_of_each_foot():

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from commands import run
 from programs import TAKES, emulator, started
-from served import LOGGER, TOKEN, close_code, scene_of, served
+from served import TOKEN, close_code, scene_of, served
 from watchers import ANYWHERE, Watcher, address, watch
 
 from solepath.emulate.routes.building import BUILDING
@@ -46,19 +46,6 @@ def test_a_command_holds_the_position_that_it_reports() -> None:
     level = BUILDING.levels[0].id
     command = parse_command(json.dumps({"do": "here", "sigma": 2, "at": [1, 2], "level": level}))
     assert position_of(command, BUILDING) == PositionFrame((1.0, 2.0), 2.0, level=level)
-
-
-async def test_who_has_the_token_reports_a_position_and_nobody_else_does(caplog: pytest.LogCaptureFixture) -> None:
-    reported: list[PositionFrame] = []
-    async with served(commands=lambda command: reported.append(position_of(command, None))) as (_, client, url):
-        for query, control in (("", False), (f"?token={TOKEN}", True)):
-            async with client.ws_connect(f"{url}ws{query}") as watching:
-                assert (await scene_of(watching))["control"] is control
-                await watching.send_str(HERE)
-                await watching.send_str('{"do":"dance"}')
-                assert await close_code(watching) == 1008
-            assert reported == [PositionFrame((3.25, -1.5), 0.5)] * control
-    assert {one.name for one in caplog.records} == {LOGGER}
 
 
 @pytest.mark.parametrize(
