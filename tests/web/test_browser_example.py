@@ -49,6 +49,7 @@ def strides() -> int:
     return sum(len(WALK.truth.strides(foot)) for foot in Foot)
 
 
+@pytest.mark.soak
 async def test_a_recording_is_played_and_every_stride_shown(chromium: Browser, folder: Path, tmp_path: Path) -> None:
     recorded(tmp_path / "walk.jsonl", WALK.packets)
     with serving(folder) as url:

@@ -46,6 +46,7 @@ FULL = """(full) => {
     kind.write = full ? () => { throw new DOMException('', 'QuotaExceededError'); } : kind.whole;
 }"""
 STRIDES = "(solepath.state.feet.left?.strides ?? 0) + (solepath.state.feet.right?.strides ?? 0)"
+@pytest.mark.soak
 async def test_without_bluetooth_the_page_names_browsers_that_have_it(chromium: Browser, site: Path) -> None:
     with serving(site) as url:
         async with window(chromium, url, width=360, script="delete Navigator.prototype.bluetooth;") as view:
@@ -63,6 +64,7 @@ async def restart(view: Window) -> None:
     await view.until(READY, patience=PATIENCE)
 
 
+@pytest.mark.long
 async def test_what_was_recorded_is_computed_once_although_the_storage_was_full(
     chromium: Browser, site: Path, tmp_path: Path
 ) -> None:

@@ -8,6 +8,7 @@ from math import hypot
 from pathlib import Path
 from typing import Any
 
+import pytest
 from browsers import Browser, Window
 from plain_tabs import OPEN_FILE, plain_tab
 from scripted_sensors import WALK_AT_ONCE, connect
@@ -65,6 +66,7 @@ async def shown(view: Window, t: float) -> Any:
     return await view.tab.evaluate(STATE)
 
 
+@pytest.mark.long
 async def test_a_phone_shows_the_candidates_with_their_weights_until_one_is_left(
     chromium: Browser, site: Path, tmp_path: Path
 ) -> None:
@@ -120,6 +122,7 @@ async def check_pocket(view: Window) -> None:
     await view.tab.mouse.up()
 
 
+@pytest.mark.soak
 async def test_a_walk_goes_on_while_the_page_is_hidden_and_after_it_was_frozen(
     chromium: Browser, site: Path, tmp_path: Path
 ) -> None:

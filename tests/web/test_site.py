@@ -20,10 +20,19 @@ TO_THE_END = """(() => { const seek = document.getElementById('seek');
     seek.value = seek.max; seek.dispatchEvent(new Event('change')); })()"""
 
 
-async def test_the_demonstration_gives_the_strides_that_cpython_gives(chromium: Browser, site: Path) -> None:
+async def test_without_its_server_the_demonstration_gives_the_strides_that_cpython_gives(
+    chromium: Browser, site: Path
+) -> None:
     expected = json.loads(encode(scene_of(demo_packets(site)).whole_message()[0]))
-    with serving(site) as url:
+    with ExitStack() as server:
+        url = server.enter_context(serving(site))
         async with open_site(chromium, url) as view:
+            await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
+            server.close()
+            with pytest.raises(URLError):
+                urlopen(url)
+            await view.tab.reload()
+            await ready(view)
             await view.tab.locator("#demo").click()
             await view.until("solepath.state.playback?.state === 'playing' && solepath.frames > 10")
             await view.until("solepath.state.feet.left?.cells?.length === 96")
@@ -69,17 +78,3 @@ async def check_isolation(view: Window, site: Path) -> None:
     assert all("Content Security Policy" in words for words in view.complaints), view.complaints
     view.complaints.clear()
     view.requests[:] = [one for one in view.requests if not one.startswith(elsewhere)]
-
-
-async def test_it_starts_without_its_server(chromium: Browser, site: Path) -> None:
-    with ExitStack() as server:
-        url = server.enter_context(serving(site))
-        async with open_site(chromium, url) as view:
-            await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
-            server.close()
-            with pytest.raises(URLError):
-                urlopen(url)
-            await view.tab.reload()
-            await ready(view)
-            await view.tab.locator("#demo").click()
-            await view.until("solepath.state.playback?.state === 'playing'", patience=PATIENCE)

@@ -7,6 +7,7 @@ import json
 from collections import Counter
 from pathlib import Path
 
+import pytest
 from browsers import Browser, Window
 from web_bluetooth import web_bluetooth
 from web_pages import PATIENCE, READY, WORDS, open_site, ready
@@ -45,6 +46,7 @@ def strides(packets: tuple[Packet, ...]) -> list[int]:
     return [sum(event.foot is foot for event in taken) for foot in Foot]
 
 
+@pytest.mark.soak
 async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
     chromium: Browser, site: Path, tmp_path: Path
 ) -> None:

@@ -30,7 +30,7 @@ ALL = tuple((width, theme) for width in SCREENS | NARROWEST for theme in THEMES)
 
 
 @pytest.mark.parametrize(
-    ("name", "screens"), [("plan", QUICK), *(pytest.param(name, ALL, marks=pytest.mark.soak) for name in STATES)]
+    ("name", "screens"), [("plan", QUICK), *(pytest.param(name, ALL, marks=pytest.mark.long) for name in STATES)]
 )
 async def test_all_is_readable_reached_by_keys_and_without_violation_by_axe(
     chromium: Browser, name: str, screens: tuple[tuple[int, str], ...]

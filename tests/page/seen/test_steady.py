@@ -14,7 +14,7 @@ SPEED, UNTIL = 6.0, 36.0
 """Multiple of real time in which the walk is shown, and its end, s."""
 
 
-@pytest.mark.soak
+@pytest.mark.long
 async def test_nothing_jumps_from_the_first_figures_to_a_lost_link(chromium: Browser) -> None:
     scene, wide, narrow = Scene("Live", "default", "live"), max(SCREENS), min(SCREENS)
     async with (
