@@ -21,6 +21,7 @@ IDLE, RECONNECTIONS = 200, 400
 GET = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
 NAMES = sorted(one.name for one in (files("solepath.show.page") / "static").iterdir())
 
+
 async def visit(page: Page) -> None:
     """Load the whole page as the owner does, and watch; any failure raises."""
     url = f"http://127.0.0.1:{page.port}/"

@@ -22,6 +22,8 @@ from solepath.types import Foot
 
 WALK = insoles()
 READY = "document.getElementById('out').textContent.includes('Python is ready')"
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder of the example after the commands of its first lines."""

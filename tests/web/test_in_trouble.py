@@ -46,6 +46,8 @@ FULL = """(full) => {
     kind.write = full ? () => { throw new DOMException('', 'QuotaExceededError'); } : kind.whole;
 }"""
 STRIDES = "(solepath.state.feet.left?.strides ?? 0) + (solepath.state.feet.right?.strides ?? 0)"
+
+
 @pytest.mark.soak
 async def test_without_bluetooth_the_page_names_browsers_that_have_it(chromium: Browser, site: Path) -> None:
     with serving(site) as url:

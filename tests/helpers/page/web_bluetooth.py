@@ -60,11 +60,7 @@ class WebBluetooth:
     """Emulated devices that a page in Chromium can choose and connect."""
 
     def __init__(
-        self,
-        view: Window,
-        devices: Iterable[Peripheral],
-        stream: str = "insole/frame",
-        starts: str = "insole/control",
+        self, view: Window, devices: Iterable[Peripheral], stream: str = "insole/frame", starts: str = "insole/control"
     ) -> None:
         self.view, self.stream, self.starts = view, stream, starts
         self.sensors = {device.address: EmulatedSensor(device) for device in devices}

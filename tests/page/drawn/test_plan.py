@@ -47,6 +47,8 @@ OUTER = """import('./outer.js').then(({ outerWalls }) => {
     return outerWalls(level, [], [0, 0, 9, 6]);
 })"""
 ROOM = "(place) => import('./rooms.js').then(({ roomAt }) => roomAt(solepath.state.plan.levels[0], place))"
+
+
 def placed(
     t: float, x: float, y: float, *others: tuple[float, float, float], level: str = "0", z: float = 0.0
 ) -> list[Any]:

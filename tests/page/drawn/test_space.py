@@ -11,6 +11,8 @@ from solepath.show.page.scene.scene import Scene
 from solepath.show.report.figures.space import LEAST_RISE, project
 
 PROJECT = "import('./space.js').then(({ project }) => project([3.2, -1.5, 2.4], 2))"
+
+
 def moved(t: float, x: float, z: float) -> WearerMoved:
     return WearerMoved(t=t, known_at=t, position=(x, 0.3 * x, z), covariance=(0.01,) * 6)
 

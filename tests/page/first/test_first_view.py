@@ -10,6 +10,8 @@ from solepath.show.page.player.playback import Playback
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 FIGURES = ("speed", "cadence", "symmetry", "distance")
+
+
 def text_is(name: str, words: str) -> str:
     return f"document.getElementById('{name}').textContent === {words!r}"
 
