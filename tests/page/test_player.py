@@ -170,9 +170,3 @@ def test_a_recording_plays_at_the_requested_speed_and_stops_at_its_end():
     player.advance(0.1)
     settle(player)
     assert player.playback.t == pytest.approx(START + 1.0)
-
-
-def test_a_computer_that_slept_plays_on_where_it_was():
-    player = make_player()
-    pass_by(player, 3600.0)
-    assert player.playback.t < START + 1.0
