@@ -2,42 +2,11 @@
 
 from __future__ import annotations
 
-from math import pi
-
-from attrs import evolve
-from page_events import events_of_all_kinds, foot_moved
+from page_events import foot_moved
 from shown import shown
 
-from solepath import (
-    BatteryLevel,
-    CellFault,
-    CellsFailed,
-    Connected,
-    Foot,
-    FootResumed,
-    FootSilent,
-    Site,
-    StreamStale,
-    TurnMade,
-)
+from solepath import BatteryLevel, Connected, Foot, FootResumed, FootSilent, Site, StreamStale
 from solepath.show.page.scene.log import sentence
-from solepath.types import Turn
-
-
-def test_every_event_is_either_a_sentence_or_none() -> None:
-    lines = [line for event in events_of_all_kinds() if (line := sentence(event)) is not None]
-    assert {kind for kind, _ in lines} <= {"fault", "link", "wear", "gait", "place", "here"}
-    assert all(text and "\n" not in text and "_" not in text for _, text in lines)
-
-
-def test_the_log_speaks_of_feet_and_not_of_events() -> None:
-    failed = CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.DEAD, cells=(3,))
-    assert sentence(failed) == ("wear", "left foot: 1 cell shows no load; left out from now on")
-    assert sentence(evolve(failed, cells=(3, 4))) == (
-        "wear", "left foot: 2 cells show no load; left out from now on",
-    )  # fmt: skip
-    turned = TurnMade(t=1.0, known_at=1.0, t_start=0.0, angle=-pi / 2, turn=Turn.RIGHT)
-    assert sentence(turned) == ("gait", "turned right by 90 degrees")
 
 
 def test_a_low_battery_is_reported_once() -> None:

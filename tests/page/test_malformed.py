@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
-import logging
-import socket
-import struct
-from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from served import LOGGER, check_watching, fetch_reply, frame_of, handshake, open_raw, rejection_status, served
+from served import LOGGER, check_watching, frame_of, handshake, open_raw, served
 
 from solepath.show.page.messages import CommandError, parse_command
-from solepath.show.page.server import client_errors
 from solepath.wire.receiver import build_position
 
 
@@ -80,65 +74,3 @@ async def test_what_is_malformed_is_answered_with_a_close_and_one_line(
         writer.close()
         await check_watching(client, url)
     assert [one.name for one in caplog.records] == [LOGGER]
-
-
-@settings(max_examples=12)
-@given(st.lists(st.one_of(
-    st.binary(max_size=200),
-    st.builds(frame_of, st.integers(0, 15), st.binary(max_size=125)),
-), max_size=6))  # fmt: skip
-def test_any_bytes_end_one_connection_at_the_most(sent: list[bytes]) -> None:
-    problems: list[dict[str, Any]] = []
-
-    async def main() -> None:
-        asyncio.get_running_loop().set_exception_handler(lambda loop, context: problems.append(context))
-        async with asyncio.timeout(30.0), served() as (page, client, url):
-            for opening in (b"", handshake()):
-                await fetch_reply(page, opening + b"".join(sent), ends=True)
-            await check_watching(client, url)
-
-    asyncio.run(main())
-    assert problems == []
-
-
-async def test_a_client_that_leaves_during_the_handshake_causes_no_error(caplog: pytest.LogCaptureFixture) -> None:
-    async with served() as (page, client, url):
-        host = f"127.0.0.1:{page.port}"
-        for _ in range(20):
-            somebody = socket.create_connection(("127.0.0.1", page.port))
-            await asyncio.sleep(0.01)  # accepted
-            somebody.sendall(handshake(host))
-            somebody.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
-            somebody.close()
-            await asyncio.sleep(0.01)
-        await check_watching(client, url)
-    assert not caplog.records
-
-
-async def test_repeated_errors_of_a_client_do_not_fill_the_log(caplog: pytest.LogCaptureFixture) -> None:
-    async with served() as (_, client, url):
-        for _ in range(100):
-            assert await rejection_status(client.ws_connect(f"{url}ws?token=wrong")) == 403
-    assert len(caplog.records) <= client_errors.BURST_SIZE + 1
-
-
-async def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.LogCaptureFixture) -> None:
-    odd = (b"GET /ws", b"\x16\x03\x01\x02", b"POST / HTTP/1.1\r\nContent-Length: x\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n")
-    async with served() as (page, client, url):
-        for sent in (*odd, handshake("localhost", "Sec-WebSocket-Protocol: EVIL\r\n")):
-            await fetch_reply(page, sent, ends=True)
-        assert await rejection_status(client.ws_connect(f"{url}ws", protocols=["EVIL"])) == 400
-        async with client.get(f"{url}ws") as answer:
-            assert answer.status == 400
-    assert {one.name for one in caplog.records} == {LOGGER}
-    assert "EVIL" not in caplog.text
-
-
-def test_errors_that_were_not_logged_are_counted(caplog: pytest.LogCaptureFixture) -> None:
-    log = client_errors.ClientErrors(logging.getLogger(LOGGER))
-    for _ in range(client_errors.BURST_SIZE + 5):
-        log.report("somebody did it")
-    assert len(caplog.records) == client_errors.BURST_SIZE
-    log._updated_at -= client_errors.LINE_INTERVAL
-    log.report("somebody did it")
-    assert caplog.records[-1].getMessage() == "somebody did it (5 more were not logged)"

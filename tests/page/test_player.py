@@ -14,11 +14,10 @@ from solepath import Event, Packet, Sample, Session, Site
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
-from solepath.emulate.walk import emulate, sampled
+from solepath.emulate.walk import emulate
 from solepath.show.page.messages import Command
-from solepath.show.page.player import player as playing
-from solepath.show.page.player.packed_items import CHUNK_SIZE, PackedItems
-from solepath.show.page.player.player import MAX_SPEED, MIN_SPEED, Player
+from solepath.show.page.player.packed_items import PackedItems
+from solepath.show.page.player.player import Player
 from solepath.show.page.scene.scene import Scene
 
 ROUTE = Route().stand(0.5).walk(2.0, speed=1.3).stop(0.5)
@@ -75,11 +74,6 @@ def stop_at(player: Player, t: float, items: int = 100) -> None:
     player.pause()
     player.seek(t)
     settle(player, items)
-
-
-def run_out(player: Player) -> None:
-    while player.run_through(slices(1000)):
-        pass
 
 
 def shown(player: Player) -> dict:
@@ -176,125 +170,3 @@ def test_a_recording_plays_at_the_requested_speed_and_stops_at_its_end():
     player.advance(0.1)
     settle(player)
     assert player.playback.t == pytest.approx(START + 1.0)
-
-
-def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
-    player = make_player()
-    run_out(player)
-    assert player.playback.state == "ended"
-    player.seek(END - 1.0)
-    settle(player)
-    assert player.playback.state == "playing" and player.playback.t == END - 1.0
-    player.set_speed(1000.0)
-    assert player.playback.speed == MAX_SPEED
-    player.set_speed(0.0)
-    assert player.playback.speed == MIN_SPEED
-    stop_at(player, -1e9)
-    assert player.playback.state == "paused" and player.playback.t == START
-
-
-def test_a_seek_reports_its_progress_and_continues_in_slices():
-    player = make_player()
-    player.pause()
-    player.seek(END - 0.5)
-    reached = [player.playback.t]
-    while player.feed_due(slices(25)):
-        assert player.playback.seeking == END - 0.5
-        reached.append(player.playback.t)
-    assert len(reached) > 5 and reached == sorted(reached)
-    assert player.playback.seeking is None and player.playback.t == END - 0.5
-    player.advance(10.0)  # it is still paused
-    assert not player.feed_due(never) and player.playback.t == END - 0.5
-
-
-def test_the_page_shows_the_time_up_to_which_the_session_was_fed_also_when_it_cannot_keep_up():
-    player = make_player()
-    player.set_speed(MAX_SPEED)
-    slow = 0
-    while player.playback.state != "ended":
-        player.advance(CLOCK_INTERVAL)
-        behind = player.feed_due(slices(5))
-        slow += behind
-        fed = player.items.t(player._next - 1)
-        assert player.playback.t == fed if behind else fed <= player.playback.t <= player.items.end
-        message, _ = player.scene.whole_message()
-        # the newest sample's own time may be told a little later than its packet came
-        assert message["frame"]["playback"]["t"] <= message["frame"]["t"] < player.playback.t + 0.03
-    assert slow > 10
-
-
-def test_a_foot_is_shown_as_silent_from_the_same_time_however_often_the_scene_is_read():
-    def left(sample: Sample) -> bool:
-        return sample.site is Site.LEFT_FOOT and 0.6 < sample.t < 2.9
-
-    samples = PackedItems(sample for sample in sampled(ROUTE, seed=5).samples if not left(sample))
-    looks = []
-    for items in (1, 9, 1000):
-        player = make_player(samples)
-        stop_at(player, 3.2, items)
-        looks.append(shown(player))
-    assert looks[0] == looks[1] == looks[2]
-    phases = looks[0]["phases"]["left"]
-    assert [t for t, phase in phases if phase is None] == [pytest.approx(0.6, abs=0.02)]  # of the last sample
-    assert phases[-1][1] is not None
-
-
-def test_a_computer_that_slept_plays_on_where_it_was():
-    player = make_player()
-    pass_by(player, 3600.0)
-    assert player.playback.t < START + 1.0
-
-
-def test_saved_moments_are_few_however_long_the_recording_is(monkeypatch):
-    monkeypatch.setattr(playing, "MAX_SAVED_STATES", 8)
-    player = make_player(spacing=0.04)
-    run_out(player)
-    assert len(player._saved) <= playing.MAX_SAVED_STATES and player.spacing > 0.04
-    times = [moment.t for moment in player._saved]
-    assert times == sorted(times) and times[0] == START
-    between = [after - before for before, after in zip(times, times[1:], strict=False)]
-    assert max(between) < 3.0 * player.spacing  # wherever one seeks to, little is to be computed
-
-
-def test_a_damaged_recording_plays_up_to_the_damage_and_reports_it():
-    half = PACKETS[: len(PACKETS) // 2]
-    player = make_player(PackedItems(half), fault="walk.jsonl: line 500: is not JSON")
-    assert all("line 500" not in line[2] for line in shown(player)["log"])
-    run_out(player)
-    assert player.playback.t == half[-1].t and player.playback.state == "ended"
-    assert shown(player)["log"][-1][1:] == ("link", "walk.jsonl: line 500: is not JSON")
-    stop_at(player, START)
-    assert all("line 500" not in line[2] for line in shown(player)["log"])
-
-
-def test_a_recording_of_nothing_is_at_its_end_at_once():
-    player = make_player(PackedItems())
-    assert not player.feed_due(never)
-    assert player.playback.state == "ended"
-    player.play()
-    player.seek(3.0)
-    settle(player)
-    assert (player.playback.state, player.playback.t) == ("ended", 0.0)
-
-
-def test_samples_play_like_packets():
-    samples = sampled(ROUTE, seed=5).samples
-    player = make_player(PackedItems(samples))
-    player.seek(samples[-1].t - 0.3)
-    settle(player)
-    session = Session(poses=True, pressures=True)
-    session.feed(sample for sample in samples if sample.t <= samples[-1].t - 0.3)
-    assert player.session.snapshot() == session.snapshot()
-    assert shown(player)["frame"]["feet"]["left"]["strides"] > 0
-
-
-@given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK_SIZE), st.integers(0, 2**32))
-def test_packed_items_come_out_unchanged_and_are_due_in_order(times, seed):
-    packets = [Packet(t, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]), str(seed)) for k, t in enumerate(times)]
-    kept = PackedItems(packets)
-    assert [kept[k] for k in range(len(kept))] == packets
-    assert [kept[k] for k in reversed(range(len(kept)))] == packets[::-1]
-    due = [kept.t(k) for k in range(len(kept))]
-    assert due == sorted(due) and all(at >= packet.t for at, packet in zip(due, packets, strict=True))
-    if times:
-        assert (kept.start, kept.end) == (times[0], max(times))

@@ -3,42 +3,28 @@
 from __future__ import annotations
 
 import base64
-import json
 from math import inf, nan
 
 from attrs import evolve
-from page_events import events_of_all_kinds, feed_session, foot_moved, rough_walk
+from page_events import feed_session, foot_moved, rough_walk
 from shown import frame, later, shown
-from walks import SHORT, insoles, samples
+from walks import insoles
 
 from solepath import (
     Activity,
     ActivityChanged,
     Connected,
-    Defect,
-    DefectFound,
     Disconnected,
+    Event,
     Foot,
     FootPressed,
-    Packet,
-    PacketsLost,
-    Phase,
-    Placed,
-    PlaceLost,
     Site,
     StreamResumed,
     StreamStale,
     StrideTaken,
     WearerMoved,
 )
-from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.sensortags import CC2650
-from solepath.emulate.walk import emulate
-from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
-from solepath.show.page.messages import encode
-from solepath.show.page.player.playback import Playback
-from solepath.show.page.scene.scene import Scene
 from solepath.show.tables.gait import gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -89,58 +75,6 @@ def test_the_gait_is_the_table_of_the_terminal() -> None:
         assert f"{row['both']:.{row['digits']}f}" in line
 
 
-def test_support_is_known_only_while_both_feet_send() -> None:
-    scene = shown([foot_moved(1.0), foot_moved(1.0, foot=RIGHT)])
-    assert frame(scene)["support"] == "FLIGHT"
-    shown([foot_moved(1.0 + 0.1 * k) for k in range(30)], scene)
-    scene.tick(4.0)
-    content = frame(scene)
-    assert content["support"] is None
-    assert content["feet"]["right"]["phase"] is None
-    assert content["feet"]["left"]["phase"] == "SWING"
-
-
-def test_one_foot_alone_is_shown_alone() -> None:
-    _, events = feed_session([packet for packet in insoles().packets if packet.site is Site.RIGHT_FOOT])
-    content = frame(shown(events))
-    assert content["feet"]["left"] is None
-    assert content["feet"]["right"]["strides"] > 2
-    assert content["support"] is None
-    assert [*content["links"]] == ["right foot"]
-
-
-def test_an_insole_without_an_inertial_sensor_shows_its_cells_and_phases() -> None:
-    bare = [evolve(one, acc=None, gyro=None) for one in samples()]
-    content = frame(shown(feed_session(bare)[1]))
-    for foot in Foot:
-        one = content["feet"][foot.value]
-        assert one["cells"] is not None and one["rate"] == 100 and one["position"] is None
-        assert one["phase"] in {phase.value for phase in Phase}
-    assert content["support"] is not None
-
-
-def test_sensors_without_cells_show_strides_and_no_soles() -> None:
-    _, events = feed_session(
-        emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(), Site.RIGHT_FOOT: CC2650()}, seed=1).packets
-    )
-    message = json.loads(encode(shown(events).whole_message()[0]))
-    assert message["layouts"] == {"left": None, "right": None}
-    for foot in Foot:
-        one = message["frame"]["feet"][foot.value]
-        assert one["cells"] is None and one["force"] is None and one["centre"] is None
-        assert one["position"] is not None
-        assert len(message["tracks"][foot.value]) > 2
-
-
-def test_other_recipes_are_shown_as_well() -> None:
-    _, events = feed_session(insoles().packets, PRESSURE_CONTOUR)
-    content = frame(shown(events))
-    assert content["feet"]["left"]["strides"] == len(
-        [e for e in events if isinstance(e, StrideTaken) and e.foot is LEFT]
-    )
-    assert content["feet"]["right"]["phase"] is not None
-
-
 def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
     _, events = rough_walk()
     scene = shown(events)
@@ -159,54 +93,21 @@ def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
 
 def test_a_link_is_waiting_then_ok_then_lost_and_ok_again() -> None:
     site = Site.LEFT_FOOT
-    scene = shown([Connected(t=0.0, known_at=0.0, site=site, device="", name="Insole", signal=-50)])
-
-    def state() -> str:
-        return str(frame(scene)["links"]["left foot"]["state"])
-
-    assert state() == "waiting"
-    shown([foot_moved(1.0 + 0.01 * k) for k in range(100)], scene)
-    assert state() == "ok"
-    assert frame(scene)["links"]["left foot"]["rate"] == 100
-    shown([Disconnected(t=2.0, known_at=2.0, site=site), foot_moved(1.99, known_at=2.05)], scene)
-    assert state() == "lost", "what was still under way is no connection"
-    scene.tick(7.0)
-    assert frame(scene)["links"]["left foot"]["silent_for"] > 4.9
-    assert frame(scene)["links"]["left foot"]["rate"] == 0
-    shown([Connected(t=7.5, known_at=7.5, site=site, device="", name="Insole", signal=-50)], scene)
-    assert state() == "waiting"
-    shown([foot_moved(8.0)], scene)
-    assert state() == "ok"
-    shown([StreamStale(t=8.5, known_at=9.0, site=site, silent_for=1.0)], scene)
-    assert state() == "silent"
-    shown([StreamResumed(t=9.4, known_at=9.4, site=site, silent_for=1.4), foot_moved(9.4)], scene)
-    assert state() == "ok"
-
-
-def test_a_sensor_that_is_on_no_foot_has_a_link_and_no_rate() -> None:
-    scene = shown([Connected(t=0.0, known_at=0.0, site=Site.PELVIS, device="", name="Tag", signal=-50)])
-    link = frame(scene)["links"]["pelvis"]
-    assert (link["state"], link["rate"], link["name"]) == ("ok", None, "Tag")
-    shown([StreamStale(t=2.0, known_at=3.0, site=Site.PELVIS, silent_for=1.0)], scene)
-    assert frame(scene)["links"]["pelvis"]["state"] == "silent"
-
-
-def test_losses_are_shares_of_the_packets_that_were_sent() -> None:
-    scene = Scene("a walk", "default")
-    for k in range(30):
-        t = 0.02 * k + 0.05
-        packet = Packet(t, Site.LEFT_FOOT, "insole/frame", b"")
-        scene.take(packet, [foot_moved(t - 0.05, known_at=t), foot_moved(t - 0.04, known_at=t)])
-    shown([PacketsLost(t=0.7, known_at=0.7, site=Site.LEFT_FOOT, channel="insole/frame", count=10)], scene)
-    link = frame(scene)["links"]["left foot"]
-    assert (link["lost"], link["loss"]) == (10, 0.25)
-
-
-def test_samples_that_came_in_no_packets_have_no_loss() -> None:
-    _, events = feed_session(samples())
-    links = frame(shown(events))["links"]
-    assert [link["loss"] for link in links.values()] == [None, None]
-    assert [link["rate"] for link in links.values()] == [100, 100]
+    connected = Connected(t=0.0, known_at=0.0, site=site, device="", name="Insole", signal=-50)
+    under_way = foot_moved(1.99, known_at=2.05)  # which is no connection
+    steps: list[tuple[list[Event], str]] = [
+        ([connected], "waiting"),
+        ([foot_moved(1.0 + 0.01 * k) for k in range(100)], "ok"),
+        ([Disconnected(t=2.0, known_at=2.0, site=site), under_way], "lost"),
+        ([later(connected, 7.5)], "waiting"),
+        ([foot_moved(8.0)], "ok"),
+        ([StreamStale(t=8.5, known_at=9.0, site=site, silent_for=1.0)], "silent"),
+        ([StreamResumed(t=9.4, known_at=9.4, site=site, silent_for=1.4), foot_moved(9.4)], "ok"),
+    ]
+    scene = shown([])
+    for events, state in steps:
+        link = frame(shown(events, scene))["links"]["left foot"]
+        assert link["state"] == state
 
 
 def test_an_activity_that_was_taken_back_is_not_shown() -> None:
@@ -219,24 +120,6 @@ def test_an_activity_that_was_taken_back_is_not_shown() -> None:
     assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
 
 
-def test_a_place_is_shown_until_it_is_lost() -> None:
-    events = events_of_all_kinds()
-    scene = shown([event for event in events if not isinstance(event, PlaceLost)], Scene("", "", plan=BUILDING))
-    message = json.loads(encode(scene.whole_message()[0]))
-    assert message["frame"]["place"]["candidates"][0]["origin"] == "stairs A"
-    assert message["frame"]["place"]["room"] is None
-    assert len(message["places"]) == 1, "of several candidates on several levels there is no one place"
-    assert [line for line in message["log"] if line[1] == "place"]
-    shown([event for event in events if isinstance(event, PlaceLost)], scene)
-    assert frame(scene)["place"] is None
-
-
-def test_the_name_of_a_room_is_shown_on_one_line_and_cut_where_it_is_endless() -> None:
-    place = next(event for event in events_of_all_kinds() if isinstance(event, Placed))
-    assert frame(shown([evolve(place, room="room\n12")]))["place"]["room"] == "room\N{REPLACEMENT CHARACTER}12"
-    assert len(frame(shown([evolve(place, room="x" * 100_000)]))["place"]["room"]) == 200
-
-
 def test_numbers_that_are_not_finite_are_shown_as_null() -> None:
     odd = evolve(foot_moved(1.0), position=(nan, inf, -inf))
     pressed = FootPressed(t=1.0, known_at=1.0, foot=LEFT, values=(nan, inf, 1.0), force=nan, centre=(nan, 0.0))
@@ -244,32 +127,3 @@ def test_numbers_that_are_not_finite_are_shown_as_null() -> None:
     assert content["position"] == [None, None, None]
     assert content["force"] is None
     assert len(base64.b64decode(content["cells"])) == 3
-
-
-def test_an_event_without_a_finite_time_is_not_shown() -> None:
-    events = [foot_moved(1.0)]
-    for time in (nan, inf, -inf):
-        for field in ("t", "known_at"):
-            assert encode(frame(shown([*events, evolve(foot_moved(1.0), **{field: time})]))) == encode(
-                frame(shown(events))
-            )
-
-
-def test_a_frame_holds_the_state_of_playback() -> None:
-    scene = Scene("a walk", "default", "recording", playback=Playback(start=0.0, end=9.0, t=0.0))
-    _, cursor = scene.whole_message()
-    assert scene.playback is not None
-    scene.playback.state, scene.playback.t = "playing", 1.0
-    news, _ = scene.message_since(cursor)
-    assert news == {
-        "type": "frame",
-        "t": 0.0,
-        "playback": {"begin": 0.0, "end": 9.0, "t": 1.0, "state": "playing", "speed": 1.0, "seeking": None},
-    }
-
-
-def test_a_defect_stands_with_its_sensor_at_the_top_of_the_page() -> None:
-    found = DefectFound(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, defect=Defect.AXES, what="an axis is mirrored")
-    scene = shown([found])
-    assert frame(scene)["links"]["left foot"]["trouble"] == "an axis is mirrored"
-    assert any("an axis is mirrored" in words for _, _, words in scene.log.lines.items)

@@ -4,55 +4,21 @@ from __future__ import annotations
 
 import asyncio
 import json
-import socket
+import re
 from importlib.resources import files
 from urllib.parse import urlsplit
 
 import pytest
 from aiohttp import WSCloseCode, WSMsgType
-from hypothesis import given
-from hypothesis import strategies as st
-from served import (
-    LOGGER,
-    TOKEN,
-    check_watching,
-    close_code,
-    fetch_reply,
-    handshake,
-    open_raw,
-    rejection_status,
-    scene_of,
-    served,
-)
-from walks import insoles
+from served import LOGGER, TOKEN, close_code, fetch_reply, rejection_status, scene_of, served
 
-from solepath import Foot, LinkTrouble, Session, Site
+from solepath import LinkTrouble, Site
 from solepath.show.page.messages import Command
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import server
-from solepath.show.page.server.access import AccessDenied, PageAccess, host_of, on_loopback, url_host
+from solepath.show.page.server.access import on_loopback, url_host
 from solepath.show.page.server.connection import HEADERS
 from solepath.show.page.server.server import Page
-
-
-async def test_a_watcher_sees_the_walk() -> None:
-    session = Session(poses=True, pressures=True)
-    async with served() as (page, client, url), client.ws_connect(f"{url}ws") as watching:
-        scene = await scene_of(watching)
-        assert scene["frame"]["feet"] == {"left": None, "right": None}
-        for index, packet in enumerate(insoles().packets):
-            page.scene.take(packet, session.feed(packet))
-            if index % 50 == 0:
-                await asyncio.sleep(0.01)
-        steps = points = frames = 0
-        while steps < page.scene.observer.feet[Foot.LEFT].strides:
-            news = json.loads(await watching.receive_str())
-            frames += news["type"] == "frame"
-            if news["type"] == "scene":  # the soles are known now
-                points = 0
-            points += len(news.get("tracks", {}).get("left", []))
-            steps = (news.get("frame", news).get("feet", {}).get("left") or {}).get("strides", steps)
-        assert steps > 2 and points == steps + 1 and frames > 2
 
 
 async def test_a_watcher_gets_a_message_every_second_even_when_nothing_happens() -> None:
@@ -77,33 +43,17 @@ async def test_what_came_last_is_shown_before_the_end() -> None:
         await watching.close()
 
 
-async def test_another_scene_is_sent_whole_as_after_a_seek() -> None:
-    async with served() as (page, client, url), client.ws_connect(f"{url}ws") as watching:
-        await scene_of(watching)
-        page.scene = Scene("another", "default")
-        assert (await scene_of(watching))["title"] == "another"
-
-
-async def test_the_page_is_made_of_the_files_that_are_installed() -> None:
-    names = {one.name for one in (files("solepath.show.page") / "static").iterdir()}
-    assert "index.html" in names
+async def test_the_page_is_made_of_the_files_that_are_installed_and_names_no_other_server() -> None:
+    static = files("solepath.show.page") / "static"
     async with served() as (_, client, url):
-        for name in ("", *names):
+        for name in ("", *(one.name for one in static.iterdir())):
             async with client.get(url + name) as answer:
                 assert answer.status == 200, name
-                assert answer.headers["Content-Security-Policy"].startswith("default-src 'none'; script-src 'self'")
-                assert answer.headers["X-Content-Type-Options"] == "nosniff"
-                assert answer.headers["Cache-Control"] == "no-store"
-                assert answer.headers["Referrer-Policy"] == "no-referrer"
-                assert answer.headers["Cross-Origin-Resource-Policy"] == "same-origin"
-                async with client.head(url + name) as head:
-                    assert (head.status, await head.read()) == (200, b"")
-                    assert head.headers["Content-Length"] == answer.headers["Content-Length"]
+                assert answer.headers.items() >= HEADERS.items()
                 kind = answer.headers["Content-Type"].partition(";")[0]
                 assert kind == server.CONTENT_TYPES[f".{(name or 'index.html').rpartition('.')[2]}"]
-        text = "".join((files("solepath.show.page") / "static" / name).read_text() for name in names)
-        for elsewhere in ("https:", "//cdn"):
-            assert elsewhere not in text.replace('"https:"', "").replace("'https:'", "")
+                text = (await answer.read()).decode()
+            assert not re.search("https:(?![\"'])|//cdn", text)
 
 
 @pytest.mark.parametrize(
@@ -121,15 +71,6 @@ async def test_there_are_no_other_files(path: str) -> None:
 async def test_files_can_only_be_got(method: str) -> None:
     async with served() as (_, client, url), client.request(method, url, data=b"x" * 100_000) as answer:
         assert answer.status == 405
-
-
-async def test_only_a_get_becomes_a_socket() -> None:
-    async with served() as (page, _, _):
-        for method in (b"POST", b"HEAD", b"PUT"):
-            reader, writer = await open_raw(page)
-            writer.write(handshake().replace(b"GET", method, 1))
-            assert (await reader.readline()).split(b" ")[1] in (b"400", b"405")
-            writer.close()
 
 
 @pytest.mark.parametrize(
@@ -153,12 +94,6 @@ async def test_the_page_is_for_this_machine_by_default() -> None:
         assert urlsplit(page.url).hostname == "127.0.0.1"
         (listening,) = page._listening.sockets if page._listening is not None else ()
         assert listening.getsockname()[0] == "127.0.0.1"
-
-
-async def test_every_page_has_a_token_of_its_own() -> None:
-    async with Page(Scene("", ""), port=0) as one, Page(Scene("", ""), port=0) as other:
-        tokens = {page.url.partition("#token=")[2] for page in (one, other)}
-        assert len(tokens) == 2 and all(len(token) >= 20 for token in tokens)
 
 
 async def test_who_has_the_token_steers() -> None:
@@ -201,13 +136,6 @@ async def test_pages_of_others_may_not_watch(origin: str, caplog: pytest.LogCapt
     assert len(caplog.records) == 1
 
 
-async def test_its_own_page_may_watch() -> None:
-    async with served() as (page, client, url):
-        for host in ("127.0.0.1", "localhost"):
-            own = f"http://{host}:{page.port}"
-            await check_watching(client, url, headers={"Origin": own, "Host": own[7:]})
-
-
 @pytest.mark.parametrize(
     ("host", "status"),
     [
@@ -222,17 +150,6 @@ async def test_a_name_that_somebody_else_could_point_here_is_no_host(host: str, 
         assert answer.split(b" ")[1] == status
 
 
-@given(st.text())
-def test_any_host_header_is_parsed_or_rejected(text: str) -> None:
-    host = host_of(text)
-    assert host is None or host == host.lower()
-    try:
-        PageAccess("127.0.0.1", TOKEN).check_host(text)
-        PageAccess("127.0.0.1", TOKEN).check_origin([text], "127.0.0.1:1")
-    except AccessDenied as why:
-        assert why.status in (400, 403)
-
-
 async def test_beyond_this_machine_nobody_watches_without_the_token() -> None:
     async with served(host="0.0.0.0") as (page, client, _):
         url = f"http://127.0.0.1:{page.port}/"
@@ -240,23 +157,3 @@ async def test_beyond_this_machine_nobody_watches_without_the_token() -> None:
         async with client.ws_connect(f"{url}ws?token={TOKEN}") as watching:
             await scene_of(watching)
         assert not on_loopback(urlsplit(page.url).hostname or "") or url_host("0.0.0.0") == "127.0.0.1"
-
-
-async def test_ipv6_of_this_machine_serves_as_well() -> None:
-    try:
-        with socket.create_server(("::1", 0), family=socket.AF_INET6):
-            pass
-    except OSError:
-        pytest.skip("no IPv6 here")
-    async with served(host="::1") as (page, client, url):
-        assert url == f"http://[::1]:{page.port}/"
-        await check_watching(client, url, headers={"Origin": url.rstrip("/")})
-
-
-async def test_a_taken_port_is_an_error_or_another_one_is_found() -> None:
-    async with served() as (page, _, _):
-        with pytest.raises(OSError):
-            async with Page(Scene("", ""), port=page.port):
-                pass
-    async with Page(Scene("", "")) as one, Page(Scene("", "")) as other:
-        assert one.port != other.port

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from commands import run, run_failing
+from commands import run
 from pages import read_page
 from recordings import recorded
 from walks import insoles
@@ -33,18 +33,3 @@ def test_the_options_are_shown_in_the_report(recording: Path, tmp_path: Path) ->
     assert "A laboratory" in page.text and "Bohannon and Andrews 2011" in page.text
     rows = [row for row in page.named("comparison").all("tr") if row.first("th").text == "speed, m/s"]
     assert [cell.text for cell in rows[0].all("td")][2].startswith("+0.00")
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (("--title", "x"), "--title goes with --report"),
-        (("--compare", "x.jsonl"), "--compare goes with --report"),
-        (("--reference", "72,female", "--reference", "60,male", "--report", "OUT"), "two people"),
-        (("--reference", "none.json", "--report", "OUT"), "none.json"),
-    ],
-)
-def test_a_wrong_option_gets_one_line(recording: Path, tmp_path: Path, options: tuple[str, ...], words: str) -> None:
-    given = [tmp_path / "r.html" if option == "OUT" else option for option in options]
-    assert words in run_failing("track", recording, *given)
-    assert not (tmp_path / "r.html").exists()

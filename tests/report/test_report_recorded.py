@@ -35,7 +35,7 @@ def true_difference(path: Path) -> float:
     return 2.0 * (right - left) / (right + left)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_each_difference_of_swing_times_that_is_named_is_of_the_labelled_foot(data_dir: Path) -> None:
     paths = [path for name in DATA_SETS for path in sorted((data_dir / name).glob("*.npz"))]
     named = {}

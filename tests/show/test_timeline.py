@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from solepath import Activity, ActivityChanged, FlightClimbed, LiftRidden, Turn, TurnMade
-from solepath.show.observer import Observer
-from solepath.show.tables.summary import summary
+from solepath import Activity, ActivityChanged
 from solepath.show.timeline import Timeline
 
 
@@ -37,34 +35,3 @@ def test_standing_that_turns_out_to_be_a_lift_ride_was_never_standing():
 def test_an_event_dated_before_an_earlier_one_takes_its_place():
     line = timeline(changed(1.0, Activity.STANDING), changed(4.0, Activity.WALKING), changed(3.0, Activity.STAIRS_UP))
     assert line.spans(5.0) == [(1.0, 3.0, Activity.STANDING), (3.0, 5.0, Activity.STAIRS_UP)]
-
-
-def test_time_before_the_first_activity_and_after_the_end_counts_for_none():
-    line = timeline(changed(2.0, Activity.WALKING))
-    assert line.spans(1.0) == [] and line.durations(2.0) == {}
-
-
-def test_a_timeline_of_too_many_changes_leaves_out_what_was_short_and_keeps_the_newest():
-    line = Timeline()
-    for k, t in enumerate((0.0, 10.0, 20.0, 20.5, 30.0)):
-        line.add(changed(t, Activity.WALKING if k % 2 else Activity.STANDING), 4)
-    assert line.last == (30.0, Activity.STANDING)
-    assert line.spans(40.0) == [(10.0, 30.0, Activity.WALKING), (30.0, 40.0, Activity.STANDING)]
-
-
-def test_the_summary_lists_the_activities():
-    observer = Observer()
-    for event in (
-        changed(0.0, Activity.WALKING),
-        changed(12.0, Activity.ELEVATOR_DOWN),
-        LiftRidden(t=18.0, known_at=19.0, t_start=12.0, up=False, height=-4.2),
-        FlightClimbed(t=9.0, known_at=9.0, t_start=3.0, up=True, steps=10, height=1.6),
-        TurnMade(t=5.0, known_at=5.0, t_start=4.0, angle=1.5, turn=Turn.LEFT),
-        TurnMade(t=7.0, known_at=7.0, t_start=6.0, angle=0.2, turn=None),
-    ):
-        observer.add(event)
-    observer.advance(20.0)
-    lines = summary(observer, title="walk", seconds=0.0).splitlines()
-    done, *counted = lines[-4:]
-    assert done == "activities: walking 12 s, lift down 8.0 s"
-    assert counted == ["flights: 1 up", "lift rides: 1 down", "turns: 1 to the left"]

@@ -14,7 +14,7 @@ MAX_SIZE = 7_000_000
 """Largest size of the site as a server sends it, bytes."""
 
 
-@pytest.mark.soak
+@pytest.mark.long
 @pytest.mark.usefixtures("site")  # skips the test where no site can be built
 def test_two_builds_give_the_same_bytes_of_less_than_7_MB(tmp_path: Path) -> None:
     packets = emulate(SITE_ROUTE).packets

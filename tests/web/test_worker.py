@@ -7,14 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from here import PROTOCOL
 from recordings import recorded
 from shown import walked
 from walks import insoles
 
 from solepath import Packet
-from solepath.calibration import Calibration
-from solepath.calibration.file import write_calibration
 from solepath.emulate import Route
 from solepath.saving.codec import SnapshotError
 from solepath.show.web.live_walk import LiveWalk
@@ -75,38 +72,10 @@ def test_a_time_without_packets_is_shown_as_a_gap_and_a_clock_that_was_set_back_
     assert any("clock" in words for _, _, words in shown(worker)["log"])
 
 
-def test_without_a_save_the_whole_recording_is_computed_again(worker: Worker) -> None:
-    other = Worker()
-    other.start_walk("a walk")
-    Path("walk.jsonl").write_bytes(HEADER + walk(other, PACKETS))
-    call(worker, "resume_walk", "a walk", None, "walk.jsonl", PACKETS[-1].t)
-    assert shown(worker) == shown(other)
-
-
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"session": {}}', '{"session": {}, "scene": {}}'])
 def test_another_text_than_a_saved_walk_is_rejected(text: str) -> None:
     with pytest.raises(SnapshotError):
         LiveWalk.restore(text, None)
-
-
-def test_nothing_is_saved_before_anything_was_received(worker: Worker) -> None:
-    assert worker.save() is None
-    worker.start_walk("a walk")
-    assert worker.save() is None
-
-
-def test_messages_are_a_scene_and_then_what_changed(worker: Worker) -> None:
-    kinds = []
-    worker.start_walk("a walk")
-    connect(worker, PACKETS)
-    for start in range(0, 600, 100):
-        send_frames(worker, PACKETS[start : start + 100])
-        message = worker.message()
-        assert message is not None
-        kinds.append(json.loads(message)["type"])
-    assert kinds[0] == "scene" and "frame" in kinds
-    assert worker.message() is None
-    assert json.loads(worker.heartbeat())["type"] == "frame"
 
 
 def test_a_position_that_is_reported_during_a_walk_is_shown_and_recorded_and_none_is_after_its_end(
@@ -142,54 +111,9 @@ def test_a_recording_is_played_and_may_be_controlled(worker: Worker) -> None:
     assert report == call(worker, "report", "walk.jsonl", "a walk")
 
 
-def test_a_walk_is_not_replaced_by_a_recording(worker: Worker) -> None:
-    recorded(Path("walk.jsonl"), PACKETS[:50])
-    worker.start_walk("a walk")
-    assert call(worker, "open", "walk.jsonl") == "a walk is measured now: end it first"
-    worker.finish_walk()
-    assert call(worker, "open", "walk.jsonl")["kind"] == "recording"
-
-
 def test_a_recording_that_was_cut_is_played_with_a_note(worker: Worker) -> None:
     path = Path("walk.jsonl")
     recorded(path, PACKETS[:50])
     path.write_bytes(path.read_bytes()[:-20])
     (note,) = call(worker, "open", "walk.jsonl")["notes"]
     assert "cut off in the middle" in note
-
-
-def test_a_floor_plan_and_a_calibration_are_used_for_what_is_played(worker: Worker) -> None:
-    write_calibration("feet.json", Calibration())
-    recorded(Path("walk.jsonl"), PACKETS[:50])
-    call(worker, "open", "walk.jsonl")
-    Path("plan.geojson").write_bytes((PROTOCOL / "floorplans" / "house.geojson").read_bytes())
-    assert call(worker, "open", "plan.geojson")["kind"] == "plan"
-    assert call(worker, "open", "feet.json") == {"kind": "calibration", "notes": []}
-    assert shown(worker)["plan"]["levels"]
-
-
-def test_a_recipe_that_is_chosen_is_used_for_the_next_walk_after_a_restart_and_for_what_is_played(
-    worker: Worker,
-) -> None:
-    recorded(Path("walk.jsonl"), PACKETS)
-    assert call(worker, "choose_recipe", "footstep-tracker") is None
-    assert shown(worker)["recipe"] == "footstep-tracker"
-    worker.start_walk("a walk")
-    walk(worker, PACKETS)
-    assert call(worker, "choose_recipe", "zupt") is None
-    assert shown(worker)["recipe"] == "footstep-tracker"
-    other = Worker()
-    call(other, "resume_walk", "a walk", worker.save(), "", PACKETS[-1].t)
-    assert shown(other)["recipe"] == "footstep-tracker"
-    worker.finish_walk()
-    call(worker, "open", "walk.jsonl")
-    assert shown(worker)["recipe"] == "zupt"
-    call(worker, "choose_recipe", "default")
-    assert shown(worker)["recipe"] == "default"
-    assert "there is no recipe 'none'" in call(worker, "choose_recipe", "none")
-
-
-def test_a_plan_is_shown_before_the_walk(worker: Worker) -> None:
-    Path("plan.geojson").write_bytes((PROTOCOL / "floorplans" / "house.geojson").read_bytes())
-    call(worker, "open", "plan.geojson")
-    assert shown(worker)["plan"]["levels"] and shown(worker)["source"] == "live"

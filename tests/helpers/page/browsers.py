@@ -132,21 +132,6 @@ class Window:
         text: str = await self.tab.locator(f"#{name}").inner_text()
         return text.strip()
 
-    async def open_folds(self) -> None:
-        """Open everything that the page has folded."""
-        await self.tab.evaluate(
-            "document.querySelectorAll('main details, footer details').forEach((one) => (one.open = true))"
-        )
-
-    async def names(self) -> list[tuple[str, str]]:
-        """Return role and name of everything that is read out, in order."""
-        tree = await self.devtools.send("Accessibility.getFullAXTree")
-        return [
-            (node["role"]["value"], node.get("name", {}).get("value", ""))
-            for node in tree["nodes"]
-            if not node.get("ignored") and "role" in node
-        ]
-
 
 @asynccontextmanager
 async def window(

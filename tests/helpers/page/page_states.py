@@ -90,12 +90,6 @@ def mirrored_walk() -> Iterator[Sample]:
         yield evolve(sample, gyro=gyro, pressure=None)
 
 
-@cache
-def reversed_walk() -> tuple[PacketEvents, ...]:
-    """Return the walk with the reversed axis as a live session gets it."""
-    return packet_events(mirrored_walk())
-
-
 @frozen
 class Shown:
     """A state LAST before its moment: its scene, what executes commands of its page, and what comes until then.

@@ -8,7 +8,6 @@ import asyncio
 import json
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
-from types import SimpleNamespace
 from typing import Any
 
 from browsers import MAX_WAIT, Browser
@@ -25,13 +24,9 @@ OPEN_FILE = """([name, text]) => {
 class PlainTab:
     """A tab of the browser's first window, and a second one that can be put before it."""
 
-    def __init__(self, browser: Browser, devtools: Any, tab: str, other: str, session: str) -> None:
-        self._browser = browser
+    def __init__(self, devtools: Any, tab: str, other: str, session: str) -> None:
         self._devtools, self._tab, self._other, self._session = devtools, tab, other, session
         self._count = 0
-        self._chosen: str | None = None
-        self._choosing: asyncio.Task[Any]
-        self.complaints: list[str] = []
         self._answers: dict[int, asyncio.Future[dict[str, Any]]] = {}
         devtools.on("Target.receivedMessageFromTarget", self._receive)
 
@@ -41,23 +36,6 @@ class PlainTab:
             return
         if message.get("id") in self._answers:
             self._answers.pop(message["id"]).set_result(message)
-        elif message.get("method") == "DeviceAccess.deviceRequestPrompted":
-            prompt = message["params"]
-            if self._chosen in [one["id"] for one in prompt["devices"]]:
-                choice = {"id": prompt["id"], "deviceId": self._chosen}
-                self._chosen = None
-                self._choosing = asyncio.create_task(self._send("DeviceAccess.selectPrompt", **choice))
-
-    async def choose(self, address: str) -> None:
-        """Tap "connect", and choose a device of the emulated radio."""
-        await self.until("!document.getElementById('connect').disabled")
-        self._chosen = address
-        await self._send("DeviceAccess.enable")
-        await self._send("Runtime.evaluate", expression="document.getElementById('connect').click()", userGesture=True)
-        async with asyncio.timeout(MAX_WAIT):
-            while self._chosen is not None:
-                await asyncio.sleep(0.05)
-        await self._choosing
 
     @property
     def tab(self) -> PlainTab:
@@ -73,11 +51,6 @@ class PlainTab:
         got = await asyncio.wait_for(answer, MAX_WAIT)
         assert "error" not in got, got
         return dict(got["result"])
-
-    @property
-    def context(self) -> Any:
-        """What a tab of Playwright has there, as far as the emulated radio needs it: the browser."""
-        return SimpleNamespace(browser=self._browser)
 
     async def evaluate(self, script: str, argument: Any = None) -> Any:
         """Return the value of an expression in the page, or of a function of `argument`."""
@@ -117,7 +90,7 @@ async def plain_tab(browser: Browser, url: str) -> AsyncIterator[PlainTab]:
     devtools: Any = await browser.new_browser_cdp_session()
     opened = [(await devtools.send("Target.createTarget", {"url": one}))["targetId"] for one in ("about:blank", url)]
     attached = await devtools.send("Target.attachToTarget", {"targetId": opened[1], "flatten": False})
-    tab = PlainTab(browser, devtools, opened[1], opened[0], attached["sessionId"])
+    tab = PlainTab(devtools, opened[1], opened[0], attached["sessionId"])
     try:
         async with asyncio.timeout(MAX_WAIT):
             loaded = False

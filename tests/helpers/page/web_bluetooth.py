@@ -15,7 +15,6 @@ from typing import Any
 
 from attrs import define, field
 from browsers import Window
-from plain_tabs import PlainTab
 
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.peripheral import Peripheral
@@ -61,11 +60,7 @@ class WebBluetooth:
     """Emulated devices that a page in Chromium can choose and connect."""
 
     def __init__(
-        self,
-        view: Window | PlainTab,
-        devices: Iterable[Peripheral],
-        stream: str = "insole/frame",
-        starts: str = "insole/control",
+        self, view: Window, devices: Iterable[Peripheral], stream: str = "insole/frame", starts: str = "insole/control"
     ) -> None:
         self.view, self.stream, self.starts = view, stream, starts
         self.sensors = {device.address: EmulatedSensor(device) for device in devices}
@@ -288,7 +283,7 @@ class WebBluetooth:
 
 
 @asynccontextmanager
-async def web_bluetooth(view: Window | PlainTab, devices: Iterable[Peripheral]) -> AsyncIterator[WebBluetooth]:
+async def web_bluetooth(view: Window, devices: Iterable[Peripheral]) -> AsyncIterator[WebBluetooth]:
     """Yield emulated devices that advertise to the page."""
     radio = WebBluetooth(view, devices)
     await radio.start()

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
 from functools import cache
-from math import radians
 
-from attrs import evolve
-from hypothesis import given
-from hypothesis import strategies as st
 from page_events import foot_moved
 from shown import frame, shown
 from walks import insoles
@@ -16,8 +11,6 @@ from walks import insoles
 from solepath import (
     Activity,
     ActivityChanged,
-    Candidate,
-    Disconnected,
     Event,
     Foot,
     FootPressed,
@@ -25,17 +18,14 @@ from solepath import (
     LayoutKnown,
     Packet,
     PacketsLost,
-    Placed,
     Session,
     Site,
     ToeOff,
 )
-from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
-from solepath.show.page.scene.scales import FIRST_ENDS, scale_end
+from solepath.show.page.scene.scales import FIRST_ENDS
 from solepath.show.page.scene.scene import Scene
-from solepath.show.tables.gait import MIN_STRIDES, gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 WALK = Route().stand(1.5).walk(14.0, 1.3).stop(6.0)
@@ -63,14 +53,6 @@ def test_the_activity_is_unknown_while_no_foot_sends() -> None:
     assert frame(scene)["activity"] == {"now": "UNKNOWN", "since": 6.9, "last": "WALKING"}
     shown([foot_moved(12.5)], scene)
     assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
-
-
-def test_a_lost_connection_ends_what_is_known_at_once() -> None:
-    scene = shown(
-        [foot_moved(1.0), changed(1.0, Activity.WALKING), Disconnected(t=1.2, known_at=1.2, site=Site.LEFT_FOOT)]
-    )
-    assert frame(scene)["activity"]["last"] == "WALKING"
-    assert frame(scene)["pace"] is None
 
 
 def test_the_pace_is_that_of_the_newest_strides() -> None:
@@ -106,14 +88,6 @@ def layout_events() -> list[Event]:
     return list(known)
 
 
-def test_what_presses_on_few_cells_does_not_make_the_forefoot_pale() -> None:
-    forefoot = [180.0] * 30 + [0.0] * 66
-    for peaked, top in ((0, 200.0), (1, 200.0), (20, 200.0), (30, 1000.0)):
-        values = [900.0] * peaked + forefoot[peaked:]
-        scene = shown([*layout_events(), *[pressed(2.0 + 0.01 * k, LEFT, values) for k in range(500)]])
-        assert frame(scene)["scales"] == {"kPa": {"top": top, "beyond": 0 < peaked < 30}}, peaked
-
-
 def test_a_scale_has_the_peaks_of_one_stance_and_not_of_several() -> None:
     heel, toes = [300.0] * 20 + [0.0] * 76, [0.0] * 76 + [300.0] * 20
     down, up = ([pressed(t + 0.01 * k, LEFT, some) for k in range(9)] for t, some in ((2.0, heel), (2.1, toes)))
@@ -122,119 +96,20 @@ def test_a_scale_has_the_peaks_of_one_stance_and_not_of_several() -> None:
     assert frame(shown([*layout_events(), *down, toe_off, *up]))["scales"]["kPa"]["top"] == FIRST_ENDS["kPa"]
 
 
-def test_the_first_strides_set_the_scale() -> None:
-    tops = [frame(scene_until(t))["scales"]["kPa"]["top"] for t in (2.0, 8.0, 12.0)]
-    assert tops[0] == FIRST_ENDS["kPa"] < tops[1] == tops[2] == frame(shown(walk()))["scales"]["kPa"]["top"]
-
-
-def test_a_knock_of_a_hundredth_of_a_second_does_not_either() -> None:
-    knock = [pressed(2.0, LEFT, [900.0] * 96), pressed(2.01, LEFT, [10.0] * 96)]
-    assert frame(shown([*layout_events(), *knock, *knock, *knock]))["scales"]["kPa"]["top"] == FIRST_ENDS["kPa"]
-
-
-def test_a_scale_is_for_both_feet_and_only_grows() -> None:
-    scene, tops = shown(layout_events()), []
-    for event in walk():
-        scene.take(None, [event])
-        tops.append(frame(scene)["scales"]["kPa"]["top"] if isinstance(event, GaitCycleMeasured) else None)
-    seen = [top for top in tops if top is not None]
-    assert seen == sorted(seen)
-    assert seen[-1] in (200.0, 400.0)
-    half = shown(walk()[: len(walk()) // 2])
-    on = shown(walk()[len(walk()) // 2 :], deepcopy(half))
-    assert frame(on)["scales"] == frame(shown(walk()))["scales"], "whoever goes on from what was saved"
-
-
-@given(st.floats(1e-6, 1e9))
-def test_a_scale_ends_at_a_round_number_that_is_not_far_above(value: float) -> None:
-    assert value <= scale_end(value) <= 2.0 * value * (1.0 + 1e-9)
-    assert float(f"{scale_end(value):.0e}") == float(f"{scale_end(value):.6e}")
-
-
-def test_cells_that_nobody_turns_into_newtons_end_in_counts() -> None:
-    known = [event for event in layout_events() if isinstance(event, LayoutKnown)]
-    bare = [evolve(event, layout=evolve(event.layout, scale=None)) for event in known]
-    scene = shown([*bare, *[pressed(2.0 + 0.01 * k, LEFT, [300.0] * 96) for k in range(5)]])
-    assert [*frame(scene)["scales"]] == ["counts"]
-
-
 def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
     scene = Scene("a walk", "default")
 
-    def feed_samples(start: float, end: float) -> None:
+    def loss_after(start: float, end: float) -> tuple[int, float]:
         for k in range(round(100 * (end - start))):
             t = start + 0.01 * k
             scene.take(Packet(t + 0.02, Site.LEFT_FOOT, "insole/frame", b""), [foot_moved(t, known_at=t + 0.02)])
+        link = frame(scene)["links"]["left foot"]
+        return link["lost"], link["loss"]
 
-    feed_samples(0.0, 2.0)
+    loss_after(0.0, 2.0)
     shown([PacketsLost(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, channel="insole/frame", count=1000)], scene)
-    feed_samples(12.0, 14.0)
-    link = frame(scene)["links"]["left foot"]
-    assert (link["lost"], 0.7 < link["loss"] < 0.9) == (1000, True)
-    feed_samples(14.0, 24.0)
-    link = frame(scene)["links"]["left foot"]
-    assert (link["lost"], link["loss"]) == (1000, 0.0)
+    lost, share = loss_after(12.0, 14.0)
+    assert lost == 1000 and 0.7 < share < 0.9
+    assert loss_after(14.0, 24.0) == (1000, 0.0)
     scene.tick(27.0)
-    link = frame(scene)["links"]["left foot"]
-    assert (link["state"], link["lost"], link["loss"]) == ("silent", 1000, None), "nothing comes"
-
-
-def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[GaitCycleMeasured]:
-    """Return strides of each foot, one more than the `count` that are steady."""
-    first = next(event for event in walk() if isinstance(event, GaitCycleMeasured) and event.steady)
-    angle = dict(zip(Foot, angles, strict=True))
-    return [
-        evolve(first, foot=foot, t_start=1.0 + k, t=2.0 + k, known_at=2.3 + k, toe_off_angle=angle[foot])
-        for k in range(count + 1)
-        for foot in feet
-    ]
-
-
-def test_the_table_holds_the_number_of_its_strides() -> None:
-    gait_frame = frame(shown(strides((LEFT, RIGHT), 7)))["gait"]
-    assert gait_frame["strides"] == {"left": 7, "right": 7}
-    assert gait_frame["enough"] == MIN_STRIDES == 30
-
-
-def test_one_foot_alone_has_nothing_of_both() -> None:
-    gait_frame = frame(shown(strides((RIGHT,), 7)))["gait"]
-    assert gait_frame["strides"] == {"left": None, "right": 7}
-    for row in gait_frame["rows"]:
-        assert row["left"] is None and row["both"] is None and row["sd"] is None and row["asymmetry"] is None
-        assert row["difference"] is None
-
-
-def test_angles_that_lean_to_either_side_differ_by_degrees_and_not_by_hundreds_of_per_cent() -> None:
-    means = GaitMeans()
-    for stride in strides((LEFT, RIGHT), 7, (radians(3.0), radians(-1.0))):
-        means.add(stride)
-    parameters = means.of(False)
-    assert parameters is not None
-    rows = {row.name: row for row in gait_rows(parameters)}
-    row = rows["toe_off_angle"]
-    assert (round(row.difference or 0.0, 6), row.asymmetry, row.cv) == (-4.0, None, None)
-    assert row.asymmetry_text == "-4.0 deg"
-    assert rows["stride_time"].difference is None and rows["stride_time"].asymmetry_text == "+0.0 %"
-    (line,) = [line for line in gait_lines(means) if line.startswith("toe-off angle")]
-    assert line.endswith("-4.0 deg")
-
-
-def test_feet_that_fly_have_no_share_of_less_than_nothing() -> None:
-    means = GaitMeans()
-    for stride in strides((LEFT, RIGHT), 7):
-        flight = -0.08 if stride.foot is LEFT else -0.04
-        means.add(evolve(stride, stance_time=0.4 * stride.stride_time, initial_double_support=flight))
-    parameters = means.of(True)
-    assert parameters is not None
-    (row,) = [row for row in gait_rows(parameters) if row.name == "initial_double_support"]
-    assert row.both is not None and row.both < 0.0
-    assert row.asymmetry is None and row.asymmetry_text == "-", (
-        "the right foot's is larger, and it would be told as the left's"
-    )
-
-
-def test_a_place_is_decided_once_one_candidate_is_left() -> None:
-    a, b = Candidate("0", (1.0, 2.0, 0.0), None, 0.6, "A"), Candidate("0", (9.0, 2.0, 0.0), None, 0.4, "B")
-    place = Placed(t=1.0, known_at=1.0, level="0", position=a.position, spread=4.0, candidates=(a, b))
-    assert frame(shown([place]))["place"]["decided"] is False
-    assert frame(shown([evolve(place, candidates=(evolve(a, weight=1.0),))]))["place"]["decided"] is True
+    assert frame(scene)["links"]["left foot"]["loss"] is None, "nothing comes"

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from attrs import evolve
-from page_events import feed_session, foot_moved
 from shown import frame, shown
-from walks import insoles
 
 from solepath import (
     CellFault,
@@ -19,8 +17,6 @@ from solepath import (
     FootSilent,
     Site,
 )
-from solepath.emulate.routes.route import Route
-from solepath.show.page.scene.gait import FIRST_ROWS
 from solepath.show.page.scene.scene import Scene
 
 RIGHT = Foot.RIGHT
@@ -38,26 +34,7 @@ def test_what_the_checks_found_stands_until_it_no_longer_holds() -> None:
     scene = shown([axes, cells, silent, swapped, evolve(axes, t=5.0, known_at=5.0, what="axis 2 is mirrored")])
     assert found(scene) == [("left foot", True), ("", True), ("right foot", True), ("right foot", False)]
     assert frame(scene)["findings"][0]["what"] == "axis 2 is mirrored", "the same defect, known better"
-    assert [one["brief"] for one in frame(scene)["findings"][:2]] == [
-        "left sensor is mounted or set up wrongly: its figures are wrong.",
-        "the insoles may be swapped: left is right, and right left.",
-    ]
-    assert scene.findings.unsound == {Foot.LEFT, RIGHT}
-    assert frame(scene)["findings"][3]["what"].startswith("2 cells show no load; left out from now on.")
     shown([FootResumed(t=6.0, known_at=6.0, foot=RIGHT, silent_for=3.0)], scene)
     assert found(scene) == [("left foot", True), ("", True), ("right foot", False)]
     shown([Connected(t=7.0, known_at=7.0, site=Site.LEFT_FOOT, device="", name="Insole", signal=-50)], scene)
     assert found(scene) == [("", True), ("right foot", False)]
-
-
-def test_the_total_is_of_all_steady_strides_since_the_start() -> None:
-    assert frame(shown([foot_moved(1.0)]))["total"] is None
-    scene = shown(feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1])
-    means = scene.observer.gait.parameters
-    assert means is not None and means.both.speed is not None
-    total = frame(scene)["total"]
-    assert total["cadence"] == round(means.cadence or 0.0, 1) and total["speed"] == round(means.both.speed.mean, 2)
-    assert {row["name"]: row["asymmetry"] for row in total["rows"]}["stance_time"] == round(
-        means.asymmetry("stance_time") or 0.0, 4
-    )
-    assert {row["name"] for row in total["rows"]} == set(FIRST_ROWS)

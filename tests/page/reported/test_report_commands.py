@@ -8,18 +8,13 @@ from pathlib import Path
 import pytest
 from commands import run
 from programs import TAKES, emulator, started
-from served import LOGGER, TOKEN, close_code, scene_of, served
-from walks import insoles
+from served import TOKEN, close_code, scene_of, served
 from watchers import ANYWHERE, Watcher, address, watch
 
-from solepath import Session, Site
 from solepath.emulate.routes.building import BUILDING
 from solepath.recording import read_packets
 from solepath.show.page.live_commands import position_of
 from solepath.show.page.messages import CommandError, parse_command
-from solepath.show.page.player.packed_items import PackedItems
-from solepath.show.page.player.player import Player
-from solepath.show.page.scene.scene import Scene
 from solepath.wire.receiver import PositionFrame, parse_position
 
 HERE = '{"do":"here","sigma":0.5,"at":[3.25,-1.5]}'
@@ -53,22 +48,6 @@ def test_a_command_holds_the_position_that_it_reports() -> None:
     assert position_of(command, BUILDING) == PositionFrame((1.0, 2.0), 2.0, level=level)
 
 
-async def test_who_has_the_token_reports_a_position_and_nobody_else_does(caplog: pytest.LogCaptureFixture) -> None:
-    reported: list[PositionFrame] = []
-    async with served(commands=lambda command: reported.append(position_of(command, None))) as (_, client, url):
-        async with client.ws_connect(f"{url}ws") as watching:
-            assert (await scene_of(watching))["control"] is False
-            await watching.send_str(HERE)
-            assert await close_code(watching) == 1008
-        assert reported == [] and [one.name for one in caplog.records] == [LOGGER]
-        async with client.ws_connect(f"{url}ws?token={TOKEN}") as watching:
-            assert (await scene_of(watching))["control"] is True
-            await watching.send_str(HERE)
-            await watching.send_str('{"do":"dance"}')
-            assert await close_code(watching) == 1008
-    assert reported == [PositionFrame((3.25, -1.5), 0.5)]
-
-
 @pytest.mark.parametrize(
     "text", ['{"do":"pause"}', '{"do":"seek","value":1}', '{"do":"here","sigma":1,"at":[1,2],"level":"no such level"}']
 )
@@ -84,30 +63,14 @@ async def test_a_live_session_takes_no_other_commands_and_no_other_levels(text: 
     assert reported == []
 
 
-async def test_a_recording_that_is_played_takes_no_position() -> None:
-    packets, session = PackedItems(insoles().packets), Session(poses=True, pressures=True)
-    player = Player(packets, session, Scene("a walk", "default", "recording"))
-    async with (
-        served(scene=player.scene, commands=player.command) as (_, client, url),
-        client.ws_connect(f"{url}ws?token={TOKEN}") as watching,
-    ):
-        await scene_of(watching)
-        await watching.send_str(HERE)
-        assert await close_code(watching) == 1008
-
-
+@pytest.mark.soak
 def test_a_position_that_is_reported_to_live_sensors_is_in_the_recording_and_a_replay_gives_the_same_events(
     tmp_path: Path,
 ) -> None:
-    pytest.importorskip("aiohttp")
     pytest.importorskip("bumble")
 
     async def report(page: Watcher) -> None:
         await page.until(lambda frame: frame["feet"]["left"] is not None and frame["feet"]["left"]["strides"] >= 2)
-        assert (page.scene["source"], page.scene["control"], page.scene["reports"]) == ("live", True, [])
-        x, y, _ = page.frame["wearer"]["position"]
-        await page.socket.send_str(json.dumps({"do": "here", "sigma": 1, "at": [x + 0.2, y]}))
-        await page.until(lambda frame: len(page.scene["reports"]) == 1)
         await page.socket.send_str('{"do":"here","sigma":0.1,"at":[200,0]}')
         await page.until(lambda frame: any("position rejected" in line[2] for line in frame.get("log", [])))
 
@@ -119,15 +82,9 @@ def test_a_position_that_is_reported_to_live_sensors_is_in_the_recording_and_a_r
             process.terminate()
             _, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "")
-    packets = list(read_packets(recording))
-    first, second = (packet for packet in packets if packet.channel == "receiver/position")
-    assert parse_position(second.data) == PositionFrame((200.0, 0.0), pytest.approx(0.1))
-    assert [packet.t for packet in packets] == sorted(packet.t for packet in packets)
+    (reported,) = (packet for packet in read_packets(recording) if packet.channel == "receiver/position")
+    assert parse_position(reported.data) == PositionFrame((200.0, 0.0), pytest.approx(0.1))
     run("track", recording, "--out", again)
     events = (live / "events.jsonl").read_text("utf-8")
     assert events == (again / "events.jsonl").read_text("utf-8")
-    names = [json.loads(line)["event"] for line in events.splitlines()]
-    assert [name for name in names if name in ("PositionReported", "TrackRevised", "PositionRejected")] == [
-        "PositionReported", "TrackRevised", "PositionReported", "PositionRejected",
-    ]  # fmt: skip
-    assert first.site is Site.LEFT_FOOT and first.device == ""
+    assert events.count('"PositionReported"') == events.count('"PositionRejected"') == 1
