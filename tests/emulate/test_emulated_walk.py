@@ -26,7 +26,7 @@ ROUTES = {
     "long": START.walk(40.0, 1.3).stop(2.0),
     "thirty": Route().stand(3.0).walk(30.0, 1.2).stop(3.0),
     "short": START.walk(12.0, 1.2).stop(1.5),
-    "slow": START.walk(14.0, 0.7).stop(2.0),
+    "slow": START.walk(10.0, 0.7).stop(2.0),
     "fast": START.walk(20.0, 1.7).stop(2.0),
     "left": START.walk(6.0, 1.3).turn(radians(90), radius=1.5).walk(6.0).stop(2.0),
     "right": START.walk(6.0, 1.3).turn(radians(-90), radius=1.5).walk(6.0).stop(2.0),
@@ -35,7 +35,8 @@ ROUTES = {
     "standing": Route().stand(15.0),
 }
 Compared = tuple[list[Event], dict[Foot, FootComparison]]
-SEEDS = pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.soak)])
+SOAK = pytest.mark.soak
+SEEDS = pytest.mark.parametrize("seed", [1, pytest.param(2, marks=SOAK)])
 
 
 def compared(walk: EmulatedWalk) -> Compared:
@@ -75,7 +76,15 @@ def test_every_step_over_a_bad_radio_is_found_in_its_time_and_length_and_called_
 
 
 @pytest.mark.parametrize(
-    ("name", "turned"), [("slow", 0), ("fast", 0), ("left", 90), ("right", -90), ("about", 180), ("halts", 0)]
+    ("name", "turned"),
+    [
+        ("slow", 0),
+        pytest.param("fast", 0, marks=SOAK),
+        ("left", 90),
+        ("right", -90),
+        ("about", 180),
+        pytest.param("halts", 0, marks=SOAK),
+    ],
 )
 def test_slow_fast_halting_and_turning_walks_have_all_their_steps_which_add_up_to_the_turn(
     name: str, turned: float
@@ -104,8 +113,8 @@ def test_standing_has_no_step_and_a_walk_over_a_clean_radio_none_that_is_degrade
     "device",
     [
         Insole(cells=24, mtu=23, rate=50.0),
-        Insole(cells=60, batch=4),
-        Insole(cells=35, rate=50.0, quaternion=True),
+        pytest.param(Insole(cells=60, batch=4), marks=SOAK),
+        pytest.param(Insole(cells=35, rate=50.0, quaternion=True), marks=SOAK),
         Insole(cells=24, rate=200.0, batch=8),
     ],
     ids=["fragments", "four a frame", "50 Hz", "200 Hz"],
@@ -116,7 +125,11 @@ def test_insoles_of_any_kind_find_every_step(device: Insole) -> None:
 
 @pytest.mark.parametrize(
     ("device", "least", "length_error", "contacts"),
-    [(CC2650(), 0.98, 0.20, 0.85), (CC2541(), 0.97, 0.20, 0.0), (CC2541(rate=20.0), 0.98, 0.15, 0.9)],
+    [
+        (CC2650(), 0.98, 0.20, 0.85),
+        pytest.param(CC2541(), 0.97, 0.20, 0.0, marks=SOAK),
+        (CC2541(rate=20.0), 0.98, 0.15, 0.9),
+    ],
     ids=["CC2650 at 10 Hz", "CC2541 at 10 Hz", "CC2541 at 20 Hz"],
 )
 @SEEDS
