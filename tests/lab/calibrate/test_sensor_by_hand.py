@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, radians, sin
+from math import cos, radians, sin
 
 import numpy as np
 import pytest
@@ -11,7 +11,6 @@ from attrs import evolve
 from solepath import CalibrationError, Foot, Sample
 from solepath.emulate.handling import CLUMSY, STEADY, Handling
 from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.lab.calibrate.pauses import find_pauses, find_ways, recorded_of
 from solepath.lab.calibrate.sensor import fit_sensors, sensor_calibration
 from solepath.lab.calibrate.table import HandJob, hand_errors, handled, specimen
 
@@ -36,16 +35,15 @@ def changed(
 
 @pytest.mark.parametrize("chip", ["LSM6DSOX", pytest.param("MPU-9250", marks=pytest.mark.soak)])
 def test_a_clumsy_hand_finds_scale_to_a_fifth_of_a_percent_and_axes_to_a_fifth_of_a_degree(chip: str) -> None:
-    for seed in (72,):
-        one = hand_errors(HandJob(chip, "clumsy", seed))
-        assert one.gyro is not None and one.gyro_sigma is not None
-        assert one.acc is not None and one.acc_sigma is not None
-        assert np.abs(np.diag(one.gyro)).max() < 0.002
-        assert np.abs(np.degrees(one.gyro[APART])).max() < 0.2
-        assert np.abs(one.acc[:3]).max() < 0.005 and np.abs(np.degrees(one.acc[3:])).max() < 0.2
-        # what it is worth: no error beyond four standard deviations, and none of these useless
-        assert np.abs(one.gyro / one.gyro_sigma).max() < 4.0 and np.abs(one.acc / one.acc_sigma).max() < 4.0
-        assert np.diag(one.gyro_sigma).max() < 0.002
+    one = hand_errors(HandJob(chip, "clumsy", 72))
+    assert one.gyro is not None and one.gyro_sigma is not None
+    assert one.acc is not None and one.acc_sigma is not None
+    assert np.abs(np.diag(one.gyro)).max() < 0.002
+    assert np.abs(np.degrees(one.gyro[APART])).max() < 0.2
+    assert np.abs(one.acc[:3]).max() < 0.005 and np.abs(np.degrees(one.acc[3:])).max() < 0.2
+    # what it is worth: no error beyond four standard deviations, and none of these useless
+    assert np.abs(one.gyro / one.gyro_sigma).max() < 4.0 and np.abs(one.acc / one.acc_sigma).max() < 4.0
+    assert np.diag(one.gyro_sigma).max() < 0.002
 
 
 def test_gravity_and_ways_fit_better_with_the_calibration_than_without(samples: list[Sample]) -> None:
@@ -79,7 +77,6 @@ def test_too_few_times_at_rest_are_counted() -> None:
     ("acc", "gyro", "message"),
     [
         (1.0 / 9.80665, (1.0, 1.0, 1.0), "its unit is not m/s\\^2"),
-        (1.0, (180.0 / pi,) * 3, "look like degrees/s"),
         (1.0, (1.0, 1.0, -1.0), "are axes mirrored or exchanged"),
     ],
 )
@@ -88,12 +85,3 @@ def test_a_wrong_unit_and_a_mirrored_axis_are_named(
 ) -> None:
     with pytest.raises(CalibrationError, match=message):
         fit_sensors(changed(samples, acc, gyro))
-
-
-def test_a_way_with_lost_samples_is_left_out_and_named(samples: list[Sample]) -> None:
-    recorded = recorded_of(samples, Foot.RIGHT)
-    way = find_ways(recorded, find_pauses(recorded))[5]
-    middle = 0.5 * float(way.t[0] + way.t[-1])
-    (found,) = fit_sensors([one for one in samples if abs(one.t - middle) > 0.1])
-    (note,) = found.notes
-    assert note.startswith("not used:") and note.endswith("samples are lost")

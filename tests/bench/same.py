@@ -1,4 +1,4 @@
-"""Compares the events of sessions on all Pythons of this machine: `python tests/fuzz/same.py`. Status 1: they differ.
+"""Compares the events of sessions on all Pythons of this machine: `python tests/bench/same.py`. Status 1: they differ.
 
 The running Python emulates the walks of tests/helpers/walks.py and writes them to a file: for each session its state
 before the first item, its floor plan and its items, with floats in hexadecimal. Then each Python, in a new virtual
