@@ -101,9 +101,6 @@ def print_row(
     print(f"{name:34}  " + "  ".join(cells), flush=True)
 
 
-"""Bytes of a number, a count, a word of an enum or a kind, and of a flag, before compression (saving/streams.py)."""
-
-
 def main() -> None:
     print(f"{machine()}, one used; bytes of a state, us to pack and unpack")
     print(f"{'':34}  " + "  ".join(COLUMNS))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from here import EXAMPLES
 
-from solepath.emulate.buildings.storeys import STOREY, Building
+from solepath.emulate.buildings.storeys import STOREY
 from solepath.emulate.routes.building import BUILDING, CABINS, EAST, FOUR_LOOPS, HALF_TURN, NORTH, ONE_SIDED
 from solepath.emulate.routes.ways import case_study, wandering
 from solepath.emulate.wearers.walker import Walker
@@ -94,25 +94,3 @@ def test_the_true_place_is_where_the_feet_are_on_the_plan() -> None:
     y = way.start.place[1] + np.sin(heading) * middle[:, 0] + np.cos(heading) * middle[:, 1]
     away = [hypot(a - p[1], b - p[2]) for a, b, p in zip(x.tolist(), y.tolist(), places, strict=True)]
     assert max(away) < 0.25  # the sensors are not at the ankles
-
-
-def turned_share(building: Building, turn_x: bool, turn_y: bool) -> float:
-    """Return the share of walls and doors of the upper floor that lie on such when x, y or both are mirrored."""
-    level = building.plan.levels[1]
-    marks: set[tuple[int, int]] = set()  # one every decimetre
-    for (x0, y0), (x1, y1) in [(one.start, one.end) for one in (*level.walls, *level.doors)]:
-        count = max(1, round(10.0 * hypot(x1 - x0, y1 - y0)))
-        shares = [(k + 0.5) / count for k in range(count)]
-        marks |= {(round(10.0 * (x0 + (x1 - x0) * s)), round(10.0 * (y0 + (y1 - y0) * s))) for s in shares}
-    near = {(x + i, y + j) for x, y in marks for i in (-1, 0, 1) for j in (-1, 0, 1)}
-    width, depth = (round(10.0 * one) for one in building.size)
-    images = [(width - x if turn_x else x, depth - y if turn_y else y) for x, y in marks]
-    return sum(image in near for image in images) / len(images)
-
-
-def test_one_building_is_the_same_after_half_a_turn_the_others_and_their_mirror_images_are_not() -> None:
-    assert turned_share(HALF_TURN, True, True) == 1.0
-    assert max(turned_share(one, True, True) for one in (FOUR_LOOPS, ONE_SIDED)) < 0.7
-    for building in BUILDINGS.values():
-        assert max(turned_share(building, turn, not turn) for turn in (False, True)) < 0.8
-    assert all(stop.place[0] < EAST / 3.0 for one in ONE_SIDED.plan.connectors for stop in one.stops)

@@ -12,8 +12,6 @@ from solepath.emulate import Route, emulate
 from solepath.emulate.sensors.insole_device import boot
 from solepath.emulate.sensors.insoles import LOAD_PER_COUNT, heel_array, layout
 from solepath.emulate.wearers.curves import Array
-from solepath.emulate.wearers.gait import Wearer
-from solepath.emulate.wearers.soles.heel_pad import HeelPad
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot, Site
 from solepath.types.vector import GRAVITY
@@ -131,14 +129,3 @@ def test_an_insole_with_a_layout_reports_it_and_fits_only_its_foot() -> None:
     assert [cell.x for cell in info.cells] == pytest.approx([c.x for c in heel_array(Foot.LEFT).cells], abs=1e-4)
     with pytest.raises(ValueError, match="left foot"):
         emulate(STRAIGHT, devices={Site.RIGHT_FOOT: boot(Foot.LEFT)}, seed=3)
-
-
-def test_the_patch_under_a_heel_moves_by_millimetres_and_twice_as_far_on_half_the_stiffness() -> None:
-    softer, stiffer = (
-        Walker(STRAIGHT, Wearer(pad=HeelPad(shear_stiffness=one, roll=0.0)), seed=3).loads for one in (20e3, 40e3)
-    )
-    t = np.linspace(3.0, 5.0, 100)
-    heel = softer.zone_shares(Foot.LEFT, t)[0]
-    shift = stiffer.pad_shift(Foot.LEFT, heel, t)
-    assert 0.001 < np.ptp(shift) < 0.01
-    assert softer.pad_shift(Foot.LEFT, heel, t) == pytest.approx(2.0 * shift)

@@ -230,19 +230,6 @@ def test_the_shoe_rolls_without_slip_over_heel_and_forefoot() -> None:
                 assert np.linalg.norm(point.velocity[0]) < 1e-9
 
 
-def test_the_toe_of_a_worn_sole_slides_back_by_its_slip_and_strides_stay_as_planned() -> None:
-    route = START.stop(1.0)
-    worn, rigid = (Walker(route, Wearer(shoe=Shoe(contact=one)), 5) for one in (evolve(RIGID, toe_slip=0.02), RIGID))
-    arc = rigid.wearer.shoe.forefoot
-    assert [s.length for s in worn.truth().strides(Foot.LEFT)] == pytest.approx(
-        [s.length for s in rigid.truth().strides(Foot.LEFT)], abs=1e-9
-    )
-    for stride in rigid.plan.strides[Foot.LEFT]:
-        t, centre = np.array([stride.toe_off - 1e-6]), Mounting((arc.x, 0.0, arc.radius))
-        slid, kept = (one.motions[Foot.LEFT].at(t, centre).position[0] for one in (worn, rigid))
-        assert np.linalg.norm(slid - kept) == pytest.approx(0.02, rel=1e-3) and slid[0] < kept[0]
-
-
 def fastest(one: Walker, kind: StrideKind) -> list[tuple[PlannedStride, float, float, float]]:
     """Return strides of the left foot with their top speed, m/s, hardest force, g, and fastest turn, degrees/s."""
     found = []
@@ -314,13 +301,3 @@ def test_a_lift_keeps_its_limits_and_stops_at_its_floor() -> None:
         assert np.abs(velocity).max() < speed + 0.02 and np.abs(accelerated).max() < acceleration + 0.2
         heaviest, lightest = np.argmax(accelerated), np.argmin(accelerated)
         assert bool(heaviest < lightest) is (height > 0.0)
-
-
-def test_feet_that_swerve_more_turn_the_heading_more_by_the_same_scale_error() -> None:
-    """A relative error s of an axis i turns the heading by the integral of s (R e_i)_z w_i."""
-    drifts = []
-    for swerve in (0.3, 1.0, 2.0):
-        one = Walker(Route().stand(2.0).walk(20.0).stop(2.0), Wearer(swerve=(swerve, swerve)), 5)
-        moved = one.kinematics(Foot.LEFT, times(one))
-        drifts.append(np.linalg.norm((matrices(moved.attitude)[:, 2, :] * moved.rate).sum(axis=0)))
-    assert 1.5 * drifts[0] < drifts[1] < drifts[2] / 1.5

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from itertools import pairwise
-from math import ceil, nan
+from math import nan
 
 import numpy as np
 import pytest
@@ -20,7 +20,6 @@ from solepath.link.decoder import Decoder
 from solepath.link.devices import cc2541, cc2650, insole
 from solepath.link.profile import Access, Profile
 from solepath.types.vector import from_rotation_vector
-from solepath.wire.fragment import parse_fragment
 from solepath.wire.insole import parse_frame
 from solepath.wire.insole_info import parse_info
 
@@ -111,20 +110,6 @@ def test_a_sampled_walk_has_what_a_perfect_link_makes_of_the_packets() -> None:
             assert one.quat == (None if other.quat is None else pytest.approx(other.quat, abs=1e-4))
 
 
-def test_frames_too_long_for_the_link_come_in_fragments() -> None:
-    walk = emulate(SHORT, devices={LEFT: Insole(mtu=65)}, radio=PROMPT, seed=2)
-    pieces = [p.data for p in walk.packets if p.channel == "insole/frame"]
-    assert max(len(piece) for piece in pieces) == 62
-    whole, found = b"", 0
-    for piece in pieces:
-        fragment = parse_fragment(piece)
-        whole = fragment.body if fragment.index == 0 else whole + fragment.body
-        if fragment.last:
-            assert parse_frame(whole).layout == 96
-            found += 1
-    assert found == len(pieces) / 3
-
-
 @pytest.mark.parametrize(
     ("device", "profile"),
     [
@@ -157,13 +142,6 @@ def test_a_recording_starts_with_all_reads_and_writes(device: Device, profile: P
 def test_a_device_reports_other_settings(device: Device, channel: str, value: bytes) -> None:
     walk = emulate(Route().stand(1.0), devices={LEFT: device}, seed=2)
     assert next(p.data for p in walk.packets if p.channel == channel) == value
-
-
-def test_a_cc2541_sends_each_sensor_at_its_own_time() -> None:
-    walk = emulate(SHORT, devices={RIGHT: CC2541(rate=20.0)}, radio=PROMPT, seed=4)
-    acc, gyro = ([p.t for p in walk.packets if p.channel == f"cc2541/{c}"] for c in ("accelerometer", "gyroscope"))
-    assert np.diff(acc) == pytest.approx(0.05, rel=1e-3) and np.diff(gyro) == pytest.approx(0.05, rel=1e-3)
-    assert 0.0 < (gyro[0] - acc[0]) % 0.05 < 0.05
 
 
 def test_a_dot_ticks_in_microseconds_and_can_be_worn_on_a_foot_too() -> None:
@@ -207,12 +185,6 @@ def test_packets_are_late_by_latency_and_jitter_and_overtake_only_where_they_may
     order = [n.data[0] for n in SENT]
     assert [p.data[0] for p in found] == order != [p.data[0] for p in free]
     assert sorted(order) == sorted(p.data[0] for p in free)
-
-
-def test_connection_events_deliver_in_bunches() -> None:
-    moments = sorted({p.t for p in transmitted(Radio(interval=0.03, latency=0.0, jitter=0.0))})
-    assert np.diff(moments) == pytest.approx(0.03)
-    assert len(moments) == pytest.approx(ceil(len(SENT) / 3), abs=2)
 
 
 def test_read_and_written_values_always_arrive() -> None:

@@ -1,6 +1,5 @@
 """The scores, on tracks and events whose errors are known by hand."""
 
-from itertools import pairwise
 from math import cos, pi, sin, sqrt
 
 import numpy as np
@@ -11,11 +10,10 @@ from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose
 
 from solepath.lab.measures.alignment import track_error
-from solepath.lab.measures.contacts import switch_contacts
-from solepath.lab.measures.legs import leg_errors, leg_lengths, turn_times
+from solepath.lab.measures.legs import leg_errors, leg_lengths
 from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
 from solepath.lab.measures.score import Scored, summarise
-from solepath.lab.measures.strides import StrideScore, counted_score, position_errors, stride_score, surveyed_score
+from solepath.lab.measures.strides import StrideScore, counted_score, position_errors, stride_score
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
 
@@ -96,33 +94,12 @@ def test_counted_strides_are_compared_in_number_and_the_longest_shows_two_that_w
     assert counted_score(2, []) == StrideScore(2, 0, 0)
 
 
-def test_the_live_track_is_measured_between_the_surveys_instants():
-    t = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
-    track = np.array([[9.0, 9, 0], [0, 0, 0], [1.25, 0, 0], [2.25, 0, 0], [2.25, 1.0, 0]])
-    score = surveyed_score(TIMES, PLACES, t, track, [])
-    assert score.track_errors.values == (0.25, 0.0, -0.5)
-    assert score.track_errors.mean == 0.25
-    assert score.errors.mean is None and score.n_found == 0
-
-
 def test_a_survey_is_aligned_on_its_first_two_metres_only():
     # right for the first two metres, then it goes on straight where the survey turns left
     t = TIMES
     track = turned(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0], [4, 0, 0]]), 1.0, 5.0, -3.0)
     errors = position_errors(TIMES, PLACES, t, track)
     assert errors == pytest.approx([0.0, 0.0, 0.0, sqrt(8.0)], abs=1e-9)
-
-
-def switch(*spans: tuple[float, float], height: float = 1000.0) -> tuple[np.ndarray, np.ndarray]:
-    t = np.arange(0, 800) / 100.0
-    counts = np.full(len(t), 50.0)
-    for start, end in spans:
-        counts[(t >= start - 1e-9) & (t < end - 1e-9)] += height
-    return t, counts
-
-
-def test_a_bouncing_contact_is_one_contact():
-    assert_allclose(switch_contacts(*switch((1.0, 1.3), (1.36, 1.6), (2.1, 2.7))), [(1.0, 1.6), (2.1, 2.7)])
 
 
 def test_figures_are_averaged_and_events_and_strides_are_pooled():
@@ -141,34 +118,18 @@ def test_figures_are_averaged_and_events_and_strides_are_pooled():
     assert summarise(scores, "odd").mean == {"rms": 6.0}
 
 
-def to_and_fro(*turns, pace=1.0):
-    """A track along a slanted line that walks between places, m, at `pace` and stands 2 s at each; stance times."""
-    t, along, stances = [0.0], [turns[0]], [0.0]
-    for a, b in pairwise(turns):
-        for length, to in ((2.0, a), (abs(b - a) / pace, b)):
-            n = round(length / 0.01)
-            along += np.linspace(along[-1], to, n + 1)[1:].tolist()
-            t += (t[-1] + 0.01 * np.arange(1, n + 1)).tolist()
-        stances.append(t[-1] + 1.0)
-    return np.array(t), np.outer(along, [0.8, 0.6, 0.0]), stances
-
-
-def test_a_leg_is_the_distance_between_its_ends():
-    t, positions, _ = to_and_fro(0.0, 9.0, 1.0)
-    assert_allclose(leg_lengths([0.0, 11.0, 21.0], t, positions), [9.0, 8.0], atol=1e-9)
-    errors = leg_errors([0.0, 11.0, 21.0], [10.0, 10.0], t, positions)
-    assert_allclose(errors.values, [-0.1, -0.2])
-    assert (errors.mean, errors.median, errors.bias) == pytest.approx((0.15, 0.15, -0.15))
-    assert leg_errors([0.0, 1.0], [10.0], np.empty(0), np.empty((0, 3))) == Errors()
-
-
-def test_a_track_to_and_fro_is_cut_where_it_turns_about():
-    t, positions, _ = to_and_fro(0.0, 10.0, 0.5, 9.5, -0.2)
-    assert_allclose(leg_lengths(turn_times(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
-
-
 def test_errors_of_stride_times_are_of_events_that_follow_each_other():
     # the third is not found, the last follows after a rest; a shift of all of them is no error
     true, found = [1.0, 2.0, 3.0, 4.0, 5.0, 9.0], [1.1, 2.12, 4.1, 5.05, 9.1]
     assert_allclose(interval_errors(true, found, longest=2.5).values, [0.02, -0.05])
     assert interval_errors([], found, longest=2.5).median is None
+
+
+def test_a_leg_is_the_distance_between_the_places_of_two_stances():
+    t = np.arange(0.0, 24.0, 0.01)
+    along = np.interp(t, [2.0, 11.0, 13.0, 21.0], [0.0, 9.0, 9.0, 1.0])
+    track = np.outer(along, [0.8, 0.6, 0.0])
+    assert_allclose(leg_lengths([1.0, 12.0, 22.0], t, track), [9.0, 8.0], atol=1e-9)
+    errors = leg_errors([1.0, 12.0, 22.0], [10.0, 10.0], t, track)
+    assert_allclose(errors.values, [-0.1, -0.2])
+    assert (errors.mean, errors.median, errors.bias) == pytest.approx((0.15, 0.15, -0.15))

@@ -5,11 +5,11 @@ import pytest
 from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
-from solepath.lab.evaluate.activity import STAIR_SPANS, score_rides, score_samples, score_windows, stairs_figures
+from solepath.lab.evaluate.activity import score_rides, score_samples, score_windows, stairs_figures
 from solepath.lab.evaluate.jobs import evaluate
 from solepath.lab.evaluate.learning import Learner, TrainingSource, train_parts
 from solepath.lab.measures.confusion import ActivityScore
-from solepath.lab.train.hugadb import FOLDS, fold_of, labels, recordings
+from solepath.lab.train.hugadb import FOLDS, fold_of
 from solepath.show.timeline import Timeline
 from solepath.types import Activity
 
@@ -100,22 +100,6 @@ def test_a_part_scored_on_a_wearer_is_trained_without_that_wearer(monkeypatch):
     parts = train_parts(sources, [source.features() for source in sources])
     for number, fold in enumerate(FOLDS):
         assert parts[FakePart, number] == (*(str(wearer) for wearer in wearers if wearer not in fold), "emulated")
-
-
-def test_every_wearer_of_the_recordings_has_a_fold(data_dir):
-    found = recordings(data_dir / "hugadb")
-    assert len(found) == 115
-    assert {fold_of(one.subject) for one in found} == set(range(len(FOLDS)))
-    t, true = labels(found[0].path)
-    assert len(t) == len(true)
-
-
-@pytest.mark.soak
-def test_stairs_are_in_two_folders(data_dir):
-    (stairs,) = evaluate(data_dir, [recipes.by_name("footstep-tracker-printed")], only=["stairs"])
-    assert {scored.recording for scored in stairs.scores} == set(STAIR_SPANS)
-    (summary,) = stairs.summaries
-    assert (summary.mean["stairs_called"] or 0.0) > 0.5 and (summary.mean["level_called"] or 0.0) < 0.1
 
 
 @pytest.mark.long

@@ -64,21 +64,3 @@ def test_a_stride_has_the_length_that_the_vendor_gives_for_the_contact_before_it
     assert len(score.strides.errors.values) == score.strides.n_true - len(Foot)
     assert max(abs(error) for error in score.strides.errors.values) < 0.05
     assert len(score.errors["stride_time"].values) == score.strides.n_true
-
-
-@pytest.mark.soak
-def test_the_session_gets_the_pressure_in_one_of_the_two_data_sets_only(insoles: Path, tmp_path: Path) -> None:
-    """Cells that are loaded half a second before each contact delay nothing for a session that never sees them."""
-    folder = tmp_path / "moticon_opengo"
-    folder.mkdir()
-    (folder / "dataset.json").write_text((insoles / "moticon_opengo" / "dataset.json").read_text())
-    with np.load(insoles / "moticon_opengo" / "normal.npz") as archive:
-        columns = dict(archive)
-    for foot in Foot:
-        loaded = np.zeros(len(columns[f"t_{foot.value}"]))
-        for contact in columns[f"gt_ic_{foot.value}"]:
-            loaded[np.abs(columns[f"t_{foot.value}"] - contact) < 0.2] = 100.0
-        columns[f"pressure_{foot.value}"] = np.repeat(loaded[:, None], 4, axis=1)
-    np.savez(folder / "normal.npz", **columns)
-    assert scored(tmp_path, "moticon_opengo").events == scored(insoles, "moticon_opengo").events
-    assert scored(tmp_path, "moticon_pressed").events != scored(insoles, "moticon_opengo").events

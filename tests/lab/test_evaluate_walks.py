@@ -1,17 +1,13 @@
 """Scores of long emulated walks, of tracks whose errors are known by hand, and the form of the walks."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from solepath import recipes
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
-from solepath.lab.emulated.heading import EQUIPMENT, HeadingTrack, heading_figures, score_heading
+from solepath.lab.emulated.heading import HeadingTrack, heading_figures
 from solepath.lab.emulated.walks import place_figures
-from solepath.lab.evaluate.run import RunSettings
 from solepath.lab.measures.drift import drift_figures, drift_of_strides, drift_that_opens
 from solepath.types import Foot
 
@@ -81,18 +77,3 @@ def test_a_drift_is_found_from_surveyed_strides_and_from_a_loop_that_stays_open(
     assert drift_that_opens(t, track) == pytest.approx(drift, rel=0.1, abs=1e-9), "linear in the drift"
     assert drift_figures(drift, t)["drift_stride"] == pytest.approx(abs(drift) * float(np.mean(np.diff(t))))
     assert drift_of_strides(t[:30], track[:30], truth[:30]) is None, "too short to tell"
-
-
-@pytest.mark.long
-def test_the_data_sets_with_a_compass_have_one():
-    """A walk of 120 m: the compass is proven, so the end is another one than without it, and differs by the field."""
-
-    def short(length, seconds):
-        return length >= 120.0
-
-    settings = RunSettings(recipes.DEFAULT)
-    ends = [
-        score_heading("right_angles", short, EQUIPMENT[name], Path("4"), {"seed": 4}, settings).figures["position_end"]
-        for name in ("", "_compass20", "_compass30")
-    ]
-    assert len(set(ends)) == 3

@@ -25,7 +25,6 @@ from solepath.emulate.sensors.sensors import (
     instants,
     low_pass,
     measure,
-    random_drift,
     read_attitudes,
     read_barometer,
     read_cells,
@@ -54,12 +53,6 @@ def test_the_noise_per_sample_is_the_0_1_degrees_a_second_that_the_sheet_gives_a
     noisy = add_errors(still, sampling, evolve(MPU9250.gyro, drift=0.0), np.random.default_rng(2))
     passed = take_samples(low_pass(noisy, sampling.rate, 92.0), sampling)[100:]
     assert passed.std(axis=0) == pytest.approx(np.full(3, radians(0.1)), rel=0.1)
-
-
-def test_a_bias_wanders_slowly_and_stays_bounded() -> None:
-    path = random_drift(np.arange(0.0, 20000.0, 1.0), 300.0, 4, np.random.default_rng(3))
-    assert path[0] == pytest.approx(0.0) and path.std() == pytest.approx(1.0, rel=0.2)
-    assert np.diff(path[::30], axis=0).std() == pytest.approx(sqrt(2.0 * 30.0 / 300.0), rel=0.1)
 
 
 def test_counts_are_rounded_and_stop_at_full_scale() -> None:

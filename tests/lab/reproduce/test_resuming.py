@@ -78,15 +78,6 @@ def test_a_file_of_something_else_stays_as_it_is(tmp_path, content, words):
     assert line.startswith(f"solepath: {file}: ") and words in line and line.count("\n") == 1
 
 
-@pytest.mark.parametrize("line", ["[]", "{", '{"job": "walk"}', "3"])
-def test_a_line_that_is_no_result_is_named(tmp_path, line):
-    file = tmp_path / "walks.jsonl"
-    run_numbers(file, [1])
-    file.write_text(file.read_text() + line + "\n")
-    with pytest.raises(DoneJobsError, match="line 3 is no result of a walk"):
-        runner_of(file)
-
-
 def of_seed(walks, seed, runner):
     runner.report(f"{runner.title}walked")
     rows = (FigureRow("ZUPT-L", (10.0 * seed, 10.0 * seed + walks), Statistics(3.0)),)
