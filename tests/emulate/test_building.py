@@ -9,7 +9,7 @@ import pytest
 from here import EXAMPLES
 
 from solepath.emulate.buildings.storeys import STOREY
-from solepath.emulate.routes.building import BUILDING, CABINS, EAST, FOUR_LOOPS, HALF_TURN, NORTH, ONE_SIDED
+from solepath.emulate.routes.building import BUILDING, EAST, FOUR_LOOPS, HALF_TURN, NORTH, ONE_SIDED
 from solepath.emulate.routes.ways import case_study, wandering
 from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.checks import find_fault, find_warnings
@@ -72,17 +72,6 @@ def test_no_walk_crosses_a_wall_and_each_comes_and_leaves_by_a_lift_or_stairs(na
     assert len(truth.rides) == (way.entry in cabins) + (way.exit in cabins)
     assert len(truth.flights) == 2 * ((way.entry not in cabins) + (way.exit not in cabins))
     assert sum(one.height for one in (*truth.rides, *truth.flights)) == pytest.approx(0.0)
-
-
-def test_the_case_study_goes_down_by_the_elevator_at_the_bottom_left_and_away_by_another() -> None:
-    walker, t, places = walked("case")
-    rides = walker.truth().rides
-    assert [ride.height for ride in rides] == pytest.approx([-STOREY, STOREY])
-    on_floor = (t > rides[0].end) & (t < rides[1].start)
-    assert {place[0] for place, there in zip(places, on_floor, strict=True) if there} == {WAYS["case"].level}
-    assert places[0][1:] == pytest.approx(CABINS[0].middle, abs=0.1)
-    assert places[-1][1:] == pytest.approx(CABINS[1].middle, abs=0.1)
-    assert CABINS[0].middle[0] < 0.25 * EAST and CABINS[0].middle[1] < 0.25 * NORTH
 
 
 def test_the_true_place_is_where_the_feet_are_on_the_plan() -> None:

@@ -5,10 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from attrs import evolve
 
 from solepath.emulate import Route
-from solepath.emulate.handling import CLUMSY, STEADY, Handling
+from solepath.emulate.handling import Handling
 from solepath.emulate.routes.postures import PITCHES, REPETITIONS, posture, postures, write_postures
 from solepath.emulate.wearers.shoe import Mounting, Shoe
 from solepath.emulate.wearers.turning import from_rotation_vectors, matrices, multiply_quaternions
@@ -65,15 +64,3 @@ def test_rates_and_forces_of_a_hand_are_those_of_its_motion() -> None:
     assert np.abs(slope - true.acceleration)[1:-1].max() < 0.5  # of up to 9 m/s^2, by the tremor of 12 Hz
     world = np.einsum("nij,nj->ni", matrices(true.attitude), true.force)
     assert np.allclose(world - true.acceleration, (0.0, 0.0, GRAVITY))
-
-
-def test_a_hand_turns_a_sensor_five_times_rests_between_and_points_it_where_it_is_told() -> None:
-    hand = Handling(7, STEADY, pauses=2, axes=((1.0, 0.0, 0.0),))
-    t = np.arange(0.0, hand.duration, 0.0025)
-    rate = hand.kinematics(Foot.LEFT, t).rate
-    assert (np.linalg.norm(rate, axis=1) < 1e-6).mean() > 0.3
-    assert 4.0 < abs(float(np.trapezoid(rate[:, 0], t))) / (2.0 * np.pi) < 6.0
-    ups = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
-    hand = Handling(10, evolve(CLUMSY, off_face=0.0, wobble=0.0), turns=0.0, orientations=ups)
-    for up, move in zip(ups, hand.moves[1::2], strict=True):
-        assert matrices(move.attitude(np.array([move.start])))[0] @ up == pytest.approx((0.0, 0.0, 1.0), abs=1e-9)

@@ -98,13 +98,6 @@ def test_two_flights_need_a_landing_and_stairs_a_level_start() -> None:
         Route().walk(5.0, slope=0.08).walk(1.0).stairs(5)
 
 
-def test_the_same_seed_is_the_same_crowd_and_walker_and_another_one_is_not() -> None:
-    assert Route().crowded(20.0, 4) == Route().crowded(20.0, 4) != Route().crowded(20.0, 5)
-    route = Route().stand(1.0).walk(5.0).stop(1.0)
-    one, same, other = (Walker(route, seed=seed).truth().strides(Foot.LEFT) for seed in (6, 6, 7))
-    assert one == same != other
-
-
 def test_the_four_subjects_are_those_of_table_3() -> None:
     """Height, weight and shoe size in Gong et al. 2023. A thigh is 0.245 of the height, a shoe 285/275 of its size."""
     found = [(one.limbs.thigh / 0.245, one.mass, one.shoe.length * 275.0 / 285.0) for one in SUBJECTS]

@@ -9,7 +9,6 @@ import pytest
 from solepath.emulate import Route
 from solepath.emulate.routes.laps import (
     MARK_SPACING,
-    MARKS_PER_LAP,
     STEPS_OVER_MARKS,
     corners,
     corridor,
@@ -33,16 +32,6 @@ def laps() -> Walker:
 @pytest.mark.parametrize("route", [square(laps=2), corridor(), field_walk(120.0, 1.0), rectangle()])
 def test_laps_end_at_their_start(route: Route) -> None:
     assert hypot(route.end.x, route.end.y) == pytest.approx(0.0, abs=1e-9)
-
-
-def test_a_lap_of_the_square_has_forty_marks_for_each_foot_at_the_same_places(laps: Walker) -> None:
-    for foot in Foot:
-        own = [mark for mark in marks(laps, MARKS_PER_LAP) if mark.foot is foot]
-        assert [(mark.lap, mark.number) for mark in own] == [divmod(k, MARKS_PER_LAP) for k in range(2 * MARKS_PER_LAP)]
-        for one, again in zip(own[:MARKS_PER_LAP], own[MARKS_PER_LAP:], strict=True):
-            assert hypot(one.x - again.x, one.y - again.y) < 1e-6
-        apart = [hypot(a.x - b.x, a.y - b.y) for a, b in pairwise(own)]
-        assert max(apart) < 1.35 and min(apart) > 0.75
 
 
 @pytest.mark.parametrize("mode", [None, WalkingMode.STRAIGHT, WalkingMode.LEFT_TIGHT, WalkingMode.RIGHT_WIDE])

@@ -9,12 +9,9 @@ import pytest
 
 from solepath.emulate import Route, emulate
 from solepath.emulate.radio import Radio
-from solepath.emulate.routes.laps import straight
 from solepath.emulate.sensors.parts import CRE_CC02
-from solepath.emulate.sensors.soft_tissue import tissue_constants
-from solepath.emulate.sensors.suit import limb_mounting, limb_samples, suit, worn_body
-from solepath.emulate.wearers.curves import Array
-from solepath.emulate.wearers.gait import SUBJECTS, Wearer
+from solepath.emulate.sensors.suit import limb_mounting, limb_samples, suit
+from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.limbs import MAX_SLIP, ankle_place
 from solepath.emulate.wearers.shoe import Mounting
 from solepath.emulate.wearers.turning import matrices, multiply_quaternions
@@ -93,30 +90,6 @@ def test_seven_devices_feed_their_decoders_with_attitudes_of_the_segments() -> N
         true = walk.walker.body.at(site, t, worn[site].mounting).attitude
         off = [angle_between(s.quat, tuple(q)) for s, q in zip(samples, true.tolist(), strict=True)]
         assert max(off) < radians(7.0) and np.median(off) < radians(3.0)
-
-
-def test_skin_moves_over_the_bones_by_degrees_and_centimetres_in_walking_and_not_in_standing() -> None:
-    """As fluoroscopy has it: most at the thigh, none at the foot."""
-    walker = Walker(straight(6.0), SUBJECTS[0], seed=2)
-    worn = worn_body(walker, walker.body, 1)
-
-    def moved(site: Site, t: Array) -> tuple[float, float]:
-        """Return by how far the skin is turned, degrees, and moved, mm, at most."""
-        (p, r), (q, s) = walker.body.segment(site, t), worn.segment(site, t)
-        cosines = 0.5 * (np.einsum("nij,nij->n", r, s) - 1.0)
-        turned = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0))).max()
-        return float(turned), float(1e3 * np.linalg.norm(q - p, axis=1).max())
-
-    for site in Site:
-        turned, shifted = moved(site, np.linspace(0.2, 1.0, 20))
-        assert turned < 0.3 and shifted < 1.0
-        turned, shifted = moved(site, np.linspace(3.0, 6.0, 200))
-        if site.foot is not None:
-            assert turned < 1e-4 and shifted < 1e-9
-        elif site is not Site.PELVIS:
-            assert 1.0 < turned < 12.0 and 3.0 < shifted < 30.0
-    assert tissue_constants(3, 4) == tissue_constants(3, 4) != tissue_constants(4, 4)
-    assert tissue_constants(3, 4, 0.0) == {}
 
 
 def angle_between(p: Quat | None, q: tuple[float, ...] | None) -> float:

@@ -12,7 +12,7 @@ from walks import columns_of
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect
-from solepath.lab.damage.sensors import DefectOutcome, examine, pieces, table
+from solepath.lab.damage.sensors import DefectOutcome, examine, pieces
 from solepath.types import Foot
 
 ROUTE = Route().stand(2.0).walk(26.0, 1.3).turn(radians(180), radius=1.0).walk(10.0, 1.3).stop(1.0)
@@ -62,16 +62,3 @@ def test_each_damage_of_a_walk_is_reported_and_the_whole_walk_is_silent(outcome:
         hit, delay, names = reported[name]
         assert hit and defect.name in names, name
         assert delay is not None and -3.0 < delay < 20.0, name
-
-
-@pytest.mark.soak
-def test_the_table_has_a_line_for_each_damage(outcome: DefectOutcome) -> None:
-    first, empty, header, rule, *rows = table([outcome, outcome])
-    assert first == "Alarms on 2 undamaged feet, without the known defects: 0.0 %." and empty == ""
-    assert header.startswith("| damage | feet | reported |") and set(rule) == {"|", "-"}
-    cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows]
-    assert [row[0] for row in cells] == [row[0] for row in outcome.damaged] and len(rows) > 20
-    of_name = {name: row for name, *row in cells}
-    assert [of_name[name][:2] for name in MIRRORED] == [["2", "100.0 %"]] * 6
-    assert of_name["whole sensor turned, 1"][:2] == ["2", "silent 100.0 %"]
-    assert of_name["times in ms"][2] == "0.3 s"
