@@ -4,7 +4,7 @@ from math import cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose
@@ -27,6 +27,7 @@ def turned(track: np.ndarray, yaw: float, x: float, y: float) -> np.ndarray:
     return track @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) + [x, y, 0.0]
 
 
+@settings(max_examples=30)
 @given(track=tracks, truth=tracks, yaw=yaws, x=metres, y=metres)
 def test_the_error_does_not_depend_on_the_frame_of_the_track(track, truth, yaw, x, y):
     before, after = track_error(track, truth), track_error(turned(track, yaw, x, y), truth)
