@@ -45,7 +45,7 @@ def outcome(columns: Columns, tmp_path_factory: pytest.TempPathFactory) -> Defec
     return examined(saved(tmp_path_factory.mktemp("data"), "emulated", columns))
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_each_damage_of_a_walk_is_reported_and_the_whole_walk_is_silent(outcome: DefectOutcome) -> None:
     assert outcome.whole == ()
     reported = {name: (hit, delay, names) for name, hit, delay, names in outcome.damaged}
