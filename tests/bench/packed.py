@@ -1,17 +1,14 @@
-"""Measures the size of a session's state: `python tests/bench/packed.py [--fields N]`. Prints tables; asserts nothing.
+"""Measures the size of a session's state: `python tests/bench/packed.py`. Prints tables; asserts nothing.
 
 A session is packed (`Session.pack`) after every 50 packets of a walk. Then all these states are unpacked and packed
 again, one after the other, as a stream engine does with those of many wearers. Times are processor times in
-microseconds, with the garbage collector off. `--fields N` also prints the N fields that take the most bytes before
-compression.
+microseconds, with the garbage collector off.
 """
 
 from __future__ import annotations
 
-import argparse
 import gc
 import json
-from collections import Counter
 from collections.abc import Callable
 from functools import partial
 from statistics import mean, median, quantiles
@@ -26,19 +23,6 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
-from solepath.saving.nodes import (
-    DictNode,
-    EnumNode,
-    MaybeNode,
-    Node,
-    OpenNode,
-    RecordNode,
-    ScalarNode,
-    SequenceNode,
-    TupleNode,
-)
-from solepath.saving.schema import record_in
-from solepath.session.packed import STATE
 
 ROUTE = Route().stand(2.0).walk(40.0, 1.3).turn(1.57, radius=1.5).walk(20.0).turn(-0.8, radius=2.0).walk(10.0).stop(2.0)
 """A walk of about a minute."""
@@ -74,8 +58,8 @@ def percentile_95(values: list[float]) -> float:
     return quantiles(values, n=20, method="inclusive")[-1]
 
 
-def measure_walk(name: str) -> Session:
-    """Print the sizes and times of the session of this walk, and return the session."""
+def measure_walk(name: str) -> None:
+    """Print the sizes and times of the session of this walk."""
     recipe, device = WALKS[name]
     session, saved_states = Session(recipe), list[bytes]()
     for i, packet in enumerate(packets(device)):
@@ -87,7 +71,6 @@ def measure_walk(name: str) -> Session:
     print_row(
         "  as JSON", texts, lambda text: Session.restore(json.loads(text)), lambda one: json.dumps(one.snapshot())
     )
-    return session
 
 
 COLUMNS = (
@@ -118,70 +101,11 @@ def print_row(
     print(f"{name:34}  " + "  ".join(cells), flush=True)
 
 
-WORD, FLAG = 8, 1
-"""Bytes of a number, a count, a word of an enum or a kind, and of a flag, before compression (saving/streams.py)."""
-
-
-class Account:
-    """Sums the bytes of a packed state by field, before compression."""
-
-    def __init__(self) -> None:
-        self.bytes: Counter[str] = Counter()
-        self.counts: Counter[str] = Counter()
-
-    def add(self, field_name: str, size: int) -> None:
-        self.bytes[field_name] += size
-        self.counts[field_name] += 1
-
-    def value(self, node: Node, value: Any, field_name: str) -> None:
-        match node:
-            case RecordNode(cls, _, fields):
-                for field, inner in fields.items():
-                    self.value(inner, getattr(value, field), f"{cls.__name__}.{field}")
-            case ScalarNode(kind):
-                of_text = len(value) if kind in (str, bytes) else 0
-                self.add(field_name, FLAG if kind is bool else WORD + of_text)
-            case EnumNode():
-                self.add(field_name, WORD)
-            case OpenNode():
-                self.add(field_name, WORD)
-                self.value(record_in(node, type(value)), value, field_name)
-            case MaybeNode(of):
-                self.add(field_name, FLAG)
-                if value is not None:
-                    self.value(of, value, field_name)
-            case TupleNode(items):
-                for item, item_value in zip(items, value, strict=True):
-                    self.value(item, item_value, field_name)
-            case SequenceNode(_, of):
-                self.add(field_name, WORD)
-                for item_value in value:
-                    self.value(of, item_value, field_name)
-            case DictNode(key, of):
-                self.add(field_name, WORD)
-                for name, item_value in value.items():
-                    self.value(key, name, field_name)
-                    self.value(of, item_value, field_name)
-
-
-def fields(session: Session, count: int) -> None:
-    """Print the fields that take the most bytes."""
-    account = Account()
-    account.value(STATE, session._state, "")
-    for field_name, size in account.bytes.most_common(count):
-        print(f"{size:8} bytes, {account.counts[field_name]:4} items   {field_name}")
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--fields", type=int, default=0, metavar="N")
-    arguments = parser.parse_args()
     print(f"{machine()}, one used; bytes of a state, us to pack and unpack")
     print(f"{'':34}  " + "  ".join(COLUMNS))
     for name in WALKS:
-        session = measure_walk(name)
-        if arguments.fields:
-            fields(session, arguments.fields)
+        measure_walk(name)
 
 
 if __name__ == "__main__":

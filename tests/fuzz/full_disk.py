@@ -6,7 +6,7 @@ an earlier run must be as they were, and a recording must hold whole lines up to
 program, and exits with 1 at the first promise that is broken. A limit of the size is idealised: a disk that is full
 also allows no new file. Left out are `record` and `live` (the recording of an app is written by the same class, and
 tests/life/test_recovery.py fills their disk), and `reproduce` and `evaluate`, which compute for many seconds
-before they write a file as a snapshot is written here.
+before they write a file as a snapshot is written here, as calibrations and other formats of recordings are.
 """
 
 from __future__ import annotations
@@ -24,9 +24,6 @@ from tempfile import TemporaryDirectory
 
 from attrs import frozen
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "helpers"))
-from snooped import insoles_log
-
 from solepath.emulate import Route, emulate
 from solepath.recording import PacketWriter
 
@@ -41,18 +38,6 @@ except RecordingError as error:
     sys.exit(print(error, file=sys.stderr) or 2)
 """
 """Program that copies a recording as an app writes it."""
-CALIBRATOR = """
-import sys
-from solepath import Calibration
-from solepath.calibration import ShoeGeometry
-from solepath.calibration.file import write_calibration
-try:
-    write_calibration("wearer.json", Calibration(shoe=ShoeGeometry()))
-except OSError as error:
-    print(error, file=sys.stderr)
-    sys.exit(2)
-"""
-"""Program that writes a calibration as an app does."""
 SNAPSHOT = """
 import json
 import sys
@@ -68,8 +53,6 @@ except OSError as error:
     sys.exit(2)
 """
 """Program that writes a snapshot as an app does."""
-GAUGE = "counts,newtons\n" + "".join(f"{counts},{0.1 * counts:.1f}\n" for counts in (60, 100, 400, 800, 1200, 1900))
-"""What a gauge pressed and what an insole showed, for `calibrate newton`."""
 
 
 @frozen
@@ -94,8 +77,6 @@ WRITERS = (
         ("out", "r.html"),
     ),
     Writer("convert to MCAP", (*SOLEPATH, "convert", "walk.jsonl", "new.mcap", "--force"), ("new.mcap",)),
-    Writer("convert a Bluetooth log", (*SOLEPATH, "convert", "phone.log", "new.jsonl", "--force"), ("new.jsonl",)),
-    Writer("calibrate", (*SOLEPATH, "calibrate", "newton", "gauge.csv", "--out", "me.json"), ("me.json",)),
     Writer(
         "demo --record",
         (*SOLEPATH, "demo", "--distance", "5", "--record", "demo.jsonl", "--force"),
@@ -103,7 +84,6 @@ WRITERS = (
         grows=True,
     ),
     Writer("a snapshot of an app", ("-c", SNAPSHOT), ("session.json",)),
-    Writer("a calibration of an app", ("-c", CALIBRATOR), ("wearer.json",)),
     Writer("a recording of an app", ("-c", RECORDER), ("new.jsonl",), grows=True),
 )
 
@@ -168,8 +148,6 @@ def check_one(number: int, steps: int) -> str:
         with PacketWriter(folder / "walk.jsonl") as recording:
             for packet in walk:
                 recording.write(packet)
-        insoles_log(walk).save(folder / "phone.log")
-        (folder / "gauge.csv").write_text(GAUGE, encoding="utf-8")
         return check_writer(WRITERS[number], folder, steps)
 
 

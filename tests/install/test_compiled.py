@@ -1,7 +1,7 @@
 """Compiled modules give the events of pure ones, bit for bit, and states go from the one form to the other and back.
 
 Only some modules are compiled here, without optimisation, to save time: those of samples and their views, stances,
-attitude and the wearer. `python tests/fuzz/same.py --compiled FOLDER` compares many sessions with all hot modules."""
+attitude and the wearer. `python tests/bench/same.py --compiled FOLDER` compares many sessions with all hot modules."""
 
 from __future__ import annotations
 

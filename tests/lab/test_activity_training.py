@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isclose
 
-from solepath.body.activity.chain import DEFAULT_CHANCES, STAIRS_UP, STAND, WALK, chain_of
+from solepath.body.activity.chain import DEFAULT_CHANCES, STAIRS_UP, WALK
 from solepath.lab.train.activities_course import LabelledCourse, chances, changes
 from solepath.lab.train.hugadb import spans
 from solepath.types import Activity
@@ -26,13 +26,3 @@ def test_frequent_climbing_makes_stairs_likelier() -> None:
     assert (
         DEFAULT_CHANCES[WALK][STAIRS_UP] < learnt[WALK][STAIRS_UP] < 1.0 / 20.0 + 1e-3
     )  # ten seconds are twenty blocks
-
-
-def test_without_recordings_the_chances_are_the_supposed_ones() -> None:
-    for row, supposed in zip(chances([]), DEFAULT_CHANCES, strict=True):
-        assert all(isclose(a, b, abs_tol=1e-5) for a, b in zip(row, supposed, strict=True))
-
-
-def test_every_activity_may_follow_standing() -> None:
-    chain = chain_of(DEFAULT_CHANCES, ())
-    assert all(STAND in [source for source, _ in chain.predecessors[state]] for state in range(STAIRS_UP))

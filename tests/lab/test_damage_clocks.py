@@ -12,7 +12,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Defect, DefectFound, HeelStrike
 from solepath.lab.damage.clock_walks import ClockJob, ClockWalk, error_between, read_walk
-from solepath.lab.damage.clocks import ClockOutcome, find_outcome, row, table
+from solepath.lab.damage.clocks import ClockOutcome, find_outcome, row
 from solepath.recording import open_source, shift_clock
 from solepath.session import Session
 from solepath.types import Foot
@@ -45,17 +45,6 @@ def test_shifted_events_show_what_shifted_samples_show(folder: Path) -> None:
     assert outcome.walked is not None and 6.0 < outcome.walked < outcome.walking < 22.0
 
 
-@pytest.mark.parametrize("offset", [5.0, -5.0])
-def test_shifted_events_show_a_foot_that_walks_alone_as_shifted_samples_do(folder: Path, offset: float) -> None:
-    job = ClockJob("hugadb", "walk", folder / "hugadb" / "walk.npz")
-    walk = read_walk(job)
-    assert isinstance(walk, ClockWalk)
-    outcome = find_outcome(walk, offset)
-    defect = reports(job, offset)[0]
-    assert outcome.walked is not None and outcome.reported is None
-    assert defect.offset is None and "while the left foot" in defect.what
-
-
 def test_times_between_the_feet_err_by_what_remains_of_an_offset_except_for_whole_cycles(folder: Path) -> None:
     walk = read_walk(ClockJob("hugadb", "walk", folder / "hugadb" / "walk.npz"))
     assert isinstance(walk, ClockWalk)
@@ -66,30 +55,9 @@ def test_times_between_the_feet_err_by_what_remains_of_an_offset_except_for_whol
     assert error_between(walk, cycle) == pytest.approx(0.0, abs=0.01), "which is why they look right"
 
 
-def test_a_walk_is_repeated_to_its_duration_and_a_fast_clock_found_in_it(folder: Path) -> None:
-    walk = read_walk(ClockJob("hugadb", "walk", folder / "hugadb" / "walk.npz"))
-    assert isinstance(walk, ClockWalk)
-    outcome = find_outcome(walk, rate=200e-6, duration=600.0)
-    assert outcome.walking > 400.0 and outcome.reported is not None and outcome.reported < 0.0
-    assert find_outcome(walk, duration=600.0).reported is None
-
-
-def test_a_recording_of_one_foot_cannot_be_used(tmp_path: Path) -> None:
-    columns = columns_of(Walker(Route().stand(2.0)), Foot.LEFT)
-    np.savez(tmp_path / "one.npz", **columns)
-    assert read_walk(ClockJob("hugadb", "one", tmp_path / "one.npz")) == "one foot"
-
-
 def test_a_report_after_the_limit_does_not_count() -> None:
     outcomes = [
         ClockOutcome(90.0, 20.0, -0.11, 0.1, 0.012), ClockOutcome(90.0, 70.0, -0.1, 0.1, 0.0),
         ClockOutcome(30.0, None, None, 0.1, None),
     ]  # fmt: skip
     assert row("all", "100 ms", outcomes, 60.0) == "| all | 100 ms | 1 of 3 | 1 | 20 s | 10 / 10 ms | 12 / 12 ms |"
-
-
-def test_the_table_has_each_damage_and_names_every_alarm(folder: Path) -> None:
-    lines = list(table(folder, ["hugadb"], 1))
-    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines if line.startswith("| all")]
-    assert [row[2] for row in rows] == ["0 of 1", *["2 of 2"] * 7]
-    assert "\nReported although undamaged: none." in lines

@@ -1,28 +1,19 @@
 """The scores, on tracks and events whose errors are known by hand."""
 
-from itertools import pairwise
 from math import cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose
 
-from solepath.lab.measures.alignment import Alignment, align, at_times, rms_distance, track_error
-from solepath.lab.measures.contacts import merged, switch_contacts
-from solepath.lab.measures.legs import leg_errors, leg_lengths, turn_times
+from solepath.lab.measures.alignment import track_error
+from solepath.lab.measures.legs import leg_errors, leg_lengths
 from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
 from solepath.lab.measures.score import Scored, summarise
-from solepath.lab.measures.strides import (
-    StrideScore,
-    counted_score,
-    marker_stances,
-    position_errors,
-    stride_score,
-    surveyed_score,
-)
+from solepath.lab.measures.strides import StrideScore, counted_score, position_errors, stride_score
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
 
@@ -36,26 +27,12 @@ def turned(track: np.ndarray, yaw: float, x: float, y: float) -> np.ndarray:
     return track @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) + [x, y, 0.0]
 
 
-@given(truth=tracks, yaw=yaws, x=metres, y=metres)
-def test_a_track_that_is_only_turned_and_shifted_has_no_error(truth, yaw, x, y):
-    error = track_error(turned(truth, yaw, x, y), truth)
-    assert error.rms_2d == pytest.approx(0.0, abs=1e-9)
-    assert error.rms_3d == pytest.approx(0.0, abs=1e-9)
-
-
+@settings(max_examples=30)
 @given(track=tracks, truth=tracks, yaw=yaws, x=metres, y=metres)
 def test_the_error_does_not_depend_on_the_frame_of_the_track(track, truth, yaw, x, y):
     before, after = track_error(track, truth), track_error(turned(track, yaw, x, y), truth)
     assert after.rms_2d == pytest.approx(before.rms_2d, abs=1e-6)
     assert after.rms_3d == pytest.approx(before.rms_3d, abs=1e-6)
-
-
-@given(track=tracks, truth=tracks, yaw=yaws, x=st.floats(-1, 1), y=st.floats(-1, 1))
-def test_no_other_turn_and_shift_fits_better(track, truth, yaw, x, y):
-    best = align(track, truth)
-    other = Alignment(best.yaw + yaw, best.x + x, best.y + y)
-    fitted = rms_distance(best.apply(track)[:, :2], truth[:, :2])
-    assert fitted <= rms_distance(other.apply(track)[:, :2], truth[:, :2]) + 1e-9
 
 
 def test_a_square_walked_a_tenth_too_large_is_a_tenth_of_its_half_diagonal_wrong():
@@ -77,11 +54,6 @@ def test_height_counts_in_the_3d_error_only_and_its_mean_not_at_all():
     assert error.rms_3d == pytest.approx(0.5)
 
 
-def test_a_track_is_read_between_its_samples_and_held_outside_them():
-    at = at_times(np.array([1.0, 2.0]), np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]]), np.array([0.0, 1.25, 9.0]))
-    assert at.tolist() == [[0.0, 0.0, 0.0], [0.25, 0.5, 0.75], [1.0, 2.0, 3.0]]
-
-
 def test_events_within_a_quarter_of_a_second_match_and_give_bias_and_spread():
     matching = match([1.0, 2.0, 3.0, 4.0], [1.0, 2.0625, 3.125, 4.5])
     # 4.5 is outside the labelled time (4.0 + 0.25), so it is neither right nor wrong, but 4.0 is missed
@@ -89,14 +61,6 @@ def test_events_within_a_quarter_of_a_second_match_and_give_bias_and_spread():
     assert matching.f1 == pytest.approx(2 * 3 / 7)
     assert matching.bias == 0.0625
     assert matching.mad == 0.0625
-
-
-def test_scatter_leaves_out_the_offset_between_the_clocks_of_two_feet():
-    true = [1.0, 2.0, 3.0, 4.0]
-    both = match(true, true) + match(true, [t + 0.125 for t in true])
-    assert both.mad == 0.0625
-    assert both.scatter == 0.0
-    assert match([1.0], []).scatter is None
 
 
 def test_an_event_found_twice_counts_once_and_the_nearer_one_matches():
@@ -107,23 +71,6 @@ def test_an_event_found_twice_counts_once_and_the_nearer_one_matches():
 def test_only_labelled_windows_are_judged():
     matching = match([1.0, 2.0, 8.0], [1.0, 2.0, 4.0, 5.0, 8.0], windows=[(1.0, 2.0), (7.5, 8.0)])
     assert matching == Matching(3, 3, (0.0, 0.0, 0.0))
-
-
-def test_nothing_to_find_and_nothing_found_is_no_score():
-    assert match([], [1.0]).f1 is None
-    assert match([1.0], []).f1 == 0.0
-    assert match([1.0], []).bias is None and match([1.0], []).mad is None
-
-
-@given(
-    true=st.lists(st.integers(0, 400).map(lambda n: n / 16), unique=True, max_size=12),
-    found=st.lists(st.integers(0, 400).map(lambda n: n / 16), max_size=12),
-)
-def test_matching_is_one_to_one_and_never_better_than_perfect(true, found):
-    matching = match(true, found)
-    assert len(matching.offsets) <= min(matching.n_true, matching.n_found)
-    assert all(abs(offset) <= 0.25 for offset in matching.offsets)
-    assert matching.f1 is None or 0.0 <= matching.f1 <= 1.0
 
 
 TIMES = np.array([1.0, 2.0, 3.0, 4.0])
@@ -140,11 +87,6 @@ def test_each_found_stride_belongs_to_the_true_one_in_which_it_ends():
     assert score.errors.mean == 0.1875 and score.errors.median == 0.1875
 
 
-def test_a_stride_of_unknown_length_is_found_without_an_error():
-    score = stride_score(TIMES, np.array([1.0, np.nan, 2.0]), [(1.5, 1.0), (2.5, 1.0), (3.5, 2.0)])
-    assert score.n_found == 3 and score.errors.values == (0.0, 0.0)
-
-
 def test_counted_strides_are_compared_in_number_and_the_longest_shows_two_that_were_merged():
     merged_and_invented = counted_score(4, [1.0, 2.5, 1.0, 0.25])
     assert merged_and_invented == StrideScore(4, 4, 0, longest=2.5)
@@ -153,61 +95,12 @@ def test_counted_strides_are_compared_in_number_and_the_longest_shows_two_that_w
     assert counted_score(2, []) == StrideScore(2, 0, 0)
 
 
-def test_the_longest_stride_of_several_recordings_is_the_longest_of_all():
-    scores = [Scored(name, strides=counted_score(2, lengths)) for name, lengths in (("a", [1.0, 1.5]), ("b", [1.25]))]
-    together = summarise([*scores, Scored("c", strides=counted_score(2, []))], "all").together
-    assert (together["strides_found"], together["strides_true"], together["stride_longest"]) == (3, 6, 1.5)
-    assert summarise([Scored("d", strides=StrideScore(2, 2))], "all").together["stride_longest"] is None
-
-
-def test_the_live_track_is_measured_between_the_surveys_instants():
-    t = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
-    track = np.array([[9.0, 9, 0], [0, 0, 0], [1.25, 0, 0], [2.25, 0, 0], [2.25, 1.0, 0]])
-    score = surveyed_score(TIMES, PLACES, t, track, [])
-    assert score.track_errors.values == (0.25, 0.0, -0.5)
-    assert score.track_errors.mean == 0.25
-    assert score.errors.mean is None and score.n_found == 0
-
-
 def test_a_survey_is_aligned_on_its_first_two_metres_only():
     # right for the first two metres, then it goes on straight where the survey turns left
     t = TIMES
     track = turned(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0], [4, 0, 0]]), 1.0, 5.0, -3.0)
     errors = position_errors(TIMES, PLACES, t, track)
     assert errors == pytest.approx([0.0, 0.0, 0.0, sqrt(8.0)], abs=1e-9)
-
-
-def test_a_heading_error_grows_along_the_survey():
-    places = np.column_stack([np.arange(11.0), np.zeros(11)])
-    track = np.column_stack([places, np.zeros(11)])
-    track[3:, 1] = 0.1 * (track[3:, 0] - 2.0)  # veers off after two metres, a tenth aside for each metre on
-    errors = position_errors(np.arange(11.0), places, np.arange(11.0), track)
-    assert errors == pytest.approx([0.0, 0.0, 0.0, *(0.1 * n for n in range(1, 9))], abs=1e-9)
-
-
-def switch(*spans: tuple[float, float], height: float = 1000.0) -> tuple[np.ndarray, np.ndarray]:
-    t = np.arange(0, 800) / 100.0
-    counts = np.full(len(t), 50.0)
-    for start, end in spans:
-        counts[(t >= start - 1e-9) & (t < end - 1e-9)] += height
-    return t, counts
-
-
-def test_a_switch_closes_and_opens_once_a_stride():
-    spans = [(1.0, 1.6), (2.1, 2.7), (3.2, 3.8)]
-    assert_allclose(switch_contacts(*switch(*spans)), spans)
-
-
-def test_a_bouncing_contact_is_one_contact():
-    assert_allclose(switch_contacts(*switch((1.0, 1.3), (1.36, 1.6), (2.1, 2.7))), [(1.0, 1.6), (2.1, 2.7)])
-
-
-def test_contacts_whose_edges_were_not_recorded_are_left_out():
-    assert_allclose(switch_contacts(*switch((0.0, 0.5), (1.0, 1.6), (7.5, 9.0))), [(1.0, 1.6)])
-
-
-def test_spans_that_touch_are_joined():
-    assert merged([(3.0, 4.0), (1.0, 2.0), (2.0, 2.5)]) == [(1.0, 2.5), (3.0, 4.0)]
 
 
 def test_figures_are_averaged_and_events_and_strides_are_pooled():
@@ -226,32 +119,6 @@ def test_figures_are_averaged_and_events_and_strides_are_pooled():
     assert summarise(scores, "odd").mean == {"rms": 6.0}
 
 
-def to_and_fro(*turns, pace=1.0):
-    """A track along a slanted line that walks between places, m, at `pace` and stands 2 s at each; stance times."""
-    t, along, stances = [0.0], [turns[0]], [0.0]
-    for a, b in pairwise(turns):
-        for length, to in ((2.0, a), (abs(b - a) / pace, b)):
-            n = round(length / 0.01)
-            along += np.linspace(along[-1], to, n + 1)[1:].tolist()
-            t += (t[-1] + 0.01 * np.arange(1, n + 1)).tolist()
-        stances.append(t[-1] + 1.0)
-    return np.array(t), np.outer(along, [0.8, 0.6, 0.0]), stances
-
-
-def test_a_leg_is_the_distance_between_its_ends():
-    t, positions, _ = to_and_fro(0.0, 9.0, 1.0)
-    assert_allclose(leg_lengths([0.0, 11.0, 21.0], t, positions), [9.0, 8.0], atol=1e-9)
-    errors = leg_errors([0.0, 11.0, 21.0], [10.0, 10.0], t, positions)
-    assert_allclose(errors.values, [-0.1, -0.2])
-    assert (errors.mean, errors.median, errors.bias) == pytest.approx((0.15, 0.15, -0.15))
-    assert leg_errors([0.0, 1.0], [10.0], np.empty(0), np.empty((0, 3))) == Errors()
-
-
-def test_a_track_to_and_fro_is_cut_where_it_turns_about():
-    t, positions, _ = to_and_fro(0.0, 10.0, 0.5, 9.5, -0.2)
-    assert_allclose(leg_lengths(turn_times(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
-
-
 def test_errors_of_stride_times_are_of_events_that_follow_each_other():
     # the third is not found, the last follows after a rest; a shift of all of them is no error
     true, found = [1.0, 2.0, 3.0, 4.0, 5.0, 9.0], [1.1, 2.12, 4.1, 5.05, 9.1]
@@ -259,16 +126,11 @@ def test_errors_of_stride_times_are_of_events_that_follow_each_other():
     assert interval_errors([], found, longest=2.5).median is None
 
 
-def test_a_marker_on_a_foot_stands_still_between_strides():
-    t = 0.01 * np.arange(400)
-    x = np.interp(t, [0.5, 1.0, 1.5, 2.0, 2.5, 3.0], [0.0, 1.2, 1.2, 2.3, 2.3, 2.35])
-    ends, stances = marker_stances(t, np.column_stack([x, 0.0 * x, 0.1 + 0.0 * x]))
-    assert_allclose(stances[:, 0], [0.0, 1.2, 2.325], atol=0.03)
-    assert_allclose(ends[:2], [0.5, 1.5], atol=0.06)
-
-
-def test_errors_are_pooled_over_recordings():
-    scores = [Scored("a", errors={"leg": Errors((0.1, -0.1))}), Scored("b", errors={"leg": Errors((0.4,))})]
-    together = summarise(scores, "all").together
-    assert together["leg_count"] == 3 and together["leg_error"] == pytest.approx(0.2)
-    assert together["leg_error_median"] == together["leg_bias"] == pytest.approx(0.1)
+def test_a_leg_is_the_distance_between_the_places_of_two_stances():
+    t = np.arange(0.0, 24.0, 0.01)
+    along = np.interp(t, [2.0, 11.0, 13.0, 21.0], [0.0, 9.0, 9.0, 1.0])
+    track = np.outer(along, [0.8, 0.6, 0.0])
+    assert_allclose(leg_lengths([1.0, 12.0, 22.0], t, track), [9.0, 8.0], atol=1e-9)
+    errors = leg_errors([1.0, 12.0, 22.0], [10.0, 10.0], t, track)
+    assert_allclose(errors.values, [-0.1, -0.2])
+    assert (errors.mean, errors.median, errors.bias) == pytest.approx((0.15, 0.15, -0.15))

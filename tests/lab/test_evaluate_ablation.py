@@ -1,18 +1,12 @@
 """The table of the figures without each part of the default recipe."""
 
-import pytest
-
-from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import sampled
-from solepath.lab.evaluate.ablation import ABLATED_RECIPES, COLUMNS, recipes
-from solepath.lab.evaluate.changes import BETTER
+from solepath.lab.evaluate.ablation import ABLATED_RECIPES, recipes
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.evaluate.report import Result
 from solepath.lab.measures.matching import Matching
 from solepath.lab.measures.score import Scored
 from solepath.lab.tables.scores import ablation_table
 from solepath.recipes import DEFAULT
-from solepath.session import Session
 
 BY_NAME = {data_set.name: data_set for data_set in (*DATASETS, *EMULATED)}
 
@@ -33,11 +27,6 @@ def test_every_row_differs_from_the_default_and_from_every_other():
     assert all(one != other for k, one in enumerate(parts) for other in parts[:k])
 
 
-def test_every_column_is_a_figure_that_is_better_one_way():
-    for column in COLUMNS:
-        assert column.figure in BETTER and column.data_set in BY_NAME
-
-
 def test_a_row_holds_what_each_data_set_came_to():
     scored = [*results("default", 0.5, -0.012), *results("no wings", 2.0, 0.034)]
     text = ablation_table(scored).splitlines()
@@ -47,15 +36,3 @@ def test_a_row_holds_what_each_data_set_came_to():
         "|  | xio end m | gaitmap HS ms |", "| --- | ---: | ---: |", "| default | 0.500 | -12 |",
         "| no wings | 2.000 | 34 |",
     ]  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def samples():
-    return sampled(Route().stand(1.0).walk(2.0).stop(0.5), seed=101).samples
-
-
-@pytest.mark.parametrize("without", ABLATED_RECIPES)
-def test_whatever_is_missing_the_wearer_is_somewhere(without, samples):
-    session = Session(ABLATED_RECIPES[without])
-    session.feed(samples)
-    assert all(abs(part) < 10.0 for part in session.position.position)

@@ -1,23 +1,13 @@
 """Scores of long emulated walks, of tracks whose errors are known by hand, and the form of the walks."""
 
-from math import hypot, pi, remainder
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from solepath import recipes
-from solepath.emulate.routes.actions import Stairs, TurnAction
-from solepath.emulate.routes.planner import plan
 from solepath.emulate.routes.route import Route
-from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.walker import Walker
-from solepath.lab.emulated.heading import EQUIPMENT, HeadingTrack, heading_figures, is_half_hour, score_heading
-from solepath.lab.emulated.heading_walks import KINDS, heading_route
-from solepath.lab.emulated.reports import score_reports
-from solepath.lab.emulated.walks import STOREYS, four_floors, mean_position, place_figures
-from solepath.lab.evaluate.run import RunSettings
+from solepath.lab.emulated.heading import HeadingTrack, heading_figures
+from solepath.lab.emulated.walks import place_figures
 from solepath.lab.measures.drift import drift_figures, drift_of_strides, drift_that_opens
 from solepath.types import Foot
 
@@ -45,30 +35,6 @@ def test_a_heading_error_counts_over_the_rest_of_the_walk():
     assert found["end_relative"] == pytest.approx(chord / 100.0)
     assert found["height_end"] == found["height_max"] == pytest.approx(0.5)
     assert found["rms_2d"] < 0.3 * chord
-
-
-def test_four_floors_lead_up_and_down_again():
-    actions = four_floors(101).actions
-    heights = np.cumsum([action.steps * action.rise for action in actions if isinstance(action, Stairs)])
-    assert heights.max() == pytest.approx(STOREYS * 3.2) and heights[-1] == pytest.approx(0.0)
-    turned = sum(action.angle for action in actions if isinstance(action, TurnAction))
-    assert remainder(turned, pi) == pytest.approx(0.0, abs=1e-9)
-
-
-def test_the_truth_is_the_mean_of_both_feet():
-    walker = Walker(four_floors(101), seed=101)
-    t = np.array([0.0, 60.0, walker.duration])
-    place = mean_position(walker.truth(), t)
-    assert_allclose(place[0], 0.0, atol=1e-9)
-    feet = [walker.truth().pose(foot, t).position for foot in Foot]
-    assert_allclose(place, 0.5 * (feet[0] + feet[1]))
-    assert abs(place[-1, 2]) < 1e-9 and hypot(*place[-1, :2]) > 1.0
-
-
-@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "circle"])
-def test_a_walk_of_half_an_hour_lasts_half_an_hour(kind):
-    route, rng = heading_route(kind, 101, is_half_hour), np.random.default_rng([101, 0])
-    assert 1750.0 < plan(route, Wearer(), rng).duration < 2150.0
 
 
 def turned_track(walker, angle, start=(0.0, 0.0), covariance=(1.0, 0.0, 1.0)):
@@ -99,15 +65,6 @@ def test_a_heading_error_moves_the_end_and_is_weighed_by_the_covariance():
     assert sure["held_60"] == 0.0 and sure["nees_60"] > 30.0
 
 
-def test_a_track_whose_frame_is_turned_as_a_whole_is_not_off():
-    walker = Walker(Route().stand(2.0).walk(80.0, 1.3).turn(1.0, 3.0).walk(30.0).stop(2.0), seed=1)
-    track, truth = turned_track(walker, 0.3)
-    track.headings = [-0.3] * len(track.t)
-    found = heading_figures(track, truth)
-    assert found["position_end"] == pytest.approx(0.0, abs=1e-6)
-    assert found["heading_end"] == pytest.approx(0.0)
-
-
 @pytest.mark.parametrize("drift", [-0.002, 0.0, 0.001])
 def test_a_drift_is_found_from_surveyed_strides_and_from_a_loop_that_stays_open(drift):
     t = np.arange(0.0, 120.0, 1.1)
@@ -120,29 +77,3 @@ def test_a_drift_is_found_from_surveyed_strides_and_from_a_loop_that_stays_open(
     assert drift_that_opens(t, track) == pytest.approx(drift, rel=0.1, abs=1e-9), "linear in the drift"
     assert drift_figures(drift, t)["drift_stride"] == pytest.approx(abs(drift) * float(np.mean(np.diff(t))))
     assert drift_of_strides(t[:30], track[:30], truth[:30]) is None, "too short to tell"
-
-
-def test_the_data_sets_with_a_compass_have_one():
-    """A walk of 120 m: the compass is proven, so the end is another one than without it, and differs by the field."""
-
-    def short(length, seconds):
-        return length >= 120.0
-
-    settings = RunSettings(recipes.DEFAULT)
-    ends = [
-        score_heading("right_angles", short, EQUIPMENT[name], Path("4"), {"seed": 4}, settings).figures["position_end"]
-        for name in ("", "_compass20", "_compass30")
-    ]
-    assert len(set(ends)) == 3
-
-
-def test_places_that_a_person_reports_are_scored_by_what_they_are_worth():
-    def short(length, seconds):
-        return length >= 200.0
-
-    figures = score_reports(
-        "right_angles", short, (60.0, 80.0, 120.0), Path("4"), {"seed": 4}, RunSettings(recipes.DEFAULT)
-    ).figures
-    assert figures["used"] == figures["rejected_first"] == figures["rejected_later"] == 1.0
-    assert 0.0 < figures["end_return"] != figures["end_without"] and figures["way_places"] < 3.0
-    assert 0.0 < figures["nees_return"] < 6.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, radians, sin
+from math import cos, radians, sin
 
 import numpy as np
 import pytest
@@ -11,11 +11,8 @@ from attrs import evolve
 from solepath import CalibrationError, Foot, Sample
 from solepath.emulate.handling import CLUMSY, STEADY, Handling
 from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.lab.calibrate.coverage import open_questions
-from solepath.lab.calibrate.fit import fit
-from solepath.lab.calibrate.pauses import find_pauses, find_ways, recorded_of
 from solepath.lab.calibrate.sensor import fit_sensors, sensor_calibration
-from solepath.lab.calibrate.table import HandJob, hand_errors, hand_table, handled, main, specimen, true_corrections
+from solepath.lab.calibrate.table import HandJob, hand_errors, handled, specimen
 
 APART = ~np.eye(3, dtype=np.bool_)
 
@@ -36,18 +33,17 @@ def changed(
     return result
 
 
-@pytest.mark.parametrize("chip", ["LSM6DSOX", "MPU-9250"])
+@pytest.mark.parametrize("chip", ["LSM6DSOX", pytest.param("MPU-9250", marks=pytest.mark.soak)])
 def test_a_clumsy_hand_finds_scale_to_a_fifth_of_a_percent_and_axes_to_a_fifth_of_a_degree(chip: str) -> None:
-    for seed in (72, 73):
-        one = hand_errors(HandJob(chip, "clumsy", seed))
-        assert one.gyro is not None and one.gyro_sigma is not None
-        assert one.acc is not None and one.acc_sigma is not None
-        assert np.abs(np.diag(one.gyro)).max() < 0.002
-        assert np.abs(np.degrees(one.gyro[APART])).max() < 0.2
-        assert np.abs(one.acc[:3]).max() < 0.005 and np.abs(np.degrees(one.acc[3:])).max() < 0.2
-        # what it is worth: no error beyond four standard deviations, and none of these useless
-        assert np.abs(one.gyro / one.gyro_sigma).max() < 4.0 and np.abs(one.acc / one.acc_sigma).max() < 4.0
-        assert np.diag(one.gyro_sigma).max() < 0.002
+    one = hand_errors(HandJob(chip, "clumsy", 72))
+    assert one.gyro is not None and one.gyro_sigma is not None
+    assert one.acc is not None and one.acc_sigma is not None
+    assert np.abs(np.diag(one.gyro)).max() < 0.002
+    assert np.abs(np.degrees(one.gyro[APART])).max() < 0.2
+    assert np.abs(one.acc[:3]).max() < 0.005 and np.abs(np.degrees(one.acc[3:])).max() < 0.2
+    # what it is worth: no error beyond four standard deviations, and none of these useless
+    assert np.abs(one.gyro / one.gyro_sigma).max() < 4.0 and np.abs(one.acc / one.acc_sigma).max() < 4.0
+    assert np.diag(one.gyro_sigma).max() < 0.002
 
 
 def test_gravity_and_ways_fit_better_with_the_calibration_than_without(samples: list[Sample]) -> None:
@@ -55,22 +51,6 @@ def test_gravity_and_ways_fit_better_with_the_calibration_than_without(samples: 
     assert found.foot is Foot.RIGHT and found.pauses >= 12 and found.turned == (5, 5) and not found.notes
     assert found.gravity[1] < 0.1 * found.gravity[0] and found.closure[1] < 0.1 * found.closure[0]
     assert sensor_calibration([found]).sensors == {Foot.RIGHT: found.calibration}
-
-
-def test_the_corrected_frame_is_that_of_the_accelerometer(samples: list[Sample]) -> None:
-    """Its correction is symmetric: it turns nothing."""
-    (found,) = fit_sensors(samples)
-    acc = np.array(found.calibration.acc.matrix).reshape(3, 3)
-    assert np.array_equal(acc, acc.T)
-
-
-def test_six_magnitudes_do_not_determine_an_accelerometer(samples: list[Sample]) -> None:
-    recorded = recorded_of(samples, Foot.RIGHT)
-    pauses = find_pauses(recorded)
-    (sentence,) = [one for one in open_questions(fit(pauses[:6], [])) if "accelerometer" in one]
-    assert "is not known" in sentence and "is missing" in sentence
-    ways = [way for way in find_ways(recorded, pauses) if not way.spoilt]
-    assert open_questions(fit(pauses, ways)) == []
 
 
 def test_a_rest_that_is_missing_is_named() -> None:
@@ -97,7 +77,6 @@ def test_too_few_times_at_rest_are_counted() -> None:
     ("acc", "gyro", "message"),
     [
         (1.0 / 9.80665, (1.0, 1.0, 1.0), "its unit is not m/s\\^2"),
-        (1.0, (180.0 / pi,) * 3, "look like degrees/s"),
         (1.0, (1.0, 1.0, -1.0), "are axes mirrored or exchanged"),
     ],
 )
@@ -106,59 +85,3 @@ def test_a_wrong_unit_and_a_mirrored_axis_are_named(
 ) -> None:
     with pytest.raises(CalibrationError, match=message):
         fit_sensors(changed(samples, acc, gyro))
-
-
-def test_a_way_with_lost_samples_is_left_out_and_named(samples: list[Sample]) -> None:
-    recorded = recorded_of(samples, Foot.RIGHT)
-    way = find_ways(recorded, find_pauses(recorded))[5]
-    middle = 0.5 * float(way.t[0] + way.t[-1])
-    (found,) = fit_sensors([one for one in samples if abs(one.t - middle) > 0.1])
-    (note,) = found.notes
-    assert note.startswith("not used:") and note.endswith("samples are lost")
-
-
-def test_turns_beyond_the_range_of_the_gyroscope_are_left_out_and_named(samples: list[Sample]) -> None:
-    limit = radians(250.0)
-    clipped = [evolve(one, gyro=tuple(np.clip(one.gyro, -limit, limit).tolist())) for one in samples]
-    (found,) = fit_sensors(clipped)
-    assert found.notes and all("at the end of its range: turn more slowly" in note for note in found.notes)
-    (whole,) = fit_sensors(samples)
-    assert max(found.calibration.gyro.matrix_sigma) > max(whole.calibration.gyro.matrix_sigma)
-
-
-def test_a_knock_that_no_sensor_shows_is_found_because_the_way_does_not_close(samples: list[Sample]) -> None:
-    recorded = recorded_of(samples, Foot.RIGHT)
-    way = find_ways(recorded, find_pauses(recorded))[5]
-    middle = 0.5 * float(way.t[0] + way.t[-1])
-    turn = np.array([0.4, -0.3, 0.5]) * 2.0  # rad/s, over a fifth of a second
-    knocked = [
-        evolve(one, gyro=tuple((np.array(one.gyro) + turn).tolist())) if abs(one.t - middle) < 0.1 else one
-        for one in samples
-    ]
-    (found,) = fit_sensors(knocked)
-    (note,) = found.notes
-    assert "gravity ends" in note and "degrees off" in note
-    (whole,) = fit_sensors(samples)
-    errors = np.array(found.calibration.gyro.matrix) - np.array(whole.calibration.gyro.matrix)
-    assert np.abs(errors).max() < 0.001
-
-
-def test_a_recording_without_sensors_of_a_foot_is_rejected() -> None:
-    with pytest.raises(CalibrationError, match="no foot's accelerations"):
-        fit_sensors([])
-
-
-def test_true_corrections_are_those_of_a_specimen_only() -> None:
-    with pytest.raises(ValueError, match="without the number of a specimen"):
-        true_corrections(LSM6DSOX)
-
-
-def test_the_table_has_a_row_for_each_chip_and_hand() -> None:
-    lines = hand_table([hand_errors(HandJob("MPU-6050", "steady", 76))])
-    assert len(lines) == 3 and lines[2].startswith("| MPU-6050 | steady | 1 | 0 |")
-
-
-def test_the_command_of_the_tables_prints_both(capsys: pytest.CaptureFixture[str]) -> None:
-    main(["--sensors", "0", "--walks", "1", "--chip", "MPU-9250", "--length", "30", "--processes", "1", "--seed", "77"])
-    printed = capsys.readouterr().out.strip().splitlines()
-    assert printed[0].startswith("| chip | recipe |") and printed[2].startswith("| MPU-9250 | `default` | 1 |")

@@ -9,8 +9,6 @@ from solepath.lab.measures.confusion import ActivityScore
 from solepath.lab.reproduce.footstep.activities import fitted_climb, stair_stretches
 from solepath.lab.reproduce.footstep.corridor import WatchedZones
 from solepath.lab.reproduce.footstep.figures import class_shares, share_right
-from solepath.lab.reproduce.footstep.wearers import SETTINGS, STANDARD, WearerJob
-from solepath.lab.reproduce.tables import Bars, Reproduction
 from solepath.show.timeline import Timeline
 from solepath.types import Activity, Site
 from solepath.types.vector import GRAVITY, ZERO
@@ -45,18 +43,3 @@ def test_a_zone_counts_as_strict_when_six_samples_were_at_rest_in_it() -> None:
         zones.update(t, 0.05, (force, 0.0, GRAVITY), ZERO, None)
         t += 0.05
     assert (zones.zones, zones.strict_zones) == (2, 1)
-
-
-def test_jobs_are_known_by_seed_and_setting_and_a_wearer_is_the_same_in_all_shoes() -> None:
-    jobs = [WearerJob(seed, setting) for seed in (1, 2) for setting in (STANDARD, *SETTINGS)]
-    assert len({job.key for job in jobs}) == len(jobs)
-    assert len({(job.seed, job.stature, job.wearer.mass) for job in jobs}) == 2
-    assert WearerJob(1).is_standard and not WearerJob(1, SETTINGS[0]).is_standard
-
-
-def test_bars_are_drawn(tmp_path):
-    figures = pytest.importorskip("solepath.lab.tables.figures", exc_type=ImportError)
-    bars = Bars("two", ("a", "b"), (("ours", (1.0, 2.0)), ("theirs", (3.0, 4.0))), "%")
-    for count in (1, 9):  # nine are in two rows
-        figures.draw(Reproduction("x", "a paper", "2 walks", "m", (), (bars,) * count), tmp_path / "f.png", "png")
-        assert (tmp_path / "f.png").read_bytes().startswith(b"\x89PNG")

@@ -34,10 +34,6 @@ def test_the_first_and_the_last_stride_do_not_count() -> None:
     assert coverage(lost) == pytest.approx((20.0, 40.0))
 
 
-def test_a_series_without_whole_strides_knows_nothing() -> None:
-    assert coverage(series(1)) == (0.0, 0.0)
-
-
 def test_zupt_takes_one_line_out_of_each_motion() -> None:
     # from 0 at the last sample of stance, 0.1 s, to 0.9 m/s at the last of the motion, 0.9 s
     velocity = without_drift(series(2), knows_rolling=False)

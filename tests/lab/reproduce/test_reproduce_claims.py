@@ -1,6 +1,6 @@
 """The claims of the papers as docs/papers.md reports them, with the full number of walks.
 
-    python -m pytest -m soak tests/lab/reproduce/test_reproduce_claims.py
+    python -m pytest -m long tests/lab/reproduce/test_reproduce_claims.py
 
 Takes half an hour or more on two cores. A claim that is not reproduced is not asserted here; docs/papers.md reports it.
 """
@@ -16,7 +16,7 @@ from solepath.lab.reproduce import footstep_tracker, kupt_dfpc, pressure_contour
 from solepath.lab.reproduce.runner import Runner
 from solepath.lab.reproduce.tables import Reproduction
 
-pytestmark = pytest.mark.soak
+pytestmark = pytest.mark.long
 
 
 def values(found: Reproduction, row: str) -> np.ndarray:

@@ -1,7 +1,7 @@
-"""Compares the events of sessions on all Pythons of this machine: `python tests/fuzz/same.py`. Status 1: they differ.
+"""Compares the events of sessions on all Pythons of this machine: `python tests/bench/same.py`. Status 1: they differ.
 
 The running Python emulates the walks of tests/helpers/walks.py and writes them to a file: for each session its state
-before the first item, its floor plan and its items, with floats in hexadecimal. Then each Python, in a new virtual
+before the first item, its floor plan and its items. Then each Python, in a new virtual
 environment with attrs and construct alone, restores the sessions, feeds the items one by one, and prints a hash of the
 events and of the snapshots in the middle and at the end. Pythons are those on PATH, and those that pyenv and uv have
 installed. `--pyodide 0.27.7 0.29.4` adds Pyodide, CPython for WebAssembly, of these versions: npm fetches it, and node
@@ -20,7 +20,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
@@ -45,50 +45,9 @@ python.runPython(%s);
 """
 
 
-def read_items(rows: list[list[Any]]) -> Iterator[Any]:
-    """Yield packets and samples from their rows."""
-    from solepath import Packet, Sample, Site
-
-    for kind, site, *values in rows:
-        numbers = [read_number(value) for value in values]
-        if kind == "packet":
-            t, channel, data, device = numbers
-            yield Packet(t, Site(site), channel[1:], bytes.fromhex(data[1:]), device[1:])
-        else:
-            t, acc, gyro, pressure, quat, mag, air_pressure, known_at, saturated = numbers
-            yield Sample(t, Site(site), acc, gyro, pressure, quat, mag, air_pressure, known_at, saturated)
-
-
-def read_number(value: Any) -> Any:
-    """Return a float from its hexadecimal digits, a tuple of such, or a text, which starts with an apostrophe."""
-    if isinstance(value, list):
-        return tuple(map(read_number, value))
-    return value if not isinstance(value, str) or value.startswith("'") else float.fromhex(value)
-
-
-def write_number(value: Any) -> Any:
-    """Return the plain data that `read_number` reads."""
-    if isinstance(value, tuple):
-        return [*map(write_number, value)]
-    return value.hex() if isinstance(value, float) else value
-
-
-def write_items(items: Any) -> list[list[Any]]:
-    """Return rows of packets and samples."""
-    rows = []
-    for item in items:
-        if hasattr(item, "channel"):
-            texts = (item.channel, item.data.hex(), item.device)
-            rows.append(["packet", item.site.value, item.t.hex(), *("'" + text for text in texts)])
-        else:
-            values = (item.t, item.acc, item.gyro, item.pressure, item.quat, item.mag, item.air_pressure, item.known_at)
-            rows.append(["sample", item.site.value, *map(write_number, values), item.saturated])
-    return rows
-
-
 def run(walks: str, results: str) -> None:
     """Run all sessions of the file `walks`, and write hash, events and snapshots of each to the file `results`."""
-    from solepath import Session
+    from solepath import Packet, Sample, Session
     from solepath.floorplan.plan import FloorPlan
     from solepath.saving.codec import load
 
@@ -96,7 +55,7 @@ def run(walks: str, results: str) -> None:
     for walk in json.loads(Path(walks).read_text()):
         plan = None if walk["plan"] is None else load(FloorPlan, walk["plan"])
         session = Session.restore(walk["state"], floorplan=plan)
-        items = [*read_items(walk["items"])]
+        items = [load(Packet if "channel" in item else Sample, item) for item in walk["items"]]
         events, snapshots = [], []
         for number, item in enumerate(items, 1):
             events += [event.to_dict() for event in session.feed(item)]
@@ -122,7 +81,7 @@ def emulated_walks() -> list[dict[str, Any]]:
         session = machine.start()
         if isinstance(session, Session):
             plan = None if session._plan is None else save(session._plan.plan)
-            items = write_items(machine.items)
+            items = [save(item) for item in machine.items]
             walks.append({"name": name, "state": session.snapshot(), "plan": plan, "items": items})
     return walks
 
@@ -131,10 +90,12 @@ def recorded_walks(files: list[Path]) -> list[dict[str, Any]]:
     """Return sessions of the default recipe on recorded samples as plain data."""
     from solepath import Session
     from solepath.recording.samples import load_samples
+    from solepath.saving.codec import save
 
     state = Session(poses=True).snapshot()
     return [
-        {"name": str(file), "state": state, "plan": None, "items": write_items(load_samples(file))} for file in files
+        {"name": str(file), "state": state, "plan": None, "items": [save(one) for one in load_samples(file)]}
+        for file in files
     ]
 
 
@@ -161,19 +122,23 @@ def run_python(program: str, folder: Path, walks: Path, results: Path) -> str:
     python = next(path for path in (environment / "bin/python", environment / "Scripts/python.exe") if path.exists())
     install = [python, "-m", "pip", "install", "--quiet", *requirements()]
     subprocess.run(install, check=True, capture_output=True)
+    return feed(python, ROOT / "src", walks, results)
+
+
+def feed(python: Path | str, source: Path, walks: Path, results: Path) -> str:
+    """Run all sessions in a Python that has what a session needs, with the package in `source`; return an error."""
     words = [python, __file__, "--run", walks, "--results", results]
-    given = {**os.environ, "PYTHONPATH": str(ROOT / "src"), "PYTHONHASHSEED": "random"}
+    given = {**os.environ, "PYTHONPATH": str(source), "PYTHONHASHSEED": "random"}
     return subprocess.run(words, env=given, capture_output=True, text=True, check=False).stderr
 
 
-def run_compiled(package: str, folder: Path, walks: Path, results: Path) -> str:
+def run_compiled(package: Path, folder: Path, walks: Path, results: Path) -> str:
     """Run all sessions in the running Python with the package in this folder; return an error, "" for none."""
-    given = {**os.environ, "PYTHONPATH": package, "PYTHONHASHSEED": "random"}
+    given = {**os.environ, "PYTHONPATH": str(package)}
     form = subprocess.run([sys.executable, "-m", "solepath", "--version"], env=given, capture_output=True, text=True)
     if not form.stdout.rstrip().endswith(", compiled"):
         return f"Error: {form.stdout or form.stderr}"
-    words = [sys.executable, __file__, "--run", walks, "--results", results]
-    return subprocess.run(words, env=given, capture_output=True, text=True, check=False).stderr
+    return feed(sys.executable, package, walks, results)
 
 
 def requirements() -> list[str]:
@@ -229,11 +194,10 @@ def main() -> int:
     if chosen.run:
         run(chosen.run, chosen.results)
         return 0
-    runs: list[tuple[str, str, Callable[..., str], str]] = []
+    runs: list[tuple[str, str, Callable[..., str], Any]] = []
     runs += [(name, "native", run_python, program) for name, program in installed_pythons().items()]
     if chosen.compiled:
-        package = str(chosen.compiled.resolve())
-        runs.append((f"compiled, {sys.version.split()[0]}", "native", run_compiled, package))
+        runs.append((f"compiled, {sys.version.split()[0]}", "native", run_compiled, chosen.compiled.resolve()))
     runs += [(f"Pyodide {release}", "WebAssembly", run_pyodide, release) for release in chosen.pyodide]
     status, first_of, first = 0, dict[str, dict[str, Any]](), None
     with tempfile.TemporaryDirectory() as directory:
