@@ -6,6 +6,7 @@ import shlex
 import shutil
 from argparse import ArgumentParser
 from contextlib import redirect_stdout
+from functools import cache
 from importlib import import_module
 
 import figures
