@@ -9,7 +9,12 @@ import numpy as np
 import pytest
 from recordings import PACKETS, recorded
 
-from solepath.recording import RecordingError, read_packets, read_samples
+from solepath.recording import (
+    RecordingError,
+    bad_rows,  # its limits are those of megabytes
+    read_packets,
+    read_samples,
+)
 from solepath.recording.bad_rows import MAX_SKIPPED
 from solepath.types import Packet, Sample
 
@@ -94,10 +99,11 @@ def test_a_recording_with_more_damaged_lines_than_whole_ones_is_rejected(tmp_pat
         packets_of(path)
 
 
-def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path) -> None:
+def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + "?\n" * 200_000)
-    with pytest.raises(RecordingError, match="100001 of 100001 lines cannot be used"):
+    path.write_text(HEADER + line_of() + "?\n" * 2000)
+    monkeypatch.setattr(bad_rows, "MAX_EXCESS", 1000)
+    with pytest.raises(RecordingError, match="line 3: is not JSON; 1002 of 1003 lines cannot be used"):
         packets_of(path)
 
 

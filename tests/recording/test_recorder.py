@@ -34,7 +34,7 @@ def test_a_recorder_killed_in_mid_walk_loses_at_most_the_packet_in_its_hand(tmp_
     try:
         assert recorder.stdout is not None
         output = b""
-        while output.count(b"!") < 300 and (more := recorder.stdout.read1()):
+        while output.count(b"!") < 60 and (more := recorder.stdout.read1()):
             output += more
         recorder.send_signal(signal.SIGKILL)
         output += recorder.stdout.read()
@@ -44,7 +44,7 @@ def test_a_recorder_killed_in_mid_walk_loses_at_most_the_packet_in_its_hand(tmp_
         recorder.stdout.close()
     flaws = []
     packets = list(read_packets(path, report=flaws.append))
-    assert 300 <= output.count(b"!") <= len(packets) <= output.count(b"?") and len(flaws) <= 1
+    assert 60 <= output.count(b"!") <= len(packets) <= output.count(b"?") and len(flaws) <= 1
     assert [packet.data[0] for packet in packets] == [k % 256 for k in range(len(packets))], "none is missing within"
     assert output.count(b"?") / 200 - packets[-1].t < 0.2
 
@@ -69,7 +69,7 @@ print(writer.count)
 """
 
 
-@pytest.mark.parametrize("limit", [4096, 4097, 4150, 5000])
+@pytest.mark.parametrize("limit", [4097, 5000])
 def test_a_file_that_may_not_grow_ends_with_its_last_whole_packet_and_the_error_counts_them(tmp_path, limit):
     """The kernel writes the part of the line that fits and then fails, as on a full disk."""
     path = tmp_path / "walk.jsonl"
