@@ -9,53 +9,47 @@ import walks
 from snooped import (
     BATTERY,
     FRAME,
-    INFO,
     INSOLE,
     LEFT,
     MOVEMENT,
     OTHER,
     RIGHT,
-    T_START,
     TAG,
     Log,
     data_of,
     frames,
     full,
+    insoles_log,
     read,
     start_connection,
 )
 
-from solepath import PacketRejected, Sample, Session, Site
-from solepath.events import StrideTaken
+from solepath import Packet, PacketRejected, Sample, Session, Site
 from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
 from solepath.recording.btsnoop import open_btsnoop
-from solepath.types import Foot
 from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
 
 
-def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path):
-    walk = walks.insoles()
-    log = Log()
-    handles = {Site.LEFT_FOOT: 0x40, Site.RIGHT_FOOT: 0x41}
-    start_connection(log, 0x40, LEFT)
-    start_connection(log, 0x41, RIGHT)
-    for packet in walk.packets:
-        if packet.channel == "insole/frame":
-            log.notify(handles[packet.site], FRAME, packet.data, t=T_START + 1_000_000 + round(packet.t * 1e6))
-        elif packet.channel == "insole/info":
-            log.add_request(handles[packet.site], "0a1500", b"\x0b" + packet.data[:246])
-            for offset in range(246, len(packet.data) + 1, 246):
-                blob = struct.pack("<BHH", 0x0C, INFO, offset).hex()
-                log.add_request(handles[packet.site], blob, b"\x0d" + packet.data[offset : offset + 246])
-    path = log.save(tmp_path / "phone.log")
-
-    def stride_values(packets) -> list[tuple[Foot, int, float]]:
-        strides = walks.of(StrideTaken, walks.run_session(packets))
-        return [(stride.foot, stride.number, round(stride.length, 2)) for stride in strides]
-
-    assert stride_values(open_btsnoop(path, report=pytest.fail)) == stride_values(walk.packets) != []
+def test_the_packets_of_a_walk_in_two_insoles_come_with_their_times(tmp_path):
+    """The time of the first record is 0 s; the start of the log is known to the microsecond."""
+    path = insoles_log(walks.insoles().packets).save(tmp_path / "phone.log")
+    log = open_btsnoop(path, report=pytest.fail)
+    assert log.header == {"began": "2026-09-21T14:13:20.251000Z", "began_t": 0.0, "source": "btsnoop"}
+    addresses = {Site.LEFT_FOOT: LEFT, Site.RIGHT_FOOT: RIGHT}
+    connected, frames_sent = [], []
+    for packet in log:
+        (connected if packet.channel == "receiver/connected" else frames_sent).append(packet)
+    assert [(p.t, p.site, p.device) for p in connected] == [
+        (0.0, Site.LEFT_FOOT, LEFT), (connected[1].t, Site.RIGHT_FOOT, RIGHT)
+    ]  # fmt: skip
+    assert frames_sent == [
+        Packet((999_000 + round(p.t * 1e6)) / 1e6, p.site, p.channel, p.data, addresses[p.site])
+        for p in walks.insoles().packets
+        if p.channel == "insole/frame"
+    ]
+    assert log.done == log.total == path.stat().st_size
 
 
 def test_an_insole_reports_its_own_foot_unless_the_caller_names_it(tmp_path):

@@ -163,47 +163,6 @@ def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
     assert own_values == tshark_values
 
 
-def values_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
-    """Return (operation, attribute handle, value) of every value that was read, or written and accepted.
-
-    tshark gives handle, offset and value of each PDU, so parts of a value are joined by their offsets."""
-    fields = ("opcode", "handle", "value", "offset", "battery_level", "firmware_revision_string")
-    fields += ("characteristic_configuration_client",)
-    display_filter = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
-    transfers: list[tuple[AttOperation, int, bytes]] = []
-    offset, pending = 0, b""
-    for row in tshark(path, display_filter, [f"btatt.{name}" for name in fields]):
-        opcode, attribute, plain, at, battery, firmware, client = row
-        data = bytes.fromhex(plain) + firmware.encode()
-        data += bytes([int(battery)]) if battery else struct.pack("<H", int(client, 16)) if client else b""
-        handle = int(attribute, 16)
-        match int(opcode, 16):
-            case 0x0B:
-                transfers.append((AttOperation.READ, handle, data))
-            case 0x0C:
-                offset = int(at)
-            case 0x0D:
-                operation, of, partial = transfers.pop()
-                assert (operation, of, len(partial)) == (AttOperation.READ, handle, offset)
-                transfers.append((operation, of, partial + data))
-            case 0x12:
-                pending = data
-            case 0x13:
-                transfers.append((AttOperation.WRITTEN, handle, pending))
-            case 0x52:
-                transfers.append((AttOperation.WRITTEN, handle, data))
-    return transfers
-
-
-def values_by_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
-    values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, LoggedValue)]
-    return [
-        (value.att_value.operation, value.att_value.handle, value.att_value.value)
-        for value in values
-        if value.att_value.operation is not AttOperation.NOTIFIED
-    ]
-
-
 async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
     """Return the notifications that a host gets from an emulated insole over bumble; both hosts write a log."""
     from bumble.controller import Controller
@@ -267,17 +226,6 @@ def bumble_logs(tmp_path_factory) -> tuple[Path, Path, list[bytes]]:
     received = asyncio.run(asyncio.wait_for(snooped_by_bumble(central, device), 30))
     assert len(received) == 300
     return central, device, received
-
-
-@pytest.mark.soak
-@needs_tshark
-def test_every_value_of_a_hosts_real_traffic_agrees_with_tshark(bumble_logs):
-    for path in bumble_logs[:2]:
-        own_values = notified_by_us(path)
-        assert len(own_values) == 300 and own_values == notified_by_tshark(path)
-        transfers = values_by_us(path)
-        assert (AttOperation.READ, info()) in [(operation, data) for operation, _, data in transfers]
-        assert transfers == values_by_tshark(path)
 
 
 @pytest.mark.soak
