@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from recordings import PACKETS, recorded
 
-from solepath.recording import PacketWriter, RecordingError, read_header, read_packets, read_start_time
-from solepath.types import Packet, Site
+from solepath.recording import PacketWriter, RecordingError, open_source, read_header, read_packets, read_start_time
+from solepath.recording.source import label_files
+from solepath.types import Foot, Packet, Site
 
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
 
@@ -145,3 +146,53 @@ def test_packets_that_no_recording_can_hold_are_rejected_and_leave_it_whole(tmp_
                 writer.write(unfit)
         writer.write(PACKETS[1])
     assert list(read_packets(path)) == PACKETS[:2]
+
+
+def test_a_source_gives_one_foot_and_counts_how_far_it_is(tmp_path):
+    """A sensor that is on no foot is with both."""
+    path = recorded(tmp_path / "walk.jsonl", [*PACKETS, Packet(20.0, Site.PELVIS, "cc2650/keys", b"")], {"note": "x"})
+    everything = list(read_packets(path))
+    for foot in (None, *Foot):
+        source = open_source(path, foot)
+        assert (source.header["note"], source.total, source.done) == ("x", path.stat().st_size, 0)
+        expected = [p for p in everything if foot is None or p.site.foot in (None, foot)]
+        assert list(source) == expected != [] and source.done == source.total
+        assert list(source) == expected and list(source.look_ahead()) == everything, "a file is read again"
+    (tmp_path / "right").mkdir()
+    with pytest.raises(RecordingError, match="walk.jsonl: holds no packets of the left foot"):
+        list(
+            open_source(
+                recorded(tmp_path / "right" / "walk.jsonl", [Packet(1.0, Site.RIGHT_FOOT, "x", b"")]), Foot.LEFT
+            )
+        )
+    reports = []
+    assert list(open_source(recorded(tmp_path / "none.jsonl", []), report=reports.append)) == []
+    assert reports == [f"{tmp_path / 'none.jsonl'}: holds no packets"]
+
+
+def test_a_source_of_samples_counts_them_and_has_a_title(tmp_path):
+    names = ["left.csv", "right.csv", *(f"{'long' * 9}{k}_left.csv" for k in range(3))]
+    files = []
+    for name in names:
+        files += [tmp_path / name]
+        files[-1].write_text("t,acc_x,acc_y,acc_z\n0,0,0,9.8\n0.01,0,0,9.8\n")
+    source = open_source(files[:2])
+    assert (source.name, source.total, len(list(source)), source.done) == ("left.csv, right.csv", 4, 4, 4)
+    shifted = open_source(files[:2])
+    shifted.clock_offset = -0.005
+    assert [(s.t, s.site.foot) for s in shifted] == [
+        (-0.005, Foot.RIGHT), (0.0, Foot.LEFT), (0.005, Foot.RIGHT), (0.01, Foot.LEFT)
+    ]  # fmt: skip
+    assert label_files(files[2:]) == f"{names[2]} and 2 more"
+    assert label_files([Path("a/x.csv"), Path("b/x.csv")]) == "a/x.csv, b/x.csv"
+    assert label_files([Path("y" * 99)]) == "y" * 99
+
+
+def test_a_folder_names_the_recordings_in_it(tmp_path):
+    for name in ("d.csv", "b.jsonl", "a.txt", "c.NPZ", "z.pdf"):
+        (tmp_path / name).touch()
+    assert read_until_damage(tmp_path)[1].endswith(
+        "is a folder, not a recording; it has a.txt, b.jsonl, c.NPZ and others"
+    )
+    (tmp_path / "d.csv").unlink()
+    assert read_until_damage(tmp_path)[1].endswith("it has a.txt, b.jsonl, c.NPZ")
