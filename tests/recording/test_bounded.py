@@ -15,8 +15,6 @@ import numpy as np
 import pytest
 from recordings import PACKETS, recorded
 
-from solepath.calibration import Calibration
-from solepath.calibration.file import read_calibration, write_calibration
 from solepath.recording import RecordingError, open_source, read_packets, read_samples
 from solepath.recording.samples import npz, numbers, sheet
 
@@ -172,24 +170,3 @@ def test_a_pipe_of_packets_is_opened_once_and_can_be_read_ahead(tmp_path: Path) 
     assert source.header["note"] == "x"
     assert next(source.look_ahead()) == PACKETS[0]
     assert list(source) == PACKETS == list(read_packets(path))
-
-
-FULL_DISK = """
-import resource, sys
-from solepath.calibration import Calibration, InsoleCalibration
-from solepath.calibration.file import write_calibration
-from solepath.types import Foot
-resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
-try:
-    write_calibration(sys.argv[1], Calibration(insoles={Foot.LEFT: InsoleCalibration(noise=(0.5,) * 1000)}))
-except OSError as error:
-    print(error.filename, error.strerror)
-"""
-
-
-def test_a_calibration_that_cannot_be_written_whole_leaves_the_earlier_one(tmp_path: Path) -> None:
-    path = tmp_path / "me.json"
-    write_calibration(path, Calibration(weight=700.0))
-    done = subprocess.run([sys.executable, "-c", FULL_DISK, path], capture_output=True, text=True, check=True)
-    assert done.stdout == f"{path} File too large\n"
-    assert read_calibration(path) == Calibration(weight=700.0) and list(tmp_path.iterdir()) == [path]

@@ -1,8 +1,7 @@
-"""Values of btsnoop logs compared with tshark and bumble, for all ways to discover, read, write and notify them."""
+"""Values of btsnoop logs compared with tshark, for all ways to discover, read, write and notify them."""
 
 from __future__ import annotations
 
-import asyncio
 import shutil
 import struct
 import subprocess
@@ -20,7 +19,6 @@ from snooped import (
     LEFT,
     MONITOR,
     MOVEMENT,
-    OTHER,
     RIGHT,
     Log,
     data_of,
@@ -33,7 +31,6 @@ from snooped import (
 )
 
 from solepath import Site
-from solepath.recording.btsnoop import open_btsnoop
 from solepath.recording.btsnoop.att import AttOperation
 from solepath.recording.btsnoop.values import LoggedValue, ValueListener
 from solepath.types import Foot
@@ -161,83 +158,3 @@ def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
     own_values, tshark_values = notified_by_us(path), notified_by_tshark(path)
     assert len(own_values) == 2 * 60 + 2
     assert own_values == tshark_values
-
-
-async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
-    """Return the notifications that a host gets from an emulated insole over bumble; both hosts write a log."""
-    from bumble.controller import Controller
-    from bumble.core import UUID
-    from bumble.device import Device, Peer
-    from bumble.gatt import Characteristic, Service
-    from bumble.hci import Address
-    from bumble.host import Host
-    from bumble.link import LocalLink
-    from bumble.snoop import BtSnooper
-    from bumble.transport.common import AsyncPipeSink
-
-    link = LocalLink()
-    ends = []
-    with central_log.open("wb") as own_values, device_log.open("wb") as tshark_values:
-        for name, address, file in (("phone", OTHER, own_values), ("insole", LEFT, tshark_values)):
-            controller = Controller(name, link=link)
-            host = Host(controller, AsyncPipeSink(controller))
-            host.snooper = BtSnooper(file)
-            ends.append(Device(name=name, address=Address(address), host=host))
-        phone, insole = ends
-        properties = Characteristic.Properties
-        frame = Characteristic(insole_uuid(2), properties.NOTIFY, 0, b"")
-        about = Characteristic(insole_uuid(3), properties.READ, Characteristic.READABLE, info())
-        control = Characteristic(insole_uuid(4), properties.WRITE, Characteristic.WRITEABLE, b"")
-        battery = Characteristic(UUID("2a19"), properties.NOTIFY | properties.READ, Characteristic.READABLE, b"\x5a")
-        insole.add_service(Service(insole_uuid(1), [frame, about, control]))
-        insole.add_service(Service(UUID("180f"), [battery]))
-        received: list[bytes] = []
-        for end in ends:
-            await end.power_on()
-        for _ in range(2):
-            await insole.start_advertising()
-            connection = await phone.connect(LEFT)
-            peer = Peer(connection)
-            await peer.request_mtu(247)
-            await peer.discover_services()
-            await peer.discover_characteristics()
-            (there,) = peer.get_characteristics_by_uuid(frame.uuid)
-            (read,) = peer.get_characteristics_by_uuid(about.uuid)
-            (written,) = peer.get_characteristics_by_uuid(control.uuid)
-            assert await read.read_value() == info()
-            await there.subscribe(received.append)
-            await written.write_value(b"\x01", with_response=True)
-            for data in frames()[:150]:
-                await insole.notify_subscribers(frame, data)
-                await asyncio.sleep(0)
-            while len(received) % 150:
-                await asyncio.sleep(0.001)
-            await connection.disconnect()
-        for end in ends:
-            await end.power_off()
-    return received
-
-
-@pytest.fixture(scope="module")
-def bumble_logs(tmp_path_factory) -> tuple[Path, Path, list[bytes]]:
-    pytest.importorskip("bumble")
-    folder = tmp_path_factory.mktemp("bumble")
-    central, device = folder / "phone.log", folder / "insole.log"
-    received = asyncio.run(asyncio.wait_for(snooped_by_bumble(central, device), 30))
-    assert len(received) == 300
-    return central, device, received
-
-
-@pytest.mark.soak
-def test_the_log_of_the_host_that_listens_and_of_the_one_that_sends_give_the_same_packets(bumble_logs):
-    central, device, received = bumble_logs
-    transfers = []
-    for path in (central, device):
-        packets = list(open_btsnoop(path, report=pytest.fail))
-        assert {(p.device, p.site) for p in packets} == {(LEFT, Site.LEFT_FOOT)}
-        transfers.append([(p.channel, p.data) for p in packets if not p.channel.startswith("receiver/")])
-    assert transfers[0] == transfers[1]
-    assert [data for channel, data in transfers[0] if channel == "insole/frame"] == received
-    assert transfers[0][:2] == [("insole/info", info()), ("insole/control", b"\x01")], (
-        "read over several answers, written"
-    )

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 import walks
-from toys import NUMBERED
 
 from solepath import FootFlat, FootMoved, HeelOff, HeelStrike, Packet, Sample, Site, StrideTaken, ToeOff
 from solepath.events import LiveEvent
@@ -120,26 +119,6 @@ def test_the_samples_in_it_are_what_the_link_made_of_the_packets(exported, tmp_p
     assert given[name] <= {key for _, _, content in expected for key in content}
 
 
-def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silent(tmp_path):
-    """A sample that waits for a lost packet of a silent site is used when the other site's packets let time pass."""
-    packets = walks.packets()["cc2541"]
-    end = packets[len(packets) // 2].t
-    ends = {"cc2541/gyroscope": end - 0.15}  # of its last accelerations the gyroscope's part is missing
-    packets = [p for p in packets if p.site is not LEFT or p.t < ends.get(p.channel, end)]
-    decoders: dict[Site, Decoder] = {}
-    used = []
-    for packet in packets:
-        items = decoders.setdefault(packet.site, Decoder(packet.site)).feed(packet)
-        items = [i for site, d in decoders.items() if site is not packet.site for i in d.advance(packet.t)] + items
-        used += items
-    used += [item for decoder in decoders.values() for item in decoder.finish()]
-    content_by_topic = messages(write_mcap(tmp_path / "walk.mcap", packets, **START))
-    for site in decoders:
-        rows = [(fields["t"], publish) for _, publish, fields in content_by_topic[f"/{site.value}/samples"]]
-        samples = [item for item in used if isinstance(item, Sample) and item.site is site]
-        assert rows == [(s.t, TIME_AT_ZERO + round(s.known_at * 1e9)) for s in samples]
-
-
 def test_the_events_in_it_are_a_sessions(exported):
     events = walks.run_session(walks.insoles().packets, poses=True)
     as_json = [json.loads(json.dumps(e.to_dict())) for e in events if not isinstance(e, LiveEvent)]
@@ -237,20 +216,3 @@ def test_what_cannot_be_written_is_one_clear_error(tmp_path):
         pytest.skip("no /dev/full on this system")
     with pytest.raises(RecordingError, match=r"/dev/full: no space left on device; \d+ packets were taken"):
         write_mcap(Path("/dev/full"), walks.insoles().packets)
-
-
-def test_a_device_of_an_app_s_own_is_exported_with_its_samples_and_events(tmp_path) -> None:
-    def packets(first: int, last: int) -> list[Packet]:
-        fields = {"ticks": 0, "count": 1, "up": [9.80665]}
-        return [
-            Packet(1.0 + 0.01 * k, LEFT, "toy/data", NUMBERED.write("toy/data", {"number": k, **fields}))
-            for k in range(first, last)
-        ]
-
-    path = tmp_path / "own.mcap"
-    with McapWriter(path, profiles=iter([NUMBERED])) as writer:
-        for packet in [*packets(0, 50), *packets(53, 60)]:
-            writer.write(packet)
-    content_by_topic = messages(path)
-    assert len(content_by_topic["/left_foot/samples"]) == 57
-    assert "PacketsLost" in {content["event"] for _, _, content in content_by_topic["/events"]}

@@ -1,6 +1,5 @@
 """Reading of samples from .npz and .csv files, and one sentence about each thing that cannot be read."""
 
-import io
 import pickle
 from pathlib import Path
 
@@ -149,19 +148,12 @@ FAULTY = {
     "complex": (idle() | {"acc": np.full((20, 3), 1j)}, "acc: holds complex128, not numbers"),
     "no rows": ({k: v[:0] for k, v in idle().items()}, "t: holds no samples"),
     "first row not finite": (idle() | {"acc": np.full((20, 3), np.nan)}, "acc, row 0: is nan, not a finite number"),
-    "g": (idle() | {"acc": idle()["acc"] / 9.81}, "|acc| is 0.996 m/s^2, not 9.8: this looks like g"),
     "repeated": (idle() | {"t": np.repeat(idle()["t"][::2], 2)[: len(idle()["t"])]}, "is 0 s: times repeat"),
     "one time for a packet": (burst_times(10, 0.0), "bursts of about 10, one burst each 0.1 s, as with the time"),
     "packets by BLE": (burst_times(10, 1e-5), "give each sample its own time, about 0.01 s after the one before"),
-    "microseconds as seconds": (idle() | {"t": idle()["t"] * 1e-3}, "is 1e-05 s: these are not seconds"),
-    "milli-g": (idle() | {"acc": idle()["acc"] * 102.0}, "this looks like milli-g"),
-    "counts": (idle() | {"acc": idle()["acc"] * 1670.0}, "this looks like raw counts"),
     "huge": (idle() | {"acc": idle()["acc"] * 1e300}, "this looks like raw counts"),
-    "no gravity": (idle() | {"acc": idle()["acc"] * 0.0}, "gravity removed?"),
-    "deg/s": (idle() | {"gyro": np.full((20, 3), 57.3)}, "gyro: |gyro| reaches 99.2 rad/s, faster than a foot turns"),
     "gyro counts": (idle() | {"gyro": np.full((20, 3), 9000.0)}, "gyro: |gyro| reaches 1.56e+04 rad/s"),
     "milliseconds": (idle() | {"t": idle()["t"] * 1000.0}, "between samples is 10 s: this looks like milliseconds"),
-    "time stands still": (idle() | {"t": np.zeros(20)}, "t: the median time between samples is 0 s"),
 }  # fmt: skip
 
 
@@ -222,22 +214,6 @@ def test_an_archive_cut_off_is_rejected(tmp_path, share):
     data = path.read_bytes()
     path.write_bytes(data[: int(len(data) * share)])
     assert "is not a whole .npz archive" in read_until_error(path)[1]
-
-
-@settings(max_examples=50)
-@given(damage=st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 255)), min_size=1, max_size=5))
-def test_whatever_bytes_of_an_archive_are_damaged_only_recording_error_is_raised(tmp_path_factory, damage):
-    stream = io.BytesIO()
-    np.savez_compressed(stream, **idle())
-    data = bytearray(stream.getvalue())
-    for place, value in damage:
-        data[place % len(data)] = value
-    path = tmp_path_factory.mktemp("damaged") / "bad.npz"
-    path.write_bytes(data)
-    try:
-        assert len(list(read_samples(path))) <= 20
-    except RecordingError as error:
-        assert str(error).isprintable()
 
 
 @pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])

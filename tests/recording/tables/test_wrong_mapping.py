@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import run
-from exported import G, columns, write
+from exported import columns, write
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -61,17 +61,3 @@ def test_wrong_axes_are_caught_and_the_line_that_is_offered_repairs_them(
     (offer,) = re.findall(r"repair, if the gyroscope is wrong: (--columns .*)", done.stdout)
     again = run("check", path, *shlex.split(offer), "--units", UNITS)
     assert again.returncode == 0, again.stdout
-
-
-def test_a_force_without_gravity_is_caught(walker: Walker, tmp_path: Path) -> None:
-    """The force that is left is that of the acceleration in the world's frame, as a fusion of sensors gives it."""
-    moved = walker.kinematics(Foot.LEFT, np.arange(int(walker.duration * 100.0) + 1) / 100.0)
-    path = written(tmp_path / "left.csv", walker, lambda acc: moved.acceleration[: len(acc)] / G)
-    done = run("check", path, "--columns", RIGHT, "--units", UNITS)
-    assert done.returncode == 1 and "gravity" in done.stdout
-
-
-def test_a_range_that_was_assumed_wrongly_is_caught(walker: Walker, tmp_path: Path) -> None:
-    path = written(tmp_path / "left.csv", walker, lambda acc: 2.0 * acc)
-    done = run("check", path, "--columns", RIGHT, "--units", UNITS)
-    assert done.returncode == 1 and "the accelerometer reads" in done.stdout
