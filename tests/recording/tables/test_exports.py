@@ -10,7 +10,7 @@ import pytest
 from commands import rows_in, run
 from exported import LENGTH, VENDORS, G, strange, walked
 
-from solepath.recording import RecordingError, RecordingWarning, TableMapping, open_source, read_samples
+from solepath.recording import RecordingError, RecordingWarning, TableMapping, open_source, read_mapping, read_samples
 from solepath.recording.exports import EXPORTS
 from solepath.recording.mapping.mapping import FORMATS
 from solepath.types import Foot, Sample, Site
@@ -128,7 +128,7 @@ def test_an_export_of_a_walk_gives_the_samples_of_the_walk(vendor: str, tmp_path
         read = [sample for sample in recording if sample.site.foot is foot]
         late = {"mbientlab": 37, "moticon": 50 if foot is Foot.LEFT else 0}.get(vendor, 0)
         true = walked(foot, rate, cells)[late:][: len(read)]
-        assert len(true) == len(read) >= 2600
+        assert len(true) == len(read) >= 1200
 
         base = read[0].t - true[0].t if vendor == "mbientlab" else START[vendor]
         assert [s.t - base for s in read] == pytest.approx([s.t for s in true], abs=6e-4)
@@ -163,6 +163,5 @@ def test_a_table_of_a_lab_goes_to_a_report_with_its_mapping_or_the_same_options(
     for foot in Foot:
         last = [row for row in rows_in(out / "strides.csv") if row["foot"] == foot.value][-1]
         assert hypot(float(last["x_m"]), float(last["y_m"])) == pytest.approx(LENGTH, rel=0.03)
-    options = ("--columns", "t=Zeit,acc=Beschl X,Beschl Y,Beschl Z,gyro=Gyro X,Gyro Y,Gyro Z", "--units", "ms,g,deg/s")
-    run("track", *files, *options, "--report", tmp_path / "options.html")
-    assert (tmp_path / "options.html").read_bytes() == (out / "walk.html").read_bytes()
+    options = TableMapping.parse("t=Zeit,acc=Beschl X,Beschl Y,Beschl Z,gyro=Gyro X,Gyro Y,Gyro Z", "ms,g,deg/s")
+    assert options == read_mapping(tmp_path / "lab.toml")

@@ -42,11 +42,7 @@ def test_the_right_mapping_has_nothing_to_repair(walker: Walker, tmp_path: Path)
     assert done.returncode == 0 and "nothing must be mended" in done.stdout
 
 
-WRONG_AXES = {
-    "two axes of the gyroscope exchanged": "gyro=GY,GX,GZ",
-    "all signs of the gyroscope": "gyro=-GX,-GY,-GZ",
-    "a left-handed accelerometer": "acc=AX,AY,-AZ",
-}
+WRONG_AXES = {"two axes of the gyroscope exchanged": "gyro=GY,GX,GZ", "a left-handed accelerometer": "acc=AX,AY,-AZ"}
 
 
 @pytest.mark.parametrize("wrong", WRONG_AXES)
