@@ -9,8 +9,11 @@ import walks
 from snooped import (
     BATTERY,
     FRAME,
+    H1,
+    H4,
     INSOLE,
     LEFT,
+    MONITOR,
     MOVEMENT,
     OTHER,
     RIGHT,
@@ -32,9 +35,10 @@ from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
 
 
-def test_the_packets_of_a_walk_in_two_insoles_come_with_their_times(tmp_path):
+@pytest.mark.parametrize("datalink", [H4, H1, MONITOR])
+def test_the_packets_of_a_walk_in_two_insoles_come_with_their_times(tmp_path, datalink):
     """The time of the first record is 0 s; the start of the log is known to the microsecond."""
-    path = insoles_log(walks.insoles().packets).save(tmp_path / "phone.log")
+    path = insoles_log(walks.insoles().packets, Log(datalink)).save(tmp_path / "phone.log")
     log = open_btsnoop(path, report=pytest.fail)
     assert log.header == {"began": "2026-09-21T14:13:20.251000Z", "began_t": 0.0, "source": "btsnoop"}
     addresses = {Site.LEFT_FOOT: LEFT, Site.RIGHT_FOOT: RIGHT}

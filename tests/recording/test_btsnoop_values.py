@@ -12,7 +12,6 @@ import pytest
 from snooped import (
     BATTERY,
     FRAME,
-    H1,
     H4,
     INFO,
     INSOLE,
@@ -137,7 +136,7 @@ def notified_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
 
 
 @needs_tshark
-@pytest.mark.parametrize(("datalink", "piece"), [(H4, 251), (H4, 27), (H1, 251), (MONITOR, 100)])
+@pytest.mark.parametrize(("datalink", "piece"), [(H4, 27), (MONITOR, 100)])
 def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
     """Two insoles, of which one reconnects under the same handle, with ACL packets in pieces of both links."""
     log = Log(datalink, piece=piece)

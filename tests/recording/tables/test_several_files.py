@@ -80,15 +80,6 @@ def test_missing_feet_are_listed_at_once_with_unknown_columns(tmp_path: Path) ->
     for problem in unknown:
         assert problem.repair.startswith(f"this may fit: --columns {columns} ")
         assert problem.repair.endswith(" --foot left,right")
-    mapping = TableMapping.parse(columns)
-    assert len(load_samples(files, [Foot.LEFT, Foot.RIGHT], mapping=mapping).tables) == 2
-    with pytest.raises(RecordingError) as caught:
-        read_samples(files, mapping=TableMapping.parse(columns.replace("AX", "AZZ")))
-    assert len(caught.value.problems) == 4, "a wrong name, too"
-    named = [path.rename(tmp_path / name) for path, name in zip(files, ("li_links.csv", "re_rechts.csv"), strict=True)]
-    with pytest.raises(RecordingError) as caught:
-        read_samples(named)
-    assert len(caught.value.problems) == 2 and "--foot" not in str(caught.value)
 
 
 def test_a_file_that_is_given_twice_is_an_error(tmp_path: Path) -> None:
