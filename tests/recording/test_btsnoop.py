@@ -183,6 +183,62 @@ def test_an_insole_is_known_by_its_frames_without_discovery(tmp_path, payload):
     assert reports == []
 
 
+@pytest.mark.parametrize(("count", "known"), [(1, False), (2, True)])
+def test_two_frames_prove_an_insole(tmp_path, count, known):
+    log = Log()
+    for frame in (b"\xf5\x01 nothing", *frames()[:count]):
+        log.notify(0x40, 0x33, frame)
+    if known:
+        assert [data for *_, data in read(log, tmp_path)[0]] == [b"\xf5\x01 nothing", *frames()[:count]]
+    else:
+        with pytest.raises(RecordingError, match=r"2 values of connection-0x0040 .* 0x0033 \(10, \d+ bytes\)"):
+            read(log, tmp_path)
+
+
+@pytest.mark.parametrize("address", ["random", "public"])
+def test_the_log_of_a_devices_own_host_names_the_device(tmp_path, address):
+    """There the host answers, and the phone asks; the phone's own values are not the device's."""
+    log, octets = Log(H1), bytes.fromhex(LEFT.replace(":", ""))[::-1]
+    log.event(0x0E, b"\x01\x09\x10\x00" + (octets if address == "public" else bytes(6)))
+    log.event(0x0E, b"\x01\x09\x10\x01" + bytes(6))
+    log.event(0x0E, b"\x01\x0a\x10\x00" + bytes(6))
+    if address == "random":
+        log.command(0x2005, octets)
+    log.connect(0x40, OTHER)
+    first = len(log.records)
+    log.mtu(0x40, 247)
+    log.discover(0x40, INSOLE)
+    log.add_request(0x40, "1217000100", "13")
+    log.notify(0x40, FRAME, frames()[0])
+    for k, record in enumerate(log.records[first:], first):
+        log.records[k] = record[:11] + bytes([record[11] ^ 1]) + record[12:]
+    packets, reports = read(log, tmp_path)
+    assert [packet for packet in packets if not packet[2].startswith("receiver/")] == [
+        (LEFT, "left_foot", "insole/control", b"\x01\x00"), (LEFT, "left_foot", "insole/frame", frames()[0])
+    ]  # fmt: skip
+    assert reports == []
+
+
+def test_a_reset_ends_the_connections_of_its_adapter_alone(tmp_path):
+    log = Log(MONITOR)
+    for adapter, address in ((0, LEFT), (1, RIGHT)):
+        log.adapter = adapter
+        start_connection(log, 0x40, address)
+        log.notify(0x40, FRAME, frames((Site.LEFT_FOOT, Site.RIGHT_FOOT)[adapter])[0])
+    log.adapter = 0
+    log.command(0x0C03)
+    packets, reports = read(log, tmp_path)
+    assert [(device, channel) for device, _, channel, _ in packets] == [
+        (LEFT, "receiver/connected"), (LEFT, "insole/frame"), (RIGHT, "receiver/connected"), (RIGHT, "insole/frame"),
+        (LEFT, "receiver/disconnected"),
+    ]  # fmt: skip
+    assert reports == []
+    log.adapter = 2
+    for frame in frames()[:2]:
+        log.notify(0x40, FRAME, frame)
+    assert {device for device, *_ in read(log, tmp_path)[0]} == {LEFT, RIGHT, "connection-0x0040-hci2"}
+
+
 def test_unknown_attributes_may_be_named_by_the_caller(tmp_path):
     log = Log()
     for _ in range(3):

@@ -10,7 +10,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from recordings import PACKETS, recorded
 
-from solepath.recording import PacketWriter, RecordingError, open_source, read_header, read_packets, read_start_time
+from solepath.recording import (
+    LONGEST_LINE,
+    PacketWriter,
+    RecordingError,
+    open_source,
+    read_header,
+    read_packets,
+    read_start_time,
+)
+from solepath.recording.packet_writer import format_packet
 from solepath.recording.source import label_files
 from solepath.types import Foot, Packet, Site
 
@@ -56,6 +65,19 @@ def test_any_packets_survive_writing_and_reading(tmp_path_factory, times, conten
     packets = [Packet(t, *content) for t, content in zip(times, contents, strict=False)]
     path = recorded(tmp_path_factory.mktemp("recordings") / "any.jsonl", packets)
     assert list(read_packets(path)) == packets
+
+
+def test_the_longest_line_is_written_and_read_and_one_byte_more_is_not(tmp_path):
+    spare = LONGEST_LINE - len(format_packet(Packet(1.5, Site.LEFT_FOOT, "", b"")))
+    longest, longer = (Packet(1.5, Site.LEFT_FOOT, "c" * (spare + k), b"") for k in range(2))
+    path = recorded(tmp_path / "walk.jsonl", [longest])
+    assert list(read_packets(path, report=pytest.fail)) == [longest]
+    with pytest.raises(ValueError, match="a line of 65537 bytes is too long"):
+        recorded(tmp_path / "longer.jsonl", [longer])
+    path.write_bytes(path.read_bytes().replace(b'"cc', b'"ccc') + format_packet(PACKETS[0]))
+    reports = []
+    assert list(read_packets(path, report=reports.append)) == PACKETS[:1]
+    assert reports == [f"{path}: line 2: is longer than 65536 bytes; this line is left out"]
 
 
 def test_the_example_of_the_specification_is_read(tmp_path):
