@@ -5,9 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
 
 from solepath.recording import RecordingError, RecordingWarning, read_samples
 from solepath.recording.samples import load_samples
@@ -92,18 +89,6 @@ def test_a_sheet_may_put_the_foot_before_the_axis_and_number_the_axes(tmp_path):
     left, right = list(read_samples(path))[:2]
     assert left == Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.8))
     assert right == Sample(0.0, Site.RIGHT_FOOT, None, None, (1.0, 2.0))
-
-
-@settings(max_examples=15)
-@given(
-    acc=arrays(np.float64, (5, 3), elements=st.floats(5.0, 15.0)),
-    steps=st.lists(st.floats(1e-3, 0.1), min_size=5, max_size=5),
-)
-def test_a_sheet_and_an_archive_of_the_same_numbers_give_the_same_samples(tmp_path_factory, acc, steps):
-    folder = tmp_path_factory.mktemp("same")
-    columns = {"t": np.cumsum(steps), "acc": acc}
-    archive, table = write_npz(folder / "a.npz", **columns), write_csv(folder / "a.csv", columns)
-    assert list(read_samples(archive)) == list(read_samples(table))
 
 
 def test_every_recording_of_the_data_folder_is_read_to_its_end(data_dir):
