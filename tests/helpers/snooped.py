@@ -114,9 +114,9 @@ FRAME, INFO, CONTROL, BATTERY = INSOLE
 MOVEMENT = bytes(range(18))
 
 
-def insoles_log(packets: Iterable[Packet]) -> Log:
+def insoles_log(packets: Iterable[Packet], log: Log | None = None) -> Log:
     """Return a phone's log of two insoles: it finds them, reads their attributes, and receives their frames."""
-    log = Log()
+    log = Log() if log is None else log
     handles = {Site.LEFT_FOOT: 0x40, Site.RIGHT_FOOT: 0x41}
     for handle, address in zip(handles.values(), (LEFT, RIGHT), strict=True):
         log.connect(handle, address)

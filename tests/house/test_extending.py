@@ -30,11 +30,6 @@ def steps(metres: float) -> int:
     return len(Walker(Route().stand(2).walk(metres).stop(2)).truth().strides(Foot.LEFT))
 
 
-def test_there_are_four_programs_and_each_fits_a_screen() -> None:
-    programs = blocks(PAGE, "python")
-    assert len(programs) == 4 and all([len(program.splitlines()) <= 50 for program in programs])
-
-
 def test_a_detector_of_ones_own_keeps_its_promises_and_is_restored_with_the_session() -> None:
     first, last = output(DETECTOR)
     assert first == "broken promises: []"

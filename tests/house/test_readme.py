@@ -1,17 +1,13 @@
 """The README is true: its program runs, its results are printed ones, and the pages behind it leave nothing out."""
 
 import re
-import subprocess
-import sys
-from functools import cache
 from pathlib import Path
 from typing import get_args
 
 import figures
 import pytest
-from commands import solepath
-from here import ROOT
-from quoted import NUMBER, PAGES, README, below, blocks, run_page
+from commands import run
+from quoted import NUMBER, PAGES, below, run_page
 from recordings import recorded
 
 from solepath import Event
@@ -24,15 +20,6 @@ def first_cells(table: list[str]) -> list[str]:
     return [line.split("|")[1].strip() for line in table[2:]]
 
 
-@cache
-def demonstration() -> str:
-    return solepath("demo").stdout
-
-
-def test_it_is_short():
-    assert len(README.splitlines()) < 120
-
-
 def test_its_loop_gets_every_stride_of_a_walk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
@@ -42,11 +29,6 @@ def test_its_loop_gets_every_stride_of_a_walk(tmp_path, monkeypatch):
         assert out.count(f"{foot.value} stride of") == len(walk.truth.strides(foot))
         assert f"s: {foot.value} heel-strike" in out
     assert "a packet was not used: checksum" in out
-
-
-def test_the_loop_has_twelve_lines():
-    (program,) = blocks(README, "python")
-    assert len([line for line in program.splitlines() if line.strip()]) == 12
 
 
 def test_the_table_of_events_names_them_all():
@@ -66,7 +48,7 @@ def test_the_index_of_the_docs_names_every_page():
 
 
 def test_the_demonstration_is_the_one_that_the_command_gives():
-    shown, given = below("demo"), figures.compared(demonstration()).splitlines()
+    shown, given = below("demo"), figures.compared(run("demo").stdout).splitlines()
     # figures may move a little from one release to the next; what is counted and what is measured may not
     assert [NUMBER.sub("#", " ".join(line.split())) for line in shown] == [
         NUMBER.sub("#", " ".join(line.split())) for line in given
@@ -75,38 +57,11 @@ def test_the_demonstration_is_the_one_that_the_command_gives():
     assert len(counted) == 3 and counted == [line for line in given if line.startswith("strides ")]
 
 
-def short() -> list[figures.Row]:
-    return figures.in_short(*(below(mark) for mark in ("accuracy", "activities", "emulated")))
-
-
-def test_tables_that_share_figures_agree():
-    known: dict[tuple[str, str], str] = {}
-    for mark in ("accuracy", "activities", "insoles"):  # the first column of each is the recipe `default`
-        data = ""
-        for line in below(mark)[2:]:
-            first, measure, result = (cell.strip() for cell in line.split("|")[1:4])
-            data = first or data
-            assert known.setdefault((data, measure), result) == result, f"{mark}: {data}, {measure}"
-
-
-def test_the_short_table_of_accuracy_is_the_long_ones_in_short():
-    assert below("figures") == figures.lines("data", short())
-
-
 def test_its_results_are_those_of_the_long_tables():
     """How long things take is not tested; that the pages say the same twice is."""
-    assert below("results") == figures.headlines(short(), "\n".join(below("speed")))
-
-
-@pytest.mark.parametrize("name", figures.EXPERIMENTS)
-def test_the_output_of_an_experiment_has_its_place_in_the_docs(name):
-    assert below(name)[0].startswith(f"{name}: ours is emulated (")
-
-
-def test_the_quick_tests_are_all_there():
-    command = [sys.executable, "-m", "pytest", "--collect-only", "@tests/quick.txt"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    short = figures.in_short(*(below(mark) for mark in ("accuracy", "activities", "emulated")))
+    assert below("figures") == figures.lines("data", short)
+    assert below("results") == figures.headlines(short, "\n".join(below("speed")))
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import ast
 import inspect
-import pydoc
-import re
-import subprocess
-import sys
 import types
 from enum import Enum
 from importlib import import_module
@@ -23,7 +19,7 @@ from solepath.types import Packet
 
 ROOT = Path(solepath.__file__).parent
 ALIASES = {"Event", "Quat", "Vec3"}
-"""Type aliases, which Python gives no docstring; the text below them in their file documents them."""
+"""Type aliases, which Python gives no docstring."""
 
 
 def test_the_names_are_sorted_and_each_can_be_imported() -> None:
@@ -43,11 +39,6 @@ def test_each_name_is_the_one_that_type_checkers_see() -> None:
         assert getattr(solepath, name) is getattr(room, name)
 
 
-def test_packages_that_hold_public_names_need_no_import_of_their_own() -> None:
-    program = "import solepath; print(solepath.types.Foot, solepath.session.Session, solepath.events.ToeOff)"
-    subprocess.run([sys.executable, "-c", program], check=True)
-
-
 def test_nothing_else_is_public() -> None:
     modules = {path.stem for path in ROOT.iterdir() if path.suffix == ".py" or path.is_dir()}
     own = {"TYPE_CHECKING", "import_module"}
@@ -56,27 +47,6 @@ def test_nothing_else_is_public() -> None:
 
 def test_every_event_is_public() -> None:
     assert {kind.__name__ for kind in Event.__args__} <= set(solepath.__all__)
-
-
-EVENT_CLASSES = (*Event.__args__, *solepath.fleet.FleetEvent.__args__)
-
-
-def test_every_event_documents_its_latency() -> None:
-    """Each field is documented in its own class, not in the shared base class."""
-    for kind in EVENT_CLASSES:
-        assert {"known", "reported", "reports", "latency"} & set(
-            re.findall(r"[a-z]+", kind.__dict__["__doc__"].lower())
-        ), kind
-
-
-def test_every_number_of_an_event_documents_its_unit_or_count() -> None:
-    for kind in EVENT_CLASSES:
-        lines = inspect.getsource(kind).splitlines()
-        for line, after in zip(lines, [*lines[1:], ""], strict=True):
-            name, _, annotation = line.strip().partition(": ")
-            if name in {f.name for f in attrs.fields(kind)} and annotation.split(" ")[0] in ("float", "int"):
-                has_document = after.strip().startswith('"""') or f"`{name}`" in (kind.__doc__ or "")
-                assert has_document, f"{kind.__name__}.{name}"
 
 
 def documented(thing: Any) -> bool:
@@ -110,32 +80,12 @@ def test_every_public_class_method_and_property_has_a_docstring() -> None:
     assert [name for name, thing in members() if not documented(thing)] == []
 
 
-def test_every_module_documents_its_purpose() -> None:
-    trees = {path: ast.parse(path.read_text()) for path in ROOT.rglob("*.py")}
-    assert [path for path, tree in trees.items() if tree.body and not ast.get_docstring(tree)] == []
-
-
-def test_every_alias_is_followed_by_a_text() -> None:
-    has_document = set()
-    for file in ("types/records.py", "events/__init__.py"):
-        body = ast.parse((ROOT / file).read_text()).body
-        for node, after in zip(body, body[1:], strict=False):
-            if isinstance(node, ast.Assign) and isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant):
-                has_document |= {ast.unparse(target) for target in node.targets}
-    assert has_document >= ALIASES
-
-
 def test_a_session_has_the_words_that_the_design_promises() -> None:
     for name in ("feed", "advance", "finish", "position", "snapshot", "restore"):
         assert hasattr(solepath.Session, name)
     assert list(inspect.signature(Packet).parameters)[:4] == ["t", "site", "channel", "data"]
 
 
-def test_the_package_is_typed() -> None:
-    assert (ROOT / "py.typed").exists()
-
-
-def test_a_session_and_its_recipe_print_short_and_its_help_is_a_page() -> None:
+def test_a_session_and_its_recipe_print_short() -> None:
     session = solepath.Session()
     assert (repr(session), repr(session.recipe)) == ("<Session default at None s>", "<Recipe default>")
-    assert len(pydoc.plain(pydoc.render_doc(solepath.Session))) < 6400

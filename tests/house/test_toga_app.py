@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import importlib.util
-import re
 import sys
 import tomllib
 from collections.abc import AsyncIterator, Iterator
-from pathlib import Path
 from typing import Any
 
-import bleak
 import pytest
 from here import EXAMPLES, ROOT
 
@@ -89,16 +86,3 @@ def test_briefcase_packs_the_app_the_library_and_all_that_bluetooth_needs() -> N
     assert sources == [PATH.parent, ROOT / "src" / "solepath"]
     (toga,) = BRIEFCASE["android"]["requires"]
     assert toga.replace("android", "core") in project["optional-dependencies"]["test"]
-
-
-def test_briefcase_declares_what_bleaks_android_backend_needs() -> None:
-    backend = Path(bleak.__file__).parent / "backends" / "android"
-    proxies = {path.stem for path in backend.glob("*.py") if "(static_proxy(" in path.read_text()}
-    assert proxies and proxies == set(
-        re.findall(r"'bleak\.backends\.android\.(\w+)'", BRIEFCASE["android"]["build_gradle_extra_content"])
-    )
-    # Briefcase makes of it BLUETOOTH_CONNECT, and BLUETOOTH_SCAN with neverForLocation where no location is declared
-    assert BRIEFCASE["permission"].keys() == {"bluetooth"}
-    assert {name.removeprefix("android.permission.") for name in BRIEFCASE["android"]["permission"]} == {
-        "WAKE_LOCK", "FOREGROUND_SERVICE", "FOREGROUND_SERVICE_CONNECTED_DEVICE", "POST_NOTIFICATIONS"
-    }  # fmt: skip

@@ -9,7 +9,12 @@ import numpy as np
 import pytest
 from recordings import PACKETS, recorded
 
-from solepath.recording import RecordingError, read_packets, read_samples
+from solepath.recording import (
+    RecordingError,
+    bad_rows,  # its limits are those of megabytes
+    read_packets,
+    read_samples,
+)
 from solepath.recording.bad_rows import MAX_SKIPPED
 from solepath.types import Packet, Sample
 
@@ -52,6 +57,7 @@ def samples_of(path: Path) -> tuple[list[Sample], list[str]]:
         (line_of(site="hand"), '"site" is not one of left_foot'),
         (line_of(site=["left_foot"]), '"site" is not one of left_foot'),
         (line_of(channel=7), '"channel" is not text but 7'),
+        (line_of(channel=["a" * 60]), f'"channel" is not text but ["{"a" * 35}...;'),
         (line_of(data="f5 0"), '"data" is not pairs of hexadecimal digits but "f5 0"'),
         (line_of(data="f5f"), '"data" is not pairs'),
         (line_of(data=None), '"data" is not pairs'),
@@ -94,10 +100,21 @@ def test_a_recording_with_more_damaged_lines_than_whole_ones_is_rejected(tmp_pat
         packets_of(path)
 
 
-def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path) -> None:
+def test_a_recording_with_as_many_damaged_lines_as_whole_ones_is_read(tmp_path: Path) -> None:
     path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + "?\n" * 200_000)
-    with pytest.raises(RecordingError, match="100001 of 100001 lines cannot be used"):
+    path.write_text(HEADER + "?\n" * 3 + line_of() * 3)
+    packets, reports = packets_of(path)
+    assert len(packets) == 3 and len(reports) == 3
+    path.write_text(HEADER + "?\n" * 4 + line_of() * 4)
+    packets, reports = packets_of(path)
+    assert len(packets) == 4 and reports[3:] == ["4 of 8 lines are left out"]
+
+
+def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "walk.jsonl"
+    path.write_text(HEADER + line_of() + "?\n" * 2000)
+    monkeypatch.setattr(bad_rows, "MAX_EXCESS", 1000)
+    with pytest.raises(RecordingError, match="line 3: is not JSON; 1002 of 1003 lines cannot be used"):
         packets_of(path)
 
 

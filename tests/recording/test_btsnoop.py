@@ -9,53 +9,51 @@ import walks
 from snooped import (
     BATTERY,
     FRAME,
-    INFO,
+    H1,
+    H4,
     INSOLE,
     LEFT,
+    MONITOR,
     MOVEMENT,
     OTHER,
     RIGHT,
-    T_START,
     TAG,
     Log,
     data_of,
     frames,
     full,
+    insoles_log,
     read,
     start_connection,
 )
 
-from solepath import PacketRejected, Sample, Session, Site
-from solepath.events import StrideTaken
+from solepath import Packet, PacketRejected, Sample, Session, Site
 from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
 from solepath.recording.btsnoop import open_btsnoop
-from solepath.types import Foot
 from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
 
 
-def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path):
-    walk = walks.insoles()
-    log = Log()
-    handles = {Site.LEFT_FOOT: 0x40, Site.RIGHT_FOOT: 0x41}
-    start_connection(log, 0x40, LEFT)
-    start_connection(log, 0x41, RIGHT)
-    for packet in walk.packets:
-        if packet.channel == "insole/frame":
-            log.notify(handles[packet.site], FRAME, packet.data, t=T_START + 1_000_000 + round(packet.t * 1e6))
-        elif packet.channel == "insole/info":
-            log.add_request(handles[packet.site], "0a1500", b"\x0b" + packet.data[:246])
-            for offset in range(246, len(packet.data) + 1, 246):
-                blob = struct.pack("<BHH", 0x0C, INFO, offset).hex()
-                log.add_request(handles[packet.site], blob, b"\x0d" + packet.data[offset : offset + 246])
-    path = log.save(tmp_path / "phone.log")
-
-    def stride_values(packets) -> list[tuple[Foot, int, float]]:
-        strides = walks.of(StrideTaken, walks.run_session(packets))
-        return [(stride.foot, stride.number, round(stride.length, 2)) for stride in strides]
-
-    assert stride_values(open_btsnoop(path, report=pytest.fail)) == stride_values(walk.packets) != []
+@pytest.mark.parametrize("datalink", [H4, H1, MONITOR])
+def test_the_packets_of_a_walk_in_two_insoles_come_with_their_times(tmp_path, datalink):
+    """The time of the first record is 0 s; the start of the log is known to the microsecond."""
+    path = insoles_log(walks.insoles().packets, Log(datalink)).save(tmp_path / "phone.log")
+    log = open_btsnoop(path, report=pytest.fail)
+    assert log.header == {"began": "2026-09-21T14:13:20.251000Z", "began_t": 0.0, "source": "btsnoop"}
+    addresses = {Site.LEFT_FOOT: LEFT, Site.RIGHT_FOOT: RIGHT}
+    connected, frames_sent = [], []
+    for packet in log:
+        (connected if packet.channel == "receiver/connected" else frames_sent).append(packet)
+    assert [(p.t, p.site, p.device) for p in connected] == [
+        (0.0, Site.LEFT_FOOT, LEFT), (connected[1].t, Site.RIGHT_FOOT, RIGHT)
+    ]  # fmt: skip
+    assert frames_sent == [
+        Packet((999_000 + round(p.t * 1e6)) / 1e6, p.site, p.channel, p.data, addresses[p.site])
+        for p in walks.insoles().packets
+        if p.channel == "insole/frame"
+    ]
+    assert log.done == log.total == path.stat().st_size
 
 
 def test_an_insole_reports_its_own_foot_unless_the_caller_names_it(tmp_path):
@@ -183,6 +181,62 @@ def test_an_insole_is_known_by_its_frames_without_discovery(tmp_path, payload):
     }
     assert len(packets) == sum(len(split(frame, payload, 0)) for frame in frames()[:40])
     assert reports == []
+
+
+@pytest.mark.parametrize(("count", "known"), [(1, False), (2, True)])
+def test_two_frames_prove_an_insole(tmp_path, count, known):
+    log = Log()
+    for frame in (b"\xf5\x01 nothing", *frames()[:count]):
+        log.notify(0x40, 0x33, frame)
+    if known:
+        assert [data for *_, data in read(log, tmp_path)[0]] == [b"\xf5\x01 nothing", *frames()[:count]]
+    else:
+        with pytest.raises(RecordingError, match=r"2 values of connection-0x0040 .* 0x0033 \(10, \d+ bytes\)"):
+            read(log, tmp_path)
+
+
+@pytest.mark.parametrize("address", ["random", "public"])
+def test_the_log_of_a_devices_own_host_names_the_device(tmp_path, address):
+    """There the host answers, and the phone asks; the phone's own values are not the device's."""
+    log, octets = Log(H1), bytes.fromhex(LEFT.replace(":", ""))[::-1]
+    log.event(0x0E, b"\x01\x09\x10\x00" + (octets if address == "public" else bytes(6)))
+    log.event(0x0E, b"\x01\x09\x10\x01" + bytes(6))
+    log.event(0x0E, b"\x01\x0a\x10\x00" + bytes(6))
+    if address == "random":
+        log.command(0x2005, octets)
+    log.connect(0x40, OTHER)
+    first = len(log.records)
+    log.mtu(0x40, 247)
+    log.discover(0x40, INSOLE)
+    log.add_request(0x40, "1217000100", "13")
+    log.notify(0x40, FRAME, frames()[0])
+    for k, record in enumerate(log.records[first:], first):
+        log.records[k] = record[:11] + bytes([record[11] ^ 1]) + record[12:]
+    packets, reports = read(log, tmp_path)
+    assert [packet for packet in packets if not packet[2].startswith("receiver/")] == [
+        (LEFT, "left_foot", "insole/control", b"\x01\x00"), (LEFT, "left_foot", "insole/frame", frames()[0])
+    ]  # fmt: skip
+    assert reports == []
+
+
+def test_a_reset_ends_the_connections_of_its_adapter_alone(tmp_path):
+    log = Log(MONITOR)
+    for adapter, address in ((0, LEFT), (1, RIGHT)):
+        log.adapter = adapter
+        start_connection(log, 0x40, address)
+        log.notify(0x40, FRAME, frames((Site.LEFT_FOOT, Site.RIGHT_FOOT)[adapter])[0])
+    log.adapter = 0
+    log.command(0x0C03)
+    packets, reports = read(log, tmp_path)
+    assert [(device, channel) for device, _, channel, _ in packets] == [
+        (LEFT, "receiver/connected"), (LEFT, "insole/frame"), (RIGHT, "receiver/connected"), (RIGHT, "insole/frame"),
+        (LEFT, "receiver/disconnected"),
+    ]  # fmt: skip
+    assert reports == []
+    log.adapter = 2
+    for frame in frames()[:2]:
+        log.notify(0x40, FRAME, frame)
+    assert {device for device, *_ in read(log, tmp_path)[0]} == {LEFT, RIGHT, "connection-0x0040-hci2"}
 
 
 def test_unknown_attributes_may_be_named_by_the_caller(tmp_path):

@@ -1,8 +1,7 @@
-"""Values of btsnoop logs compared with tshark and bumble, for all ways to discover, read, write and notify them."""
+"""Values of btsnoop logs compared with tshark, for all ways to discover, read, write and notify them."""
 
 from __future__ import annotations
 
-import asyncio
 import shutil
 import struct
 import subprocess
@@ -13,14 +12,12 @@ import pytest
 from snooped import (
     BATTERY,
     FRAME,
-    H1,
     H4,
     INFO,
     INSOLE,
     LEFT,
     MONITOR,
     MOVEMENT,
-    OTHER,
     RIGHT,
     Log,
     data_of,
@@ -33,7 +30,6 @@ from snooped import (
 )
 
 from solepath import Site
-from solepath.recording.btsnoop import open_btsnoop
 from solepath.recording.btsnoop.att import AttOperation
 from solepath.recording.btsnoop.values import LoggedValue, ValueListener
 from solepath.types import Foot
@@ -140,7 +136,7 @@ def notified_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
 
 
 @needs_tshark
-@pytest.mark.parametrize(("datalink", "piece"), [(H4, 251), (H4, 27), (H1, 251), (MONITOR, 100)])
+@pytest.mark.parametrize(("datalink", "piece"), [(H4, 27), (MONITOR, 100)])
 def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
     """Two insoles, of which one reconnects under the same handle, with ACL packets in pieces of both links."""
     log = Log(datalink, piece=piece)
@@ -148,8 +144,8 @@ def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
     log.connect(0x41, RIGHT, subevent=0x0A)
     log.mtu(0x41, 247)
     log.discover(0x41, INSOLE)
-    for k, (left, right) in enumerate(zip(frames(), frames(Site.RIGHT_FOOT), strict=False)):
-        if k == 200:
+    for k, (left, right) in enumerate(zip(frames()[:60], frames(Site.RIGHT_FOOT), strict=False)):
+        if k == 20:
             log.disconnect(0x40)
             log.connect(0x40, LEFT)
             log.mtu(0x40, 247)
@@ -159,135 +155,5 @@ def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
             log.notify(0x40, BATTERY, bytes([k % 101]))
     path = log.save(tmp_path / "phone.log")
     own_values, tshark_values = notified_by_us(path), notified_by_tshark(path)
-    assert len(own_values) > 1200
+    assert len(own_values) == 2 * 60 + 2
     assert own_values == tshark_values
-
-
-def values_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
-    """Return (operation, attribute handle, value) of every value that was read, or written and accepted.
-
-    tshark gives handle, offset and value of each PDU, so parts of a value are joined by their offsets."""
-    fields = ("opcode", "handle", "value", "offset", "battery_level", "firmware_revision_string")
-    fields += ("characteristic_configuration_client",)
-    display_filter = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
-    transfers: list[tuple[AttOperation, int, bytes]] = []
-    offset, pending = 0, b""
-    for row in tshark(path, display_filter, [f"btatt.{name}" for name in fields]):
-        opcode, attribute, plain, at, battery, firmware, client = row
-        data = bytes.fromhex(plain) + firmware.encode()
-        data += bytes([int(battery)]) if battery else struct.pack("<H", int(client, 16)) if client else b""
-        handle = int(attribute, 16)
-        match int(opcode, 16):
-            case 0x0B:
-                transfers.append((AttOperation.READ, handle, data))
-            case 0x0C:
-                offset = int(at)
-            case 0x0D:
-                operation, of, partial = transfers.pop()
-                assert (operation, of, len(partial)) == (AttOperation.READ, handle, offset)
-                transfers.append((operation, of, partial + data))
-            case 0x12:
-                pending = data
-            case 0x13:
-                transfers.append((AttOperation.WRITTEN, handle, pending))
-            case 0x52:
-                transfers.append((AttOperation.WRITTEN, handle, data))
-    return transfers
-
-
-def values_by_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
-    values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, LoggedValue)]
-    return [
-        (value.att_value.operation, value.att_value.handle, value.att_value.value)
-        for value in values
-        if value.att_value.operation is not AttOperation.NOTIFIED
-    ]
-
-
-async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
-    """Return the notifications that a host gets from an emulated insole over bumble; both hosts write a log."""
-    from bumble.controller import Controller
-    from bumble.core import UUID
-    from bumble.device import Device, Peer
-    from bumble.gatt import Characteristic, Service
-    from bumble.hci import Address
-    from bumble.host import Host
-    from bumble.link import LocalLink
-    from bumble.snoop import BtSnooper
-    from bumble.transport.common import AsyncPipeSink
-
-    link = LocalLink()
-    ends = []
-    with central_log.open("wb") as own_values, device_log.open("wb") as tshark_values:
-        for name, address, file in (("phone", OTHER, own_values), ("insole", LEFT, tshark_values)):
-            controller = Controller(name, link=link)
-            host = Host(controller, AsyncPipeSink(controller))
-            host.snooper = BtSnooper(file)
-            ends.append(Device(name=name, address=Address(address), host=host))
-        phone, insole = ends
-        properties = Characteristic.Properties
-        frame = Characteristic(insole_uuid(2), properties.NOTIFY, 0, b"")
-        about = Characteristic(insole_uuid(3), properties.READ, Characteristic.READABLE, info())
-        control = Characteristic(insole_uuid(4), properties.WRITE, Characteristic.WRITEABLE, b"")
-        battery = Characteristic(UUID("2a19"), properties.NOTIFY | properties.READ, Characteristic.READABLE, b"\x5a")
-        insole.add_service(Service(insole_uuid(1), [frame, about, control]))
-        insole.add_service(Service(UUID("180f"), [battery]))
-        received: list[bytes] = []
-        for end in ends:
-            await end.power_on()
-        for _ in range(2):
-            await insole.start_advertising()
-            connection = await phone.connect(LEFT)
-            peer = Peer(connection)
-            await peer.request_mtu(247)
-            await peer.discover_services()
-            await peer.discover_characteristics()
-            (there,) = peer.get_characteristics_by_uuid(frame.uuid)
-            (read,) = peer.get_characteristics_by_uuid(about.uuid)
-            (written,) = peer.get_characteristics_by_uuid(control.uuid)
-            assert await read.read_value() == info()
-            await there.subscribe(received.append)
-            await written.write_value(b"\x01", with_response=True)
-            for data in frames()[:150]:
-                await insole.notify_subscribers(frame, data)
-                await asyncio.sleep(0)
-            while len(received) % 150:
-                await asyncio.sleep(0.001)
-            await connection.disconnect()
-        for end in ends:
-            await end.power_off()
-    return received
-
-
-@pytest.fixture(scope="module")
-def bumble_logs(tmp_path_factory) -> tuple[Path, Path, list[bytes]]:
-    pytest.importorskip("bumble")
-    folder = tmp_path_factory.mktemp("bumble")
-    central, device = folder / "phone.log", folder / "insole.log"
-    received = asyncio.run(asyncio.wait_for(snooped_by_bumble(central, device), 30))
-    assert len(received) == 300
-    return central, device, received
-
-
-@needs_tshark
-def test_every_value_of_a_hosts_real_traffic_agrees_with_tshark(bumble_logs):
-    for path in bumble_logs[:2]:
-        own_values = notified_by_us(path)
-        assert len(own_values) == 300 and own_values == notified_by_tshark(path)
-        transfers = values_by_us(path)
-        assert (AttOperation.READ, info()) in [(operation, data) for operation, _, data in transfers]
-        assert transfers == values_by_tshark(path)
-
-
-def test_the_log_of_the_host_that_listens_and_of_the_one_that_sends_give_the_same_packets(bumble_logs):
-    central, device, received = bumble_logs
-    transfers = []
-    for path in (central, device):
-        packets = list(open_btsnoop(path, report=pytest.fail))
-        assert {(p.device, p.site) for p in packets} == {(LEFT, Site.LEFT_FOOT)}
-        transfers.append([(p.channel, p.data) for p in packets if not p.channel.startswith("receiver/")])
-    assert transfers[0] == transfers[1]
-    assert [data for channel, data in transfers[0] if channel == "insole/frame"] == received
-    assert transfers[0][:2] == [("insole/info", info()), ("insole/control", b"\x01")], (
-        "read over several answers, written"
-    )

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
-from statistics import fmean
 
 import numpy as np
 import pytest
@@ -15,7 +14,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from walks import LEFT, RIGHT, samples
 
-from solepath import GaitCycleMeasured, Session
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -105,21 +103,6 @@ def test_feet_that_stand_still_in_a_short_recording_show_no_offset(tmp_path: Pat
         shared_offset(load_samples(write(tmp_path / "few.npz", 0.12, 1.0, 1.1)), 1.0, 1.5)
 
 
-@pytest.mark.parametrize("delay", [0.12, -0.5])
-def test_step_time_and_double_support_are_right_to_10_ms_once_a_ride_in_a_lift_has_shown_the_offset(
-    tmp_path: Path, delay: float
-) -> None:
-    def times(recording: Iterable[Packet | Sample]) -> list[float]:
-        cycles = [one for one in Session().feed(recording) if isinstance(one, GaitCycleMeasured) and one.steady]
-        names = ("step_time", "initial_double_support", "terminal_double_support")
-        return [fmean(getattr(one, name) for one in cycles if one.foot is foot) for foot in Foot for name in names]
-
-    true = times(load_samples(write(tmp_path / "true.npz", 0.0)))
-    damaged = load_samples(write(tmp_path / "damaged.npz", delay))
-    offset, _ = shared_offset(damaged, 2.0, 10.0)
-    assert times(shift_clock(damaged, offset)) == pytest.approx(true, abs=0.01)
-
-
 def test_walking_shows_no_offset_for_half_a_cycle_makes_the_feet_alike(tmp_path: Path) -> None:
     recording = load_samples(write(tmp_path / "walk.npz", 0.1))
     end = float(ride()["t_left"][-1])
@@ -131,11 +114,8 @@ def test_walking_shows_no_offset_for_half_a_cycle_makes_the_feet_alike(tmp_path:
 
 def test_track_undoes_the_offset_on_request_only(tmp_path: Path) -> None:
     path = write(tmp_path / "ride.npz", 0.12)
-    assert "left out" in run("track", path).stdout
-    for option, value in (("--clock-offset", "-0.12"), ("--shared-event", "2,10")):
-        process = run("track", path, option, value)
-        assert process.returncode == 0 and "step time" in process.stdout
-        assert "left out" not in process.stdout
+    process = run("track", path, "--shared-event", "2,10")
+    assert process.returncode == 0 and "step time" in process.stdout and "left out" not in process.stdout
     assert "-120 ms" in process.stderr or "-119 ms" in process.stderr or "-121 ms" in process.stderr
     assert "is not START,END" in run_failing("track", path, "--shared-event", "10")
     assert "-3600 to 3600" in run("track", path, "--clock-offset", "nan").stderr

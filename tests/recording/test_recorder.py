@@ -2,7 +2,6 @@
 
 import asyncio
 import os
-import signal
 import subprocess
 import sys
 from datetime import UTC, datetime
@@ -12,42 +11,6 @@ from recordings import PACKETS, recorded
 
 from solepath.recording import PacketWriter, RecordingError, read_header, read_packets, read_start_time
 from solepath.types import Packet
-
-LIVE_RECORDER = """
-import os, sys, time
-from solepath.recording import PacketWriter
-from solepath.types import Packet, Site
-began = time.monotonic()
-with PacketWriter(sys.argv[1]) as writer:
-    for k in range(100_000):
-        time.sleep(max(0.0, began + k / 200 - time.monotonic()))
-        os.write(1, b"?")  # arrived
-        writer.write(Packet(k / 200, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]) * 177))
-        os.write(1, b"!")  # written
-"""
-
-
-def test_a_recorder_killed_in_mid_walk_loses_at_most_the_packet_in_its_hand(tmp_path):
-    """Two insoles at 100 Hz in real time: one packet is 5 ms, and a loss of 200 ms is allowed."""
-    path = tmp_path / "walk.jsonl"
-    recorder = subprocess.Popen([sys.executable, "-c", LIVE_RECORDER, str(path)], stdout=subprocess.PIPE)
-    try:
-        assert recorder.stdout is not None
-        output = b""
-        while output.count(b"!") < 300 and (more := recorder.stdout.read1()):
-            output += more
-        recorder.send_signal(signal.SIGKILL)
-        output += recorder.stdout.read()
-    finally:
-        recorder.kill()
-        assert recorder.wait() == -signal.SIGKILL
-        recorder.stdout.close()
-    flaws = []
-    packets = list(read_packets(path, report=flaws.append))
-    assert 300 <= output.count(b"!") <= len(packets) <= output.count(b"?") and len(flaws) <= 1
-    assert [packet.data[0] for packet in packets] == [k % 256 for k in range(len(packets))], "none is missing within"
-    assert output.count(b"?") / 200 - packets[-1].t < 0.2
-
 
 FULL_DISK_RECORDER = """
 import resource, sys
@@ -69,7 +32,7 @@ print(writer.count)
 """
 
 
-@pytest.mark.parametrize("limit", [4096, 4097, 4150, 5000])
+@pytest.mark.parametrize("limit", [4097, 5000])
 def test_a_file_that_may_not_grow_ends_with_its_last_whole_packet_and_the_error_counts_them(tmp_path, limit):
     """The kernel writes the part of the line that fits and then fails, as on a full disk."""
     path = tmp_path / "walk.jsonl"

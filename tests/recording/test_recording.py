@@ -5,14 +5,23 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
-import walks
 from here import PROTOCOL
 from hypothesis import given
 from hypothesis import strategies as st
 from recordings import PACKETS, recorded
 
-from solepath.recording import PacketWriter, RecordingError, read_header, read_packets, read_start_time
-from solepath.types import Packet, Site
+from solepath.recording import (
+    LONGEST_LINE,
+    PacketWriter,
+    RecordingError,
+    open_source,
+    read_header,
+    read_packets,
+    read_start_time,
+)
+from solepath.recording.packet_writer import format_packet
+from solepath.recording.source import label_files
+from solepath.types import Foot, Packet, Site
 
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
 
@@ -56,6 +65,19 @@ def test_any_packets_survive_writing_and_reading(tmp_path_factory, times, conten
     packets = [Packet(t, *content) for t, content in zip(times, contents, strict=False)]
     path = recorded(tmp_path_factory.mktemp("recordings") / "any.jsonl", packets)
     assert list(read_packets(path)) == packets
+
+
+def test_the_longest_line_is_written_and_read_and_one_byte_more_is_not(tmp_path):
+    spare = LONGEST_LINE - len(format_packet(Packet(1.5, Site.LEFT_FOOT, "", b"")))
+    longest, longer = (Packet(1.5, Site.LEFT_FOOT, "c" * (spare + k), b"") for k in range(2))
+    path = recorded(tmp_path / "walk.jsonl", [longest])
+    assert list(read_packets(path, report=pytest.fail)) == [longest]
+    with pytest.raises(ValueError, match="a line of 65537 bytes is too long"):
+        recorded(tmp_path / "longer.jsonl", [longer])
+    path.write_bytes(path.read_bytes().replace(b'"cc', b'"ccc') + format_packet(PACKETS[0]))
+    reports = []
+    assert list(read_packets(path, report=reports.append)) == PACKETS[:1]
+    assert reports == [f"{path}: line 2: is longer than 65536 bytes; this line is left out"]
 
 
 def test_the_example_of_the_specification_is_read(tmp_path):
@@ -127,11 +149,6 @@ def test_a_missing_file_and_a_directory_are_named(tmp_path):
     assert read_until_damage(tmp_path)[1].endswith("is a folder, not a recording")
 
 
-def test_a_receivers_clock_that_was_set_back_is_left_to_the_decoder(tmp_path):
-    path = recording_file(tmp_path, HEADER + line_of(t=9.0) + line_of(t=0.5))
-    assert [packet.t for packet in read_packets(path)] == [9.0, 0.5]
-
-
 def test_progress_ends_at_the_size_of_the_file(tmp_path):
     path = recorded(tmp_path / "walk.jsonl", PACKETS)
     read = []
@@ -153,29 +170,51 @@ def test_packets_that_no_recording_can_hold_are_rejected_and_leave_it_whole(tmp_
     assert list(read_packets(path)) == PACKETS[:2]
 
 
-def test_a_device_that_nobody_knows_is_not_written(tmp_path):
-    named = Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"", "C3:9F:02:5E:71:AA")
-    path = recorded(tmp_path / "walk.jsonl", [PACKETS[0], named])
-    first, second = (json.loads(line) for line in path.read_text().splitlines()[1:])
-    assert "device" not in first and second["device"] == "C3:9F:02:5E:71:AA"
+def test_a_source_gives_one_foot_and_counts_how_far_it_is(tmp_path):
+    """A sensor that is on no foot is with both."""
+    path = recorded(tmp_path / "walk.jsonl", [*PACKETS, Packet(20.0, Site.PELVIS, "cc2650/keys", b"")], {"note": "x"})
+    everything = list(read_packets(path))
+    for foot in (None, *Foot):
+        source = open_source(path, foot)
+        assert (source.header["note"], source.total, source.done) == ("x", path.stat().st_size, 0)
+        expected = [p for p in everything if foot is None or p.site.foot in (None, foot)]
+        assert list(source) == expected != [] and source.done == source.total
+        assert list(source) == expected and list(source.look_ahead()) == everything, "a file is read again"
+    (tmp_path / "right").mkdir()
+    with pytest.raises(RecordingError, match="walk.jsonl: holds no packets of the left foot"):
+        list(
+            open_source(
+                recorded(tmp_path / "right" / "walk.jsonl", [Packet(1.0, Site.RIGHT_FOOT, "x", b"")]), Foot.LEFT
+            )
+        )
+    reports = []
+    assert list(open_source(recorded(tmp_path / "none.jsonl", []), report=reports.append)) == []
+    assert reports == [f"{tmp_path / 'none.jsonl'}: holds no packets"]
 
 
-@pytest.mark.parametrize("name", walks.DEVICES)
-def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
-    """The packets are of both feet, with losses, duplicates, damaged packets and packets of the receiver."""
-    packets = [Packet(p.t, p.site, p.channel, p.data, f"F0:{p.site.value}") for p in walks.packets()[name]]
-    end = packets[-1].t
-    packets[40:40] = [
-        Packet(packets[40].t, Site.LEFT_FOOT, "receiver/connected", b"\xc4solepath L", "F0:left_foot"),
-        Packet(packets[40].t, Site.RIGHT_FOOT, "receiver/dropped", b"\x03\0\0\0"),
-    ]
-    packets += [Packet(end + 0.1 * k, Site.LEFT_FOOT, "receiver/tick", b"") for k in range(30)]
+def test_a_source_of_samples_counts_them_and_has_a_title(tmp_path):
+    names = ["left.csv", "right.csv", *(f"{'long' * 9}{k}_left.csv" for k in range(3))]
+    files = []
+    for name in names:
+        files += [tmp_path / name]
+        files[-1].write_text("t,acc_x,acc_y,acc_z\n0,0,0,9.8\n0.01,0,0,9.8\n")
+    source = open_source(files[:2])
+    assert (source.name, source.total, len(list(source)), source.done) == ("left.csv, right.csv", 4, 4, 4)
+    shifted = open_source(files[:2])
+    shifted.clock_offset = -0.005
+    assert [(s.t, s.site.foot) for s in shifted] == [
+        (-0.005, Foot.RIGHT), (0.0, Foot.LEFT), (0.005, Foot.RIGHT), (0.01, Foot.LEFT)
+    ]  # fmt: skip
+    assert label_files(files[2:]) == f"{names[2]} and 2 more"
+    assert label_files([Path("a/x.csv"), Path("b/x.csv")]) == "a/x.csv, b/x.csv"
+    assert label_files([Path("y" * 99)]) == "y" * 99
 
-    def events(stream) -> list[str]:
-        return [
-            repr(event) for event in walks.run_session(stream, poses=True)
-        ]  # repr tells every bit of a float, and -0.0 from 0.0
 
-    replayed = events(read_packets(recorded(tmp_path / "walk.jsonl", packets)))
-    assert replayed == events(packets)
-    assert sum(line.startswith(("Connected", "StreamStale")) for line in replayed) >= 2
+def test_a_folder_names_the_recordings_in_it(tmp_path):
+    for name in ("d.csv", "b.jsonl", "a.txt", "c.NPZ", "z.pdf"):
+        (tmp_path / name).touch()
+    assert read_until_damage(tmp_path)[1].endswith(
+        "is a folder, not a recording; it has a.txt, b.jsonl, c.NPZ and others"
+    )
+    (tmp_path / "d.csv").unlink()
+    assert read_until_damage(tmp_path)[1].endswith("it has a.txt, b.jsonl, c.NPZ")

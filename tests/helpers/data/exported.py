@@ -15,7 +15,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot, Sample
 
 G = 9.80665
-LENGTH = 30.0
+LENGTH = 12.0
 """Length of the walk, m."""
 ROUTE = Route().stand(2.0).walk(LENGTH, speed=1.3).stop(1.5)
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from math import radians
+from math import hypot, radians
 from pathlib import Path
 
+import numpy as np
 import pytest
-from exported import G
+from commands import rows_in, run
+from exported import LENGTH, VENDORS, G, strange, walked
 
-from solepath.recording import RecordingError, RecordingWarning, TableMapping, open_source, read_samples
+from solepath.recording import RecordingError, RecordingWarning, TableMapping, open_source, read_mapping, read_samples
 from solepath.recording.exports import EXPORTS
 from solepath.recording.mapping.mapping import FORMATS
 from solepath.types import Foot, Sample, Site
@@ -110,5 +112,56 @@ def test_a_part_of_a_known_format_can_be_replaced() -> None:
     assert first.gyro == pytest.approx([radians(value) for value in (0.5, -90.0, -0.25)])
 
 
-def test_the_known_formats_are_those_that_a_mapping_may_name() -> None:
-    assert tuple(EXPORTS) == FORMATS and all(export.name == name for name, export in EXPORTS.items())
+START = {"mbientlab": 0.0, "moticon": 0.0, "physilog": 0.0, "ngimu": 0.0, "movella-dot": (2**32 - 10_000_000) * 1e-6}
+"""Time at which the walk starts in each format, s."""
+
+
+@pytest.mark.parametrize("vendor", VENDORS)
+def test_an_export_of_a_walk_gives_the_samples_of_the_walk(vendor: str, tmp_path: Path) -> None:
+    """As far as the decimal places of the format go; the gyroscope of a MetaMotion has times of its own."""
+    assert set(EXPORTS) == {*VENDORS, "solepath"} == set(FORMATS)
+    rate, cells = {"movella-dot": (120.0, 0), "physilog": (128.0, 0), "moticon": (100.0, 16)}.get(vendor, (100.0, 0))
+    rate = 200.0 if vendor == "mbientlab" else rate
+    recording = list(read_samples(VENDORS[vendor](tmp_path)))
+    assert [sample.t for sample in recording] == sorted(sample.t for sample in recording)
+    for foot in Foot:
+        read = [sample for sample in recording if sample.site.foot is foot]
+        late = {"mbientlab": 37, "moticon": 50 if foot is Foot.LEFT else 0}.get(vendor, 0)
+        true = walked(foot, rate, cells)[late:][: len(read)]
+        assert len(true) == len(read) >= 1200
+
+        base = read[0].t - true[0].t if vendor == "mbientlab" else START[vendor]
+        assert [s.t - base for s in read] == pytest.approx([s.t for s in true], abs=6e-4)
+        acc, gyro = (np.array([getattr(s, key) for s in read]) for key in ("acc", "gyro"))
+        if vendor != "mbientlab":
+            assert acc == pytest.approx(np.array([s.acc for s in true]), abs=1e-4)
+        assert gyro == pytest.approx(np.array([s.gyro for s in true]), abs=1e-4)
+        if cells:
+            pressure = np.array([s.pressure for s in true]) / 12.5
+            assert np.array([s.pressure for s in read]) == pytest.approx(pressure, abs=0.006)
+
+
+MAPPING = """
+[columns]
+t = "Zeit"
+acc = ["Beschl X", "Beschl Y", "Beschl Z"]
+gyro = ["Gyro X", "Gyro Y", "Gyro Z"]
+
+[units]
+t = "ms"
+acc = "g"
+gyro = "deg/s"
+"""
+
+
+def test_a_table_of_a_lab_goes_to_a_report_with_its_mapping_or_the_same_options(tmp_path: Path) -> None:
+    (tmp_path / "lab.toml").write_text(MAPPING)
+    files = [strange(tmp_path / "files", foot) for foot in Foot]
+    out = tmp_path / "out"
+    done = run("track", *files, "--mapping", tmp_path / "lab.toml", "--out", out, "--report", out / "walk.html")
+    assert done.returncode == 0 and done.stderr == ""
+    for foot in Foot:
+        last = [row for row in rows_in(out / "strides.csv") if row["foot"] == foot.value][-1]
+        assert hypot(float(last["x_m"]), float(last["y_m"])) == pytest.approx(LENGTH, rel=0.03)
+    options = TableMapping.parse("t=Zeit,acc=Beschl X,Beschl Y,Beschl Z,gyro=Gyro X,Gyro Y,Gyro Z", "ms,g,deg/s")
+    assert options == read_mapping(tmp_path / "lab.toml")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -78,6 +79,27 @@ def test_an_option_that_cannot_be_is_explained(columns: str, units: str, fault: 
 )  # fmt: skip
 def test_units_are_known_by_their_usual_spellings(text: str, unit: tuple[str, str] | None) -> None:
     assert find_unit(text) == unit
+
+
+@pytest.mark.parametrize(
+    ("given", "fault"),
+    [
+        ({"columns": {"acc": ("x", "", "z")}}, "acc has no names of columns"),
+        ({"separator": "/"}, "separator is '/', not one of comma"),
+        ({"decimal": ";"}, "decimal is ';', not"),
+        ({"header": -1}, "header is -1, not the number of a line"),
+        ({"header": True}, "header is True, not the number of a line"),
+        ({"wrap": 0}, "wrap is 0, not a number above 0"),
+        ({"rate": True}, "rate is True, not a number above 0"),
+        ({"feet": {"left": 3}}, "left is not left or right, with a pattern"),
+        ({"units": {"acc": "deg/s"}}, "'deg/s' is no unit of acc: m/s^2, g, mg"),
+        ({"units": {"speed": "g"}}, "speed is none of t, acc, gyro, pressure"),
+    ],
+)
+def test_a_value_that_a_mapping_cannot_have_is_explained(given: dict[str, Any], fault: str) -> None:
+    with pytest.raises(ValueError, match=r"^[^\n]*$") as caught:
+        TableMapping(**given)
+    assert fault in str(caught.value)
 
 
 def test_no_unit_is_one_of_two_quantities() -> None:

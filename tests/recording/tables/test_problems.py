@@ -10,6 +10,9 @@ import pytest
 from commands import run
 from exported import strange
 
+from solepath.cli.common.tables import mapping_of  # what the options mean
+from solepath.cli.main import parser
+from solepath.recording import RecordingError, read_samples
 from solepath.types import Foot
 
 GOOD = ("--columns", "t=Zeit,acc=Beschl X,Beschl Y,Beschl Z,gyro=Gyro X,Gyro Y,Gyro Z", "--units", "ms,g,deg/s")
@@ -31,25 +34,14 @@ def changed(old: str, new: str) -> tuple[str, ...]:
     return tuple(text.replace(old, new) for text in GOOD)
 
 
-def test_what_is_offered_for_an_unknown_table_reads_it(files: list[Path], tmp_path: Path) -> None:
-    first = run("track", *files)
-    assert first.returncode == 2 and first.stderr.count("is of no known format") == 2
-    options = offered(first.stderr)
-    assert set(options[-1].split(",")) == {"ms", "g", "deg/s"}
-    done = run("track", *files, *options, "--report", tmp_path / "walk.html")
-    assert done.returncode == 0 and done.stderr == "" and (tmp_path / "walk.html").stat().st_size > 10_000
-
-
 FAULTS = {
     "time": (changed("Zeit", "Zeitt"), 1),
+    "nothing": ((), 1),
     "all": (
         changed("Gyro Z", "Gyro zz")[:1] + (GOOD[1].replace("Zeit", "Zei").replace("Beschl", "Besch"),) + GOOD[2:],
         2,
     ),
-    "unit of force": (changed(",g,", ",mg,"), 1),
-    "unit of rate": (changed("deg/s", "rad/s"), 1),
-    "unit of time": (changed("ms,", "s,"), 1),
-    "no units": (GOOD[:2], 3),
+    "units": (changed("ms,g,deg/s", "s,mg,rad/s"), 3),
 }
 
 
@@ -60,13 +52,11 @@ def test_every_fault_of_every_file_is_named_and_its_line_repairs_it(files: list[
     lines = first.stderr.splitlines()
     assert first.returncode == 2 and len(lines) == 2 * count and first.stdout == ""
     assert sum("left.csv" in line for line in lines) == sum("right.csv" in line for line in lines) == count
-    assert all("repair: --" in line for line in lines)
-    done = run("track", *files, *[*options, *offered(first.stderr)][-4:])
-    if "--columns" not in offered(first.stderr):
-        done = run("track", *files, *options[:2], *offered(first.stderr))
-    else:
-        done = run("track", *files, *offered(first.stderr), *options[2:])
-    assert done.returncode == 0, done.stderr
+    assert all(re.search("repair: (this may fit: )?--", line) for line in lines)
+    repair = offered(first.stderr)
+    kept = options[2:] if "--columns" in repair else options[:2]
+    repaired, good = (mapping_of(parser().parse_args(["track", *one])) for one in (("x", *kept, *repair), ("x", *GOOD)))
+    assert repaired == good
 
 
 def test_the_line_of_a_saved_mapping_is_named(files: list[Path], tmp_path: Path) -> None:
@@ -95,9 +85,8 @@ def test_the_line_of_a_saved_mapping_is_named(files: list[Path], tmp_path: Path)
     ],
 )
 def test_an_option_that_cannot_be_gets_one_line(files: list[Path], arguments: tuple[str, ...], line: str) -> None:
-    for command in ("track", "check"):
-        done = run(command, *files, *arguments)
-        assert done.returncode == 2 and done.stderr.count("\n") == 1 and line in done.stderr
+    done = run("track", *files, *arguments)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and line in done.stderr
 
 
 GUESSES = {
@@ -118,16 +107,31 @@ def test_usual_names_are_understood(tmp_path: Path, header: str) -> None:
     width = header.count(",") + 1
     rows = "".join(",".join([f"{10 * k}", *["0.577"] * (width - 1)]) + "\n" for k in range(40))
     (tmp_path / "walk_left.csv").write_text(f"{header}\n{rows}")
-    line = run("track", tmp_path / "walk_left.csv").stderr
-    options = offered(line)
-    assert options[1] == GUESSES[header] and "ms" in options[3].split(",") and "g" in options[3].split(",")
+    with pytest.raises(RecordingError) as caught:
+        read_samples(tmp_path / "walk_left.csv")
+    options = shlex.split(caught.value.repair.partition("this may fit: ")[2])
+    assert options == ["--columns", GUESSES[header], "--units", "ms,g,rad/s"]
 
 
-def test_the_note_on_the_foot_knows_the_name_of_the_file(files: list[Path], tmp_path: Path) -> None:
-    assert "only the file's name says its foot: taken as the left one" in run("track", files[0], *GOOD).stderr
-    unnamed = tmp_path / "walk.csv"
-    unnamed.write_bytes(files[0].read_bytes())
-    assert "does not say of which foot it is" in run("track", unnamed, *GOOD).stderr
+@pytest.mark.parametrize(
+    ("row", "rate", "units"),
+    [
+        ("{k},0,0,1,0,0,300", "--rate HZ", "g,deg/s"),
+        ("{two},0,0,1,0,0,300", "", "ms,g,deg/s"),
+        ("{us},0,0,1000,0,0,39", "", "us,mg,rad/s"),
+        ("{s},0,0,5.5,0,0,41", "", "s,m/s^2,deg/s"),
+        ("{s},0,0,5.3,0,0,2000000", "", "s,mdeg/s"),
+        ("2026-03-01T09:30:{s},0,0,17.5,0,0,1", "", "datetime,m/s^2,rad/s"),
+        ("{us}000,0,0,18,0,0,1", "", "ns,rad/s"),
+    ],
+)
+def test_units_are_guessed_by_the_size_of_the_numbers(tmp_path: Path, row: str, rate: str, units: str) -> None:
+    rows = [row.format(k=k, us=10_000 * k, two=2 * k, s=f"{10 + 0.01 * k:.2f}") for k in range(40)]
+    (tmp_path / "walk_left.csv").write_text("\n".join(["Time,ax,ay,az,gx,gy,gz", *rows]) + "\n")
+    with pytest.raises(RecordingError) as caught:
+        read_samples(tmp_path / "walk_left.csv")
+    columns = "acc=ax,ay,az,gyro=gx,gy,gz" if rate else "t=Time,acc=ax,ay,az,gyro=gx,gy,gz"
+    assert caught.value.repair == " ".join(filter(None, [f"this may fit: --columns {columns} --units {units}", rate]))
 
 
 def test_numbers_that_no_factor_fits_are_named_without_a_warning_of_a_library(tmp_path: Path) -> None:
