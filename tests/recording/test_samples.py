@@ -91,6 +91,10 @@ def test_a_sheet_may_put_the_foot_before_the_axis_and_number_the_axes(tmp_path):
     assert right == Sample(0.0, Site.RIGHT_FOOT, None, None, (1.0, 2.0))
 
 
+STUCK_AT_FULL_SCALE = {"bicycling_01_18"}
+"""Recordings of hugadb_daily with an accelerometer that reads 2 g on all axes most of the time, 34 m/s^2 in all."""
+
+
 def test_every_recording_of_the_data_folder_is_read_to_its_end(data_dir):
     paths = sorted(data_dir.glob("*/*.npz"))
     assert paths
@@ -99,7 +103,11 @@ def test_every_recording_of_the_data_folder_is_read_to_its_end(data_dir):
             rows = sum(len(archive[k]) for k in archive.files if k in ("acc", "acc_left", "acc_right"))
             if not rows:
                 rows = sum(len(archive[k]) for k in archive.files if k.startswith("pressure"))
-        assert len(load_samples(path)) == rows
+        if path.stem in STUCK_AT_FULL_SCALE:
+            with pytest.raises(RecordingError, match="this looks like raw counts"):
+                load_samples(path)
+        else:
+            assert len(load_samples(path)) == rows
 
 
 def without(columns: dict[str, np.ndarray], *keys: str) -> dict[str, np.ndarray]:
