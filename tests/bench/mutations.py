@@ -438,7 +438,7 @@ def judge(bug: Bug, tests: list[str], folder: Path) -> tuple[str, str]:
     listed.write_text("\n".join(tests))
     try:
         path.write_bytes(whole[: bug.start] + bug.new.encode() + whole[bug.end :])
-        command = ("-x", "-q", "--no-header", "-n", "0", f"@{listed}")
+        command = ("-x", "-q", "--no-header", "-rfE", "-n", "0", f"@{listed}")
         status, output = run_tests(folder, *command, timeout=PATIENCE, MUTATIONS_ORDER=str(listed))
     finally:
         path.write_bytes(whole)
@@ -446,7 +446,7 @@ def judge(bug: Bug, tests: list[str], folder: Path) -> tuple[str, str]:
         return "survived", f"{len(tests)} tests"
     if status == -1:
         return "killed", "a test that does not end"
-    failed = re.search(r"^(?:FAILED|ERROR) (\S+)", output, re.MULTILINE)
+    failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - |$)", output, re.MULTILINE)
     if failed is None and status not in (1, 2):
         raise SystemExit(f"the tests of {bug.file} do not run:\n{output[-2000:]}")
     return "killed", failed.group(1) if failed else "an import"
