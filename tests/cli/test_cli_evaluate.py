@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import no_control_codes, run, run_failing, solepath
+from commands import no_control_codes, run, run_failing
 from walks import columns_of
 
 from solepath.emulate.routes.route import Route
@@ -31,7 +31,7 @@ def data(tmp_path_factory) -> Path:
 
 
 def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
-    result = solepath("evaluate", "--json", tmp_path / "scores.json", SOLEPATH_DATA=str(data))
+    result = run("evaluate", "--json", tmp_path / "scores.json", SOLEPATH_DATA=str(data))
     assert result.returncode == 0 and result.stderr == ""
     assert no_control_codes(result.stdout)
     assert "failed: " in result.stdout and "broken.npz: is empty" in result.stdout
@@ -46,7 +46,7 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
 
 
 def test_evaluate_in_short_is_a_markdown_table(data):
-    result = solepath("evaluate", data, "--markdown", "--recipe", "default")
+    result = run("evaluate", data, "--markdown", "--recipe", "default")
     assert result.returncode == 0 and "not scored: " in result.stderr and "broken.npz: is empty" in result.stderr
     head, rule, length, first, second, third, fourth = result.stdout.splitlines()
     assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")

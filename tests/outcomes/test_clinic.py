@@ -11,7 +11,7 @@ from math import inf, nan, pi
 from pathlib import Path
 
 import pytest
-from commands import run_failing, solepath
+from commands import run, run_failing
 from here import ROOT
 from pages import parse_page
 from quoted import PAGES, run_page
@@ -42,7 +42,7 @@ def tracked(recording: Path) -> tuple[str, Path]:
     """Return the output of all options together, and the folder of their files."""
     out, report = recording.parent / "out", recording.parent / "walk.html"
     options = ["--outcomes", "--six-minute-walk", "--timed-up-and-go", "1,14", "--reference", "72,female,162,68"]
-    result = solepath("track", recording, *options, "--out", out, "--report", report)
+    result = run("track", recording, *options, "--out", out, "--report", report)
     assert (result.returncode, result.stderr) == (0, "")
     return result.stdout, out
 
@@ -133,7 +133,7 @@ def test_a_wrong_option_gets_one_line(recording: Path, options: list[str], words
 
 
 def test_a_recording_after_the_option_for_six_minutes_is_named(recording: Path) -> None:
-    result = solepath("track", "--six-minute-walk", recording)
+    result = run("track", "--six-minute-walk", recording)
     assert result.returncode == 2 and "the recording stands before this option" in result.stderr
 
 
@@ -209,7 +209,7 @@ def test_other_events_are_not_kept() -> None:
 def test_marks_that_are_not_within_the_recording_give_no_outcome(
     recording: Path, tmp_path: Path, options: list[str], what: str, given: str
 ) -> None:
-    result = solepath("track", recording, *options, "--out", tmp_path / "out", "--report", tmp_path / "walk.html")
+    result = run("track", recording, *options, "--out", tmp_path / "out", "--report", tmp_path / "walk.html")
     assert result.returncode == 0
     assert f"There is no {what}. The recording is from 0.0 to " in result.stdout
     assert f"{given} is not within it." in result.stdout and "total time" not in result.stdout
