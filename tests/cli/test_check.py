@@ -88,9 +88,7 @@ def test_a_recording_of_packets_is_checked_too(tmp_path: Path) -> None:
     assert done.returncode == 0 and "too few strides to check everything" in done.stdout
 
 
-BROKEN = {
-    "walk.jsonl": b"this is no packet\n",
-}
+BROKEN = {"walk.jsonl": b"this is no packet\n"}
 
 
 @pytest.mark.parametrize("name", BROKEN)
