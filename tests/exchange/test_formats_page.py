@@ -32,6 +32,7 @@ def test_the_programs_are_whole(names: dict[str, Any], tmp_path) -> None:
     assert names["MotionWriter"](tmp_path / "study", names["Entities"]("01", "walk"))
 
 
+@pytest.mark.soak
 def test_the_program_for_streams_publishes(names: dict[str, Any], tmp_path, monkeypatch) -> None:
     pylsl = pytest.importorskip("pylsl", reason="the extra lsl is not installed")
     name = f"page {uuid.uuid4().hex[:8]}"
@@ -66,6 +67,7 @@ def test_every_command_of_the_page_is_understood() -> None:
         assert parser().parse_args(shlex.split(line)[1:]).command
 
 
+@pytest.mark.soak
 def test_the_official_programs_read_what_convert_writes(tmp_path) -> None:
     pytest.importorskip("opensim", reason="the extra opensim is not installed")
     pytest.importorskip("bids_validator_deno", reason="the extra bids is not installed")
