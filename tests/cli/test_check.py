@@ -108,15 +108,6 @@ def test_a_row_that_cannot_be_read_is_named_and_the_others_are_checked(
     assert "\n  acc, row 2000: is nan, not a finite number (t = 20 s); this row is left out\n" in done.stdout
 
 
-def test_many_rows_that_cannot_be_read_give_status_1(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
-    acc = columns["acc"].copy()
-    acc[:500] = np.nan
-    done = run("check", saved(tmp_path, columns, acc=acc), "--foot", "left")
-    assert done.returncode == 1
-    assert "must be mended:\n  acc, row 0: is nan" in done.stdout
-    assert f"500 of {len(acc)} rows are left out" in done.stdout
-
-
 def test_a_lone_file_of_the_left_foot_is_taken_as_such(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
     np.savez(tmp_path / "Left_shoe.npz", **columns)
     done = run("track", tmp_path / "Left_shoe.npz")

@@ -13,9 +13,9 @@ from walks import columns_of
 
 from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.file import read_calibration, write_calibration
-from solepath.emulate.routes.laps import square, straight
+from solepath.emulate.routes.laps import straight
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insole_device import Insole, boot
+from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.suit import suit
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
@@ -112,29 +112,6 @@ def test_what_is_learnt_goes_beside_what_the_file_holds_already(tmp_path):
     assert found.insole(Foot.LEFT).newtons.coefficients == pytest.approx((0.0, 0.1, 0.0, 0.0), abs=1e-9)
     assert found.insole(Foot.RIGHT) == InsoleCalibration(noise=(0.1, 0.2))
     assert found.shoe.forefoot_radius[0] == pytest.approx(0.07)
-
-
-@pytest.mark.soak
-def test_the_drift_is_learnt_from_laps_of_a_square(tmp_path):
-    walk, out = emulate(square(3), devices={Site.RIGHT_FOOT: boot(Foot.RIGHT, 50.0)}, seed=2), tmp_path / "me.json"
-    laps = recorded(tmp_path / "laps.jsonl", walk.packets)
-    result = run("calibrate", "square", laps, "--out", out)
-    assert result.returncode == 0 and result.stderr == ""
-    assert result.stdout.startswith("right foot: 120 visits of 40 marks, drift ")
-    assert set(calibrated(out).drift) == {Foot.RIGHT}
-
-
-@pytest.mark.soak
-def test_the_noise_of_a_sensor_is_learnt_from_a_rest(tmp_path):
-    still = emulate(Route().stand(130.0), devices={Site.RIGHT_FOOT: Insole(rate=50.0)}, seed=2)
-    out = tmp_path / "me.json"
-    result = run("calibrate", "rest", recorded(tmp_path / "still.jsonl", still.packets), "--out", out)
-    assert result.returncode == 0 and result.stderr == ""
-    assert result.stdout.startswith("right foot, 1") and "degrees/h" in result.stdout
-    noise = calibrated(out).rest[Foot.RIGHT]
-    assert 0.5e-3 < noise.acc_density < 2.5e-3  # 110 ug/sqrt(Hz) and the rounding to 0.488 mg
-    moving = recorded(tmp_path / "walk.jsonl", emulate(Route().stand(60).walk(20).stop(60), seed=2).packets)
-    assert "moved" in run_failing("calibrate", "rest", moving, "--out", out)
 
 
 def test_a_stand_with_seven_body_sensors_gives_limbs_and_a_walk_with_them_takes_a_heading(tmp_path):

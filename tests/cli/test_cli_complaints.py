@@ -13,12 +13,9 @@ from pathlib import Path
 import commands
 import pytest
 from commands import one_line
-from programs import TAKES, emulator, run, started, wait_for
-from walks import of, run_session
+from programs import TAKES, run, started, wait_for
 
-from solepath import Connected
 from solepath.recording import read_packets
-from solepath.types import Site
 
 
 def complaint(*arguments: object) -> str:
@@ -41,18 +38,6 @@ def test_a_machine_without_bluetooth_is_named_as_such() -> None:
 )
 def test_options_that_make_no_sense_are_named(options: list[str], message: str) -> None:
     assert message in complaint("live", *options)
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        (["--listen", "here"], "that is not HOST:PORT"),
-        (["--mtu", "12"], "an MTU is from 23 to 517"),
-        (["--distance", "20000"], "--distance 20000: 5000 m is as far as"),
-    ],
-)
-def test_impossible_options_of_emulate_are_reported(options: list[str], message: str) -> None:
-    assert message in complaint("emulate", *options)
 
 
 def test_a_script_that_makes_no_sense_is_named_with_its_line(tmp_path: Path) -> None:
@@ -129,16 +114,3 @@ def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
         out, err = process.communicate(timeout=TAKES)
     # Python itself ends by the signal when it came while a dataclass of some import was made
     assert process.returncode in (130, -signal.SIGINT) and (out, err) == ("", "")
-
-
-@pytest.mark.soak
-def test_an_insole_that_is_off_at_first_is_used_when_it_comes(tmp_path: Path) -> None:
-    script, file = tmp_path / "faults.txt", tmp_path / "walk.jsonl"
-    script.write_text("0 right_foot vanish 12\n")
-    with emulator("--distance", 5, "--faults", script) as (_, where):
-        with started("record", "--via", where, "--left", "solepath L", "--out", file) as first:
-            wait_for(file, "insole/frame")
-            time.sleep(2.0)
-            first.kill()
-        run("record", "--via", where, "--out", file, "--duration", 10)
-    assert {event.site for event in of(Connected, run_session(read_packets(file)))} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}

@@ -83,20 +83,6 @@ def test_the_site_and_the_channel_can_be_given(tmp_path):
     )
 
 
-def test_options_without_use_are_errors_and_nothing_is_written(log, tmp_path):
-    out, low = tmp_path / "walk.jsonl", LEFT.lower()
-    for wishes, flaw in (
-        (("--site", f"{LEFT}=pelvis", "--site", f"{low}=left_foot"), f"--site is given twice for {LEFT}"),
-        (("--handle", "18=insole/frame", "--handle", "0x12=insole/info"), "--handle is given twice for 0x0012"),
-        (("--handle", f"{low}/0x12=insole/frame", "--handle", f"{LEFT}/18=insole/frame"), f"for {LEFT}/0x0012"),
-        (("--handle", "0x99=insole/frame"), "holds no value of an attribute 0x0099, which was said to be insole/frame"),
-        (("--handle", f"{TAG}/0x12=insole/frame"), f"holds no device {TAG}, whose 0x0012 was said to be insole/frame"),
-        (("--handle", "0x12=cc2650/movement"), "as its discovery says, not cc2650/movement"),
-    ):
-        assert complaint(log, out, *wishes).endswith(flaw)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_packets_before_a_damage_are_converted_and_the_damage_is_reported(log, tmp_path):
     source, out = tmp_path / "damaged.log", tmp_path / "out.jsonl"
     source.write_bytes(log.read_bytes() + struct.pack(">IIIIq", 1, 2, 0, 0, 0))

@@ -46,16 +46,6 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path, monkey
     assert f"{figures['end_error']:.3f}" in result.stdout
 
 
-def test_evaluate_in_short_is_a_markdown_table(data):
-    result = run("evaluate", data, "--markdown", "--recipe", "default", "--processes", 1)
-    assert result.returncode == 0 and "not scored: " in result.stderr and "broken.npz: is empty" in result.stderr
-    head, rule, length, first, *_, drift = result.stdout.splitlines()
-    assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")
-    assert length == "| a closed loop, one shoe: `xio_closed_walks`, 1 recording | length of the walk | 18.3 m |"
-    assert first.startswith("|  | from end to start, in space | 0.") and first.endswith(" m |")
-    assert drift.startswith("|  | drift of the heading | mean ") and drift.endswith(" degrees/min |")
-
-
 def test_evaluate_compares_with_earlier_figures(data, tmp_path):
     old = tmp_path / "old.json"
     command = ("evaluate", data, "--recipe", "default", "--processes", "1")

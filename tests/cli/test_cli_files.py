@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
-import sys
 import threading
 from pathlib import Path
 
@@ -173,15 +171,6 @@ def test_a_recording_comes_through_a_pipe_as_from_a_file(recording: Path, tmp_pa
         done = run("track", source, "--out", tmp_path / out)
         assert (done.returncode, done.stderr) == (0, "")
     assert written(tmp_path / "piped") == written(tmp_path / "read")
-
-
-def test_the_shell_may_make_the_pipe(recording: Path, tmp_path: Path) -> None:
-    shell = shutil.which("bash")
-    if shell is None:
-        pytest.skip("no bash here")
-    line = f'"{sys.executable}" -m solepath check <(cat "{recording}")'
-    done = subprocess.run([shell, "-c", line], capture_output=True, text=True, timeout=60)
-    assert (done.returncode, done.stderr) == (0, ""), done.stderr
 
 
 def test_a_pipe_that_becomes_no_recording_gets_the_reason(recording: Path, tmp_path: Path) -> None:

@@ -15,12 +15,10 @@ from commands import run, run_failing
 
 pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheels for Python 3.13 and later")
 
-import pyarrow.compute
 
 from solepath.events import HeelStrike
 from solepath.fleet import NumberedEvent
-from solepath.fleet.demo.compare import compare_remarks, differences, find_number_gaps, read_events, session_events
-from solepath.fleet.demo.wearers import Wearers
+from solepath.fleet.demo.compare import differences, find_number_gaps, read_events, session_events
 from solepath.fleet.parquet import PartFiles
 from solepath.types import Foot
 from solepath.types.extras import install_hint
@@ -48,23 +46,6 @@ def test_a_killed_fleet_emits_the_same_events_as_one_that_is_not(kept: Kept) -> 
     figures = json.loads(out.with_suffix(".json").read_text())
     assert figures["ratio"] > 0.0 and len(figures["kills"]) == 2 and figures["runs"][0]["equal"]
     assert figures["engine"]["events"] == int(rows["events"]) == read_events(out / "events").num_rows > 100
-
-
-@pytest.mark.soak
-def test_missing_rejection_or_loss_events_are_found_out(kept: Kept) -> None:
-    expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(kept[1] / "runs").all}
-    assert {name for name, remarks in expected.items() if remarks} == {"w00003", "w00005"}
-    missing, late = expected["w00005"]
-    assert (missing.event, late.event, late.why) == ("NumbersMissing", "SentRejected", "late")
-    assert {remark.run is None for remark in expected["w00003"]} == {True, False}
-    events = read_events(kept[1] / "events")
-    assert compare_remarks(expected, events) == []
-    for event in ("SentRejected", "NumbersMissing"):
-        silent = events.filter(pyarrow.compute.not_equal(events["event"], event))
-        assert differences(session_events(events), session_events(silent)) == []
-        assert compare_remarks(expected, silent)[0].endswith(" is missing")
-    (line,) = compare_remarks({**expected, "w00005": [missing]}, events)
-    assert line.startswith("w00005, SentRejected (late) of row ") and line.endswith(" was not expected")
 
 
 def heel_strike(wearer: str, number: int, t: float = 1.0) -> NumberedEvent:
@@ -125,13 +106,3 @@ def test_impossible_options_are_reported_in_one_line(tmp_path: Path) -> None:
 def test_what_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "bytewax", None)
     assert install_hint("bytewax") in run_failing("fleet-demo")
-
-
-@pytest.mark.long
-def test_a_thousand_wearers_are_killed_ten_times(tmp_path: Path) -> None:
-    result = run("fleet-demo", "--wearers", 1000, "--kills", 10, "--json", tmp_path / "figures.json")
-    assert (result.returncode, result.stderr) == (0, ""), result.stdout
-    kills = json.loads((tmp_path / "figures.json").read_text())["kills"]
-    assert len(kills) == 10
-    assert sum(bool(kill["replayed"]) for kill in kills) >= 6
-    assert sum(kill["reopened"] > 0 for kill in kills) >= 6

@@ -150,20 +150,6 @@ def test_a_recording_cut_in_the_middle_of_a_line_is_reported_and_loses_nothing_b
     assert len(rows_in(tmp_path / "strides.csv")) == len(rows_in(tracked[1] / "strides.csv"))
 
 
-def test_a_bad_row_is_named_and_the_others_are_used(one_foot, tmp_path):
-    with np.load(one_foot) as archive:
-        columns = {key: archive[key] for key in archive.files}
-    columns["acc"][700, 1] = np.nan
-    np.savez(tmp_path / "bad.npz", **columns)
-    result = run("track", tmp_path / "bad.npz", "--foot", "left", "--out", tmp_path)
-    assert result.returncode == 0
-    fault = "acc, row 700: is nan, not a finite number (t = 7 s); this row is left out"
-    assert result.stderr == f"solepath: {tmp_path / 'bad.npz'}: {fault}\n"
-    times = [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")]
-    assert times[-1] == columns["t"][-1] and columns["t"][700] not in times
-    assert rows_in(tmp_path / "strides.csv")
-
-
 def test_a_line_that_is_not_json_costs_one_line(packets, tmp_path):
     lines = packets.read_bytes().splitlines(keepends=True)
     half = len(lines) // 2

@@ -3,7 +3,7 @@
 import json
 import subprocess
 import sys
-from math import degrees, isnan
+from math import degrees
 from pathlib import Path
 
 import pytest
@@ -171,21 +171,6 @@ def test_the_foot_of_a_tracked_point(point, foot):
     assert foot_of_point(point) is foot
 
 
-def test_missing_values_stay_missing(tmp_path):
-    acc, gyro = (0.0, 0.0, 9.81), (0.0, 0.1, 0.0)
-    items = [
-        Sample(0.01 * k, Site.LEFT_FOOT, acc, gyro, mag=(1e-5, 0.0, 4e-5) if k % 10 == 0 else None) for k in range(99)
-    ]
-    files = dataset(tmp_path / "study", items)
-    motion = motion_file(files)
-    names = [row["name"] for row in read_table(motion.with_name(motion.name.replace("_motion", "_channels")))]
-    column = names.index("mag_z")
-    values = [line.split("\t")[column] for line in motion.read_text().splitlines()]
-    assert values[0] == "4e-05" and values[1:10] == ["n/a"] * 9
-    assert len(list(open_source(motion))) == 99
-    assert not any(isnan(value) for one in open_source(motion) if isinstance(one, Sample) for value in one.acc or ())
-
-
 def recording(folder: Path, items: list[Packet]) -> Path:
     return recorded(folder / "walk.jsonl", items, {"began": "2026-11-21T09:30:00Z"})
 
@@ -228,16 +213,6 @@ def test_damaged_files_of_a_dataset_are_named_in_one_line(tmp_path):
     assert "holds no samples" in one_line(run("track", path))
     path.write_bytes(rows)
     assert run("track", path).stderr == ""
-
-
-def test_a_damaged_description_of_a_dataset_is_one_sentence_and_nothing_is_written(tmp_path):
-    description = tmp_path / "study" / "dataset_description.json"
-    description.parent.mkdir()
-    for text, what in {"{": "is not JSON: ", "[]": "is no JSON object", "[" * 100_000: "is not JSON: "}.items():
-        description.write_text(text)
-        with pytest.raises(RecordingError, match=f"dataset_description.json: {what}"):
-            MotionWriter(tmp_path / "study", FIRST)
-        assert [path.name for path in description.parent.iterdir()] == [description.name]
 
 
 def test_all_files_of_a_recording_may_be_named_and_none_of_another(tmp_path):

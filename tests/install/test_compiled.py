@@ -101,35 +101,3 @@ def test_compiled_modules_give_the_same_events_and_states_bit_for_bit(compiled: 
 def test_the_version_names_the_form_that_runs(compiled: Path) -> None:
     assert run(compiled, "-m", "solepath", "--version").rstrip().endswith(", compiled")
     assert run(ROOT / "src", "-m", "solepath", "--version").rstrip().endswith(", pure")
-
-
-APP = """
-
-from solepath.types.attrs import define, evolve, field
-from solepath.foot.navigate.strapdown import Strapdown
-from solepath.foot.stance.stance import Detector, Stance
-import copy, pickle
-
-@define
-class Own(Detector):
-    limit: float = 2.0
-    count: int = field(default=0, init=False)
-    def update(self, t, dt, acc, gyro, load, attitude=(1.0, 0.0, 0.0, 0.0)):
-        self.count += 1
-        return Stance((0.0, 0.0, 0.0), 0.1 if abs(gyro[0]) < self.limit else float("inf"), 0.0, None)
-
-@define
-class Integral(Strapdown):
-    own: int = field(default=3, init=False)
-
-one = Integral()
-one.velocity = (1.0, 2.0, 3.0)
-assert copy.deepcopy(one) == one and pickle.loads(pickle.dumps(one)) == one and evolve(one).velocity == (0.0, 0.0, 0.0)
-assert Own().lacking is None and Own(3.0) == Own(3.0) != Own(4.0)
-print(one)
-"""
-
-
-@pytest.mark.soak
-def test_an_app_derives_from_compiled_classes_as_from_pure_ones(compiled: Path) -> None:
-    assert run(compiled, "-c", APP) == run(ROOT / "src", "-c", APP) != ""

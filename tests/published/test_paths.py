@@ -18,7 +18,6 @@ from solepath.emulate import Route, Walker
 from solepath.types import Foot
 
 
-
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)

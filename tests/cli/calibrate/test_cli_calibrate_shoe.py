@@ -99,19 +99,3 @@ def test_who_ends_before_any_measurement_changes_nothing(tmp_path: Path, end: by
         assert words in text and "Traceback" not in text
         assert process.wait(TAKES) == status
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.soak
-def test_a_measurement_is_taken_back(tmp_path: Path) -> None:
-    table = tmp_path / "postures.csv"
-    with measuring(tmp_path, 30, "--times", 1) as (terminal, process, _):
-        for answer, reply in ((b"\n", "Posture 1"), (b"\n", "L_r in mm"), (b"80\n", "L_p2t"), (b"70\n", "Posture 2")):
-            os.write(terminal, answer)
-            drawn(terminal, reply)
-        assert table.read_text().splitlines()[1].endswith(",0.0800,0.0700")
-        for answer, reply in ((b"u\n", "Posture 1"), (b"u\n", "Stand with the shoe flat"), (b"q\n", "no posture")):
-            os.write(terminal, answer)
-            drawn(terminal, reply)
-        assert process.wait(TAKES) == 2
-    assert table.read_text() == "pitch_deg,L_r_m,L_p2t_m\n"
-    assert list(tmp_path.iterdir()) == [table]

@@ -1,7 +1,6 @@
 """Tests `solepath calibrate toe-out --live`: a person in a terminal, and emulated SensorTags on a straight walk."""
 
 import os
-from collections.abc import AsyncIterator, Iterable
 from math import degrees
 from pathlib import Path
 
@@ -10,13 +9,8 @@ import pytest
 from programs import TAKES, drawn, emulator, in_terminal
 
 from solepath.calibration.file import read_calibration
-from solepath.cli.calibrate.toe_out_live import STANDING_TIME, GuidedWalk
-from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.sensortags import CC2541
-from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.gait import Wearer
-from solepath.recording import PacketWriter, read_packets
-from solepath.types import Foot, Packet, Site
+from solepath.recording import read_packets
 
 
 def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:
@@ -25,32 +19,6 @@ def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: 
         "solepath: calibrate toe-out --live shows a person how to walk: it needs a terminal\n"
     )
     assert list(tmp_path.iterdir()) == []
-
-
-async def test_a_shoe_that_connects_later_stands_for_as_long_as_the_other(tmp_path: Path) -> None:
-    connected = 4.0
-    standing = emulate(Route().stand(12.0), devices={Site.LEFT_FOOT: CC2541(), Site.RIGHT_FOOT: CC2541()}).packets
-    packets = [packet for packet in standing if packet.site is Site.LEFT_FOOT or packet.t >= connected]
-    walk = GuidedWalk(PacketWriter(tmp_path / "walk.jsonl"), (Foot.LEFT, Foot.RIGHT))
-
-    async def receive_from(t: float, end: float) -> None:
-        await walk.receive(those([packet for packet in packets if t <= packet.t < end]))
-
-    assert walk.line() == "waiting for the sensor of the left and right foot"
-    await receive_from(0.0, connected)
-    assert not walk.has_stood
-    assert walk.line() == "waiting for the sensor of the right foot"
-    await receive_from(connected, connected + STANDING_TIME)
-    assert not walk.has_stood
-    assert walk.line() == "left 0 strides; right 0 strides"
-    await receive_from(connected + STANDING_TIME, connected + STANDING_TIME + 1.0)
-    assert walk.has_stood
-    walk.writer.close()
-
-
-async def those(packets: Iterable[Packet]) -> AsyncIterator[Packet]:
-    for packet in packets:
-        yield packet
 
 
 @pytest.mark.soak

@@ -97,15 +97,6 @@ def test_one_foot_of_which_nothing_is_known_is_named_beside_the_results_of_the_o
     assert run("check", walk).returncode == 1
 
 
-def test_a_few_packets_of_an_unknown_channel_are_only_worth_knowing(tmp_path: Path) -> None:
-    good = list(emulate(WALKER.route, seed=3).packets)
-    few = [Packet(one.t, one.site, "mystery/light", b"\0") for one in good[100:120]]
-    walk = recorded(tmp_path / "few.jsonl", sorted([*good, *few], key=lambda one: one.t))
-    done = run("check", walk)
-    assert done.returncode == 0 and "20 packets rejected (unknown channel 20)" in done.stdout
-    assert run("track", walk).stderr == ""
-
-
 def test_a_layout_that_does_not_fit_is_an_error_though_the_setup_is_understood(
     packets: list[Packet], tmp_path: Path
 ) -> None:
@@ -197,21 +188,6 @@ def test_a_slip_in_a_reader_gets_one_line(walk: Path, tmp_path: Path) -> None:
     (tmp_path / "slip.py").write_text(text)
     line = run_failing("track", walk, "--driver", tmp_path / "slip.py")
     assert f"slip.py: line {number}: AttributeError: numbr" in line
-
-
-def test_an_error_that_other_code_raises_for_a_device_names_both_places(walk: Path, tmp_path: Path) -> None:
-    (tmp_path / "asks.py").write_text("from solepath import Site\nSite('nowhere')\n")
-    line = run_failing("track", walk, "--driver", tmp_path / "asks.py")
-    assert "asks.py: line 2: ValueError: 'nowhere' is not a valid Site (raised at " in line and "enum.py:" in line
-
-
-def test_one_device_twice_gets_one_line_and_prints_go_to_stderr(walk: Path, tmp_path: Path) -> None:
-    assert "there is a device 'shoe' already" in run("track", walk, "--driver", OWN, "--driver", OWN).stderr
-    (tmp_path / "loud.py").write_text(
-        OWN.read_text().replace("Path(__file__)", f"Path({str(OWN)!r})") + "\nprint('hello')\n"
-    )
-    done = run("track", walk, "--driver", tmp_path / "loud.py")
-    assert done.returncode == 0 and "hello" in done.stderr and "hello" not in done.stdout
 
 
 @pytest.mark.soak
