@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from math import pi
 from pathlib import Path
 
 import numpy as np
@@ -13,14 +14,14 @@ from walks import columns_of
 
 from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.file import read_calibration, write_calibration
-from solepath.emulate.routes.laps import straight
+from solepath.emulate.routes.laps import marked, marks, square, straight, write_marks
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insole_device import Insole
+from solepath.emulate.sensors.insole_device import Insole, boot
 from solepath.emulate.sensors.suit import suit
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.recipes import NAMES, by_name
-from solepath.types import Foot, Site
+from solepath.types import Foot, Site, WalkingMode
 from solepath.types.attrs import evolve
 
 ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
@@ -112,6 +113,34 @@ def test_what_is_learnt_goes_beside_what_the_file_holds_already(tmp_path):
     assert found.insole(Foot.LEFT).newtons.coefficients == pytest.approx((0.0, 0.1, 0.0, 0.0), abs=1e-9)
     assert found.insole(Foot.RIGHT) == InsoleCalibration(noise=(0.1, 0.2))
     assert found.shoe.forefoot_radius[0] == pytest.approx(0.07)
+
+
+def there_and_back() -> Route:
+    route = Route().stand(6.0).walk(9.0)
+    for turn in (-pi, pi, -pi):
+        route = route.turn(turn, 0.6).walk(9.0)
+    return route.stop(2.0)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(
+    ("kind", "route", "devices", "learnt"),
+    [
+        ("square", square(3), {Site.RIGHT_FOOT: boot(Foot.RIGHT, 50.0)}, "drift"),
+        ("rest", Route().stand(130.0), {Site.RIGHT_FOOT: Insole(rate=50.0)}, "rest"),
+        ("walk", there_and_back(), dict.fromkeys(FEET, Insole()), "headings"),
+        ("modes", marked(WalkingMode.STRAIGHT, 14), dict.fromkeys(FEET, Insole(rate=50.0)), "modes"),
+    ],
+)
+def test_each_kind_learns_from_its_walk_for_the_feet_that_wear_a_sensor(tmp_path, kind, route, devices, learnt):
+    walk, out = emulate(route, devices=devices, seed=2), tmp_path / "me.json"
+    more = []
+    if kind == "modes":
+        write_marks(tmp_path / "marks.csv", marks(walk.walker))
+        more = [tmp_path / "marks.csv", "--heading", "0"]
+    result = run("calibrate", kind, recorded(tmp_path / "walk.jsonl", walk.packets), *more, "--out", out)
+    assert (result.returncode, result.stderr) == (0, "")
+    assert set(getattr(calibrated(out), learnt)) == {site.foot for site in devices}
 
 
 def test_a_stand_with_seven_body_sensors_gives_limbs_and_a_walk_with_them_takes_a_heading(tmp_path):

@@ -46,22 +46,6 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path, monkey
     assert f"{figures['end_error']:.3f}" in result.stdout
 
 
-def test_evaluate_compares_with_earlier_figures(data, tmp_path):
-    old = tmp_path / "old.json"
-    command = ("evaluate", data, "--recipe", "default", "--processes", "1")
-    assert run(*command, "--json", old).returncode == 0
-    scores = json.loads(old.read_text())
-    scores["default"]["xio_closed_walks"]["summary"]["all"]["mean"]["end_error_2d"] *= 2.0
-    old.write_text(json.dumps(scores))
-    compared = run(*command, "--compare", old)
-    assert compared.returncode == 0 and "xio_closed_walks, default, compared: 1 better, 0 worse" in compared.stdout
-    (line,) = (line for line in compared.stdout.splitlines() if line.startswith("end_error_2d (mean)"))
-    was, now, word = line.split()[-3:]
-    assert float(was) == pytest.approx(2.0 * float(now), rel=0.02) and word == "better"
-    old.write_text("{")
-    assert "old.json: is not JSON" in run_failing(*command, "--compare", old)
-
-
 def test_evaluate_without_data_names_what_it_needs(data, tmp_path, monkeypatch):
     monkeypatch.delenv("SOLEPATH_DATA", raising=False)
     needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"

@@ -150,17 +150,6 @@ def test_a_recording_cut_in_the_middle_of_a_line_is_reported_and_loses_nothing_b
     assert len(rows_in(tmp_path / "strides.csv")) == len(rows_in(tracked[1] / "strides.csv"))
 
 
-def test_a_line_that_is_not_json_costs_one_line(packets, tmp_path):
-    lines = packets.read_bytes().splitlines(keepends=True)
-    half = len(lines) // 2
-    (tmp_path / "bad.jsonl").write_bytes(b"".join([*lines[:half], b"\x1b[31moh no\n", *lines[half:]]))
-    for path in (packets, tmp_path / "bad.jsonl"):
-        result = run("track", path, "--out", tmp_path / path.stem)
-        assert result.returncode == 0
-    assert result.stderr.endswith(f"bad.jsonl: line {half + 1}: is not JSON; this line is left out\n")
-    assert (tmp_path / "bad" / "track.csv").read_bytes() == (tmp_path / "walk" / "track.csv").read_bytes()
-
-
 BAD_FILES = {
     "other.jsonl": (b'{"t": 1.0}\n', "line 1: is not the header of a recording"),
     "keys.csv": (b"t,x,y,z\n0,0,0,9.8\n", "line 1: names no column acc_x or pressure_0"),

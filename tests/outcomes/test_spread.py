@@ -8,7 +8,6 @@ from random import Random
 import pytest
 from strides import cycle, cycles
 
-from solepath.body.gait.means import GaitMeans
 from solepath.events import Event
 from solepath.show.outcomes import asymmetry, variability
 from solepath.show.outcomes.spread import steady_strides
@@ -38,19 +37,6 @@ def test_values_are_those_worked_by_hand() -> None:
     assert index.high - index.value == pytest.approx(2.4036 * 0.0514790, rel=1e-4)
     # half width 2.4036 * 0.0514790 = 0.123738; strides for 2 percentage points: 10 * (0.123738 / 0.02)^2 = 382.8
     assert index.needed == 383
-
-
-def test_it_is_the_variability_of_the_gait_table() -> None:
-    rng, means = Random(1), GaitMeans()
-    events = [c for foot in Foot for c in cycles(foot, 0.0, [rng.gauss(1.1, 0.03) for _ in range(40)])]
-    for event in events:
-        means.add(event, 10**9)
-    table = means.of(False)
-    assert table is not None and table.both.stride_time is not None
-    one, index = variability(events, "stride_time"), asymmetry(events, "stride_time")
-    assert one is not None and index is not None
-    assert (one.value, one.strides) == pytest.approx((table.both.stride_time.cv, 78))
-    assert index.value == pytest.approx(table.asymmetry("stride_time"))
 
 
 def test_only_steady_strides_of_walking_that_others_follow_count() -> None:

@@ -153,15 +153,6 @@ def test_a_phone_s_log_of_it_is_converted(is_discovered: bool, packets: list[Pac
     assert done.returncode == 0 and len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
 
 
-def test_convert_and_calibrate_read_it_too(walk: Path, tmp_path: Path, packets: list[Packet]) -> None:
-    done = run("convert", walk, tmp_path / "walk.sto", "--driver", OWN)
-    assert done.returncode == 0 and len((tmp_path / "walk.sto").read_text().splitlines()) > 0.9 * len(packets)
-    still = recorded(tmp_path / "still.jsonl", packets[:100])
-    rest = ("calibrate", "rest", still, "--out", tmp_path / "me.json")
-    assert "no foot's accelerations" in run_failing(*rest)
-    assert "the left foot has 1 s without a gap" in run("calibrate", "rest", *rest[2:], "--driver", OWN).stderr
-
-
 BAD = {
     "absent.py": (None, "absent.py: there is no such file"),
     "built_in.py": ("from solepath.link.devices.cc2650 import DRIVER", "built_in.py: no variable of it holds a Driver"),
