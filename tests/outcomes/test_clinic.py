@@ -7,7 +7,7 @@ import json
 import re
 import subprocess
 import sys
-from math import inf, nan, pi
+from math import pi
 from pathlib import Path
 
 import pytest
@@ -15,7 +15,7 @@ from commands import run, run_failing
 from here import ROOT
 from quoted import PAGES, run_page
 from recordings import recorded
-from strides import cycle, cycles
+from strides import cycles
 from walks import run_session
 
 from solepath.emulate.routes.route import Route
@@ -154,14 +154,6 @@ print(json.dumps(sorted(name for name in sys.modules if name.startswith("solepat
 def test_no_session_page_report_or_command_loads_it_before_it_is_needed() -> None:
     done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=True, cwd=ROOT)
     assert json.loads(done.stdout) == []
-
-
-@pytest.mark.parametrize("t", [nan, inf])
-def test_an_event_without_a_time_is_neither_start_nor_end(t: float) -> None:
-    clinic = Clinic(six_minutes=True, six_minutes_start=-300.0)
-    for event in [cycle(Foot.LEFT, t, 1.0), *cycles(Foot.LEFT, 0.0, [1.0] * 4), cycle(Foot.LEFT, t, 1.0)]:
-        clinic.add(event)
-    assert (clinic.start, clinic.end) == (1.0, 4.0)
 
 
 def test_marks_that_are_not_within_the_recording_give_no_outcome(recording: Path, tmp_path: Path) -> None:

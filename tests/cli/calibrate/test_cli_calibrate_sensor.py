@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from commands import run, run_failing
+from commands import run
 from quoted import below, nearly_the_same
 from recordings import recorded
 
 from solepath import Calibration, Foot, Packet, Site
 from solepath.calibration import HeadingCalibration
 from solepath.calibration.file import read_calibration, write_calibration
-from solepath.emulate.handling import CLUMSY, Handling
+from solepath.emulate.handling import Handling
 from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
@@ -48,15 +48,3 @@ def test_the_example_of_the_page_is_what_the_command_prints(tmp_path: Path) -> N
     printed = run("calibrate", "sensor", tmp_path / "turns.jsonl", "--out", tmp_path / "me.json").stdout
     shown = printed.replace(str(tmp_path / "me.json"), "me.json")
     nearly_the_same(below("calibrate-sensor"), shown.splitlines())
-
-
-def test_rests_in_one_orientation_without_turns_give_no_calibration_but_what_is_missing(tmp_path: Path) -> None:
-    site = Site.LEFT_FOOT
-    hand = Handling(82, CLUMSY, turns=0.0, orientations=np.tile([[0.0, 0.1, 1.0]], (14, 1)))
-    samples = Insole(cells=8, chip=IMU).samples(hand, site, device_rng(82, site))
-    t, acc, gyro = ([getattr(one, name) for one in samples] for name in ("t", "acc", "gyro"))
-    np.savez(tmp_path / "turns.npz", t=t, acc=acc, gyro=gyro)
-    words = ("calibrate", "sensor", tmp_path / "turns.npz", "--foot", "left", "--out", tmp_path / "me.json")
-    message = run_failing(*words)
-    assert "left foot: the accelerometer is not known" in message and "is missing" in message
-    assert not (tmp_path / "me.json").exists()

@@ -86,17 +86,6 @@ def test_and_a_finding_of_check(walk: Path) -> None:
     assert heading == "must be mended:" and "shoe/motion" in finding and "--driver FILE.py" in finding
 
 
-def test_one_foot_of_which_nothing_is_known_is_named_beside_the_results_of_the_other(
-    packets: list[Packet], tmp_path: Path
-) -> None:
-    other = [one for one in emulate(WALKER.route, seed=3).packets if one.site is Site.RIGHT_FOOT]
-    walk = recorded(tmp_path / "both.jsonl", sorted([*packets, *other], key=lambda one: one.t))
-    done = run("track", walk)
-    assert done.returncode == 0 and "right" in done.stdout
-    assert done.stderr.count("\n") == 1 and done.stderr.startswith("solepath: left foot: ")
-    assert run("check", walk).returncode == 1
-
-
 def test_a_layout_that_does_not_fit_is_an_error_though_the_setup_is_understood(
     packets: list[Packet], tmp_path: Path
 ) -> None:
@@ -138,16 +127,13 @@ def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) 
     assert done.returncode == 0 and f"left foot {STRIDES} strides" in done.stdout
 
 
-@pytest.mark.parametrize("is_discovered", [True, False])
-def test_a_phone_s_log_of_it_is_converted(is_discovered: bool, packets: list[Packet], tmp_path: Path) -> None:
+def test_a_phone_s_log_of_it_is_converted(packets: list[Packet], tmp_path: Path) -> None:
     motion = runpy.run_path(str(OWN))["MOTION"]
-    log = start_connection(Log(), characteristics={0x12: motion.characteristic} if is_discovered else {})
+    log = start_connection(Log(), characteristics={0x12: motion.characteristic})
     for packet in packets:
         log.notify(0x40, 0x12, packet.data, t=T_START + 1_000_000 + round(packet.t * 1e6))
     words = ["convert", log.save(tmp_path / "phone.log"), tmp_path / "walk.jsonl", "--site", f"{LEFT}=left_foot"]
-    words += [] if is_discovered else ["--handle", "0x12=shoe/motion"]
-    line = run_failing(*words)
-    assert ("holds no packets of a device" if is_discovered else "there is no channel 'shoe/motion'") in line
+    assert "holds no packets of a device" in run_failing(*words)
     assert run(*words, "--driver", OWN).returncode == 0
     done = run("track", tmp_path / "walk.jsonl", "--driver", OWN, "--out", tmp_path / "out")
     assert done.returncode == 0 and len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
