@@ -149,7 +149,10 @@ def test_a_disk_that_fills_up_is_one_line_and_leaves_no_half_file(log, tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_mcap_the_message_names_the_package(log, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "mcap", None)
-    words = complaint(log, tmp_path / "walk.mcap")
-    assert words == f"writing MCAP needs the package mcap: {install_hint('mcap')}"
+def test_without_mcap_the_message_names_the_package(log, tmp_path):
+    """A process of its own, since this one may have loaded the package already."""
+    code = "import sys; sys.modules['mcap'] = None; from solepath.cli import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", code, "convert", log, tmp_path / "walk.mcap"]
+    result = subprocess.run(command, capture_output=True, text=True)
+    assert result.returncode == 2
+    assert result.stderr == f"solepath: writing MCAP needs the package mcap: {install_hint('mcap')}\n"
