@@ -83,41 +83,12 @@ def test_the_site_and_the_channel_can_be_given(tmp_path):
     )
 
 
-def test_an_option_that_cannot_be_parsed_is_named(log, tmp_path):
-    for option, wishes in (("--site", ("left_foot", f"{TAG}=hand")), ("--handle", ("0x2b", "x=y", "0=a/b"))):
-        for wish in wishes:
-            result = convert(log, tmp_path / "walk.jsonl", option, wish)
-            assert result.returncode == 2 and f"{option}: {wish!r} is not " in result.stderr
-
-
-def test_options_without_use_are_errors_and_nothing_is_written(log, tmp_path):
-    out, low = tmp_path / "walk.jsonl", LEFT.lower()
-    for wishes, flaw in (
-        (("--site", f"{LEFT}=pelvis", "--site", f"{low}=left_foot"), f"--site is given twice for {LEFT}"),
-        (("--handle", "18=insole/frame", "--handle", "0x12=insole/info"), "--handle is given twice for 0x0012"),
-        (("--handle", f"{low}/0x12=insole/frame", "--handle", f"{LEFT}/18=insole/frame"), f"for {LEFT}/0x0012"),
-        (("--handle", "0x99=insole/frame"), "holds no value of an attribute 0x0099, which was said to be insole/frame"),
-        (("--handle", f"{TAG}/0x12=insole/frame"), f"holds no device {TAG}, whose 0x0012 was said to be insole/frame"),
-        (("--handle", "0x12=cc2650/movement"), "as its discovery says, not cc2650/movement"),
-    ):
-        assert complaint(log, out, *wishes).endswith(flaw)
-    assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize("kind", ["btsnoop", "recording"])
-def test_packets_before_a_damage_are_converted_and_the_damage_is_reported(log, tmp_path, kind):
-    out = tmp_path / "out.mcap" if kind == "recording" else tmp_path / "out.jsonl"
-    if kind == "btsnoop":
-        source = tmp_path / "damaged.log"
-        source.write_bytes(log.read_bytes() + struct.pack(">IIIIq", 1, 2, 0, 0, 0))
-        flaw = "is damaged: it claims 2 of 1 bytes"
-    else:
-        source = recording(tmp_path / "damaged.jsonl")
-        source.write_text(source.read_text() + "{}\n")
-        flaw = 'line 102: "t" is missing; this line is left out'
+def test_packets_before_a_damage_are_converted_and_the_damage_is_reported(log, tmp_path):
+    source, out = tmp_path / "damaged.log", tmp_path / "out.jsonl"
+    source.write_bytes(log.read_bytes() + struct.pack(">IIIIq", 1, 2, 0, 0, 0))
     result = convert(source, out)
-    assert result.returncode == (2 if kind == "btsnoop" else 0)
-    assert result.stderr.count("\n") == 1 and flaw in result.stderr
+    assert result.returncode == 2
+    assert result.stderr.count("\n") == 1 and "is damaged: it claims 2 of 1 bytes" in result.stderr
     assert f" packets written to {out}" in result.stdout and out.stat().st_size > 10_000
 
 
@@ -141,49 +112,18 @@ def test_what_cannot_be_converted_replaces_nothing(log, tmp_path):
 
 def test_impossible_file_names_are_rejected(log, tmp_path):
     walk = recording(tmp_path / "walk.jsonl")
-    assert complaint(log, tmp_path / "walk.csv").endswith(
-        "walk.csv: ends neither in .jsonl nor in .mcap nor in .sto, which says what to write; "
-        "--subject writes a Motion-BIDS dataset"
-    )
-    assert complaint(walk, tmp_path / "other.jsonl").endswith(
-        "is no btsnoop log; a recording is converted to .mcap or .sto or, with --subject, into a Motion-BIDS dataset"
-    )
-    assert "--site and --handle are for btsnoop logs" in complaint(
-        walk, tmp_path / "walk.mcap", "--site", f"{TAG}=pelvis"
-    )
-    for source, flaw in ((tmp_path / "none.log", "there is no such file"), (tmp_path, "is a folder")):
-        assert f"{source}: {flaw}" in complaint(source, tmp_path / "other.jsonl")
-    same = tmp_path / "same.jsonl"
-    same.write_bytes(log.read_bytes())
-    assert complaint(same, same).endswith("is what this command reads; write to another file")
-    assert same.read_bytes() == log.read_bytes()
-    assert complaint(log, tmp_path / "none" / "walk.jsonl").endswith(
-        f"there is no folder {tmp_path / 'none'}: make it first"
-    )
+    assert "ends neither in .jsonl nor in .mcap nor in .sto" in complaint(log, tmp_path / "walk.csv")
+    assert "is no btsnoop log; a recording is converted to" in complaint(walk, tmp_path / "other.jsonl")
+    site = ("--site", f"{TAG}=pelvis")
+    assert "--site and --handle are for btsnoop logs" in complaint(walk, tmp_path / "walk.mcap", *site)
 
 
-def test_no_file_is_touched_but_the_one_that_is_named(log, tmp_path):
-    """A file whose name is OUT's with a suffix stays too, whether it is the source or not."""
-    for k, (source, name) in enumerate(((log, "walk.jsonl"), (recording(tmp_path / "a.jsonl"), "walk.mcap"))):
-        folder = tmp_path / str(k)
-        folder.mkdir()
-        out, beside = folder / name, folder / f"{name}.part"
-        beside.write_bytes(source.read_bytes())
-        assert convert(beside, out).returncode == 0
-        assert beside.read_bytes() == source.read_bytes() and out.stat().st_size > 1000
-        beside.write_text("precious")
-        assert convert(source, out, "--force").returncode == 0
-        assert beside.read_text() == "precious"
-        assert sorted(folder.iterdir()) == [out, beside]
-
-
-@pytest.mark.parametrize("mode", [0o600, 0o440, 0o664])
-def test_a_file_that_is_replaced_keeps_its_mode(log, tmp_path, mode):
+def test_a_file_that_is_replaced_keeps_its_mode(log, tmp_path):
     out = tmp_path / "walk.jsonl"
     out.write_text("old")
-    out.chmod(mode)
+    out.chmod(0o440)
     assert convert(log, out, "--force").returncode == 0
-    assert out.stat().st_mode & 0o777 == mode and out.stat().st_size > 1000
+    assert out.stat().st_mode & 0o777 == 0o440 and out.stat().st_size > 1000
 
 
 def test_a_new_file_has_the_mode_that_new_files_have_and_a_link_stays_one(log, tmp_path):
@@ -202,17 +142,17 @@ sys.exit(main(["convert", *sys.argv[1:]]))
 """
 
 
-@pytest.mark.parametrize("name", ["walk.jsonl", "walk.mcap"])
-def test_a_disk_that_fills_up_is_one_line_and_leaves_no_half_file(log, tmp_path, name):
-    out = tmp_path / name
+def test_a_disk_that_fills_up_is_one_line_and_leaves_no_half_file(log, tmp_path):
+    out = tmp_path / "walk.jsonl"
     result = subprocess.run([sys.executable, "-c", LITTLE_ROOM, log, out], capture_output=True, text=True)
     assert (result.returncode, result.stderr) == (2, f"solepath: {out}: is larger than this disk allows\n")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_without_mcap_the_message_names_the_package(log, tmp_path):
+    """A process of its own, since this one may have loaded the package already."""
     code = "import sys; sys.modules['mcap'] = None; from solepath.cli import main; sys.exit(main(sys.argv[1:]))"
-    out = tmp_path / "walk.mcap"
-    result = subprocess.run([sys.executable, "-c", code, "convert", log, out], capture_output=True, text=True)
+    command = [sys.executable, "-c", code, "convert", log, tmp_path / "walk.mcap"]
+    result = subprocess.run(command, capture_output=True, text=True)
     assert result.returncode == 2
     assert result.stderr == f"solepath: writing MCAP needs the package mcap: {install_hint('mcap')}\n"

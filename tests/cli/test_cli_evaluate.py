@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import no_control_codes, run, run_failing, solepath
+from commands import no_control_codes, run, run_failing
 from walks import columns_of
 
 from solepath.emulate.routes.route import Route
@@ -30,8 +30,9 @@ def data(tmp_path_factory) -> Path:
     return folder
 
 
-def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
-    result = solepath("evaluate", "--json", tmp_path / "scores.json", SOLEPATH_DATA=str(data))
+def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path, monkeypatch):
+    monkeypatch.setenv("SOLEPATH_DATA", str(data))
+    result = run("evaluate", "--processes", 1, "--json", tmp_path / "scores.json")
     assert result.returncode == 0 and result.stderr == ""
     assert no_control_codes(result.stdout)
     assert "failed: " in result.stdout and "broken.npz: is empty" in result.stdout
@@ -45,40 +46,9 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
     assert f"{figures['end_error']:.3f}" in result.stdout
 
 
-def test_evaluate_in_short_is_a_markdown_table(data):
-    result = solepath("evaluate", data, "--markdown", "--recipe", "default")
-    assert result.returncode == 0 and "not scored: " in result.stderr and "broken.npz: is empty" in result.stderr
-    head, rule, length, first, second, third, fourth = result.stdout.splitlines()
-    assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")
-    assert length == "| a closed loop, one shoe: `xio_closed_walks`, 1 recording | length of the walk | 18.3 m |"
-    assert first.startswith("|  | from end to start, in space | 0.") and first.endswith(" m |")
-    assert second.startswith("|  | from end to start, horizontal | 0.") and second.endswith(" m |")
-    assert third.startswith("|  | from end to start, in height | 0.") and third.endswith(" m |")
-    assert fourth.startswith("|  | drift of the heading | mean ") and fourth.endswith(" degrees/min |")
-
-
-def test_evaluate_compares_with_earlier_figures(data, tmp_path):
-    old = tmp_path / "old.json"
-    command = ("evaluate", data, "--recipe", "default", "--processes", "1")
-    assert run(*command, "--json", old).returncode == 0
-    scores = json.loads(old.read_text())
-    scores["default"]["xio_closed_walks"]["summary"]["all"]["mean"]["end_error_2d"] *= 2.0
-    old.write_text(json.dumps(scores))
-    compared = run(*command, "--compare", old)
-    assert compared.returncode == 0 and "xio_closed_walks, default, compared: 1 better, 0 worse" in compared.stdout
-    (line,) = (line for line in compared.stdout.splitlines() if line.startswith("end_error_2d (mean)"))
-    was, now, word = line.split()[-3:]
-    assert float(was) == pytest.approx(2.0 * float(now), rel=0.02) and word == "better"
-    old.write_text("{")
-    assert "old.json: is not JSON" in run_failing(*command, "--compare", old)
-
-
 def test_evaluate_without_data_names_what_it_needs(data, tmp_path, monkeypatch):
     monkeypatch.delenv("SOLEPATH_DATA", raising=False)
     needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"
     assert needs in run_failing("evaluate")
     assert "does not hold any of the data sets" in run_failing("evaluate", tmp_path)
-    assert "is not a directory" in run_failing("evaluate", tmp_path / "none")
     assert "--only: there is no data set 'mars'" in run_failing("evaluate", data, "--only", "mars")
-    assert "does not hold pyshoe_vicon" in run_failing("evaluate", data, "--only", "pyshoe_vicon")
-    assert "there is no recipe 'secret'" in run_failing("evaluate", data, "--recipe", "secret")

@@ -37,8 +37,7 @@ def test_a_recording_that_waits_for_its_first_packet_is_not_replaced(
     assert list(read_packets(path)) == PACKETS[2:]
 
 
-@pytest.mark.parametrize("force", [(), ("--force",)])
-@pytest.mark.parametrize("is_complete", [True, False])
+@pytest.mark.parametrize(("force", "is_complete"), [((), True), (("--force",), False)])
 def test_a_recording_that_is_made_during_a_run_is_not_replaced_at_its_end(
     recording: Path, tmp_path: Path, force: tuple[str, ...], is_complete: bool
 ) -> None:

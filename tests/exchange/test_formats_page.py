@@ -1,9 +1,7 @@
 """The programs of docs/formats.md run, and its commands do what the page says."""
 
-import asyncio
 import inspect
 import shlex
-import uuid
 from typing import Any
 
 import pytest
@@ -32,32 +30,6 @@ def test_the_programs_are_whole(names: dict[str, Any], tmp_path) -> None:
     assert names["MotionWriter"](tmp_path / "study", names["Entities"]("01", "walk"))
 
 
-def test_the_program_for_streams_publishes(names: dict[str, Any], tmp_path, monkeypatch) -> None:
-    pylsl = pytest.importorskip("pylsl", reason="the extra lsl is not installed")
-    name = f"page {uuid.uuid4().hex[:8]}"
-    info = pylsl.StreamInfo(name, "IMU", 6, 0.0, pylsl.cf_double64, name)
-    info.set_channel_labels([f"{quantity}_{axis}" for quantity in ("acc", "gyro") for axis in "xyz"])
-    info.set_channel_units(["m/s^2"] * 3 + ["rad/s"] * 3)
-    outlet = pylsl.StreamOutlet(info)
-    if not pylsl.resolve_byprop("name", name, timeout=5.0):
-        pytest.skip("streams of this machine are not found: neither multicast nor loopback works here")
-
-    async def both() -> list:
-        task = asyncio.create_task(names["run"](name))
-        while not outlet.have_consumers():
-            await asyncio.sleep(0.05)
-            assert not task.done()
-        outlet.push_sample([0.0, 0.0, 9.81, 0.0, 0.0, 0.0])
-        found: list = []
-        while not found:
-            found = await asyncio.to_thread(pylsl.resolve_byprop, "name", "solepath left_foot samples", 1, 0.5)
-            assert not task.done()
-        task.cancel()
-        return found
-
-    assert asyncio.run(asyncio.wait_for(both(), 60.0))
-
-
 def test_every_command_of_the_page_is_understood() -> None:
     lines = [line.partition(" #")[0].strip() for text in blocks(PAGE, "sh") for line in text.splitlines()]
     commands = [line for line in lines if line.startswith("solepath ")]
@@ -66,6 +38,7 @@ def test_every_command_of_the_page_is_understood() -> None:
         assert parser().parse_args(shlex.split(line)[1:]).command
 
 
+@pytest.mark.soak
 def test_the_official_programs_read_what_convert_writes(tmp_path) -> None:
     pytest.importorskip("opensim", reason="the extra opensim is not installed")
     pytest.importorskip("bids_validator_deno", reason="the extra bids is not installed")

@@ -17,7 +17,6 @@ from solepath import HeelStrike, Sample, Session, Site
 from solepath.recording.posed import PosedSample, PosedSession
 
 pylsl = pytest.importorskip("pylsl", reason="the extra lsl is not installed")
-from solepath.recording.lsl.clock import clock_offset  # noqa: E402
 from solepath.recording.lsl.inlet import LslError, LslInlet, stream_names  # noqa: E402
 from solepath.recording.lsl.outlet import POSE_CHANNELS, LslOutlets, marker_of  # noqa: E402
 
@@ -117,12 +116,12 @@ def check(seconds: float) -> str:
 
 
 def test_no_sample_is_lost_and_times_are_right() -> None:
-    print(check(4.0))
+    print(check(2.0))
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_no_sample_is_lost_in_ten_minutes() -> None:
-    """The figure of docs/formats.md: `pytest -m soak -s tests/exchange/test_lsl.py`."""
+    """The figure of docs/formats.md: `pytest -m long -s tests/exchange/test_lsl.py`."""
     print(check(600.0))
 
 
@@ -228,14 +227,3 @@ def test_what_is_wrong_with_a_stream_is_one_sentence() -> None:
     assert LslInlet(LEFT, "bare", channels=["-", *[f"{q}_{a}" for q in ("acc", "gyro") for a in "xyz"]], units=units)
     assert {"bare", "unitless"} <= set(stream_names())
     assert len(outlets) == 2
-
-
-def test_the_offset_between_two_clocks() -> None:
-    offset = clock_offset(lambda: pylsl.local_clock() - 1234.5)
-    assert offset == pytest.approx(1234.5, abs=1e-3)
-
-
-def test_the_extra_has_no_part_in_a_session() -> None:
-    program = "import sys, solepath.recording; from solepath import Session; print('pylsl' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout == "False\n"
-    assert Path(pylsl.__file__).exists()

@@ -7,7 +7,6 @@ import pytest
 import walks
 
 from solepath import Foot, Phase, Sample, Session, Site
-from solepath.recording import RecordingError
 from solepath.recording.posed import PosedSample, PosedSession, PoseState
 from solepath.show.opensim import LONGEST_INTERVAL, OpensimWriter, Quantity
 from solepath.types import SITE_OF_FOOT
@@ -58,14 +57,6 @@ def test_attitudes_between_samples_lie_on_the_turn_of_the_foot(tmp_path):
             assert up.to_numpy() == pytest.approx([0.0, 1.0, 0.0], abs=1e-9)
 
 
-def test_positions_are_in_the_ground_frame(tmp_path):
-    path = written(tmp_path / "walk.sto", Quantity.POSITIONS, [posed(0.01 * k, RIGHT) for k in range(50)])
-    table = opensim.TimeSeriesTableVec3(str(path))
-    assert list(table.getColumnLabels()) == ["calcn_r"]
-    for t, (position,) in rows(table):
-        assert position.to_numpy() == pytest.approx([t, 0.1, -0.2], abs=1e-12)
-
-
 def test_nothing_is_interpolated_over_a_gap(tmp_path):
     times = [0.01 * k for k in range(100) if not 30 < k < 60]
     samples = [posed(0.01 * k) for k in range(100)] + [posed(t, RIGHT) for t in times]
@@ -73,13 +64,6 @@ def test_nothing_is_interpolated_over_a_gap(tmp_path):
     assert not [t for t, _ in found if 0.301 < t < 0.599]
     assert len(found) == pytest.approx(71, abs=2)
     assert LONGEST_INTERVAL < 0.3
-
-
-def test_a_recording_without_any_pose_is_an_error(tmp_path):
-    writer = OpensimWriter(Quantity.ATTITUDES)
-    writer.add(PosedSample(Sample(0.0, LEFT), None))
-    with pytest.raises(RecordingError, match="no instant has a pose"):
-        writer.write(tmp_path / "a.sto")
 
 
 def test_opensim_finds_gravity_and_the_track_of_a_walk(tmp_path):

@@ -19,15 +19,15 @@ from here import PROTOCOL
 from virtual import now, virtually
 
 from solepath import GaitCycleMeasured, Session, StrideTaken
-from solepath.ble import Backend, BluetoothError
+from solepath.ble import Backend
 from solepath.ble.running import RunningSensor
 from solepath.emulate.controllers import virtual_link
 from solepath.emulate.devices.peripheral import Placement
 from solepath.emulate.devices.running import RunningPeripheral
-from solepath.emulate.devices.running_meter import ReplayedMeter, RunningMeter
+from solepath.emulate.devices.running_meter import ReplayedMeter
 from solepath.emulate.routes.route import Route
 from solepath.types import Site
-from solepath.wire.running import RscMeasurement, build_measurement
+from solepath.wire.running import RscMeasurement
 
 LONG = Route().stand(1.5).walk(12.0, 1.3).stop(6.0)
 """A walk of about 9 s, and then standing for longer than a measurement of speed lasts."""
@@ -127,21 +127,6 @@ async def test_the_control_point_answers_by_the_rules_of_the_service() -> None:
         assert [answer.hex() for answer in answers] == ["100101", "100202", "100402", "100103", "106302"]
 
 
-@virtually
-async def test_a_sensor_that_is_not_there_is_one_sentence_and_one_that_goes_away_ends_the_reading() -> None:
-    async with virtual_link([]) as backend:
-        with pytest.raises(BluetoothError, match="no sensor of running speed and cadence is in range"):
-            await RunningSensor(backend=backend, search_time=0.5).__aenter__()
-    served = sensor()
-    async with virtual_link([served]) as backend, RunningSensor("solepath RSC", backend=backend) as reader:
-        count = 0
-        async for _ in reader:
-            count += 1
-            if count == 2:
-                await reader._client.disconnect()
-        assert count == 2
-
-
 def test_the_package_bluetooth_sig_reads_every_valid_vector_alike() -> None:
     module = pytest.importorskip(
         "bluetooth_sig.gatt.characteristics.rsc_measurement", reason="bluetooth-sig is not installed"
@@ -161,15 +146,3 @@ def test_the_package_bluetooth_sig_reads_every_valid_vector_alike() -> None:
         assert found.is_running is fields["running"]
         compared += 1
     assert compared >= 8
-
-
-def test_the_meter_averages_both_feet_and_stops_with_the_wearer() -> None:
-    meter = RunningMeter()
-    packets = walks.insoles(LONG).packets
-    session = Session()
-    for packet in packets:
-        meter.add(session.feed(packet))
-    distance = meter.distance
-    assert distance == pytest.approx(12.0, rel=0.1)
-    assert meter.measure(packets[-1].t) == RscMeasurement(0.0, 0, 0.0, distance)
-    assert len(build_measurement(meter.measure(packets[-1].t))) == 10

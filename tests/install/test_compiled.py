@@ -78,6 +78,7 @@ def go_on(folder: Path, state: Any, packets: list[Packet], place: Path) -> list[
     return found
 
 
+@pytest.mark.soak
 def test_compiled_modules_give_the_same_events_and_states_bit_for_bit(compiled: Path, tmp_path: Path) -> None:
     third = len(PACKETS) // 3
     session = Session()
@@ -96,71 +97,7 @@ def test_compiled_modules_give_the_same_events_and_states_bit_for_bit(compiled: 
     assert after == json.loads(json.dumps(back.snapshot()))
 
 
+@pytest.mark.soak
 def test_the_version_names_the_form_that_runs(compiled: Path) -> None:
     assert run(compiled, "-m", "solepath", "--version").rstrip().endswith(", compiled")
     assert run(ROOT / "src", "-m", "solepath", "--version").rstrip().endswith(", pure")
-
-
-DOOR = """
-import copy, pickle
-import numpy as np
-from solepath import Packet, Sample, Session, Site
-from solepath.types import plain, records
-
-one = Sample(np.float64(0.5), Site.LEFT_FOOT, [0, 0, np.float32(9.5)], np.zeros(3), pressure=(1, np.float64(2.5)))
-assert records.__file__.endswith(".so") and type(one.acc) is list
-made = plain.with_floats(one)
-assert not plain.has_floats(one) and plain.has_floats(made)
-assert made == Sample(0.5, Site.LEFT_FOOT, (0.0, 0.0, 9.5), (0.0, 0.0, 0.0), pressure=(1.0, 2.5))
-assert not plain.has_floats(Sample(0.5, Site.LEFT_FOOT, (0.0, 0.0, np.float64(9.5))))
-assert copy.deepcopy(made) == made == pickle.loads(pickle.dumps(made)) and hash(made) == hash(copy.copy(made))
-assert pickle.loads(pickle.dumps(Packet(1.0, Site.PELVIS, "a/b", b"x"))) == Packet(1.0, Site.PELVIS, "a/b", b"x")
-session = Session()
-session.feed(one)
-for wrong in (Sample("0.5", Site.LEFT_FOOT), Sample(0.6, Site.LEFT_FOOT, (0.0, 0.0)), Sample(0.6, "left_foot")):
-    try:
-        session.feed(wrong)
-    except TypeError as error:
-        print(error)
-"""
-
-
-def test_a_compiled_session_takes_lists_arrays_and_numbers_of_numpy_as_a_pure_one_does(
-    compiled: Path, tmp_path: Path
-) -> None:
-    script = tmp_path / "door.py"
-    script.write_text(DOOR)
-    pure = script.with_name("pure.py")
-    pure.write_text(DOOR.replace('records.__file__.endswith(".so") and ', ""))
-    assert run(compiled, script) == run(ROOT / "src", pure) != ""
-
-
-APP = """
-
-from solepath.types.attrs import define, evolve, field
-from solepath.foot.navigate.strapdown import Strapdown
-from solepath.foot.stance.stance import Detector, Stance
-import copy, pickle
-
-@define
-class Own(Detector):
-    limit: float = 2.0
-    count: int = field(default=0, init=False)
-    def update(self, t, dt, acc, gyro, load, attitude=(1.0, 0.0, 0.0, 0.0)):
-        self.count += 1
-        return Stance((0.0, 0.0, 0.0), 0.1 if abs(gyro[0]) < self.limit else float("inf"), 0.0, None)
-
-@define
-class Integral(Strapdown):
-    own: int = field(default=3, init=False)
-
-one = Integral()
-one.velocity = (1.0, 2.0, 3.0)
-assert copy.deepcopy(one) == one and pickle.loads(pickle.dumps(one)) == one and evolve(one).velocity == (0.0, 0.0, 0.0)
-assert Own().lacking is None and Own(3.0) == Own(3.0) != Own(4.0)
-print(one)
-"""
-
-
-def test_an_app_derives_from_compiled_classes_as_from_pure_ones(compiled: Path) -> None:
-    assert run(compiled, "-c", APP) == run(ROOT / "src", "-c", APP) != ""

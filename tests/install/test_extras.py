@@ -28,7 +28,7 @@ def oldest_python() -> str:
     return found
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_all_extras_can_be_installed_together(tmp_path: Path) -> None:
     """pip chooses a version of each package for all extras at once; nothing is installed."""
     subprocess.run([oldest_python(), "-m", "venv", tmp_path / "venv"], check=True)

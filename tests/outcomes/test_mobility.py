@@ -6,7 +6,6 @@ import pytest
 from attrs import asdict
 
 from solepath.show.outcomes import WalkingBout, implausible, mobility_outcomes
-from solepath.show.outcomes.mobility import unit_of
 
 
 def bout(number: int, duration: float, speed: float | None, length: float | None, **other: float) -> WalkingBout:
@@ -81,13 +80,3 @@ def test_without_bouts_and_without_lengths_there_is_nothing_to_average() -> None
     unknown = mobility_outcomes([bout(1, 40.0, None, None)])
     assert (unknown.ws_30_avg, unknown.strlen_30_avg, unknown.cadence_30_avg) == (None, None, 100.0)
     assert (unknown.wbdur_all_p90, unknown.wbdur_all_var) == (40.0, None)
-
-
-def test_each_outcome_has_its_unit() -> None:
-    units = {name: unit_of(name) for name in asdict(mobility_outcomes([]))}
-    assert {name for name, unit in units.items() if not unit} == {
-        "wbsteps_all_sum", "turns_all_sum", "wb_all_sum", "wb_10_sum", "wb_30_sum", "wb_60_sum", "wb_1030_sum",
-        "wbdur_all_var", "cadence_all_var", "strdur_all_var", "ws_30_var", "strlen_30_var",
-    }  # fmt: skip
-    assert (units["ws_1030_avg"], units["strlen_30_avg"], units["walkdur_all_sum"]) == ("m/s", "m", "s")
-    assert (units["cadence_30_p90"], units["wbdur_all_avg"], units["strdur_30_avg"]) == ("1/min", "s", "s")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from quoted import PAGES, run_page
+from quoted import run_page
 from recordings import recorded
 
 from solepath.emulate import Route, emulate
@@ -21,9 +21,3 @@ def test_the_lines_of_the_page_run(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert cycles.rstrip().endswith(" s") and "left" in cycles
     assert "gyro_y" in samples and len(names["samples"]) > 500
     assert "{b'unit': b's'}" in arrow and "GaitCycleMeasured" in arrow
-
-
-def test_every_other_name_of_a_column_is_on_the_page() -> None:
-    from solepath.events.frames.columns import RENAMED
-
-    assert [name for name in RENAMED.values() if f"`{name}`" not in PAGES["docs/frames.md"]] == []

@@ -12,7 +12,7 @@ from here import TESTS
 from quoted import below, nearly_the_same
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_the_script_makes_its_environment_and_prints_the_table_of_the_page(tmp_path: Path) -> None:
     place = os.environ.get("SOLEPATH_GAITMAP", str(tmp_path / "gaitmap"))  # an environment that is there saves minutes
     words = [sys.executable, TESTS / "bench" / "lab" / "gaitmap_walks.py", "--environment", place]

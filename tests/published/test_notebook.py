@@ -8,9 +8,6 @@ from typing import Any
 
 import pytest
 from here import EXAMPLES, ROOT
-from recordings import recorded
-
-from solepath.emulate import Route, emulate
 
 nbformat = pytest.importorskip("nbformat", reason="the extra notebook is not installed")
 nbclient = pytest.importorskip("nbclient", reason="the extra notebook is not installed")
@@ -39,6 +36,7 @@ def test_it_is_a_valid_notebook_without_outputs() -> None:
     assert NOTEBOOK.stat().st_size < 12_000
 
 
+@pytest.mark.soak
 def test_it_runs_from_an_emulated_walk_to_a_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     notebook = executed(tmp_path, monkeypatch)
     text = printed(notebook)
@@ -47,9 +45,3 @@ def test_it_runs_from_an_emulated_walk_to_a_figure(tmp_path: Path, monkeypatch: 
     assert "image/png" in kinds and "text/html" in kinds
     assert not [one for cell in notebook.cells for one in cell.get("outputs", ()) if one.get("name") == "stderr"]
     assert (tmp_path / "walk.jsonl").stat().st_size > 100_000 and (tmp_path / "two_recipes.png").is_file()
-
-
-def test_it_takes_a_recording_that_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    walk = emulate(Route().stand(2.0).walk(12.0, speed=1.2).stop(2.0), seed=3)
-    recorded(tmp_path / "walk.jsonl", walk.packets)
-    assert f"walk.jsonl: {len(walk.packets)} packets" in printed(executed(tmp_path, monkeypatch))

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import json
-import re
+import runpy
 import shlex
-import subprocess
 import sys
 from math import hypot
 from pathlib import Path
 
 import pytest
+from commands import run
 from here import EXAMPLES
-from programs import run
 from quoted import PAGES, blocks, run_page
 
 from solepath.emulate import Route, Walker
 from solepath.types import Foot
-
-PATHS = ("docs/app.md", "docs/researcher.md", "docs/indoor.md", "docs/device.md")
 
 
 @pytest.fixture
@@ -32,14 +29,7 @@ def typed(page: str, start: str) -> None:
     for line in filter(None, "\n".join(blocks(PAGES[page], "sh")).splitlines()):
         program, *words = shlex.split(line, comments=True)
         if program.endswith("solepath") and words[0] == start and "--view" not in words:
-            run(*words)
-
-
-@pytest.mark.parametrize("page", PATHS)
-def test_a_path_is_short_and_names_its_readers_at_once(page: str) -> None:
-    lines = PAGES[page].splitlines()
-    assert len(lines) <= 120 and lines[2].startswith("For ")
-    assert re.search(r"A (stride|heel-strike|\*\*stride\*\*).{1,60}is|goes from", PAGES[page]), "terms are explained"
+            assert run(*words).returncode == 0
 
 
 def test_an_app_counts_saves_and_goes_on(here: Path) -> None:
@@ -54,8 +44,9 @@ def test_an_app_counts_saves_and_goes_on(here: Path) -> None:
     assert names["session"].position == names["session"].restore(names["saved"]["session"]).position
 
 
-def test_tables_of_a_lab_become_frames_and_a_report(here: Path) -> None:
-    subprocess.run([sys.executable, EXAMPLES / "researcher.py", "lab"], check=True, capture_output=True)
+def test_tables_of_a_lab_become_frames_and_a_report(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", ["researcher.py", "lab"])
+    runpy.run_path(str(EXAMPLES / "researcher.py"), run_name="__main__")
     typed("docs/researcher.md", "track")
     typed("docs/researcher.md", "check")
     _, names = run_page("docs/researcher.md")

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from math import degrees
 from pathlib import Path
 
 import numpy as np
-import pytest
-from commands import run, run_failing
+from commands import run
 from quoted import below, nearly_the_same
 from recordings import recorded
 
 from solepath import Calibration, Foot, Packet, Site
 from solepath.calibration import HeadingCalibration
 from solepath.calibration.file import read_calibration, write_calibration
-from solepath.emulate.handling import CLUMSY, Handling
+from solepath.emulate.handling import Handling
 from solepath.emulate.radio import Radio
 from solepath.emulate.sensors.device import device_rng
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import MPU9250
 from solepath.lab.calibrate.table import main, specimen, true_corrections
-from solepath.recording.mapping.units import GRAVITY
 
 IMU = specimen(MPU9250, 81)
 
@@ -51,47 +48,3 @@ def test_the_example_of_the_page_is_what_the_command_prints(tmp_path: Path) -> N
     printed = run("calibrate", "sensor", tmp_path / "turns.jsonl", "--out", tmp_path / "me.json").stdout
     shown = printed.replace(str(tmp_path / "me.json"), "me.json")
     nearly_the_same(below("calibrate-sensor"), shown.splitlines())
-
-
-@pytest.mark.parametrize(("turns", "status"), [(5.0, 0), (0.0, 2)])
-def test_samples_of_one_foot_become_a_calibration_of_it(turns: float, status: int, tmp_path: Path) -> None:
-    """With rests in one orientation and no turns, the command says what is missing and writes nothing."""
-    orientations = None if turns else np.tile([[0.0, 0.1, 1.0]], (14, 1))
-    site = Site.LEFT_FOOT
-    hand = Handling(82, CLUMSY, turns=turns, orientations=orientations)
-    samples = Insole(cells=8, chip=IMU).samples(hand, site, device_rng(82, site))
-    t, acc, gyro = ([getattr(one, name) for one in samples] for name in ("t", "acc", "gyro"))
-    np.savez(tmp_path / "turns.npz", t=t, acc=acc, gyro=gyro)
-    words = ("calibrate", "sensor", tmp_path / "turns.npz", "--foot", "left", "--out", tmp_path / "me.json")
-    if status == 0:
-        assert run(*words).returncode == 0
-        assert list(read_calibration(tmp_path / "me.json").sensors) == [Foot.LEFT]
-    else:
-        message = run_failing(*words)
-        assert "left foot: the accelerometer is not known" in message and "is missing" in message
-        assert not (tmp_path / "me.json").exists()
-
-
-def test_a_table_of_another_program_becomes_a_calibration(tmp_path: Path) -> None:
-    samples = Insole(cells=8, chip=IMU).samples(Handling(82), Site.LEFT_FOOT, device_rng(82, Site.LEFT_FOOT))
-    rows = [(1000.0 * one.t, *(a / GRAVITY for a in one.acc or ()), *map(degrees, one.gyro or ())) for one in samples]
-    lines = [";".join(f"{value:.6f}" for value in row) for row in rows]
-    (tmp_path / "left.csv").write_text("\n".join(["Time;AX;AY;AZ;GX;GY;GZ", *lines]) + "\n")
-    options = ("--columns", "t=Time,acc=AX,AY,AZ,gyro=GX,GY,GZ", "--units", "ms,g,deg/s")
-    result = run("calibrate", "sensor", tmp_path / "left.csv", *options, "--out", tmp_path / "me.json")
-    assert (result.returncode, result.stderr) == (0, "")
-    _, gyro = true_corrections(IMU)
-    learnt = read_calibration(tmp_path / "me.json").sensors[Foot.LEFT]
-    assert np.abs(np.array(learnt.gyro.matrix).reshape(3, 3) - gyro).max() < 0.0035  # 0.2 degrees
-
-
-@pytest.mark.parametrize(("turning", "words"), [(0.0, "always reads the same"), (1.0, "rates do not turn gravity")])
-def test_readings_that_never_change_at_rest_are_one_sentence(tmp_path: Path, turning: float, words: str) -> None:
-    """Twenty-four exact rests, with rates that turn nothing: an emulated sensor without noise."""
-    t = np.arange(9600) * 0.01
-    face = (np.arange(9600) // 400) % 6
-    acc = np.eye(3)[face % 3] * np.where(face < 3, 9.81, -9.81)[:, None]
-    gyro = np.where(np.arange(9600)[:, None] % 400 < 20, [turning, 0.0, 0.0], 0.0)
-    np.savez(tmp_path / "left.npz", t=t, acc=acc, gyro=gyro)
-    message = run_failing("calibrate", "sensor", tmp_path / "left.npz", "--out", tmp_path / "me.json")
-    assert words in message and "nan" not in message

@@ -1,6 +1,5 @@
 """Tests `solepath calibrate shoe --live`: a person in a terminal, and the shoe of emulated insoles in postures."""
 
-import asyncio
 import csv
 import os
 import re
@@ -14,7 +13,6 @@ from pathlib import Path
 import commands
 import pytest
 from programs import TAKES, drawn, emulator, in_terminal
-from watchers import ANYWHERE, watching
 
 from solepath.calibration.file import read_calibration
 from solepath.emulate.routes.postures import PITCHES, posture
@@ -49,6 +47,7 @@ def test_options_of_the_sensor_without_live_are_rejected(tmp_path: Path) -> None
     assert "--left is an option of --live" in commands.run(*arguments).stderr
 
 
+@pytest.mark.soak
 def test_a_person_measures_five_postures_while_the_shoe_s_sensor_gives_the_pitch(tmp_path: Path) -> None:
     table, out = tmp_path / "postures.csv", tmp_path / "me.json"
     with measuring(tmp_path, HOLD, "--times", 1, "--height", 0.029) as (terminal, process, _):
@@ -87,11 +86,10 @@ def shown_until(terminal: int, pitch: float) -> None:
         text = part
 
 
-@pytest.mark.parametrize(
-    ("end", "status", "words"), [(b"q\n", 2, "no posture was measured"), (b"\x04", 2, "no posture"), (b"\x03", 130, "")]
-)
+@pytest.mark.soak
+@pytest.mark.parametrize(("end", "status", "words"), [(b"\x04", 2, "no posture was measured"), (b"\x03", 130, "")])
 def test_who_ends_before_any_measurement_changes_nothing(tmp_path: Path, end: bytes, status: int, words: str) -> None:
-    """Ends are the letter q, the end of the input (Ctrl-D) and Ctrl-C."""
+    """Ends are the end of the input (Ctrl-D) and Ctrl-C; the letter q ends a later test."""
     with measuring(tmp_path, HOLD) as (terminal, process, _):
         if end == b"\x03":
             process.send_signal(signal.SIGINT)  # this terminal controls no process
@@ -101,45 +99,3 @@ def test_who_ends_before_any_measurement_changes_nothing(tmp_path: Path, end: by
         assert words in text and "Traceback" not in text
         assert process.wait(TAKES) == status
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_page_shows_the_pitch_and_the_task_beside_the_terminal(tmp_path: Path) -> None:
-    pytest.importorskip("aiohttp")
-
-    async def watch(terminal: int, url: str) -> str:
-        printed = asyncio.create_task(asyncio.to_thread(drawn, terminal))  # a full terminal would stop the program
-        async with watching(url) as watcher:
-            await watcher.until(lambda frame: "flat on level ground" in frame["posture"]["task"])
-            assert (watcher.frame["posture"]["pitch"], watcher.frame["posture"]["target"]) == (None, None)
-            await watcher.until(lambda frame: frame["posture"]["still"] is True)
-            os.write(terminal, b"\n")
-            await watcher.until(lambda frame: frame["posture"]["task"].startswith("Posture 1 of 5"))
-            assert watcher.frame["posture"]["foot"] == "left"
-            assert watcher.frame["posture"]["target"] == pytest.approx(radians(10.0), abs=1e-3)
-            await watcher.until(lambda frame: abs((frame["posture"]["pitch"] or 0.0) - PITCHES[0]) < radians(1.5))
-            os.write(terminal, b"\n")
-            await watcher.until(lambda frame: "L_r in mm" in frame["posture"]["task"])
-            assert watcher.frame["posture"]["target"] is None
-            os.write(terminal, b"q\n")
-        return await printed
-
-    with measuring(tmp_path, HOLD, "--times", 1, *ANYWHERE) as (terminal, process, text):
-        found = re.search(r"the page: (http://\S+#token=\S+)", text)
-        assert found is not None
-        assert "no posture was measured" in asyncio.run(watch(terminal, found[1]))
-        assert process.wait(TAKES) == 2
-
-
-def test_a_measurement_is_taken_back(tmp_path: Path) -> None:
-    table = tmp_path / "postures.csv"
-    with measuring(tmp_path, 30, "--times", 1) as (terminal, process, _):
-        for answer, reply in ((b"\n", "Posture 1"), (b"\n", "L_r in mm"), (b"80\n", "L_p2t"), (b"70\n", "Posture 2")):
-            os.write(terminal, answer)
-            drawn(terminal, reply)
-        assert table.read_text().splitlines()[1].endswith(",0.0800,0.0700")
-        for answer, reply in ((b"u\n", "Posture 1"), (b"u\n", "Stand with the shoe flat"), (b"q\n", "no posture")):
-            os.write(terminal, answer)
-            drawn(terminal, reply)
-        assert process.wait(TAKES) == 2
-    assert table.read_text() == "pitch_deg,L_r_m,L_p2t_m\n"
-    assert list(tmp_path.iterdir()) == [table]

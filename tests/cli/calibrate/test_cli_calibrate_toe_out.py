@@ -1,25 +1,16 @@
 """Tests `solepath calibrate toe-out --live`: a person in a terminal, and emulated SensorTags on a straight walk."""
 
-import asyncio
 import os
-import re
-from collections.abc import AsyncIterator, Iterable
 from math import degrees
 from pathlib import Path
 
 import commands
 import pytest
 from programs import TAKES, drawn, emulator, in_terminal
-from watchers import ANYWHERE, watching
 
 from solepath.calibration.file import read_calibration
-from solepath.cli.calibrate.toe_out_live import STANDING_TIME, GuidedWalk
-from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.sensortags import CC2541
-from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.gait import Wearer
-from solepath.recording import PacketWriter, read_packets
-from solepath.types import Foot, Packet, Site
+from solepath.recording import read_packets
 
 
 def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:
@@ -30,37 +21,7 @@ def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: 
     assert list(tmp_path.iterdir()) == []
 
 
-def test_options_of_the_sensors_without_live_are_rejected(tmp_path: Path) -> None:
-    arguments = ("calibrate", "toe-out", tmp_path / "walk.jsonl", "--left", "x", "--out", tmp_path / "me.json")
-    assert "--left is an option of --live" in commands.run(*arguments).stderr
-
-
-async def test_a_shoe_that_connects_later_stands_for_as_long_as_the_other(tmp_path: Path) -> None:
-    connected = 4.0
-    standing = emulate(Route().stand(12.0), devices={Site.LEFT_FOOT: CC2541(), Site.RIGHT_FOOT: CC2541()}).packets
-    packets = [packet for packet in standing if packet.site is Site.LEFT_FOOT or packet.t >= connected]
-    walk = GuidedWalk(PacketWriter(tmp_path / "walk.jsonl"), (Foot.LEFT, Foot.RIGHT))
-
-    async def receive_from(t: float, end: float) -> None:
-        await walk.receive(those([packet for packet in packets if t <= packet.t < end]))
-
-    assert walk.line() == "waiting for the sensor of the left and right foot"
-    await receive_from(0.0, connected)
-    assert not walk.has_stood
-    assert walk.line() == "waiting for the sensor of the right foot"
-    await receive_from(connected, connected + STANDING_TIME)
-    assert not walk.has_stood
-    assert walk.line() == "left 0 strides; right 0 strides"
-    await receive_from(connected + STANDING_TIME, connected + STANDING_TIME + 1.0)
-    assert walk.has_stood
-    walk.writer.close()
-
-
-async def those(packets: Iterable[Packet]) -> AsyncIterator[Packet]:
-    for packet in packets:
-        yield packet
-
-
+@pytest.mark.soak
 def test_a_person_walks_and_the_strides_and_angles_are_shown(tmp_path: Path) -> None:
     file, out = tmp_path / "walk.jsonl", tmp_path / "me.json"
     with emulator("--device", "cc2541-20hz", "--distance", 14) as (_, where):
@@ -78,30 +39,3 @@ def test_a_person_walks_and_the_strides_and_angles_are_shown(tmp_path: Path) -> 
     assert sum(1 for _ in read_packets(file)) > 500
     angles = read_calibration(out).toe_out.values()
     assert angles and all(abs(degrees(angle - Wearer().toe_out)) < 4.0 for angle in angles)
-
-
-def test_a_page_shows_task_strides_and_reasons_beside_the_terminal(tmp_path: Path) -> None:
-    pytest.importorskip("aiohttp")
-
-    async def watch(terminal: int, url: str) -> str:
-        printed = asyncio.create_task(asyncio.to_thread(drawn, terminal))  # a full terminal would stop the program
-        async with watching(url) as watcher:
-            await watcher.until(lambda frame: frame["toe_out"]["task"].startswith("Stand still"))
-            os.write(terminal, b"\n")
-            await watcher.until(lambda frame: "exactly 14 m" in frame["toe_out"]["task"])
-            assert watcher.frame["toe_out"]["distance"] == 14.0
-            await watcher.until(lambda frame: any(foot["strides"] >= 1 for foot in frame["toe_out"]["feet"]))
-            assert all("strides are needed" in foot["why"] for foot in watcher.frame["toe_out"]["feet"])
-            os.write(terminal, b"q\n")
-        return await printed
-
-    file, out = tmp_path / "walk.jsonl", tmp_path / "me.json"
-    with emulator("--device", "cc2541-20hz", "--distance", 14) as (_, where):
-        names = ("--left", "F0:5E:00:00:00:01", "--right", "F0:5E:00:00:00:02")
-        options = ("--live", "--out", out, "--via", where, *names, "--distance", 14, *ANYWHERE)
-        with in_terminal("calibrate", "toe-out", file, *options) as (terminal, process):
-            found = re.search(r"the page: (http://\S+#token=\S+)", drawn(terminal, "Stand still"))
-            assert found is not None
-            assert "nobody walked" in asyncio.run(watch(terminal, found[1]))
-            assert process.wait(TAKES) == 2
-    assert not out.exists()

@@ -31,14 +31,8 @@ def completed(line: str, folder: Path) -> set[str]:
     ("line", "offers"),
     [
         ("solepath tr", {"track"}),
-        ("solepath calibrate n", {"noise", "newton"}),
-        ("solepath track walk.jsonl --rec", {"--recipe"}),
         ("solepath track walk.jsonl --recipe k", {name for name in NAMES if name.startswith("k")}),
-        ("solepath live --recipe shoe", {name for name in NAMES if name.startswith("shoe")}),
         ("solepath emulate --device cc", {"cc2650", "cc2541", "cc2541-20hz"}),
-        ("solepath reproduce walking", {"walking-modes"}),
-        ("solepath track --format move", {"movella-dot"}),
-        ("solepath live --profile ins", {"insole"}),
     ],
 )
 def test_the_tab_key_completes(line: str, offers: set[str], tmp_path: Path) -> None:

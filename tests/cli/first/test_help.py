@@ -61,17 +61,6 @@ def test_a_help_is_narrow_grouped_and_ends_with_examples_that_can_be_parsed(
     assert named[0] == words.split()[0]
 
 
-@pytest.mark.parametrize("words", WORDS)
-def test_the_words_of_an_option_with_a_number_have_its_unit_or_count(words: str) -> None:
-    for action in parsers()[words]._actions:
-        if action.metavar in ("S", "M", "HZ"):
-            assert re.search(r"\b(s|S|m|seconds?|metres|Hz|samples a second)\b", action.help or ""), (
-                action.option_strings
-            )
-        if isinstance(action.default, int | float) and not isinstance(action.default, bool) and action.metavar != "N":
-            assert f"{action.default:g}" in (action.help or ""), action.option_strings
-
-
 def test_the_documents_have_every_command_and_every_exit_status() -> None:
     text = (Path(__file__).parents[3] / "docs" / "commands.md").read_text()
     for name in WORDS:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from commands import one_line, run
+from commands import run
 
 PAIR = ("--recipe", "default", "--recipe", "shoe-sensing")
 FILES = ("events.jsonl", "gait_cycles.csv", "strides.csv", "track.csv")
@@ -38,22 +38,3 @@ def test_each_column_has_the_figures_of_the_recipe_alone_and_each_folder_its_fil
     assert sorted(path.name for path in (tmp_path / "both").iterdir()) == names
     for label in ("from start to end m", "defects of the data", "us a sample"):
         assert len(table[label]) == 2, label
-
-
-def test_a_file_of_another_program_in_a_folder_of_a_recipe_stays(recording: Path, tmp_path: Path) -> None:
-    other = tmp_path / "shoe-sensing" / "track.csv"
-    other.parent.mkdir()
-    other.write_text("mine\n")
-    line = one_line(run("track", recording, *PAIR, "--out", tmp_path))
-    assert f"{other}: exists and is no such file that solepath wrote; --force replaces it" in line
-    assert other.read_text() == "mine\n" and not (tmp_path / "default").exists()
-
-
-def test_a_recording_that_ends_with_damage_gets_the_table_and_status_2(recording: Path, tmp_path: Path) -> None:
-    damaged = tmp_path / "damaged.jsonl"
-    lines = recording.read_text().splitlines()
-    damaged.write_text("\n".join([*lines[: len(lines) // 2], *["no packet"] * len(lines)]) + "\n")
-    done = run("track", damaged, *PAIR)
-    alone = run("track", damaged)
-    assert done.returncode == alone.returncode == 2
-    assert done.stderr == alone.stderr and "strides, left foot" in done.stdout

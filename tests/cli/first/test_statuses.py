@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from commands import one_line, solepath
+from commands import one_line, run
 from programs import SOLEPATH, TAKES, started
 
 TABLE = "t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z\n"
@@ -24,9 +24,9 @@ def test_0_also_when_the_reader_of_a_pipe_ends_first(recording: Path) -> None:
 def test_1_for_a_recording_in_another_unit_and_2_where_it_is_used(tmp_path: Path) -> None:
     table = tmp_path / "walk.csv"
     table.write_text(TABLE + "".join(f"{0.01 * k:.2f},0,0,1,0,0,0\n" for k in range(500)))
-    checked = solepath("check", table)
+    checked = run("check", table)
     assert (checked.returncode, checked.stderr) == (1, "") and "must be mended" in checked.stdout
-    assert "g" in one_line(solepath("track", table))
+    assert "g" in one_line(run("track", table))
 
 
 def test_a_full_disk_below_what_is_printed_is_named(recording: Path) -> None:
