@@ -11,9 +11,8 @@ import pytest
 
 from solepath import Session, StrideTaken, to_frame
 from solepath.emulate import Route, emulate
-from solepath.events.frames.arrow import _ALIVE, stream_capsule
+from solepath.events.frames.arrow import _ALIVE
 from solepath.events.frames.columns import ColumnTable
-from solepath.events.frames.nodes import Node
 
 pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
 polars = pytest.importorskip("polars", reason="polars is not installed")
@@ -82,18 +81,6 @@ def test_a_stream_is_read_once(table: ColumnTable) -> None:
     assert reader.read_all().num_rows == 0
 
 
-class Unsound:
-    """A stream of an array whose metadata are no bytes."""
-
-    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        return stream_capsule(Node("", "+s", 0, (None,), metadata="text"))  # type: ignore[arg-type]
-
-
-def test_what_a_stream_cannot_give_is_named_to_its_reader() -> None:
-    with pytest.raises(ValueError, match="TypeError.*bytes or integer address expected"):
-        polars.DataFrame(Unsound())
-
-
 EXIT = """
 import sys
 import pyarrow, polars
@@ -106,6 +93,7 @@ sys.modules["kept"] = kept
 """
 
 
+@pytest.mark.soak
 def test_a_program_ends_well_while_frames_are_there() -> None:
     done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", EXIT], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")

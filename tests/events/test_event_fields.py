@@ -2,33 +2,18 @@
 
 from __future__ import annotations
 
-from typing import get_args, get_type_hints
-
 import event_fields
 import pytest
 from quoted import PAGES, run_page
 
-from solepath import Event, Foot, GaitCycleMeasured, Session
+from solepath import Foot, GaitCycleMeasured, Session
 from solepath.emulate import Route, emulate
 from solepath.show.observer import Observer
-
-WITHOUT_UNIT = ("number", "unit", "share", "probability", "0 to 1")
-"""Words of sentences on numbers that have no unit, or that of the samples."""
 
 
 def test_the_page_has_the_fields_of_the_classes() -> None:
     written = PAGES["docs/events.md"].split("<!-- fields -->\n", 1)[1].split("\n<!-- end -->", 1)[0]
     assert written == event_fields.event_fields(), "python .ci/readme --fields writes it"
-
-
-@pytest.mark.parametrize("event", get_args(Event))
-def test_every_number_has_its_unit_in_its_sentence(event: type) -> None:
-    hints = get_type_hints(event)
-    for name, unit, text in event_fields.rows(event):
-        assert text.endswith("."), name
-        if "float" in str(hints.get(name)):
-            has_unit = unit not in ("", "1") and f", {unit}" in text
-            assert has_unit or any(word in text.lower() for word in WITHOUT_UNIT), f"{event.__name__}.{name}: {text}"
 
 
 def test_the_program_of_the_page_selects_the_cycles_of_the_means() -> None:

@@ -29,7 +29,9 @@ def test_an_event_is_strict_json_with_its_name_its_times_and_its_foot_first(shap
     for event in events(shape):
         plain = json.loads(json.dumps(event.to_dict(), allow_nan=False))
         saved: Any = save(event)
-        foot = getattr(getattr(event, "foot", None) or getattr(getattr(event, "site", None), "foot", None), "value", None)
+        foot = getattr(
+            getattr(event, "foot", None) or getattr(getattr(event, "site", None), "foot", None), "value", None
+        )
         first = {"event": type(event).__name__, "t": event.t, "known_at": event.known_at, "final": event.final}
         if foot is not None:
             first["foot"] = foot
@@ -75,4 +77,6 @@ def test_a_number_that_is_not_finite_and_a_layout_are_plain_data() -> None:
 
 
 def test_words_print_as_they_are_written() -> None:
-    assert f"{Foot.LEFT} {Site.PELVIS} {Phase.SWING}" == "left pelvis SWING" and repr(Foot.LEFT) == "<Foot.LEFT: 'left'>"
+    assert (
+        f"{Foot.LEFT} {Site.PELVIS} {Phase.SWING}" == "left pelvis SWING" and repr(Foot.LEFT) == "<Foot.LEFT: 'left'>"
+    )

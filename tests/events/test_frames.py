@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-import ast
 import inspect
 import re
 import sys
 from collections import defaultdict
-from collections.abc import Iterator
 from math import isnan
 from typing import Any
 
 import pytest
-from here import ROOT
 from strides import stride
 
 import solepath
 from solepath import GaitCycleMeasured, HeelStrike, Session, StrideTaken, to_frame
 from solepath.emulate import Route, emulate
-from solepath.events import Candidate, FlightClimbed, KeysChanged, Placed, SampleGap, StrideFeatures
-from solepath.events.frames.columns import _columns_of, table_of
+from solepath.events import FlightClimbed, StrideFeatures
+from solepath.events.frames.columns import _columns_of
 from solepath.events.frames.forms import ValueKind
 from solepath.events.frames.units import UNITS
 from solepath.events.happening import Happening
-from solepath.types import Foot, Layout, Sample, Site
-from solepath.types.attrs import fields, frozen
+from solepath.types import Foot, Sample, Site
+from solepath.types.attrs import frozen
 from solepath.types.extras import install_hint
 
 STRIDE = stride(
@@ -55,27 +52,6 @@ def test_a_frame_has_a_row_an_event_and_a_column_a_number(library: str, monkeypa
     assert [*frame["covariance_xx"]][1] == STRIDE.covariance[0]
     assert [list(point) for point in [*frame["features_cop"]][1]] == [[0.25, 0.0], [0.5, 0.0]]
     assert len(to_frame([])) == 0
-
-
-def test_every_number_of_a_walk_is_in_its_frame() -> None:
-    """The same values as `to_dict`, which is the other way to plain data."""
-    events = walked()
-    rows = to_frame(events, library="polars").to_dicts()
-    assert len(rows) == len(events) > 50
-
-    def expected(record: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-        for name, value in record.items():
-            if isinstance(value, dict):
-                yield from expected(value, f"{prefix}{name}_")
-            elif name in ("position", "displacement", "covariance"):
-                axes = ("x", "y", "z") if len(value) == 3 else ("xx", "xy", "xz", "yy", "yz", "zz")
-                yield from zip([f"{prefix}{name}_{axis}" for axis in axes], value, strict=True)
-            else:
-                yield prefix + name, value
-
-    for event, row in zip(events, rows, strict=True):
-        present = {name: value for name, value in row.items() if value is not None}
-        assert present == {name: value for name, value in expected(event.to_dict()) if value is not None}
 
 
 @pytest.mark.parametrize("cls", [StrideTaken, GaitCycleMeasured])
@@ -160,46 +136,3 @@ def test_a_column_has_one_kind_and_one_unit_whatever_the_event() -> None:
     }
     assert unknown == {"force", "features_contact_load", "layout_full_scale"}, "loads, in newtons or counts"
     assert UNITS.keys() <= {name.removesuffix(f"_{axis}") for name in forms for axis in ("", *"xyzw", "xx")}
-
-
-def docstrings(cls: type) -> Iterator[tuple[str, str]]:
-    """Yield column and docstring of each field of a class and of the records inside of it."""
-    for one in cls.__mro__[:-1]:
-        body = ast.parse(inspect.getsource(one)).body[0].body  # type: ignore[attr-defined]
-        for field, after in zip(body, [*body[1:], None], strict=True):
-            if isinstance(field, ast.AnnAssign) and isinstance(after, ast.Expr):
-                yield ast.unparse(field.target), ast.literal_eval(after.value)
-
-
-@pytest.mark.parametrize("cls", [*event_classes(), StrideFeatures, Layout], ids=lambda cls: cls.__name__)
-def test_the_unit_of_a_column_is_that_of_the_fields_docstring(cls: Any) -> None:
-    prefix = {StrideFeatures: "features_", Layout: "layout_"}.get(cls, "")
-    renamed = {one[1]: name for one, name in solepath.events.frames.columns.RENAMED.items() if one[0] == cls.__name__}
-    for name, text in docstrings(cls):
-        unit = UNITS.get(prefix + renamed.get(name, name))
-        words = " ".join(text.split())
-        if unit == "1":
-            assert re.search(r"0 to 1|share|no unit|unit quaternion", words), name
-        elif unit is not None and words:
-            assert re.search(rf"(?:, |in |force, ){re.escape(unit)}(?![\w/^])", words), (name, unit, words)
-
-
-def test_missing_numbers_of_records_within_are_missing() -> None:
-    placed = Placed(
-        t=1.0, known_at=1.0, level="0", position=(0.0, 0.0, 0.0), room=None, door=None, spread=0.5,
-        candidates=(Candidate("0", (0.0, 0.0, 0.0), None, 1.0, "stairs"),),
-    )  # fmt: skip
-    keys = KeysChanged(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, down=())
-    gap = SampleGap(t=0.0, known_at=1.0, site=Site.PELVIS, duration=float("inf"))
-    table = table_of([placed, keys, gap])
-    values = {column.name: column.values for column in table.columns}
-    assert values["level_name"] == ["0", None, None] and values["down"] == [None, [], None]
-    assert values["duration"][2] == float("inf") and values["foot"] == [None, "left", None]
-    assert list(values["candidates"][0][0]) == [one.name for one in fields(Candidate)]
-
-
-def test_a_missing_extra_is_named_with_what_installs_it_from_a_clone_and_by_name() -> None:
-    words = install_hint("arrays")
-    assert "pip install '.[arrays]'" in words and "pip install 'solepath[arrays]'" in words
-    literal = [path for path in (ROOT / "src").rglob("*.py") if "pip install 'solepath[" in path.read_text("utf-8")]
-    assert [path.name for path in literal] == ["extras.py"], "all messages have this sentence"

@@ -10,7 +10,7 @@ from benches import LEFT, RIGHT, ROUTE
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import Connected, LayoutKnown, LinkTrouble, PacketRejected, Session, StrideTaken
+from solepath import Connected, LinkTrouble, PacketRejected, Session, StrideTaken
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
@@ -22,7 +22,7 @@ from solepath.link.catalogue import PROFILES
 from solepath.link.devices.cc2650 import PROFILE as TAG
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Access, Profile, Write
-from solepath.link.setup.config import DeviceConfig, scan_filters, used_services
+from solepath.link.setup.config import DeviceConfig
 from solepath.link.setup.device_setup import DeviceSetup, GattCharacteristic, Operation, Request, Value
 from solepath.link.setup.roster import Roster
 from solepath.types import Packet, Site
@@ -219,28 +219,6 @@ def test_any_answers_lead_to_listening_or_to_an_end(profile: Profile, data: st.D
     ]
     with pytest.raises(ValueError, match="no request"):
         setup.answer(now)
-
-
-def test_the_filters_of_a_chooser_find_each_emulated_device_and_know_its_services() -> None:
-    filters, services = scan_filters(PROFILES), used_services(PROFILES)
-    benches = [Bench(ROUTE, devices={LEFT: device}) for device in (Insole(), CC2650(), CC2541())]
-    for device in [bench[LEFT] for bench in benches]:
-        assert any(
-            device.name == one.name
-            or (one.prefix != "" and device.name.startswith(one.prefix))
-            or one.service in device.advertised
-            for one in filters
-        )
-        assert {service.uuid for service in device.services} & {*services}
-
-
-def test_layouts_come_from_the_record_that_was_read_for_the_site() -> None:
-    device = Bench(ROUTE, devices={RIGHT: Insole()})[RIGHT]
-    setup = setup_of(device, INSOLE)
-    values, done = connect(setup, device)
-    assert [channel for kind, channel in operations(done) if channel == "insole/info"] == ["insole/info"]  # read once
-    assert [channel for channel, _ in values][:2] == ["receiver/connected", "insole/info"]
-    assert [event.site for event in feed(Session(), setup, 0.0, values) if isinstance(event, LayoutKnown)] == [RIGHT]
 
 
 def test_the_writes_follow_the_subscriptions_except_those_that_are_needed_before() -> None:

@@ -10,14 +10,14 @@ from typing import Any
 
 import pytest
 from attrs import evolve
-from toys import BASE, BOTH, COARSE, FORMATS, LEFT, NUMBERED, PROFILE, TICKING, data, toy
+from toys import BASE, BOTH, COARSE, FORMATS, LEFT, NUMBERED, PROFILE, TICKING, data
 from walks import of
 
 from solepath import Packet, Session, SnapshotError
 from solepath.events import Limitation
 from solepath.link.catalogue import PROFILES
 from solepath.link.devices import orphe
-from solepath.link.driver import Driver, Reading
+from solepath.link.driver import Driver
 from solepath.link.kinds import BUILT_IN_KINDS, make_kinds
 from solepath.link.profile import Write
 
@@ -67,15 +67,6 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
 def test_a_profile_that_does_not_fit_together_is_rejected(changes: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match="^a profile|^toy: "):
         evolve(PROFILE, **changes)
-
-
-def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
-    def changes(sent: Any, known: Any) -> Reading:
-        return sent.nothing  # type: ignore[no-any-return]
-
-    device = toy(evolve(BASE, readers={"toy/data": changes}))
-    with pytest.raises(AttributeError):
-        device.send_data(1.0)
 
 
 def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> None:
@@ -148,16 +139,3 @@ def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_ot
             restore(profiles=[other_driver])
         restored = restore(profiles=[evolve(NUMBERED, limitation="it is a toy")])
         assert restored.snapshot() == session.snapshot()
-
-
-def test_what_an_app_put_in_our_place_is_restored_with_it_and_not_with_ours() -> None:
-    replaced, own_driver = evolve(orphe.DRIVER, limitation=""), Session()
-    session = Session(profiles=[replaced])
-    session.feed(mode_4_packet())
-    own_driver.feed(mode_4_packet())
-    with pytest.raises(SnapshotError, match="orphe.*another driver"):
-        Session.restore(session.snapshot())
-    with pytest.raises(SnapshotError, match="orphe.*another driver"):
-        Session.restore(own_driver.snapshot(), profiles=[replaced])
-    assert Session.restore(session.snapshot(), profiles=[replaced]).snapshot() == session.snapshot()
-    assert Session.restore(own_driver.snapshot()).snapshot() == own_driver.snapshot()

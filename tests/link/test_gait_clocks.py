@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import cache
 
 import pytest
@@ -61,8 +60,9 @@ def has_both_feet(cycle: GaitCycleMeasured) -> bool:
     return all(getattr(cycle, name) is not None for name in BOTH_FEET_FIELDS)
 
 
-@pytest.mark.parametrize("restarts", [False, True], ids=["goes on", "begins anew"])
-@pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.soak) for seed in (2, 3, 4, 5))])
+@pytest.mark.parametrize(
+    ("seed", "restarts"), [(1, True), *(pytest.param(seed, seed % 2 == 0, marks=pytest.mark.soak) for seed in (2, 3))]
+)
 def test_a_symmetric_walker_stays_one_after_a_link_was_lost(seed: int, restarts: bool) -> None:
     events, gait = walk_events(seed, 0.05, 0.06, restarts)
     assert len(of(ClockReset, events)) == restarts
@@ -82,25 +82,3 @@ def test_a_foot_that_restarted_is_measured_alone_until_its_clock_is_settled() ->
     for cycle in after:
         assert [getattr(cycle, name) for name in BOTH_FEET_FIELDS] == [None] * 5
         assert cycle.stride_time > 0.0 and cycle.stance_time > 0.0 and cycle.stride_length is not None
-
-
-def test_a_toe_off_that_was_only_found_after_a_gap_is_no_toe_off_of_that_time() -> None:
-    cycles = gait_cycles(0.004, 0.0, False)
-    supports = [cycle.initial_double_support for cycle in cycles if cycle.initial_double_support is not None]
-    assert len(supports) > 35
-    assert min(supports) > 0.08 and max(supports) < 0.15
-
-
-def test_over_a_good_link_both_feet_are_compared_from_their_first_strides_on() -> None:
-    cycles = gait_cycles(0.004, 0.0, False)
-    assert all(has_both_feet(cycle) for cycle in cycles if cycle.t_start > 7.0 and cycle.t < T_LOST - 1.5)
-
-
-def test_how_the_feet_are_compared_does_not_depend_on_cuts_and_goes_on_after_a_restore() -> None:
-    packets = [packet for packet in walk_packets(1, 0.05, 0.06, True) if packet.t < 29.0]
-    whole = Session().feed(packets)
-    session, pieces = Session(), list[Event]()
-    for start in range(0, len(packets), 1700):
-        pieces += session.feed(packets[start : start + 1700])
-        session = Session.restore(json.loads(json.dumps(session.snapshot())))
-    assert pieces == whole

@@ -21,7 +21,7 @@ from decoded import (
 from walks import of
 
 from solepath import Session
-from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection
+from solepath.events import ClockReset, Limitation, PacketRejected, PacketsLost, Rejection
 from solepath.link.decoder import Decoder
 from solepath.link.devices.insole import _TABLES, MOST_TABLES, InsoleLink
 from solepath.saving import codec
@@ -29,22 +29,6 @@ from solepath.types import Sample, Site
 from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
 from solepath.wire.insole import InsoleSample
-
-
-def test_samples_are_in_si_units_by_the_scales_of_info() -> None:
-    decoder = Decoder(site=LEFT)
-    [known] = feed(decoder, packet(9.0, "insole/info", info_value()))
-    assert isinstance(known, LayoutKnown)
-    assert known.layout.scale == pytest.approx(0.05)
-    assert known.layout.full_scale == pytest.approx(4095 * 0.05)
-    assert known.layout.length == 0.26
-    raw = InsoleSample((100, 4095), (4096, 0, -4096, 32767, 0, -32768), (16384, 0, 0, 0))
-    [sample] = feed(decoder, frame_packet(0, samples=(raw,)))
-    assert sample.acc == pytest.approx((GRAVITY, 0.0, -GRAVITY), rel=1e-6)
-    assert sample.gyro == pytest.approx((radians(500) * 32767 / 32768, 0.0, -radians(500)), rel=1e-6)
-    assert sample.pressure == pytest.approx((5.0, 204.75), rel=1e-6)
-    assert sample.quat == (1.0, 0.0, 0.0, 0.0)
-    assert sample.t == sample.known_at == 10.0
 
 
 def test_before_info_16_g_and_2000_degrees_per_second_are_assumed_and_reported_once() -> None:
@@ -57,14 +41,6 @@ def test_before_info_16_g_and_2000_degrees_per_second_are_assumed_and_reported_o
     assert sample.pressure == (7.0, 8.0)
     assert sample.quat is None
     assert of(Limitation, feed(decoder, frame_packet(1), frame_packet(2))) == []
-
-
-def test_scales_of_zero_mean_no_such_sensor_and_pressure_in_counts() -> None:
-    decoder = Decoder(site=LEFT)
-    data = info_value(acc_scale=0.0, gyro_scale=0.0, pressure_scale=0.0)
-    [known, sample] = feed(decoder, packet(9.0, "insole/info", data), frame_packet(0))
-    assert known.layout.scale is None
-    assert (sample.acc, sample.gyro, sample.pressure) == (None, None, (100.0, 200.0))
 
 
 def test_insoles_with_more_scales_than_there_are_tables_have_forces_too() -> None:
@@ -132,15 +108,6 @@ def test_times_keep_their_order_across_a_reset() -> None:
     assert all(b > a for a, b in zip(times, times[1:], strict=False))
 
 
-def test_fragments_make_the_frame_that_they_were_cut_from() -> None:
-    whole_decoder, fragment_decoder = Decoder(site=LEFT), Decoder(site=LEFT)
-    raw = InsoleSample(tuple(range(24)), (0, 0, 2048, 0, 0, 0))
-    for k in range(10):
-        assert feed(fragment_decoder, *fragment_packets(k, k % 7)) == feed(
-            whole_decoder, frame_packet(k, samples=(raw,))
-        )
-
-
 @pytest.mark.parametrize("missing", range(4))
 def test_a_lost_fragment_costs_its_frame_and_no_other(missing: int) -> None:
     decoder = Decoder(site=LEFT)
@@ -151,15 +118,6 @@ def test_a_lost_fragment_costs_its_frame_and_no_other(missing: int) -> None:
     assert [event.reason for event in of(PacketRejected, outputs)] == [Rejection.TRUNCATED]
     assert [event.count for event in of(PacketsLost, outputs)] == [1]
     assert len(of(Sample, outputs)) == 2
-
-
-def test_the_last_fragment_that_comes_twice_is_a_duplicate() -> None:
-    decoder = Decoder(site=LEFT)
-    pieces = fragment_packets(0, 0)
-    feed(decoder, *pieces)
-    [rejected] = decoder.feed(pieces[-1])
-    assert rejected.reason is Rejection.DUPLICATE
-    assert len(of(Sample, feed(decoder, *fragment_packets(1, 1)))) == 1
 
 
 def test_an_end_of_a_fragment_is_not_that_fragment() -> None:

@@ -92,12 +92,6 @@ def test_a_site_that_was_bound_beforehand_accepts_no_other_device() -> None:
     assert reasons(Session(), Packet(0.0, Site.RIGHT_FOOT, "device/battery", CHARGED, "F0:01")) == [None]
 
 
-def test_a_packet_that_is_rejected_binds_nothing() -> None:
-    session = Session()
-    bad, good = packet(0.0, "device/battery", b"\xff", "F0:01"), packet(0.0, "device/battery", CHARGED, "F0:02")
-    assert reasons(session, bad, good) == [Rejection.MALFORMED, None]
-
-
 def test_receiver_packets_are_accepted_whatever_device_the_site_is_bound_to() -> None:
     session = Session(devices={LEFT: "F0:01"})
     sent_packets = [packet(0.0, "receiver/tick"), packet(1.0, "receiver/disconnected", device="F0:02")]

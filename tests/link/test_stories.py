@@ -83,25 +83,3 @@ def test_a_receiver_saved_and_restored_before_every_packet_goes_on_the_same(path
         assert feed_line(restored, site, line) == feed_line(unsaved, site, line)
     assert restored == unsaved
     assert restored.finish() == unsaved.finish()
-
-
-@pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
-def test_a_story_has_the_form_that_the_readme_describes(path: Path) -> None:
-    story = json.loads(path.read_text())
-    assert story["schema"] == "solepath stories 1"
-    assert set(story) == {"schema", "title", "header", "source", "site", "tolerance", "count", "packets"}
-    assert story["count"] == len(story["packets"])
-    times = [line["t"] for line in story["packets"]]
-    assert times == sorted(times) or path.stem == "host-clock-set-back"
-    assert all(given["what"] in KIND_OF_OUTPUT.values() for line in story["packets"] for given in line["gives"])
-
-
-RULE_STORIES = """
-    sequence-wrap tick-wrap duplicate late retransmitted fragment-twice loss restart clock-jump jitter
-    four-samples-a-frame fragments-mtu-23 info-then-frames cc2541-10hz cc2541-20hz cc2650-hole cc2650-lateness silence
-    host-clock-set-back
-"""
-
-
-def test_the_stories_cover_every_rule_of_the_clock() -> None:
-    assert {path.stem for path in STORIES} >= set(RULE_STORIES.split())

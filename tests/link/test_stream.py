@@ -2,53 +2,18 @@
 
 from __future__ import annotations
 
-import json
-from math import inf
 from random import Random
-from typing import Any
 
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from toys import BASE, COARSE, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, Toy, times, toy
+from toys import BASE, COARSE, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, times, toy
 from walks import of
 
 from solepath import Packet, Sample
-from solepath.events import (
-    BatteryLevel,
-    ClockReset,
-    KeysChanged,
-    LayoutKnown,
-    Limitation,
-    PacketRejected,
-    PacketsLost,
-    Rejection,
-    StreamStale,
-)
-from solepath.link.catalogue import DECLARED
-from solepath.link.decoder import Decoder
+from solepath.events import BatteryLevel, ClockReset, KeysChanged, LayoutKnown, PacketRejected, PacketsLost, Rejection
 from solepath.link.driver import TimeAxis
 from solepath.link.kinds import make_kinds
-from solepath.recipes import part_class
 from solepath.saving import codec
-
-
-def test_the_axis_is_the_best_that_a_device_has() -> None:
-    assert [driver.axis for driver in KIND.values()] == [
-        TimeAxis.ARRIVAL,
-        TimeAxis.COUNT,
-        TimeAxis.TICKS,
-        TimeAxis.TICKS,
-        TimeAxis.COUNT,
-    ]
-    assert {driver.name: driver.axis for driver in DECLARED} == {
-        "cc2650": TimeAxis.ARRIVAL,
-        "orphe": TimeAxis.COUNT,
-        "dot": TimeAxis.TICKS,
-        "dot-orientation": TimeAxis.TICKS,
-        "thingy": TimeAxis.ARRIVAL,
-    }
 
 
 @pytest.mark.parametrize("count", [1, 4])
@@ -66,15 +31,6 @@ def test_samples_are_as_far_apart_as_they_were_taken_whatever_the_radio_does(nam
     intervals = [b - a for a, b in zip(sample_times[500:], sample_times[501:], strict=False)]
     assert min(intervals) > 0.0099 and max(intervals) < 0.0101
     assert sample_times[-1] == pytest.approx(10.0 + (2000 // count - 1) * count / 100, abs=0.012)
-
-
-@pytest.mark.parametrize("name", ["number", "coarse"])
-@pytest.mark.parametrize("true_rate", [96.0, 104.0])
-def test_a_device_that_counts_at_another_rate_than_nominal_is_followed(name: str, true_rate: float) -> None:
-    device = toy(KIND[name])
-    sample_times = times([item for k in range(1500) for item in device.packet(k, true_rate=true_rate)])
-    assert (sample_times[1400] - sample_times[900]) / 500 == pytest.approx(1.0 / true_rate, rel=1e-3)
-    assert sample_times[-1] == pytest.approx(10.0 + 1499 / true_rate, abs=0.02)
 
 
 @pytest.mark.parametrize("name", ["number", "ticks", "both", "coarse"])
@@ -207,26 +163,6 @@ def test_losses_are_counted_at_the_rate_that_the_device_reported() -> None:
         assert lost.count == 2, name
 
 
-def test_an_insole_that_is_set_to_another_mode_goes_on_at_another_rate() -> None:
-    decoder = Decoder(LEFT)
-
-    def value(header: int, serial: int) -> bytes:
-        ms = 500 + round(1000 * serial * 4 / 208)
-        return bytes([header]) + serial.to_bytes(2, "big") + bytes([7, 0, ms // 1000]) + (ms % 1000).to_bytes(2, "big")
-
-    output = []
-    for k in range(200):
-        data = value(56 if k < 100 else 55, k).ljust(104, b"\0")
-        output += decoder.feed(Packet(5.0 + 4 * k / 208, LEFT, "orphe/values", data))
-    (reset,) = of(ClockReset, output)
-    assert not reset.restarted and not of(PacketsLost, output)
-    sample_times = times(output)
-    assert len(sample_times) == 100 * 2 + 100 * 4 and sample_times == sorted(set(sample_times))
-    assert sample_times[199] - sample_times[198] == pytest.approx(1 / 104, abs=1e-4)
-    assert sample_times[-1] - sample_times[-2] == pytest.approx(1 / 208, abs=1e-4)
-    assert sample_times[-1] == pytest.approx(5.0 + 4 * 199 / 208, abs=0.01)
-
-
 def test_what_is_no_sample_becomes_an_event_or_is_remembered() -> None:
     device = toy(NUMBERED)
     (battery,) = device.send_more(1.0, 0, 0.5)
@@ -246,49 +182,3 @@ def test_air_pressure_rides_on_the_next_sample_or_stands_alone() -> None:
     (sample,), (next_one,) = device.send_data(1.51, 2), device.send_data(1.52, 3)
     assert (sample.air_pressure, sample.mag) == (101_001.0, (2e-5, 0.0, 0.0))
     assert (next_one.air_pressure, next_one.mag) == (None, None)
-
-
-def test_silence_is_an_event_unless_the_device_reported_that_it_may_be_silent() -> None:
-    for silent, stale in ((0.0, 1), (1.0, 0)):
-        device = toy(NUMBERED)
-        device.send_more(1.0, 2, silent)
-        device.send_data(1.1, 1)
-        assert len(of(StreamStale, device.decoder.advance(5.0, make_kinds([NUMBERED])))) == stale
-
-
-def test_a_limitation_is_reported_once() -> None:
-    device = toy(evolve(NUMBERED, limitation="it is a toy"))
-    output = [item for k in range(300) for item in device.send_data(1.0 + 0.01 * k, k, up=4.9)]
-    (limitation,) = of(Limitation, output)
-    assert limitation.what.startswith("it is a toy") and output.index(limitation) == 0
-
-
-def test_ticks_that_the_driver_does_not_explain_are_named_once() -> None:
-    device = toy(evolve(NUMBERED, limitation=""))
-    output = [item for k in range(300) for item in device.send_data(1.0 + 0.01 * k, k, up=4.9)]
-    (limitation,) = of(Limitation, output)
-    assert "no tick_rate and tick_modulus" in limitation.what
-
-
-@pytest.mark.parametrize("name", KIND)
-@given(
-    st.lists(
-        st.tuples(st.sampled_from(["data", "more", "start"]), st.binary(max_size=14), st.floats(-1, 70)), max_size=30
-    )
-)
-@settings(max_examples=60)
-def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: str, sent: list[Any]) -> None:
-    device, now, newest = toy(KIND[name]), 10.0, -inf
-    for which, value, wait in sent:
-        now += wait
-        for k in range(2):
-            value = value if k else value.ljust(11 if which == "data" else 9, b"\1")
-            for item in device.receive(now, which, value):
-                assert item.known_at >= item.t
-                if isinstance(item, ClockReset) and not item.restarted:
-                    newest = -inf
-                if isinstance(item, Sample):
-                    assert item.t > newest
-                    newest = item.t
-        saved = json.dumps(codec.save(device.decoder), allow_nan=False)
-        device = Toy(device.driver, codec.load(Decoder, json.loads(saved), part_class))

@@ -16,15 +16,12 @@ from walks import samples
 
 from solepath import Foot, Session, SnapshotError
 from solepath.body.worn.wear import Wear
-from solepath.saving.codec import checksum
 from solepath.saving.limits import MAX_DEPTH, MAX_DIGITS, MAX_SIZE, MAX_VALUES, check_size
 from solepath.saving.streams import HEADER, from_bytes, to_bytes
 from solepath.session.packed import HEADER as SESSION_HEADER
 
 START = Session().pack()[: SESSION_HEADER.size]
 
-BYTES_PER_VALUE = 200
-"""Most memory that reading takes for a value, bytes; a float in a list takes 32, and arrays pass by on the way."""
 
 HOSTILE = """
 import resource
@@ -62,18 +59,6 @@ def test_more_values_than_a_state_may_have_are_not_read(counts: tuple[int, int, 
         Session.unpack(saved)
     assert tracemalloc.get_traced_memory()[1] < 2_000_000
     tracemalloc.stop()
-
-
-@pytest.mark.parametrize("share", [0.01, 0.1])
-def test_memory_is_in_proportion_to_the_values(share: float) -> None:
-    count = round(share * MAX_VALUES)
-    saved = signed(START + body_of((count, 0, 0, 0), bytes(8 * count)))
-    tracemalloc.start()
-    with pytest.raises(SnapshotError):
-        Session.unpack(saved)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert peak < 300_000 + BYTES_PER_VALUE * count
 
 
 def test_what_could_not_be_read_is_not_written() -> None:
@@ -131,7 +116,7 @@ def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 @pytest.mark.parametrize("what", HOSTILE_VALUES)
 def test_hostile_json_is_rejected_in_one_sentence(what: str) -> None:
     state, hostile = Session().snapshot(), HOSTILE_VALUES[what]()
-    for place in places(state)[:: len(places(state)) // 60]:
+    for place in places(state)[:: len(places(state)) // 15]:
         saved: Any = {"": json.loads(json.dumps(state))}
         *path, last = ("", *place)
         inside = saved
@@ -142,27 +127,6 @@ def test_hostile_json_is_rejected_in_one_sentence(what: str) -> None:
             Session.restore(saved[""])
         text = str(caught.value)
         assert text and "\n" not in text and len(text) < 300
-
-
-def test_the_largest_values_within_the_limits_are_rejected_in_one_sentence_too() -> None:
-    """They fit no field of a session, or the checksum is another."""
-    for value in ([[]] * MAX_VALUES, "x" * MAX_SIZE, nested(MAX_DEPTH - 2), 10**MAX_DIGITS - 1, [{}] * 1000):
-        state: Any = Session().snapshot()
-        for place in places(state)[1::40]:
-            saved = json.loads(json.dumps(state))
-            inside = saved
-            for key in place[:-1]:
-                inside = inside[key]
-            inside[place[-1]] = value
-            with pytest.raises(SnapshotError) as caught:
-                Session.restore(saved)
-            assert "\n" not in str(caught.value) and len(str(caught.value)) < 300
-
-
-def test_a_session_is_far_from_the_limits() -> None:
-    state = Session().snapshot()
-    check_size(state)
-    assert checksum(state) is not None
 
 
 @pytest.mark.parametrize("name", ["moments", "instants"])

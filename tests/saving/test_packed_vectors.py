@@ -13,16 +13,15 @@ from functools import cache
 from typing import Any, Protocol
 
 import pytest
-from attrs import define, evolve, field
+from attrs import define, field
 from here import PROTOCOL
 from packed_reader import Tree, streams
-from walks import machines, samples
+from walks import machines
 
 from solepath import Foot, Phase, Session, recipes
-from solepath.foot.stance.shoe import ShoeDetector
 from solepath.saving.codec import save
 from solepath.saving.packed import Lists, Streams, identify_record, read, write
-from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, describe, record_of, schema_checksum
+from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, describe, record_of
 from solepath.saving.streams import from_bytes, to_bytes
 
 FILE = json.loads((PROTOCOL / "snapshot" / "states.json").read_text("utf-8"))
@@ -170,25 +169,6 @@ def test_every_session_is_read_by_the_printed_schema_alone() -> None:
         assert head["recipe"] == session.recipe.name
         whole: Any = session.snapshot()["state"]
         assert json.dumps(state) == json.dumps(less(state, whole))
-
-
-def test_a_session_with_a_detector_of_the_apps_own_is_read_with_its_schema_beside() -> None:
-    session = Session(evolve(recipes.DEFAULT, name="own", detector=Mine()))
-    session.feed(samples(cells=0)[:50])
-    record = record_of(Mine, made=True)
-    assert identify_record(record) == f"Mine {schema_checksum(describe(record)):08x}"
-    documented = printed()
-    tree = Tree(
-        documented["session"], documented["parts"] | {identify_record(record): describe(record)}, session.pack()[16:]
-    )
-    _, state = tree.roots()
-    assert not tree.left()
-    assert state["wearer"]["feet"]["left"]["detector"]["kind"] == "Mine"
-
-
-@define
-class Mine(ShoeDetector):
-    """A detector of an app's own."""
 
 
 @pytest.mark.parametrize("body", FILE["bodies"], ids=lambda body: body["id"])

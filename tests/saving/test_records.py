@@ -26,6 +26,7 @@ from solepath.session.packed import Head
 from solepath.session.state import SessionState
 from solepath.types.attrs import NOT_SAVED
 
+
 def told(value: Any) -> Any:
     """Return everything that a value holds, as what differs if any bit of it differs."""
     if isinstance(value, dict):

@@ -10,7 +10,16 @@ from typing import Any
 from solepath.recipes import AIDS, LINKS, PARTS, part_class
 
 # internal: the schema of a record, which lists its fields and what they hold
-from solepath.saving.nodes import DictNode, EnumNode, MaybeNode, OpenNode, RecordNode, ScalarNode, SequenceNode, TupleNode
+from solepath.saving.nodes import (
+    DictNode,
+    EnumNode,
+    MaybeNode,
+    OpenNode,
+    RecordNode,
+    ScalarNode,
+    SequenceNode,
+    TupleNode,
+)
 from solepath.saving.schema import record_of
 
 NAMES = (*PARTS, *AIDS, *LINKS)
