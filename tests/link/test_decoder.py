@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from math import inf, isfinite, nan
 
 import pytest
@@ -17,17 +16,13 @@ from decoded import (
     movement_packet,
     packet,
 )
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from walks import of
 
-from solepath.events import BatteryLevel, ClockReset, PacketRejected, Rejection, StreamResumed, StreamStale
+from solepath.events import BatteryLevel, PacketRejected, Rejection, StreamResumed, StreamStale
 from solepath.link.catalogue import PROFILES
 from solepath.link.decoder import SET_BACK_PACKETS, Decoder
-from solepath.recipes import part_class
 from solepath.saving import codec
 from solepath.types import Foot, Packet, Sample, Site
-from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
 
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})
 
@@ -84,55 +79,6 @@ def test_bytes_of_no_format_are_rejected_on_every_channel_and_do_not_bind_the_de
     assert isinstance(rejected, PacketRejected)
     assert decoder == Decoder(site=LEFT)
     assert of(Sample, feed(decoder, movement_packet(0)))
-
-
-_FRAMES = st.builds(
-    lambda q, k, i, n, retransmitted: build_frame(
-        InsoleFrame(Foot.LEFT, 1, q, k, i, (InsoleSample((1, 2), (0, 0, 2048, 0, 0, 0)),) * n, False, retransmitted)
-    ),
-    st.integers(0, 0xFFFF),
-    st.integers(0, 0xFFFFFFFF),
-    st.integers(1, 0xFFFF),
-    st.integers(1, 12),
-    st.booleans(),
-)
-_PACKETS = st.one_of(
-    st.tuples(st.just("insole/frame"), _FRAMES),
-    st.tuples(st.just("insole/frame"), st.binary(max_size=30)),
-    st.tuples(st.sampled_from(CHANNELS), st.binary(max_size=18)),
-    st.tuples(st.just("cc2650/movement"), st.binary(min_size=18, max_size=18)),
-    st.tuples(st.just("cc2541/accelerometer"), st.binary(min_size=3, max_size=3)),
-    st.tuples(st.just("cc2541/gyroscope"), st.binary(min_size=6, max_size=6)),
-    st.tuples(st.just("cc2541/barometer"), st.binary(min_size=4, max_size=4)),
-    st.tuples(st.just("cc2650/barometer"), st.binary(min_size=6, max_size=6)),
-)
-
-
-@given(st.lists(st.tuples(st.floats(-3.0, 60.0), _PACKETS), max_size=60), st.integers(0, 60))
-@settings(max_examples=60)
-def test_any_sequence_of_packets_keeps_order_and_survives_being_saved_at_any_cut(
-    moves: list[tuple[float, tuple[str, bytes]]], cut: int
-) -> None:
-    unsaved, t = Decoder(site=LEFT), 100.0
-    restored = unsaved
-    newest: float | None = None
-    for number, (pause, (channel, data)) in enumerate(moves):
-        t += pause
-        if number == cut:
-            saved = json.loads(json.dumps(codec.save(unsaved), allow_nan=False))
-            restored = codec.load(Decoder, saved, part_class)
-        outputs = unsaved.feed(packet(t, channel, data)) + unsaved.advance(t + 0.5)
-        if number >= cut:
-            assert restored.feed(packet(t, channel, data)) + restored.advance(t + 0.5) == outputs
-        for output in outputs:
-            assert output.known_at is not None and output.known_at >= output.t
-            if isinstance(output, ClockReset):
-                newest = None
-            elif isinstance(output, Sample):
-                assert newest is None or output.t > newest
-                newest = output.t
-    assert len(json.dumps(codec.save(unsaved), allow_nan=False)) < 20_000
-    unsaved.finish()
 
 
 def test_one_wild_arrival_time_is_survived() -> None:

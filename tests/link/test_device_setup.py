@@ -10,13 +10,13 @@ from benches import LEFT, RIGHT, ROUTE
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import Connected, LinkTrouble, PacketRejected, Session, StrideTaken
+from solepath import PacketRejected, Session
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.insole_device import Insole
-from solepath.emulate.sensors.sensortags import CC2541, CC2650
+from solepath.emulate.sensors.sensortags import CC2650
 from solepath.events import Event
 from solepath.link.catalogue import PROFILES
 from solepath.link.devices.cc2650 import PROFILE as TAG
@@ -91,36 +91,6 @@ def feed(session: Session, setup: DeviceSetup, t: float, values: list[Value]) ->
 
 def operations(done: Done) -> list[tuple[Operation, str]]:
     return [(request.operation, request.channel.name) for request, _ in done]
-
-
-@pytest.mark.parametrize(
-    "device, profile",
-    [(Insole(), INSOLE), (CC2650(), TAG), (CC2541(), PROFILES[2])],
-    ids=["insole", "cc2650", "cc2541"],
-)
-def test_a_device_that_is_set_up_walks_through_a_session(device: Insole | CC2650 | CC2541, profile: Profile) -> None:
-    emulated = Bench(ROUTE, devices={LEFT: device}, seed=3)[LEFT]
-    setup = setup_of(emulated, profile, LEFT)
-    values, done = connect(setup, emulated)
-    assert setup.is_listening and setup.end is None
-    order = [Operation.READ, Operation.SUBSCRIBE, Operation.WRITE]
-    kinds = [operation for operation, _ in operations(done)]
-    before_writes = kinds[: kinds.index(Operation.WRITE)]
-    assert before_writes == sorted(before_writes, key=order.index)
-    assert [channel for kind, channel in operations(done) if kind is Operation.WRITE] == [
-        write.channel for write in profile.setup
-    ]
-    session = Session()
-    events = list(feed(session, setup, 0.0, values))
-    while (due := emulated.next_due()) is not None and due < 20.0:
-        for outgoing in emulated.poll(due):
-            setup.add_notification(outgoing.channel, due)
-            events += feed(session, setup, due, [(outgoing.channel, outgoing.value)])
-        assert setup.check(due) == []
-    assert setup.has_streamed
-    assert not [event for event in events if isinstance(event, PacketRejected | LinkTrouble)]
-    assert [event.name for event in events if isinstance(event, Connected)] == [emulated.name]
-    assert any(isinstance(event, StrideTaken) for event in events)
 
 
 def test_two_insoles_report_their_feet_and_another_right_one_ends_in_words() -> None:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from functools import cache
 
-import pytest
 from attrs import evolve
 from walks import of
 
-from solepath import ClockReset, Event, Foot, GaitCycleMeasured, GaitParameters, Packet, Session, Site
+from solepath import Event, Foot, GaitCycleMeasured, GaitParameters, Packet, Session, Site
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -58,20 +57,6 @@ def gait_cycles(jitter: float, late: float, restarts: bool) -> list[GaitCycleMea
 
 def has_both_feet(cycle: GaitCycleMeasured) -> bool:
     return all(getattr(cycle, name) is not None for name in BOTH_FEET_FIELDS)
-
-
-@pytest.mark.parametrize(
-    ("seed", "restarts"), [(1, True), *(pytest.param(seed, seed % 2 == 0, marks=pytest.mark.soak) for seed in (2, 3))]
-)
-def test_a_symmetric_walker_stays_one_after_a_link_was_lost(seed: int, restarts: bool) -> None:
-    events, gait = walk_events(seed, 0.05, 0.06, restarts)
-    assert len(of(ClockReset, events)) == restarts
-    assert abs(gait.asymmetry("step_time") or 1.0) < 0.03
-    assert abs(gait.asymmetry("initial_double_support") or 1.0) < 0.06
-    assert abs(gait.asymmetry("terminal_double_support") or 1.0) < 0.06
-    cycles = of(GaitCycleMeasured, events)
-    assert sum(has_both_feet(cycle) for cycle in cycles) > 0.1 * len(cycles)
-    assert any(has_both_feet(cycle) for cycle in cycles if cycle.t > T_RESUMED)
 
 
 def test_a_foot_that_restarted_is_measured_alone_until_its_clock_is_settled() -> None:

@@ -134,26 +134,6 @@ def test_a_clock_of_few_ticks_a_sample_reports_no_false_losses(true_rate: float,
     )
 
 
-def test_a_clock_too_coarse_for_the_samples_is_not_what_times_are_made_of() -> None:
-    for tick_rate, rate, axis in (
-        (1000.0, 600.0, TimeAxis.ARRIVAL),
-        (100.0, 60.0, TimeAxis.ARRIVAL),
-        (100.0, 50.0, TimeAxis.TICKS),
-    ):
-        driver = evolve(MILLISECONDS, tick_rate=tick_rate, profile=evolve(PROFILE, nominal_rate=rate))
-        assert driver.axis is axis
-        device = toy(driver)
-        output = [
-            item
-            for k in range(300)
-            for item in device.send_data(5.01 + k / rate, ticks=int(tick_rate * (5.0 + k / rate)))
-        ]
-        assert {type(item) for item in output} == {Sample}, (tick_rate, rate)
-    device = toy(MILLISECONDS)
-    (output,) = device.send_more(1.0, 1, 600.0)
-    assert isinstance(output, PacketRejected) and "600" in output.detail
-
-
 def test_losses_are_counted_at_the_rate_that_the_device_reported() -> None:
     for name in ("arrival", "ticks"):
         device = toy(KIND[name])

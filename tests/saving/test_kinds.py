@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from typing import Any, Generic, TypeVar
 
@@ -10,8 +9,6 @@ import pytest
 from attrs import define, field
 
 from solepath.saving.codec import SnapshotError, load, save
-from solepath.saving.packed import Streams, read, write
-from solepath.saving.schema import record_of
 from solepath.types import Foot
 
 T = TypeVar("T")
@@ -48,21 +45,6 @@ KINDS = Kinds(
     Items([(1.0, None), (2.0, "two")], (2.0, "two")),
     Items([1.0], None),
 )
-
-
-def test_they_come_back_from_json_as_they_were() -> None:
-    saved = json.loads(json.dumps(save(KINDS)))
-    assert saved["feet"] == {"left": 3} and saved["lengths"] == [[2, 1.5], [1, 0.5]]
-    restored = load(Kinds, saved)
-    assert restored == KINDS and list(restored.lengths) == [2, 1]
-    assert type(restored.feet) is type(restored.reasons) is Counter and restored.up[False] == 0
-
-
-def test_they_come_back_from_the_packed_form_as_they_were() -> None:
-    lists: tuple[list[float], list[int], list[bool], list[bytes]] = ([], [], [], [])
-    write(record_of(Kinds), KINDS, lists)
-    restored = read(record_of(Kinds), Streams(lists[0], lists[1], lists[2], b"".join(lists[3])), lambda name: None)
-    assert restored == KINDS and type(restored.reasons) is Counter
 
 
 @pytest.mark.parametrize(

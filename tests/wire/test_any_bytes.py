@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from any_packets import damaged, frames, packets_of
+from any_packets import damaged, packets_of
 from formats import FORMATS
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.wire import fragment, insole
+from solepath.wire import fragment
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
 
@@ -39,31 +39,6 @@ def test_any_damaged_packet_is_a_record_or_a_wire_error(name: str, data: st.Data
 @given(data=st.data())
 def test_damage_under_a_right_crc_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
     check_bytes(name, data.draw(damaged(SEEDS[name], resealed=True)))
-
-
-@settings(max_examples=40)
-@given(frames(), st.integers(2, 600), st.integers(0, 6))
-def test_every_frame_that_is_cut_can_be_joined(frame: insole.InsoleFrame, payload: int, frame_id: int) -> None:
-    data = insole.build_frame(frame)
-    assume(len(data) <= 16 * (payload - 1))
-    notifications = fragment.split(data, payload, frame_id)
-    assert all(0 < len(n) <= payload for n in notifications)
-    if notifications != [data]:
-        pieces = [fragment.parse_fragment(n) for n in notifications]
-        assert [p.index for p in pieces] == list(range(len(pieces)))
-        assert [p.last for p in pieces] == [False] * (len(pieces) - 1) + [True]
-        assert {p.frame_id for p in pieces} == {frame_id}
-        data = b"".join(p.body for p in pieces)
-    assert insole.parse_frame(data) == frame
-
-
-@settings(max_examples=40)
-@given(frames(), st.integers(0, 10_000), st.integers(1, 255))
-def test_no_frame_survives_a_changed_byte(frame: insole.InsoleFrame, position: int, change: int) -> None:
-    data = bytearray(insole.build_frame(frame))
-    data[position % len(data)] ^= change
-    with pytest.raises(WireError):
-        insole.parse_frame(bytes(data))
 
 
 def test_a_fragment_never_starts_as_a_frame_does() -> None:
