@@ -49,16 +49,6 @@ def test_a_table_without_rows_or_columns_is_read_too() -> None:
     assert pyarrow.table(to_frame([], library="arrow")).shape == (0, 0)
 
 
-def test_texts_of_other_alphabets_are_whole() -> None:
-    from solepath.events import LinkTrouble
-    from solepath.types import Site
-
-    what = ["", "Schuh 👟 naß", "靴"]
-    events = [LinkTrouble(t=0.0, known_at=0.0, site=Site.PELVIS, what=text) for text in what]
-    assert pyarrow.table(to_frame(events, library="arrow"))["what"].to_pylist() == what
-    assert to_frame(events, library="polars")["what"].to_list() == what
-
-
 def test_a_column_outlives_the_table_and_memory_is_given_back(table: ColumnTable) -> None:
     gc.collect()
     before = len(_ALIVE)
@@ -73,12 +63,6 @@ def test_a_column_outlives_the_table_and_memory_is_given_back(table: ColumnTable
     del column, series
     gc.collect()
     assert len(_ALIVE) == before
-
-
-def test_a_stream_is_read_once(table: ColumnTable) -> None:
-    reader = pyarrow.RecordBatchReader.from_stream(table)
-    assert [batch.num_rows for batch in reader] == [len(table)]
-    assert reader.read_all().num_rows == 0
 
 
 EXIT = """

@@ -73,12 +73,6 @@ def test_samples_have_columns_of_their_own() -> None:
     assert len(to_frame(SAMPLE for _ in range(3))) == 3
 
 
-def test_units_stay_with_a_part_of_a_frame() -> None:
-    frame = to_frame(walked())
-    steady = frame[frame.event == "GaitCycleMeasured"][["stride_time", "cadence"]]
-    assert steady.attrs["units"]["cadence"] == "1/min" and steady.attrs["units"]["stride_time"] == "s"
-
-
 @frozen(kw_only=True)
 class Weighed(Happening):
     """An app's own event, whose `length` is a text and whose `weights` no table can have."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import struct
 from binascii import crc_hqx
 from functools import partial
-from math import inf, isfinite, pi
+from math import inf, pi
 from typing import Any
 
 import pytest
@@ -20,187 +21,187 @@ from solepath.wire.error import WireError
 
 TABLE = """
 # channels : a valid value [: channel = value before] [: channel = value after]
-# bits from | field | becomes | unit | full scale | allowed | otherwise
+# first bit | field | becomes | value in SI units of the number v | full scale | allowed ("=": as it is) | else why not
 # "gyro" is of the newest sample, "0.gyro" of the oldest; "gyro?" is there if the field is not 0, "silent_for!" is not
 
 insole/frame : f510 07 01 0000 00000000 4801 01 02 000000 000000000000 000000000000 0040000000000000 0000 <
   : : site right
-0 | u16 | | | | =
-16 | u1 | | | | 1 | wrong site
-17 | u2 | | | | =
-19 | u1 | saturated | 1
+0 | u16 |  |  |  | =
+16 | u1 |  |  |  | v == 1 | 'wrong site'
+17 | u2 |  |  |  | =
+19 | u1 | saturated | v
 20 | u1
-21 | u3 | | | | 0
+21 | u3 |  |  |  | v == 0
 24 | u8
 32 | u16
 48 | u32
-80 | u16 | | | | 1..65535
-96 | u16 | | | | =
-112 | 2 x u12 | pressure | 1
-136 | 3 x i16 | acc | 16/32768 g
-184 | 3 x i16 | gyro | 2000/32768 deg/s
+80 | u16 |  |  |  | 1 <= v <= 65535
+96 | u16 |  |  |  | =
+112 | 2 x u12 | pressure | v
+136 | 3 x i16 | acc | v * 16 / 32768 * g
+184 | 3 x i16 | gyro | v * 2000 / 32768 * deg
 232 | 4 x i16
-296 | u16 | | | | =
+296 | u16 |  |  |  | =
 
 insole/frame : f510 06 01 0000 00000000 4801 01 03 000000 0000 000000000000 000000000000 0040000000000000 0000 <
   : insole/info = f511 00 01 07000000 00800000 4801 0000003c 0000003b 0000403e f00a 03 01 00 000000000000000000 030000 0000 <
-0 | u24 | | | | =
-24 | u8 | | | | 1 | wrong layout
-32 | u80 | | | | =
-112 | 3 x u12 | pressure | 3/16
-148 | u4 | | | | 0
-152 | 3 x i16 | acc | 1/128
-200 | 3 x i16 | gyro | 1/512
-248 | u80 | | | | =
+0 | u24 |  |  |  | =
+24 | u8 |  |  |  | v == 1 | 'wrong layout'
+32 | u80 |  |  |  | =
+112 | 3 x u12 | pressure | v * 3 / 16
+148 | u4 |  |  |  | v == 0
+152 | 3 x i16 | acc | v / 128
+200 | 3 x i16 | gyro | v / 512
+248 | u80 |  |  |  | =
 
 insole/info : f511 01 01 07000000 00800000 4801 0000003c 0000003b 0000403e f00a 02 01 01 000000000000 020100 31 0000 <
   : : insole/frame = f510 03 01 0000 00000000 4801 01 02 010000 010001000100 010001000100 0000 < : site right
-0 | u8 | | | | 245
-8 | u8 | | | | 17
-16 | u1 | | | | 1 | wrong site
-17 | u7 | | | | 0
-24 | u8 | layout.id | 1 | | 1 | wrong layout
+0 | u8 |  |  |  | v == 245
+8 | u8 |  |  |  | v == 17
+16 | u1 |  |  |  | v == 1 | 'wrong site'
+17 | u7 |  |  |  | v == 0
+24 | u8 | layout.id | v |  | v == 1 | 'wrong layout'
 32 | u32
-64 | u32 | | | | 100..4294967295 | absurd value in 1..99
-96 | u16 | | | | 1..65535
-112 | f32 | acc.1 | 1 | | 0.0..0.0,2.9628245544e-4..0.29927520752 | absurd value in 0.0..inf
-144 | f32 | gyro.1 | 1 | | 0.0..0.0,5.32632218016e-6..0.0532632218016 | absurd value in 0.0..inf
-176 | f32 | layout.scale | 1 | | 0.0..24.42002442 | absurd value in 1.0..inf
-208 | u16 | layout.length | 1/10000
-224 | u24 | | | | =
-248 | u12 | layout.cells.0.x | 1/10000
-260 | u12 | layout.cells.0.y | 1/10000 - 2048
-272 | u12 | layout.cells.1.x | 1/10000
-284 | u12 | layout.cells.1.y | 1/10000 - 2048
-296 | u8 | | | | 2
-304 | u16 | layout.cells.1.area | 1/10000000
-320 | u8 | | | | 0..127
-328 | u16 | | | | =
+64 | u32 |  |  |  | 100 <= v <= 4294967295 | 'absurd value' if 1 <= v <= 99 else 'malformed'
+96 | u16 |  |  |  | 1 <= v <= 65535
+112 | f32 | acc.1 | v |  | v == 0.0 or 2.9628245544e-4 <= v <= 0.29927520752 | 'absurd value' if 0.0 <= v < inf else 'malformed'
+144 | f32 | gyro.1 | v |  | v == 0.0 or 5.32632218016e-6 <= v <= 0.0532632218016 | 'absurd value' if 0.0 <= v < inf else 'malformed'
+176 | f32 | layout.scale | v |  | 0.0 <= v <= 24.42002442 | 'absurd value' if 1.0 <= v < inf else 'malformed'
+208 | u16 | layout.length | v / 10000
+224 | u24 |  |  |  | =
+248 | u12 | layout.cells.0.x | v / 10000
+260 | u12 | layout.cells.0.y | (v - 2048) / 10000
+272 | u12 | layout.cells.1.x | v / 10000
+284 | u12 | layout.cells.1.y | (v - 2048) / 10000
+296 | u8 |  |  |  | v == 2
+304 | u16 | layout.cells.1.area | v / 10000000
+320 | u8 |  |  |  | 0 <= v <= 127
+328 | u16 |  |  |  | =
 
 insole/control : 03 0100
-0 | u8 | | | | =
-8 | u16 | | | | 1..65535
+0 | u8 |  |  |  | =
+8 | u16 |  |  |  | 1 <= v <= 65535
 
 insole/control : 04 0000 01
-0 | u8 | | | | =
+0 | u8 |  |  |  | =
 8 | u16
-24 | u8 | | | | 1..255
+24 | u8 |  |  |  | 1 <= v <= 255
 
 insole/control : 01
-0 | u8 | | | | 1..2 | truncated in 3..4
+0 | u8 |  |  |  | 1 <= v <= 2 | 'truncated' if 3 <= v <= 4 else 'malformed'
 
 cc2650/movement : 0000 0000 0000 0000 0000 0000 0000 0000 0000
-0 | 3 x i16 | gyro | 500/65536 deg/s | 32767
-48 | 3 x i16 | acc | 8/32768 g | 32767
-96 | i16 | mag.1 | 4912/32760 uT
-112 | i16 | mag.0 | 4912/32760 uT
-128 | i16 | mag.2 | -4912/32760 uT
+0 | 3 x i16 | gyro | v * 500 / 65536 * deg | 32767
+48 | 3 x i16 | acc | v * 8 / 32768 * g | 32767
+96 | i16 | mag.1 | v * 4912 / 32760 * uT
+112 | i16 | mag.0 | v * 4912 / 32760 * uT
+128 | i16 | mag.2 | v * -4912 / 32760 * uT
 
 cc2650/movement-config : 7f 02 : : cc2650/movement = 000000000000000000000010000000000000
 0 | 3 x u1 | gyro?
 3 | 3 x u1 | acc?
 6 | u1 | mag?
 7 | u1 | silent_for!
-8 | u2 | acc.2 | 1/4,1/2,1,2 g
-10 | u6 | | | | 0
+8 | u2 | acc.2 | [1/4, 1/2, 1, 2][v] * g
+10 | u6 |  |  |  | v == 0
 
 cc2650/movement-period cc2650/barometer-period cc2541/accelerometer-period cc2541/magnetometer-period : 0a
-0 | u8 | | | | 1..255
+0 | u8 |  |  |  | 1 <= v <= 255
 
 cc2541/barometer-period cc2541/gyroscope-period : 0a
-0 | u8 | | | | 1..255
+0 | u8 |  |  |  | 1 <= v <= 255
 
 cc2650/barometer : 000000 000000
 0 | i24
-24 | u24 | air_pressure | 1 Pa
+24 | u24 | air_pressure | v
 
 cc2650/barometer-config cc2541/magnetometer-config : 00
-0 | u8 | | | | 0..1
+0 | u8 |  |  |  | 0 <= v <= 1
 
 cc2650/keys : 00
 0 | u1 | down:left
 1 | u1 | down:right
 2 | u1 | down:reed
-3 | u5 | | | | 0
+3 | u5 |  |  |  | v == 0
 
 cc2541/keys : 00
 0 | u1 | down:right
 1 | u1 | down:left
 2 | u1 | down:side
-3 | u5 | | | | 0
+3 | u5 |  |  |  | v == 0
 
 cc2541/accelerometer : 000000
-0 | 3 x i8 | acc | 1/16 g
+0 | 3 x i8 | acc | v / 16 * g
 
 cc2541/accelerometer-config : 03 : : cc2541/accelerometer = 000010
-0 | u8 | acc.2 | 1,1/4,1/2,1 g | | 0..3
+0 | u8 | acc.2 | [1, 1/4, 1/2, 1][v] * g |  | 0 <= v <= 3
 
 cc2541/gyroscope : 000000000000 : cc2541/accelerometer = 000000
-0 | 3 x i16 | gyro | 500/65536 deg/s | 32441
+0 | 3 x i16 | gyro | v * 500 / 65536 * deg | 32441
 
 cc2541/gyroscope-config : 07
 0 | 3 x u1
-3 | u5 | | | | 0
+3 | u5 |  |  |  | v == 0
 
 cc2541/magnetometer : 000000000000 : : cc2541/accelerometer = 000000
-0 | 3 x i16 | mag | 2000/65536 uT
+0 | 3 x i16 | mag | v * 2000 / 65536 * uT
 
 cc2541/barometer : 0000 0000 : cc2541/barometer-calibration = 0000 0000 0100 0000 0000 0000 0000 0000
 0 | i16
-16 | u16 | air_pressure | 1/16384 Pa
+16 | u16 | air_pressure | v / 16384
 
 cc2541/barometer-config : 01
-0 | u8 | | | | 0..2
+0 | u8 |  |  |  | 0 <= v <= 2
 
 cc2541/barometer-calibration : 0000 0000 0000 0000 0000 0000 0000 0000 : : cc2541/barometer = 0040 0080
 0 | 2 x u16
-32 | u16 | air_pressure | 2 Pa
-48 | u16 | air_pressure | 1/4 Pa
-64 | i16 | air_pressure | 1/32 Pa
-80 | i16 | air_pressure | 1 Pa
-96 | i16 | air_pressure | 1/8 Pa
-112 | i16 | air_pressure | 1/32 Pa
+32 | u16 | air_pressure | v * 2
+48 | u16 | air_pressure | v / 4
+64 | i16 | air_pressure | v / 32
+80 | i16 | air_pressure | v
+96 | i16 | air_pressure | v / 8
+112 | i16 | air_pressure | v / 32
 
 thingy/motion : 0000 0000 0000 0000 0000 0000 0000 0000 0000
-0 | 3 x i16 | acc | -1/1024 g | 31744
-48 | 3 x i16 | gyro | 1/32 deg/s | 32736
-96 | 3 x i16 | mag | 1/16 uT
+0 | 3 x i16 | acc | -v / 1024 * g | 31744
+48 | 3 x i16 | gyro | v / 32 * deg | 32736
+96 | 3 x i16 | mag | v / 16 * uT
 
 thingy/motion-config : e803 e803 6400 6400 00
-0 | 2 x u16 | | | | 100..5000
-32 | u16 | | | | 100..1000
-48 | u16 | | | | 5..200
-64 | u8 | | | | 0..1
+0 | 2 x u16 |  |  |  | 100 <= v <= 5000
+32 | u16 |  |  |  | 100 <= v <= 1000
+48 | u16 |  |  |  | 5 <= v <= 200
+64 | u8 |  |  |  | 0 <= v <= 1
 
 thingy/pressure : f5030000 00
-0 | i32 | air_pressure | 100 Pa | | -1000000..1000000 | absurd value in -2147483648..2147483647
-32 | u8 | air_pressure | 1 Pa + 101300 | | 0..99
+0 | i32 | air_pressure | v * 100 |  | -1000000 <= v <= 1000000 | 'absurd value' if -2147483648 <= v <= 2147483647 else 'malformed'
+32 | u8 | air_pressure | v + 101300 |  | 0 <= v <= 99
 
 thingy/environment-config : 8813 e803 8813 8813 03 000000
-0 | u16 | | | | 100..5000
-16 | u16 | | | | 50..5000
-32 | u16 | | | | 100..5000
-48 | u16 | | | | 200..5000
-64 | u8 | | | | 1..3
+0 | u16 |  |  |  | 100 <= v <= 5000
+16 | u16 |  |  |  | 50 <= v <= 5000
+32 | u16 |  |  |  | 100 <= v <= 5000
+48 | u16 |  |  |  | 200 <= v <= 5000
+64 | u8 |  |  |  | 1 <= v <= 3
 72 | 3 x u8
 
 orphe/values : 38 0000 00 00 00 0000 4000000000000000 000000000000 000000000000 000000000000000000000000
   4000000000000000 000000000000 000000000000 000000000000000000000000
   0000000000000000000000000000000000000000000000000000000000000000
-0 | u8 | | | | =
+0 | u8 |  |  |  | =
 8 | >u16
-24 | u8 | | | | 0..23
-32 | u8 | | | | 0..59
-40 | u8 | | | | 0..59
-48 | >u16 | | | | 0..999
+24 | u8 |  |  |  | 0 <= v <= 23
+32 | u8 |  |  |  | 0 <= v <= 59
+40 | u8 |  |  |  | 0 <= v <= 59
+48 | >u16 |  |  |  | 0 <= v <= 999
 64 | 4 x >i16
-128 | 3 x >i16 | gyro | 7/100 deg/s | 32767
-176 | 3 x >i16 | acc | 16/32768 g | 32767
-224 | 6 x >u16 | pressure | 1
+128 | 3 x >i16 | gyro | v * 7 / 100 * deg | 32767
+176 | 3 x >i16 | acc | v * 16 / 32768 * g | 32767
+224 | 6 x >u16 | pressure | v
 320 | 4 x >i16
-384 | 3 x >i16 | 0.gyro | 7/100 deg/s | 32767
-432 | 3 x >i16 | 0.acc | 16/32768 g | 32767
-480 | 6 x >u16 | 0.pressure | 1
+384 | 3 x >i16 | 0.gyro | v * 7 / 100 * deg | 32767
+432 | 3 x >i16 | 0.acc | v * 16 / 32768 * g | 32767
+480 | 6 x >u16 | 0.pressure | v
 576 | u256
 
 orphe/info : 00 00 000000000000 03 03 <
@@ -208,93 +209,94 @@ orphe/info : 00 00 000000000000 03 03 <
   4000000000000000 000000000000 000000000000 000000000000000000000000
   0000000000000000000000000000000000000000000000000000000000000000
 0 | u8
-8 | u1 | | | | 0 | wrong site
+8 | u1 |  |  |  | v == 0 | 'wrong site'
 9 | u7
 16 | u48
-64 | u8 | acc.2 | 1/8,1/4,1/2,1 g | | 0..3
-72 | u8 | gyro.0 | 875/1000,175/100,35/10,7 deg/s | | 0..3
+64 | u8 | acc.2 | [1/8, 1/4, 1/2, 1][v] * g |  | 0 <= v <= 3
+72 | u8 | gyro.0 | [875/1000, 175/100, 35/10, 7][v] * deg |  | 0 <= v <= 3
 
 orphe/mode : 0d 04
-0 | u8 | | | | 13
-8 | u8 | | | | 1..4
+0 | u8 |  |  |  | v == 13
+8 | u8 |  |  |  | 1 <= v <= 4
 
 dot/rates : 00000000 00000000 00000000 00000000 00000000 00000000 00000000 000000000000000000000000
 0 | u32
-32 | 3 x f32 | acc | 1 | 155.337336 | -1e8..1e8 | absurd value in -inf..inf
-128 | 3 x f32 | gyro | 1 deg/s | 1980 | -5.7295779513e9..5.7295779513e9 | absurd value in -inf..inf
-224 | u96 | | | | 0
+32 | 3 x f32 | acc | v | 155.337336 | -1e8 <= v <= 1e8 | 'absurd value' if -inf < v < inf else 'malformed'
+128 | 3 x f32 | gyro | v * deg | 1980 | -5.7295779513e9 <= v <= 5.7295779513e9 | 'absurd value' if -inf < v < inf else 'malformed'
+224 | u96 |  |  |  | v == 0
 
 dot-orientation/quaternion : 00000000 0000803f 00000000 00000000 00000000
 0 | u32
-32 | f32 | | | | 0.98994950..1.00995049
-64 | 3 x f32 | | | | -0.14142135..0.14142135
+32 | f32 |  |  |  | 0.98994950 <= abs(v) <= 1.00995049
+64 | 3 x f32 |  |  |  | -0.14142135 <= v <= 0.14142135
 
 dot/control dot-orientation/control : 01 01 15
-0 | u8 | | | | 1
-8 | u8 | | | | 0..1
-16 | u8 | | | | 1..7,16..26
+0 | u8 |  |  |  | v == 1
+8 | u8 |  |  |  | 0 <= v <= 1
+16 | u8 |  |  |  | 1 <= v <= 7 or 16 <= v <= 26
 
 dot/device-control dot-orientation/device-control : 10 00 00 00000000 00 00000000000000000000000000000000 3c00 00 0000000000
 0 | u4
 4 | u1
 5 | u3
 8 | u184
-192 | u16 | | | | 1..1,4..4,10..10,12..12,15..15,20..20,30..30,60..60,120..120
+192 | u16 |  |  |  | v in (1, 4, 10, 12, 15, 20, 30, 60, 120)
 208 | u48
 
 dot/battery dot-orientation/battery : 00 00
-0 | u8 | level | 1/100 | | 0..100
-8 | u8 | | | | 0..1
+0 | u8 | level | v / 100 |  | 0 <= v <= 100
+8 | u8 |  |  |  | 0 <= v <= 1
 
 device/battery : 00
-0 | u8 | level | 1/100 | | 0..100
+0 | u8 | level | v / 100 |  | 0 <= v <= 100
 
 receiver/dropped : 01000000
-0 | u32 | count | 1 | | 1..4294967295
+0 | u32 | count | v |  | 1 <= v <= 4294967295
 
 receiver/position : 0000803f 01 0000000000000000 0000000000000000
-0 | f32 | sigma | 1 | | 1e-45..10000.0
-32 | u8 | | | | =
-40 | f64 | position.0 | 1 | | -1e6..1e6
-104 | f64 | position.1 | 1 | | -1e6..1e6
+0 | f32 | sigma | v |  | 1e-45 <= v <= 10000.0
+32 | u8 |  |  |  | =
+40 | f64 | position.0 | v |  | -1e6 <= v <= 1e6
+104 | f64 | position.1 | v |  | -1e6 <= v <= 1e6
 
 rsc/measurement : 03 0000 00 0000 00000000
-0 | u2 | | | | 3 | oversized in 0..2
-2 | u1 | running | 1
-3 | u5 | reserved | 1
-8 | u16 | speed | 1/256
-24 | u8 | cadence | 1
-32 | u16 | stride_length | 1/100
-48 | u32 | distance | 1/10
+0 | u2 |  |  |  | v == 3 | 'oversized' if 0 <= v <= 2 else 'malformed'
+2 | u1 | running | v
+3 | u5 | reserved | v
+8 | u16 | speed | v / 256
+24 | u8 | cadence | v
+32 | u16 | stride_length | v / 100
+48 | u32 | distance | v / 10
 
 rsc/feature : 0000
-0 | u1 | stride_length | 1
-1 | u1 | distance | 1
-2 | u1 | running | 1
-3 | u1 | calibration | 1
-4 | u1 | locations | 1
-5 | u11 | reserved | 1
+0 | u1 | stride_length | v
+1 | u1 | distance | v
+2 | u1 | running | v
+3 | u1 | calibration | v
+4 | u1 | locations | v
+5 | u11 | reserved | v
 
 rsc/control : 01 00000000
-0 | u8 | | | | =
-8 | u32 | value | 1
+0 | u8 |  |  |  | =
+8 | u32 | value | v
 
 rsc/control : 03 00
-0 | u8 | | | | =
-8 | u8 | value | 1
+0 | u8 |  |  |  | =
+8 | u8 | value | v
 
 rsc/response : 10 00 01 00 <
-0 | u8 | | | | 16
-8 | u8 | operation | 1
-16 | u8 | result | 1 | | 1..4
-24 | u8 | locations.0 | 1
-"""
-UNITS = {"": 1.0, "g": 9.80665, "deg/s": pi / 180.0, "uT": 1e-6, "Pa": 1.0}
+0 | u8 |  |  |  | v == 16
+8 | u8 | operation | v
+16 | u8 | result | v |  | 1 <= v <= 4
+24 | u8 | locations.0 | v"""
+UNITS = {"g": 9.80665, "deg": pi / 180.0, "uT": 1e-6, "inf": inf}
+CODES = {"f32": ("<f", "<I"), "f64": ("<d", "<Q")}
+"""Notations of floats, and of their bits."""
 
 
 @frozen
 class Field:
-    """One field of the table: its bits, what it becomes, and what it may be; `sealed` values end in their CRC."""
+    """One field of the table: its bits, what it becomes, and what it may be; cells are expressions of the number."""
 
     channel: str
     base: bytes
@@ -304,66 +306,45 @@ class Field:
     at: int
     kind: str
     becomes: str = ""
-    unit: str = ""
+    value: str = ""
     full: str = ""
     allowed: str = ""
-    otherwise: str = ""
+    reason: str = ""
 
     @property
     def bits(self) -> int:
         return int(self.kind.lstrip(">")[1:])
 
-    @property
-    def ranges(self) -> list[tuple[float, float]]:
-        """The values that are accepted, from and to; none for a field that is as it is."""
-        if not self.allowed:
-            return [(-inf, inf)]
-        ends = [part.split("..") for part in self.allowed.split(",") if part != "="]
-        return [(float(pair[0]), float(pair[-1])) for pair in ends]
+    def of(self, cell: str, number: float) -> Any:
+        """Return the value of a cell of the table for a number."""
+        return eval(cell, {**UNITS, "v": number})
 
     def with_value(self, raw: int) -> bytes:
         """Return the value of the channel in which this field has the bits `raw`."""
         order: Any = "big" if self.kind[0] == ">" else "little"
         shift = 8 * len(self.base) - self.at - self.bits if order == "big" else self.at
         whole = int.from_bytes(self.base, order) & ~((1 << self.bits) - 1 << shift)
-        return seal(self.channel, (whole | (raw & (1 << self.bits) - 1) << shift).to_bytes(len(self.base), order))
+        return seal(self.channel, (whole | raw << shift).to_bytes(len(self.base), order))
 
     def number(self, raw: int) -> float:
         """Return the number that the bits `raw` stand for."""
-        if "f" in self.kind:
-            code = {32: ("<I", "<f"), 64: ("<Q", "<d")}[self.bits]
-            number: float = struct.unpack(code[1], struct.pack(code[0], raw))[0]
-            return number
+        if self.kind in CODES:
+            notation, bits = CODES[self.kind]
+            return float(struct.unpack(notation, struct.pack(bits, raw))[0])
         return raw - (1 << self.bits) if "i" in self.kind and raw >> self.bits - 1 else raw
 
     def boundaries(self) -> set[int]:
-        """Return the bits of zero, smallest, sign bit, all set, and of both ends of what is allowed, and beside them."""
+        """Return the bits of zero, smallest, sign bit, all set, and of the numbers that the table names, and beside."""
         most = (1 << self.bits) - 1
-        raws = {0, 1, most >> 1, (most >> 1) + 1, most - 1, most}
-        ends = [end for pair in self.ranges for end in pair if isfinite(end)]
-        if self.full:
-            ends += [float(self.full), -float(self.full)]
-        for end in ends:
-            if "f" in self.kind:
-                code = {32: ("<f", "<I"), 64: ("<d", "<Q")}[self.bits]
-                bits = struct.unpack(code[1], struct.pack(code[0], end))[0]
-            else:
-                bits = int(end)
-            raws |= {bits - 1 & most, bits & most, bits + 1 & most}
-        if "f" in self.kind:
-            infinite = {32: 0x7F800000, 64: 0x7FF0 << 48}[self.bits]
-            raws |= {infinite - 1, infinite, infinite + 1, infinite | 1 << self.bits - 1}
-        return raws
-
-    def expected(self, number: float) -> float:
-        """Return the value in SI units that the number stands for."""
-        unit, _, offset = self.unit.partition(" - " if " - " in self.unit else " + ")
-        factors, _, name = unit.partition(" ")
-        choices = [float(a) / float(b or 1) for a, _, b in [factor.partition("/") for factor in factors.split(",")]]
-        if len(choices) > 1:
-            return choices[int(number)] * UNITS[name]
-        number = number - float(offset) if " - " in self.unit else number
-        return number * choices[0] * UNITS[name] + (float(offset) if " + " in self.unit else 0.0)
+        raws = {0, 1, most >> 1, most - 1, most}
+        named = [float(number) for number in re.findall(r"-?\d[\d.]*(?:e-?\d+)?", self.allowed + " " + self.full)]
+        for end in {0.0, *named, *[-number for number in named]}:
+            if self.kind in CODES:
+                notation, bits = CODES[self.kind]
+                end = struct.unpack(bits, struct.pack(notation, end))[0]
+            raws |= {int(end) + step & most for step in (-1, 0, 1)}
+        infinite = {"f32": 0x7F800000, "f64": 0x7FF0 << 48}.get(self.kind, 0)
+        return raws | {infinite - 1 & most, infinite, infinite + 1, infinite | 1 << self.bits - 1}
 
 
 def seal(channel: str, data: bytes) -> bytes:
@@ -390,8 +371,10 @@ def fields() -> list[Field]:
                     cells = list(others)
                     if count > 1 and cells and cells[0] and cells[0][-1] not in "?!":
                         cells[0] += f".{k}"
-                    field = of_value(0, kind)
-                    found.append(of_value(int(at) + k * field.bits, kind, *cells))
+                    defaults = ("", "", "inf", "True", "'malformed'")
+                    cells += [""] * (5 - len(cells))
+                    filled = [cell or default for cell, default in zip(cells, defaults, strict=True)]
+                    found.append(of_value(int(at) + k * int(kind.lstrip(">")[1:]), kind, *filled))
     return found
 
 
@@ -436,14 +419,11 @@ def found_in(output: list[Any], path: str) -> tuple[Any, Any]:
 @pytest.mark.parametrize("channel", sorted({field.channel for field in FIELDS}))
 def test_every_field_at_its_boundaries_is_its_value_in_SI_units_or_rejected_for_its_reason(channel: str) -> None:
     for field in [one for one in FIELDS if one.channel == channel and one.allowed != "="]:
-        reason, _, within = field.otherwise.partition(" in ")
-        low, high = map(float, within.split("..")) if within else (-inf, inf)
         for raw in sorted(field.boundaries()):
             number, data = field.number(raw), field.with_value(raw)
             where = f"{channel}, bit {field.at}, {field.kind}: {number!r}"
-            if not (isfinite(number) and any(least <= number <= most for least, most in field.ranges)):
-                expected = (reason or "malformed") if low <= number <= high and isfinite(number) else "malformed"
-                assert reason_of(field, data) == expected, where
+            if not field.of(field.allowed, number):
+                assert reason_of(field, data) == field.of(field.reason, number), where
                 continue
             assert reason_of(field, data) == "", where
             wire = FORMATS.get(channel.replace("/", "-"))
@@ -456,11 +436,10 @@ def test_every_field_at_its_boundaries_is_its_value_in_SI_units_or_rejected_for_
                 assert found_in(output, "down")[1] == ((becomes[5:],) if raw else ()), where
             elif becomes:
                 item, value = found_in(output, becomes)
-                expected_value = field.expected(number)
-                assert (value or 0.0) == pytest.approx(expected_value, rel=1e-12, abs=1e-300), where
+                assert (value or 0.0) == pytest.approx(field.of(field.value, number), rel=1e-12, abs=1e-300), where
                 for sample in [one for one in output if isinstance(one, Sample) and becomes != "saturated"]:
-                    ends = float(field.full or inf)
-                    assert sample.saturated is (sample is item and abs(number) >= ends), where
+                    is_full = abs(number) >= float(field.full)
+                    assert sample.saturated is (sample is item and is_full), where
 
 
 @pytest.mark.parametrize("channel", sorted({field.channel for field in FIELDS}))

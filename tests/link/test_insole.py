@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from math import radians
 
 import pytest
@@ -20,7 +19,6 @@ from decoded import (
 )
 from walks import of
 
-from solepath import Session
 from solepath.events import ClockReset, Limitation, PacketRejected, PacketsLost, Rejection
 from solepath.link.decoder import Decoder
 from solepath.link.devices.insole import _TABLES, MOST_TABLES, InsoleLink
@@ -141,21 +139,3 @@ def test_a_frame_in_fragments_that_is_rejected_changes_nothing_but_its_fragments
     assert rejected.reason is Rejection.WRONG_LAYOUT
     decoder.link.reassembly = codec.load(type(decoder.link.reassembly), before["link"]["is"]["reassembly"])
     assert codec.save(decoder) == before
-
-
-def test_a_fragment_that_reports_the_loss_of_an_earlier_frame_is_used_itself() -> None:
-    session = Session()
-    first, _, *_ = fragment_packets(0, 0)
-    start, *rest = fragment_packets(1, 1)
-    session.feed(first)
-    [rejected] = session.feed(start)
-    assert isinstance(rejected, PacketRejected) and session.now == start.t > first.t
-    assert not of(PacketRejected, session.feed(rest))
-
-
-def test_fragments_without_end_do_not_fill_the_memory() -> None:
-    decoder = Decoder(site=LEFT)
-    for k in range(3000):
-        decoder.feed(packet(float(k) / 100, "insole/frame", bytes([(k % 5) << 5 | k % 16]) + bytes(400)))
-        assert decoder.link is not None
-        assert len(json.dumps(codec.save(decoder))) < 5000

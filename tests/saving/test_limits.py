@@ -12,10 +12,8 @@ from typing import Any
 
 import pytest
 from signed import signed
-from walks import samples
 
-from solepath import Foot, Session, SnapshotError
-from solepath.body.worn.wear import Wear
+from solepath import Session, SnapshotError
 from solepath.saving.limits import MAX_DEPTH, MAX_DIGITS, MAX_SIZE, MAX_VALUES, check_size
 from solepath.saving.streams import HEADER, from_bytes, to_bytes
 from solepath.session.packed import HEADER as SESSION_HEADER
@@ -127,21 +125,3 @@ def test_hostile_json_is_rejected_in_one_sentence(what: str) -> None:
             Session.restore(saved[""])
         text = str(caught.value)
         assert text and "\n" not in text and len(text) < 300
-
-
-@pytest.mark.parametrize("name", ["moments", "instants"])
-def test_bytes_that_are_no_whole_rows_are_rejected(name: str) -> None:
-    """Rows are read while a foot moves: a state that holds half a row would raise there."""
-    items = samples()  # without a layout, so that the sides of the feet are watched too
-    middle = next(k for k, sample in enumerate(items) if sample.t > items[0].t + 6.3)
-    session = Session()
-    session.feed(items[:middle])
-    tracker = session.feet[Foot.LEFT]
-    sides = next(part.sides for part in session._state.wearer.parts if isinstance(part, Wear))
-    holder: Any = tracker.gait.template if name == "moments" else sides.left.turn_integral
-    assert len(getattr(holder, name)) > 100
-    setattr(holder, name, getattr(holder, name)[:-1])
-    with pytest.raises(SnapshotError, match="no whole rows of"):
-        Session.restore(session.snapshot())
-    with pytest.raises(SnapshotError, match="no whole rows of"):
-        Session.unpack(session.pack())

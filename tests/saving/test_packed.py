@@ -54,16 +54,6 @@ def test_the_state_of_two_devices_is_below_20_kB_at_any_moment_of_a_walk(device:
     assert 5000 < largest < 25_000
 
 
-def test_equal_sessions_are_packed_alike_and_packing_changes_nothing() -> None:
-    machine = machines()["session, samples with pressure"]
-    one, other = machine.start(), machine.start()
-    for i, item in enumerate(machine.items[:120]):
-        if i % 20 == 0:
-            one.pack()
-        assert one.feed(item) == other.feed(item)
-    assert one.pack() == other.pack() == one.pack() == machine.repacked(one).pack()
-
-
 def test_what_was_unpacked_twice_shares_nothing_that_changes() -> None:
     machine = machines()["session, particles"]
     session = machine.start()

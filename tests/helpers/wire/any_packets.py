@@ -6,15 +6,9 @@ import json
 from binascii import crc_hqx
 
 from formats import VECTORS
-from hypothesis import assume
 from hypothesis import strategies as st
 
-from solepath.types import Foot
-from solepath.wire import cells, insole
-
-I16 = st.integers(-32768, 32767)
 U8, U16, U32 = st.integers(0, 255), st.integers(0, 2**16 - 1), st.integers(0, 2**32 - 1)
-FOOT = st.sampled_from(Foot)
 
 
 def packets_of(name: str) -> list[bytes]:
@@ -38,31 +32,3 @@ def damaged(draw: st.DrawFn, seeds: list[bytes], resealed: bool) -> bytes:
     if resealed and len(data) >= 2:
         data[-2:] = crc_hqx(bytes(data[:-2]), 0xFFFF).to_bytes(2, "little")
     return bytes(data)
-
-
-@st.composite
-def frames(draw: st.DrawFn) -> insole.InsoleFrame:
-    """Draw a frame of up to 128 cells that fits an attribute value."""
-    count, imu, quat = draw(st.integers(0, 128)), draw(st.booleans()), draw(st.booleans())
-    size = cells.packed_size(count) + 12 * imu + 8 * quat
-    assume(size > 0)
-    sample = st.builds(
-        insole.InsoleSample,
-        cells=st.lists(st.integers(0, 4095), min_size=count, max_size=count).map(tuple),
-        imu=st.tuples(*[I16] * 6) if imu else st.none(),
-        quat=st.tuples(*[I16] * 4) if quat else st.none(),
-    )
-    max_samples = min(255, (512 - 16) // size)
-    samples = draw(st.lists(sample, min_size=1, max_size=min(max_samples, 4)))
-    if draw(st.booleans()):
-        samples = (samples * max_samples)[:max_samples]
-    return insole.InsoleFrame(
-        draw(FOOT),
-        draw(U8),
-        draw(U16),
-        draw(U32),
-        draw(st.integers(1, 65535)),
-        tuple(samples),
-        draw(st.booleans()),
-        draw(st.booleans()),
-    )
