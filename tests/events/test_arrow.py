@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from solepath import Session, StrideTaken, to_frame
+from solepath import Session, to_frame
 from solepath.emulate import Route, emulate
 from solepath.events.frames.arrow import _ALIVE
 from solepath.events.frames.columns import ColumnTable
@@ -40,13 +40,6 @@ def test_arrow_finds_the_memory_sound_and_the_same_values_and_units_in_it(table:
         metadata = read.schema.field(column.name).metadata or {}
         assert metadata.get(b"unit") == (None if column.unit is None else column.unit.encode()), column.name
     assert pyarrow.schema(table).equals(read.schema, check_metadata=True)
-
-
-def test_a_table_without_rows_or_columns_is_read_too() -> None:
-    strides = pyarrow.table(to_frame([], StrideTaken, library="arrow"))
-    strides.validate(full=True)
-    assert strides.num_rows == 0 and strides.schema.field("length").metadata == {b"unit": b"m"}
-    assert pyarrow.table(to_frame([], library="arrow")).shape == (0, 0)
 
 
 def test_a_column_outlives_the_table_and_memory_is_given_back(table: ColumnTable) -> None:

@@ -8,10 +8,11 @@ from math import inf
 from typing import Any, get_args
 
 import pytest
+from attrs import evolve
 from made import Maker
 
 from solepath import Event, to_frame
-from solepath.events import LayoutKnown, SampleGap
+from solepath.events import GaitCycleMeasured, LayoutKnown, SampleGap
 from solepath.saving.codec import save
 from solepath.types import Cell, Foot, Layout, Phase, Site
 from solepath.types.attrs import fields
@@ -80,3 +81,17 @@ def test_words_print_as_they_are_written() -> None:
     assert (
         f"{Foot.LEFT} {Site.PELVIS} {Phase.SWING}" == "left pelvis SWING" and repr(Foot.LEFT) == "<Foot.LEFT: 'left'>"
     )
+
+
+def test_shares_of_a_gait_cycle_are_of_its_stride() -> None:
+    for shape in range(12):
+        cycle = Maker(shape, extreme=0.0).of(GaitCycleMeasured)
+        first, last, single, stride = (
+            cycle.initial_double_support, cycle.terminal_double_support, cycle.single_support, cycle.stride_time
+        )  # fmt: skip
+        assert (cycle.stance_share, cycle.swing_share) == (cycle.stance_time / stride, cycle.swing_time / stride)
+        assert cycle.single_support_share == (None if single is None else single / stride)
+        both = None if first is None or last is None else first + last
+        assert cycle.double_support == both
+        assert cycle.double_support_share == (None if both is None else both / stride)
+        assert [evolve(cycle, stance_time=share * stride).running for share in (0.49, 0.5)] == [True, False]

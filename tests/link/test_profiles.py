@@ -8,11 +8,9 @@ import pytest
 from here import PROTOCOL
 
 from solepath.link.catalogue import PROFILES
-from solepath.link.decoder import Decoder
 from solepath.link.devices.cc2541 import PROFILE_20HZ as CC2541_20HZ
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Profile, Write
-from solepath.types import Packet, Site
 
 
 def short(uuid: str) -> str:
@@ -98,10 +96,3 @@ def test_setup_is_the_table_of_the_document_write_for_write(profile: Profile, do
         written = bytes.fromhex(values[-1] if profile is CC2541_20HZ else values[0])
         documented_numbers.append(Write(channel.strip("`"), written, tuple(re.findall(r"`([^`]+)`", then_read))))
     assert tuple(documented_numbers) == profile.setup
-
-
-@pytest.mark.parametrize("profile", PROFILES, ids=lambda profile: profile.name)
-def test_the_decoder_takes_every_setup_write_as_a_packet(profile: Profile) -> None:
-    decoder = Decoder(site=Site.LEFT_FOOT)
-    for write in profile.setup:
-        assert decoder.feed(Packet(1.0, Site.LEFT_FOOT, write.channel, write.value)) == []

@@ -11,8 +11,6 @@ from here import PROTOCOL
 
 from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, StreamResumed, StreamStale
 from solepath.link.decoder import Decoder
-from solepath.recipes import part_class
-from solepath.saving import codec
 from solepath.types import Packet, Sample, Site
 
 STORIES = sorted((PROTOCOL / "stories").glob("*.json"))
@@ -71,15 +69,3 @@ def test_a_decoder_gives_the_output_of_the_story(path: Path) -> None:
         outputs = feed_line(decoder, Site(story["site"]), line)
         check(outputs, line["gives"], story["tolerance"], f"{path.stem}, packet {number}")
         assert all(output.known_at >= max(output.t, line["t"]) for output in outputs), "known before it was, or arrived"
-
-
-@pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
-def test_a_receiver_saved_and_restored_before_every_packet_goes_on_the_same(path: Path) -> None:
-    story = json.loads(path.read_text())
-    site = Site(story["site"])
-    unsaved, restored = Decoder(site=site), Decoder(site=site)
-    for line in story["packets"]:
-        restored = codec.load(Decoder, json.loads(json.dumps(codec.save(restored), allow_nan=False)), part_class)
-        assert feed_line(restored, site, line) == feed_line(unsaved, site, line)
-    assert restored == unsaved
-    assert restored.finish() == unsaved.finish()

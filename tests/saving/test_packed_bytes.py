@@ -42,15 +42,6 @@ def rejected_or_sound(data: bytes) -> None:
     session.pack()
 
 
-@given(st.binary(max_size=400), st.booleans())
-@FEW
-def test_any_bytes_are_rejected(data: bytes, with_header: bool) -> None:
-    with pytest.raises(SnapshotError):
-        Session.unpack(data)
-    if with_header:
-        rejected_or_sound(signed(packed()[: HEADER.size] + data))
-
-
 @pytest.mark.parametrize("data", [None, 5, "sole", [], {}, b"", b"sole", bytearray(b"sole"), memoryview(b"x" * 99)])
 def test_what_are_no_packed_bytes_is_rejected(data: Any) -> None:
     with pytest.raises(SnapshotError, match="not a packed session"):

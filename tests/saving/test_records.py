@@ -10,12 +10,12 @@ from typing import Any, get_args
 
 import attrs
 import pytest
-from made import NAMES, Maker
+from made import NAMES, Maker, places, replaced
 
 from solepath import Calibration, Event, Packet, Sample
 from solepath.floorplan.plan import FloorPlan
 from solepath.recipes import part_class
-from solepath.saving.codec import load, save
+from solepath.saving.codec import SnapshotError, load, save
 
 # internal: the packed form of a record that is not a whole session, and the schema from which it is made
 from solepath.saving.nodes import RecordNode, TupleNode
@@ -25,6 +25,16 @@ from solepath.saving.streams import from_bytes, to_bytes
 from solepath.session.packed import Head
 from solepath.session.state import SessionState
 from solepath.types.attrs import NOT_SAVED
+
+NOTHING_LIKE_IT = {"no": {"no": {"no": "no"}}}
+OTHERS: dict[type, tuple[Any, ...]] = {
+    float: ("x", True),
+    int: ("x", True, []),
+    str: (7,),
+    bool: (1, "x"),
+    list: (7, "x"),
+}
+"""Values that no field of this type in JSON may have."""
 
 
 def told(value: Any) -> Any:
@@ -102,3 +112,18 @@ def test_a_record_that_is_made_again_has_its_state_from_the_bytes_and_its_settin
                 assert one.init and getattr(restored, one.name) is getattr(again, one.name), (cls, one.name)
             elif not any([getattr(inner, "made", False) for inner in inside(node.fields[one.name])]):
                 assert told(getattr(restored, one.name)) == told(getattr(saved, one.name)), (cls, one.name)
+
+
+def test_values_of_other_types_missing_fields_and_further_ones_are_rejected_in_one_sentence() -> None:
+    for cls in classes():
+        saved: Any = save(Maker(2).of(cls))
+        wrong = [{**saved, "more": 1}, *[dict([*saved.items()][1:])] * bool(saved)]
+        for path in (every := places(saved)[1:])[:: 1 + len(every) // 12]:
+            value: Any = saved
+            for key in path:
+                value = value[key]
+            wrong += [replaced(saved, path, other) for other in OTHERS.get(type(value), ()) + (NOTHING_LIKE_IT,)]
+        for other in wrong:
+            with pytest.raises(SnapshotError) as caught:
+                load(cls, other, part_class)
+            assert "\n" not in str(caught.value) and len(str(caught.value)) < 400

@@ -77,3 +77,18 @@ class Maker:
                 return self.record(record_of(known.get(name) or part_class(name)))
             case RecordNode():
                 return self.record(node)
+
+
+def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    """Return the path of each value within a JSON value."""
+    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    return [path, *[place for key, item in inner for place in places(item, (*path, key))]]
+
+
+def replaced(value: Any, path: tuple[Any, ...], by: Any) -> Any:
+    """Return a copy of a JSON value with another one at this path."""
+    if not path:
+        return by
+    copy = value.copy()
+    copy[path[0]] = replaced(value[path[0]], path[1:], by)
+    return copy
