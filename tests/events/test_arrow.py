@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import gc
-import subprocess
-import sys
 from typing import Any
 
 import pytest
@@ -56,21 +54,3 @@ def test_a_column_outlives_the_table_and_memory_is_given_back(table: ColumnTable
     del column, series
     gc.collect()
     assert len(_ALIVE) == before
-
-
-EXIT = """
-import sys
-import pyarrow, polars
-from solepath import HeelStrike, Foot, to_frame
-events = [HeelStrike(t=float(n), known_at=float(n), foot=Foot.LEFT) for n in range(9)]
-table = to_frame(events, library="arrow")
-kept = [pyarrow.table(table), polars.DataFrame(table), table.__arrow_c_stream__(), table.__arrow_c_schema__()]
-kept.append(kept)
-sys.modules["kept"] = kept
-"""
-
-
-@pytest.mark.soak
-def test_a_program_ends_well_while_frames_are_there() -> None:
-    done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", EXIT], capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (0, "")

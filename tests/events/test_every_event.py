@@ -12,10 +12,9 @@ from attrs import evolve
 from made import Maker
 
 from solepath import Event, to_frame
-from solepath.events import GaitCycleMeasured, LayoutKnown, SampleGap
+from solepath.events import GaitCycleMeasured, SampleGap
 from solepath.saving.codec import save
-from solepath.types import Cell, Foot, Layout, Phase, Site
-from solepath.types.attrs import fields
+from solepath.types import Foot, Phase, Site
 
 AXES = ("w", "x", "y", "z", "xx", "xy", "xz", "yy", "yz", "zz", "forward", "left")
 
@@ -66,15 +65,11 @@ def test_every_number_of_every_event_is_in_its_row(shape: int) -> None:
         assert present == {name: value for name, value in columns(event.to_dict(), row) if value is not None}
 
 
-def test_a_number_that_is_not_finite_and_a_layout_are_plain_data() -> None:
+def test_a_number_that_is_not_finite_is_null() -> None:
     gap = SampleGap(t=0.0, known_at=inf, site=Site.PELVIS, duration=-inf)
     assert gap.to_dict() == {
         "event": "SampleGap", "t": 0.0, "known_at": None, "final": True, "site": "pelvis", "duration": None
     }  # fmt: skip
-    layout = Layout(7, Foot.RIGHT, (Cell(0.2, 0.01, 0.0001),), 0.26)
-    known = LayoutKnown(t=0.0, known_at=0.5, site=Site.RIGHT_FOOT, layout=layout).to_dict()
-    assert known["foot"] == "right" and known["layout"]["cells"] == [{"x": 0.2, "y": 0.01, "area": 0.0001}]
-    assert set(known["layout"]) == {one.name for one in fields(Layout)}
 
 
 def test_words_print_as_they_are_written() -> None:

@@ -81,14 +81,6 @@ def test_bytes_of_no_format_are_rejected_on_every_channel_and_do_not_bind_the_de
     assert of(Sample, feed(decoder, movement_packet(0)))
 
 
-def test_one_wild_arrival_time_is_survived() -> None:
-    decoder = fed_decoder()
-    decoder.feed(packet(1e9, "device/battery", b"\x32"))
-    outputs = feed(decoder, *[frame_packet(k) for k in range(5, 60)])
-    assert len(of(Sample, outputs)) == 55 - SET_BACK_PACKETS + 1
-    assert of(Sample, outputs)[-1].t == pytest.approx(10.0 + 59 * SAMPLE_INTERVAL, abs=1e-3)
-
-
 def test_silence_is_reported_once_and_ended_by_the_next_frame() -> None:
     decoder = fed_decoder()
     last = 10.0 + 4 * SAMPLE_INTERVAL

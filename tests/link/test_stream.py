@@ -6,13 +6,12 @@ from random import Random
 
 import pytest
 from attrs import evolve
-from toys import BASE, COARSE, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, times, toy
+from toys import BASE, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, times, toy
 from walks import of
 
-from solepath import Packet, Sample
+from solepath import Sample
 from solepath.events import BatteryLevel, ClockReset, KeysChanged, LayoutKnown, PacketRejected, PacketsLost, Rejection
 from solepath.link.driver import TimeAxis
-from solepath.link.kinds import make_kinds
 from solepath.saving import codec
 
 
@@ -62,16 +61,6 @@ def test_a_device_that_restarts_gets_a_new_fit_and_times_go_on(name: str) -> Non
     assert sample_times[-1] == pytest.approx(17.0 + 2.99, abs=0.02)
 
 
-def test_right_after_a_new_connection_nothing_is_overtaken() -> None:
-    for name in ("number", "ticks", "both", "coarse"):
-        device = toy(KIND[name])
-        for k in range(50):
-            device.packet(k)
-        device.decoder.feed(Packet(10.6, LEFT, "receiver/connected", b"\x7fToy"), make_kinds([device.driver]))
-        output = device.send_data(10.7, 65_535, 2**32 - 2_400_000 if name != "coarse" else 76_000_500)
-        assert times(output) == pytest.approx([10.7], abs=0.02), name
-
-
 def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() -> None:
     for name, pause, resets in (("coarse", 0.8, 0), ("coarse", 40.0, 0), ("number", 6.0, 1)):
         device = toy(KIND[name])
@@ -84,16 +73,6 @@ def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() 
         sample_times = times(output)
         assert sample_times[300] - sample_times[299] == pytest.approx(0.01 + pause, abs=0.02)
         assert sample_times[-1] == pytest.approx(15.99 + pause, abs=0.02)
-
-
-def test_a_coarse_clock_that_is_set_changes_nothing() -> None:
-    for offset in (600, 1500, 3_600_000, -1500):
-        device = toy(COARSE)
-        output = [item for k in range(300) for item in device.packet(k)]
-        for k in range(300, 600):
-            output += device.send_data(10.0 + 0.01 * k, 65_530 + k, 86_398_000 + 10 * k + offset)
-        assert [item for item in output if not isinstance(item, Sample)] == []
-        assert times(output) == pytest.approx([10.0 + 0.01 * k for k in range(600)], abs=2e-3), offset
 
 
 @pytest.mark.parametrize("true_rate", [50.0, 200.0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from copy import deepcopy
 from typing import Any
@@ -12,24 +13,16 @@ from toys import NUMBERED
 from solepath.testing.vectors import disagreements
 
 VALID_HEX = "0006000000640141200000"
-FILE: dict[str, Any] = {
-    "schema": "solepath vectors 1",
-    "channel": "toy/data",
-    "header": "of the toy",
-    "notes": {},
-    "count": 3,
-    "vectors": [
-        {
-            "id": "fine",
-            "result": "valid",
-            "hex": VALID_HEX,
-            "fields": {"number": 6, "ticks": 100, "count": 1, "up": [10.0]},
-            "physical": {"tolerance": 1e-9, "sequence": 6, "samples": [{"acc": [0, 0, 10]}]},
-        },
-        {"id": "cut", "result": "invalid", "hex": VALID_HEX[2:], "reason": "truncated"},
-        {"id": "no-number", "result": "invalid", "hex": VALID_HEX[:-8] + "7fc00000", "reason": "not finite"},
-    ],
-}
+FILE: dict[str, Any] = json.loads("""{
+ "schema": "solepath vectors 1", "channel": "toy/data", "header": "of the toy", "notes": {}, "count": 3,
+ "vectors": [
+  {"id": "fine", "result": "valid", "hex": "0006000000640141200000",
+   "fields": {"number": 6, "ticks": 100, "count": 1, "up": [10.0]},
+   "physical": {"tolerance": 1e-9, "sequence": 6, "samples": [{"acc": [0, 0, 10]}]}},
+  {"id": "cut", "result": "invalid", "hex": "06000000640141200000", "reason": "truncated"},
+  {"id": "no-number", "result": "invalid", "hex": "000600000064017fc00000", "reason": "not finite"}
+ ]
+}""")
 
 
 def test_a_good_file_has_nothing_wrong_though_a_reading_may_have() -> None:
