@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-import inspect
 import re
 import sys
-from collections import defaultdict
 from math import isnan
-from typing import Any
 
 import pytest
 from strides import stride
 
-import solepath
 from solepath import HeelStrike, Session, StrideTaken, to_frame
 from solepath.emulate import Route, emulate
 from solepath.events import StrideFeatures
-from solepath.events.frames.columns import _columns_of
-from solepath.events.frames.forms import ValueKind
-from solepath.events.frames.units import UNITS
 from solepath.events.happening import Happening
 from solepath.types import Foot, Sample, Site
 from solepath.types.attrs import frozen
@@ -90,24 +83,3 @@ def test_what_is_no_event_and_no_library_is_rejected_in_one_sentence(monkeypatch
         to_frame([STRIKE])
     with pytest.raises(ImportError, match=r"^to_frame needs polars: pip install polars$"):
         to_frame([STRIKE], library="polars")
-
-
-def event_classes() -> list[Any]:
-    """Return all classes that a row may be of."""
-    named = [getattr(solepath, name) for name in solepath.__all__]
-    return [Sample, *[one for one in named if inspect.isclass(one) and issubclass(one, Happening)]]
-
-
-def test_a_column_has_one_kind_and_one_unit_whatever_the_event() -> None:
-    forms, units = defaultdict(set), defaultdict(set)
-    for cls in event_classes():
-        for name, form, unit, _ in _columns_of(cls):
-            forms[name].add(form)
-            units[name].add(unit)
-    assert {name: kinds for name, kinds in forms.items() if len(kinds) > 1} == {}
-    assert {name: several for name, several in units.items() if len(several) > 1} == {}
-    unknown = {name for name, kinds in forms.items() if {form.kind for form in kinds} == {ValueKind.FLOAT}} - {
-        name for name, several in units.items() if None not in several
-    }
-    assert unknown == {"force", "features_contact_load", "layout_full_scale"}, "loads, in newtons or counts"
-    assert UNITS.keys() <= {name.removesuffix(f"_{axis}") for name in forms for axis in ("", *"xyzw", "xx")}

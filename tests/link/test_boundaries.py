@@ -13,7 +13,7 @@ import pytest
 from attrs import frozen
 from formats import FORMATS
 
-from solepath.events import PacketRejected
+from solepath.events import PacketRejected, Rejection
 from solepath.link.catalogue import PROFILES  # internal: the list of all devices, which this table must have whole
 from solepath.link.decoder import Decoder
 from solepath.types import Packet, Sample, Site
@@ -27,7 +27,7 @@ TABLE = """
 insole/frame : f510 07 01 0000 00000000 4801 01 02 000000 000000000000 000000000000 0040000000000000 0000 <
   : : site right
 0 | u16 |  |  |  | =
-16 | u1 |  |  |  | v == 1 | 'wrong site'
+16 | u1 |  |  |  | v == 1 | wrong_site
 17 | u2 |  |  |  | =
 19 | u1 | saturated | v
 20 | u1
@@ -44,9 +44,10 @@ insole/frame : f510 07 01 0000 00000000 4801 01 02 000000 000000000000 000000000
 296 | u16 |  |  |  | =
 
 insole/frame : f510 06 01 0000 00000000 4801 01 03 000000 0000 000000000000 000000000000 0040000000000000 0000 <
-  : insole/info = f511 00 01 07000000 00800000 4801 0000003c 0000003b 0000403e f00a 03 01 00 000000000000000000 030000 0000 <
+  : insole/info = f511 00 01 07000000 00800000 4801
+  0000003c 0000003b 0000403e f00a 03 01 00 000000000000000000 030000 0000 <
 0 | u24 |  |  |  | =
-24 | u8 |  |  |  | v == 1 | 'wrong layout'
+24 | u8 |  |  |  | v == 1 | wrong_layout
 32 | u80 |  |  |  | =
 112 | 3 x u12 | pressure | v * 3 / 16
 148 | u4 |  |  |  | v == 0
@@ -58,15 +59,15 @@ insole/info : f511 01 01 07000000 00800000 4801 0000003c 0000003b 0000403e f00a 
   : : insole/frame = f510 03 01 0000 00000000 4801 01 02 010000 010001000100 010001000100 0000 < : site right
 0 | u8 |  |  |  | v == 245
 8 | u8 |  |  |  | v == 17
-16 | u1 |  |  |  | v == 1 | 'wrong site'
+16 | u1 |  |  |  | v == 1 | wrong_site
 17 | u7 |  |  |  | v == 0
-24 | u8 | layout.id | v |  | v == 1 | 'wrong layout'
+24 | u8 | layout.id | v |  | v == 1 | wrong_layout
 32 | u32
-64 | u32 |  |  |  | 100 <= v <= 4294967295 | 'absurd value' if 1 <= v <= 99 else 'malformed'
+64 | u32 |  |  |  | 100 <= v <= 4294967295 | absurd if 1 <= v <= 99 else malformed
 96 | u16 |  |  |  | 1 <= v <= 65535
-112 | f32 | acc.1 | v |  | v == 0.0 or 2.9628245544e-4 <= v <= 0.29927520752 | 'absurd value' if 0.0 <= v < inf else 'malformed'
-144 | f32 | gyro.1 | v |  | v == 0.0 or 5.32632218016e-6 <= v <= 0.0532632218016 | 'absurd value' if 0.0 <= v < inf else 'malformed'
-176 | f32 | layout.scale | v |  | 0.0 <= v <= 24.42002442 | 'absurd value' if 1.0 <= v < inf else 'malformed'
+112 | f32 | acc.1 | v |  | v == 0.0 or 2.9628245544e-4 <= v <= 0.29927520752 | absurd if 0.0 <= v < inf else malformed
+144 | f32 | gyro.1 | v |  | v == 0.0 or 5.3263222e-6 <= v <= 0.0532632218 | absurd if 0.0 <= v < inf else malformed
+176 | f32 | layout.scale | v |  | 0.0 <= v <= 24.42002442 | absurd if 1.0 <= v < inf else malformed
 208 | u16 | layout.length | v / 10000
 224 | u24 |  |  |  | =
 248 | u12 | layout.cells.0.x | v / 10000
@@ -88,7 +89,7 @@ insole/control : 04 0000 01
 24 | u8 |  |  |  | 1 <= v <= 255
 
 insole/control : 01
-0 | u8 |  |  |  | 1 <= v <= 2 | 'truncated' if 3 <= v <= 4 else 'malformed'
+0 | u8 |  |  |  | 1 <= v <= 2 | truncated if 3 <= v <= 4 else malformed
 
 cc2650/movement : 0000 0000 0000 0000 0000 0000 0000 0000 0000
 0 | 3 x i16 | gyro | v * 500 / 65536 * deg | 32767
@@ -174,7 +175,7 @@ thingy/motion-config : e803 e803 6400 6400 00
 64 | u8 |  |  |  | 0 <= v <= 1
 
 thingy/pressure : f5030000 00
-0 | i32 | air_pressure | v * 100 |  | -1000000 <= v <= 1000000 | 'absurd value' if -2147483648 <= v <= 2147483647 else 'malformed'
+0 | i32 | air_pressure | v * 100 |  | -1000000 <= v <= 1000000 | absurd if -2147483648 <= v <= 2147483647 else malformed
 32 | u8 | air_pressure | v + 101300 |  | 0 <= v <= 99
 
 thingy/environment-config : 8813 e803 8813 8813 03 000000
@@ -209,7 +210,7 @@ orphe/info : 00 00 000000000000 03 03 <
   4000000000000000 000000000000 000000000000 000000000000000000000000
   0000000000000000000000000000000000000000000000000000000000000000
 0 | u8
-8 | u1 |  |  |  | v == 0 | 'wrong site'
+8 | u1 |  |  |  | v == 0 | wrong_site
 9 | u7
 16 | u48
 64 | u8 | acc.2 | [1/8, 1/4, 1/2, 1][v] * g |  | 0 <= v <= 3
@@ -221,8 +222,8 @@ orphe/mode : 0d 04
 
 dot/rates : 00000000 00000000 00000000 00000000 00000000 00000000 00000000 000000000000000000000000
 0 | u32
-32 | 3 x f32 | acc | v | 155.337336 | -1e8 <= v <= 1e8 | 'absurd value' if -inf < v < inf else 'malformed'
-128 | 3 x f32 | gyro | v * deg | 1980 | -5.7295779513e9 <= v <= 5.7295779513e9 | 'absurd value' if -inf < v < inf else 'malformed'
+32 | 3 x f32 | acc | v | 155.337336 | -1e8 <= v <= 1e8 | absurd if -inf < v < inf else malformed
+128 | 3 x f32 | gyro | v * deg | 1980 | -5.7295779513e9 <= v <= 5.7295779513e9 | absurd if -inf < v < inf else malformed
 224 | u96 |  |  |  | v == 0
 
 dot-orientation/quaternion : 00000000 0000803f 00000000 00000000 00000000
@@ -235,7 +236,8 @@ dot/control dot-orientation/control : 01 01 15
 8 | u8 |  |  |  | 0 <= v <= 1
 16 | u8 |  |  |  | 1 <= v <= 7 or 16 <= v <= 26
 
-dot/device-control dot-orientation/device-control : 10 00 00 00000000 00 00000000000000000000000000000000 3c00 00 0000000000
+dot/device-control dot-orientation/device-control :
+  10 00 00 00000000 00 00000000000000000000000000000000 3c00 00 0000000000
 0 | u4
 4 | u1
 5 | u3
@@ -260,7 +262,7 @@ receiver/position : 0000803f 01 0000000000000000 0000000000000000
 104 | f64 | position.1 | v |  | -1e6 <= v <= 1e6
 
 rsc/measurement : 03 0000 00 0000 00000000
-0 | u2 |  |  |  | v == 3 | 'oversized' if 0 <= v <= 2 else 'malformed'
+0 | u2 |  |  |  | v == 3 | oversized if 0 <= v <= 2 else malformed
 2 | u1 | running | v
 3 | u5 | reserved | v
 8 | u16 | speed | v / 256
@@ -289,7 +291,9 @@ rsc/response : 10 00 01 00 <
 8 | u8 | operation | v
 16 | u8 | result | v |  | 1 <= v <= 4
 24 | u8 | locations.0 | v"""
-UNITS = {"g": 9.80665, "deg": pi / 180.0, "uT": 1e-6, "inf": inf}
+REASONS = {one.name.lower(): one.value for one in Rejection}
+NAMES = {"g": 9.80665, "deg": pi / 180.0, "uT": 1e-6, "inf": inf, **REASONS}
+"""Names in the table: units in SI units, and reasons."""
 CODES = {"f32": ("<f", "<I"), "f64": ("<d", "<Q")}
 """Notations of floats, and of their bits."""
 
@@ -317,7 +321,7 @@ class Field:
 
     def of(self, cell: str, number: float) -> Any:
         """Return the value of a cell of the table for a number."""
-        return eval(cell, {**UNITS, "v": number})
+        return eval(cell, {**NAMES, "v": number})
 
     def with_value(self, raw: int) -> bytes:
         """Return the value of the channel in which this field has the bits `raw`."""
@@ -371,7 +375,7 @@ def fields() -> list[Field]:
                     cells = list(others)
                     if count > 1 and cells and cells[0] and cells[0][-1] not in "?!":
                         cells[0] += f".{k}"
-                    defaults = ("", "", "inf", "True", "'malformed'")
+                    defaults = ("", "", "inf", "True", "malformed")
                     cells += [""] * (5 - len(cells))
                     filled = [cell or default for cell, default in zip(cells, defaults, strict=True)]
                     found.append(of_value(int(at) + k * int(kind.lstrip(">")[1:]), kind, *filled))
@@ -382,7 +386,7 @@ FIELDS = fields()
 
 
 def received(field: Field, data: bytes) -> list[Any]:
-    """Return what a receiver gives for the value, and for the values before and after it, until the stream is silent."""
+    """Return what a receiver gives for the value and those before and after it, until the stream is silent."""
     if field.channel.startswith("rsc/"):
         return [FORMATS[field.channel.replace("/", "-")].parse(data)]
     site = Site.RIGHT_FOOT if "site right" in field.options else Site.LEFT_FOOT

@@ -72,6 +72,8 @@ def test_a_device_is_identified_by_its_name_or_its_service_and_found_by_the_filt
         and identify("", INSOLE.services) is INSOLE
         and identify("", ()) is None
     )
+    names = [getattr(identify(name, ()), "name", None) for name in ("INS0123", "Thingy", "Thingy 2", "")]
+    assert names == ["orphe", "thingy", None, None]
     found = {(one.name, one.prefix, one.service) for one in scan_filters((TAG, INSOLE))}
     assert found == {("", "", INSOLE.services[0]), ("", "", TAG.services[0]), *[(name, "", "") for name in TAG.names]}
 

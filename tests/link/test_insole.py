@@ -131,3 +131,11 @@ def test_a_frame_in_fragments_that_is_rejected_changes_nothing_but_its_fragments
     assert rejected.reason is Rejection.WRONG_LAYOUT
     decoder.link.reassembly = codec.load(type(decoder.link.reassembly), before["link"]["is"]["reassembly"])
     assert codec.save(decoder) == before
+
+
+def test_of_the_newest_64_packets_it_is_known_whether_they_came() -> None:
+    decoder = fed_decoder(100)
+    again = [packet(11.0, "insole/frame", insole_frame(99 - k, retransmitted=True)) for k in (1, 63, 64, 90)]
+    reasons = [event.reason for event in of(PacketRejected, feed(decoder, *again))]
+    assert reasons == [Rejection.DUPLICATE, Rejection.DUPLICATE, Rejection.LATE, Rejection.LATE]
+    assert isinstance(decoder.link, InsoleLink) and decoder.link.packet_run.accepted_bits == 2**64 - 1

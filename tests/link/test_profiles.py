@@ -68,13 +68,6 @@ def test_the_channels_of_all_profiles_are_those_of_the_protocol_with_their_numbe
         assert profile is not INSOLE or {channel.service for channel in profile.channels[:3]} == {*profile.services}
 
 
-def test_a_device_is_known_by_its_whole_name_or_its_prefix() -> None:
-    matching_profiles = {
-        name: [p.name for p in PROFILES if p.matches_name(name)] for name in ("INS0123", "Thingy", "Thingy 2", "")
-    }
-    assert matching_profiles == {"INS0123": ["orphe"], "Thingy": ["thingy"], "Thingy 2": [], "": []}
-
-
 @pytest.mark.parametrize(
     ("profile", "document"),
     [(profile, f"{profile.name.removesuffix('-20hz')}.md") for profile in PROFILES],

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from decoded import LEFT, insole_frame
 
 from solepath import (
@@ -55,12 +54,6 @@ def test_a_tick_lets_a_silence_become_known_as_advance_does() -> None:
     for session in (advanced_session, ticked_session):
         session.feed(packet(0.0, "insole/frame", insole_frame(1, ticks=0)))
     assert advanced_session.advance(5.0) == ticked_session.feed(packet(5.0, "receiver/tick")) != []
-
-
-@pytest.mark.parametrize("channel", ["receiver/tock", "receiver/", "receiver"])
-def test_invalid_receiver_packets_are_rejected(channel: str) -> None:
-    [event] = Session().feed(packet(0.0, channel))
-    assert isinstance(event, PacketRejected) and event.reason is Rejection.UNKNOWN_CHANNEL
 
 
 def reasons(session: Session, *packets: Packet) -> list[Rejection | None]:

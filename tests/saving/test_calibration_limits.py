@@ -1,4 +1,4 @@
-"""Every number of a calibration at both ends of what protocol/calibration.md allows, and everything else than numbers."""
+"""Every number of a calibration at both ends of what protocol/calibration.md allows, and other types."""
 
 from __future__ import annotations
 

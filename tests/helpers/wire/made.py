@@ -28,7 +28,7 @@ LARGE = (2**63, -(2**63) - 1, 2**63 - 1, -(2**63), -1, 0)
 
 
 class Maker:
-    """Makes records whose numbers and texts are all different; records of one `shape` have the same Nones and lengths."""
+    """Makes records whose numbers and texts are all different; `shape` decides what is None and how long it is."""
 
     def __init__(self, shape: int, first: int = 0, extreme: float = 0.2) -> None:
         """`extreme` is the share of numbers that are very large, very small or minus zero."""
