@@ -14,7 +14,7 @@ from made import Maker
 from solepath import Event, to_frame
 from solepath.events import GaitCycleMeasured, SampleGap
 from solepath.saving.codec import save
-from solepath.types import Foot, Phase, Site
+from solepath.types import Site
 
 AXES = ("w", "x", "y", "z", "xx", "xy", "xz", "yy", "yz", "zz", "forward", "left")
 
@@ -70,12 +70,6 @@ def test_a_number_that_is_not_finite_is_null() -> None:
     assert gap.to_dict() == {
         "event": "SampleGap", "t": 0.0, "known_at": None, "final": True, "site": "pelvis", "duration": None
     }  # fmt: skip
-
-
-def test_words_print_as_they_are_written() -> None:
-    assert (
-        f"{Foot.LEFT} {Site.PELVIS} {Phase.SWING}" == "left pelvis SWING" and repr(Foot.LEFT) == "<Foot.LEFT: 'left'>"
-    )
 
 
 def test_shares_of_a_gait_cycle_are_of_its_stride() -> None:

@@ -9,8 +9,7 @@ from math import isnan
 import pytest
 from strides import stride
 
-from solepath import HeelStrike, Session, StrideTaken, to_frame
-from solepath.emulate import Route, emulate
+from solepath import HeelStrike, Packet, StrideTaken, to_frame
 from solepath.events import StrideFeatures
 from solepath.events.happening import Happening
 from solepath.types import Foot, Sample, Site
@@ -22,16 +21,10 @@ STRIDE = stride(
     features=StrideFeatures(0.125, 4.0, 1.0, cop=((0.25, 0.0), (0.5, 0.0))),
 )  # fmt: skip
 STRIKE = HeelStrike(t=1.75, known_at=1.8125, foot=Foot.RIGHT)
-WALK = emulate(Route().stand(2).walk(8).stop(2), seed=1)
 SAMPLE = Sample(t=0.5, site=Site.RIGHT_FOOT, acc=(0.0, 1.0, 9.75), pressure=(1.0, 2.0))
 
 pandas = pytest.importorskip("pandas", reason="pandas is not installed")
 polars = pytest.importorskip("polars", reason="polars is not installed")
-
-
-def walked() -> list[Happening]:
-    session = Session()
-    return [*session.feed(WALK.packets), *session.finish()]
 
 
 @pytest.mark.parametrize("library", ["pandas", "polars"])
@@ -74,7 +67,7 @@ def test_an_event_of_an_app_is_a_row_too_and_what_no_table_has_is_json() -> None
 
 def test_what_is_no_event_and_no_library_is_rejected_in_one_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(TypeError, match=r"^to_frame takes events and samples, not Packet$"):
-        to_frame(WALK.packets)
+        to_frame([Packet(0.0, Site.PELVIS, "receiver/tick", b"")])
     with pytest.raises(ValueError, match=r'^library is "pandas", "polars" or "arrow", not \'excel\'$'):
         to_frame([STRIKE], library="excel")
     for library in ("pandas", "polars"):

@@ -165,6 +165,7 @@ def test_insoles_report_their_feet_and_one_that_is_not_expected_ends_in_words_fo
     for member, site, address in zip(members, (RIGHT, LEFT), "BC", strict=True):
         perform(setup_of(INSOLE, "", member, roster, address), foot=Foot.RIGHT if site is RIGHT else Foot.LEFT)
         assert (member.site, member.address) == (site, address)
+    assert [roster.is_excluded(members[0], address, "", 0.0) for address in "BCX"] == [False, True, False]
     members[1].address = ""
     setup = setup_of(INSOLE, "", members[1], roster, "X")
     _, values = perform(setup, foot=Foot.RIGHT)
@@ -175,3 +176,10 @@ def test_insoles_report_their_feet_and_one_that_is_not_expected_ends_in_words_fo
     setup = setup_of(INSOLE)
     perform(setup, foot=Foot.RIGHT)
     assert setup.end == "Shoe is a right foot one: expected at the left foot"
+    setup = setup_of(INSOLE)
+    setup.start(0.0)
+    assert setup.answer(1.0, b"?")[0][0] == "receiver/trouble" and setup.end is not None
+    assert setup.end.startswith("the INFO record of Shoe cannot be read")
+    named = Roster()
+    first, second = named.add([DeviceConfig(LEFT, "A", TAG), DeviceConfig(RIGHT, "Shoe", TAG)])
+    assert named.is_excluded(first, "Z", "Shoe", 0.0) and not named.is_excluded(second, "Z", "Shoe", 0.0)

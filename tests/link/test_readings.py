@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from attrs import evolve
-from construct import ExprValidator, GreedyBytes, Int8ub, Struct, Terminated
+from construct import ExprValidator, Int8ub, Struct, Terminated
 from toys import BASE, BOTH, FORMATS, TICKING, Toy, data, more, toy
 from walks import of
 
@@ -138,11 +138,3 @@ def test_a_construct_that_cannot_make_anything_of_bytes_rejects_them() -> None:
     device = toy(evolve(TICKING, formats={**FORMATS, "toy/more": Struct("what" / divides, Terminated)}, readers={}))
     device.packet(1)
     assert_rejected(device, b"\x00", MALFORMED, "more")
-
-
-def test_bytes_left_over_are_rejected_though_the_construct_does_not_end_in_terminated() -> None:
-    formats = {**FORMATS, "toy/more": Struct("what" / Int8ub), "toy/start": GreedyBytes}
-    device = toy(evolve(TICKING, formats=formats, readers={}))
-    (reported,) = device.receive(10.0, "more", b"\x01\x02")
-    assert isinstance(reported, PacketRejected) and reported.reason is Rejection.OVERSIZED
-    assert device.receive(10.0, "more", b"\x01") == device.receive(10.0, "start", b"all of it") == []

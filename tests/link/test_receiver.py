@@ -15,7 +15,6 @@ from solepath import (
     PacketsDropped,
     Rejection,
     Session,
-    Site,
     StreamRestarted,
 )
 from solepath.link.decoder import Decoder
@@ -75,14 +74,6 @@ def test_a_site_is_bound_to_the_first_device_it_receives() -> None:
     ]
     wrong_device = Rejection.WRONG_DEVICE
     assert reasons(Session(), *sent_packets) == [None, None, wrong_device, wrong_device, None]
-
-
-def test_a_site_that_was_bound_beforehand_accepts_no_other_device() -> None:
-    session = Session(devices={LEFT: "F0:02"})
-    sent_packets = [packet(float(t), "device/battery", CHARGED, f"F0:0{t}") for t in (1, 2, 3)]
-    wrong_device = Rejection.WRONG_DEVICE
-    assert reasons(session, *sent_packets) == [wrong_device, None, wrong_device]
-    assert reasons(Session(), Packet(0.0, Site.RIGHT_FOOT, "device/battery", CHARGED, "F0:01")) == [None]
 
 
 def test_receiver_packets_are_accepted_whatever_device_the_site_is_bound_to() -> None:

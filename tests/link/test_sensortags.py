@@ -58,14 +58,6 @@ def test_an_accelerometer_that_stops_leaves_the_gyroscope() -> None:
     assert len(samples) == 18
 
 
-def test_what_waits_for_the_gyroscope_comes_out_at_the_end() -> None:
-    decoder = Decoder(site=LEFT)
-    assert feed(decoder, acc_packet(1.0)) == []
-    [sample] = decoder.finish()
-    assert (sample.t, sample.gyro) == (1.0, None)
-    assert decoder.finish() == []
-
-
 def test_a_barometer_without_calibration_is_reported_once() -> None:
     decoder = Decoder(site=LEFT)
     raw = bytes.fromhex("b2eec584")
