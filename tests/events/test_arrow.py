@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import gc
-import subprocess
-import sys
 from typing import Any
 
 import pytest
 
-from solepath import Session, StrideTaken, to_frame
+from solepath import Session, to_frame
 from solepath.emulate import Route, emulate
-from solepath.events.frames.arrow import _ALIVE, stream_capsule
+from solepath.events.frames.arrow import _ALIVE
 from solepath.events.frames.columns import ColumnTable
-from solepath.events.frames.nodes import Node
 
 pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
 polars = pytest.importorskip("polars", reason="polars is not installed")
@@ -43,23 +40,6 @@ def test_arrow_finds_the_memory_sound_and_the_same_values_and_units_in_it(table:
     assert pyarrow.schema(table).equals(read.schema, check_metadata=True)
 
 
-def test_a_table_without_rows_or_columns_is_read_too() -> None:
-    strides = pyarrow.table(to_frame([], StrideTaken, library="arrow"))
-    strides.validate(full=True)
-    assert strides.num_rows == 0 and strides.schema.field("length").metadata == {b"unit": b"m"}
-    assert pyarrow.table(to_frame([], library="arrow")).shape == (0, 0)
-
-
-def test_texts_of_other_alphabets_are_whole() -> None:
-    from solepath.events import LinkTrouble
-    from solepath.types import Site
-
-    what = ["", "Schuh 👟 naß", "靴"]
-    events = [LinkTrouble(t=0.0, known_at=0.0, site=Site.PELVIS, what=text) for text in what]
-    assert pyarrow.table(to_frame(events, library="arrow"))["what"].to_pylist() == what
-    assert to_frame(events, library="polars")["what"].to_list() == what
-
-
 def test_a_column_outlives_the_table_and_memory_is_given_back(table: ColumnTable) -> None:
     gc.collect()
     before = len(_ALIVE)
@@ -74,38 +54,3 @@ def test_a_column_outlives_the_table_and_memory_is_given_back(table: ColumnTable
     del column, series
     gc.collect()
     assert len(_ALIVE) == before
-
-
-def test_a_stream_is_read_once(table: ColumnTable) -> None:
-    reader = pyarrow.RecordBatchReader.from_stream(table)
-    assert [batch.num_rows for batch in reader] == [len(table)]
-    assert reader.read_all().num_rows == 0
-
-
-class Unsound:
-    """A stream of an array whose metadata are no bytes."""
-
-    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        return stream_capsule(Node("", "+s", 0, (None,), metadata="text"))  # type: ignore[arg-type]
-
-
-def test_what_a_stream_cannot_give_is_named_to_its_reader() -> None:
-    with pytest.raises(ValueError, match="TypeError.*bytes or integer address expected"):
-        polars.DataFrame(Unsound())
-
-
-EXIT = """
-import sys
-import pyarrow, polars
-from solepath import HeelStrike, Foot, to_frame
-events = [HeelStrike(t=float(n), known_at=float(n), foot=Foot.LEFT) for n in range(9)]
-table = to_frame(events, library="arrow")
-kept = [pyarrow.table(table), polars.DataFrame(table), table.__arrow_c_stream__(), table.__arrow_c_schema__()]
-kept.append(kept)
-sys.modules["kept"] = kept
-"""
-
-
-def test_a_program_ends_well_while_frames_are_there() -> None:
-    done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", EXIT], capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (0, "")

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from random import Random
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from solepath.link.clock import MAX_WINDOWS, Clock
+from solepath.link.clock import Clock
 from solepath.link.periodic import PeriodicClock, make_periodic_clock
-from solepath.saving import codec
 
 RATE = 32768
 INTERVAL = 328
@@ -64,7 +60,7 @@ def worst_interval_error(times: list[tuple[float, float]]) -> float:
     return max(abs((b[1] - a[1]) / (b[0] - a[0]) - 1.0) for a, b in zip(times, times[1:], strict=False))
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_radio_jitter_of_50_ms_does_not_reach_sample_times(seed: int) -> None:
     times = assign_times(arrivals(90.0, drift=40e-6, seed=seed), Clock(RATE))
     assert error_at(times, 20.0) < 0.025
@@ -72,33 +68,6 @@ def test_radio_jitter_of_50_ms_does_not_reach_sample_times(seed: int) -> None:
     settled = [(true, t) for true, t in times if true > 30.0]
     assert worst_interval_error(settled) < 1e-3
     assert worst_interval_error(times) < 0.0075
-
-
-def test_the_drift_of_a_crystal_is_learnt_over_an_hour() -> None:
-    clock = Clock(RATE)
-    times = assign_times(arrivals(3600.0, drift=40e-6), clock)
-    assert clock.drift == pytest.approx(-40e-6, abs=1e-6)
-    assert error_at(times, 3599.0) < 0.0003
-
-
-@pytest.mark.parametrize("drift", [-1e-3, 1e-3, 0.04, -0.04])
-def test_a_sloppy_clock_is_learnt_within_seconds(drift: float) -> None:
-    clock = Clock(RATE)
-    times = assign_times(arrivals(60.0, drift=drift), clock)
-    assert clock.drift == pytest.approx(1.0 / (1.0 + drift) - 1.0, abs=2e-5)
-    assert error_at(times, 55.0) < 0.001
-    assert worst_interval_error([(true, t) for true, t in times if true > 5.0]) < 0.01
-
-
-def test_a_queue_that_keeps_order_only_makes_the_fit_slower() -> None:
-    times = assign_times(arrivals(120.0, in_order=True), Clock(RATE))
-    assert error_at(times, 110.0) < 0.01
-    assert worst_interval_error(times) < 0.015
-
-
-def test_without_jitter_times_are_ticks() -> None:
-    times = assign_times(arrivals(10.0, jitter=0.0), Clock(RATE))
-    assert max(abs(t - true) for true, t in times) < 1e-6
 
 
 def test_a_late_first_packet_is_slewed_away_at_half_a_percent() -> None:
@@ -137,36 +106,8 @@ def test_a_delay_is_not_a_jump_until_it_stays() -> None:
     assert clock.contradicts(29 * RATE, 29 + 40.0)
 
 
-def test_memory_does_not_grow() -> None:
-    clock = Clock(RATE)
-    sizes = []
-    for k in range(0, 100 * 3600, 7):
-        clock.observe(k * INTERVAL, k * SAMPLE_INTERVAL + 0.001 * (k % 13))
-        clock.assign_time(k * INTERVAL)
-        sizes.append(len(clock.window_times))
-    assert max(sizes) <= MAX_WINDOWS + 1
-    assert len(json.dumps(codec.save(clock))) < 3000
-
-
-@given(
-    st.lists(st.tuples(st.integers(0, 200_000), st.floats(0.0, 30.0, allow_nan=False)), min_size=1, max_size=120),
-    st.sampled_from([32768.0, 10.0, 1000.0]),
-)
-@settings(max_examples=60)
-def test_times_strictly_increase_whatever_arrives_when(moves: list[tuple[int, float]], rate: float) -> None:
-    clock, ticks, arrival, newest = Clock(rate), 0, 0.0, -1.0
-    for step, pause in moves:
-        ticks, arrival = ticks + step, arrival + pause
-        clock.observe(ticks, arrival)
-        preview = clock.preview_time(ticks)
-        t = clock.assign_time(ticks)
-        assert t > newest
-        assert t == preview or t == pytest.approx(newest + 1e-6)
-        newest = t
-
-
-@pytest.mark.parametrize("jitter", [0.005, 0.02, 0.05])
-@pytest.mark.parametrize("seed", range(1, 6))
+@pytest.mark.parametrize("jitter", [0.005, 0.05])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_two_settled_clocks_agree_within_5_ms(seed: int, jitter: float) -> None:
     """Arrivals are up to `jitter` late; one device starts late, as after a new connection."""
     random, differences = Random(seed), []
@@ -222,7 +163,7 @@ def time_packets(packets: list[tuple[float, float]], stream: PeriodicClock) -> t
 
 
 @pytest.mark.parametrize("period", [0.1, 0.05])
-@pytest.mark.parametrize("drift", [0.0, 0.001, 0.04, -0.04])
+@pytest.mark.parametrize("drift", [0.0, -0.04])
 def test_losses_without_counters_are_counted_by_their_holes(period: float, drift: float) -> None:
     packets = make_slots(60.0, period, drift=drift)
     errors, lost_count = time_packets(packets, make_periodic_clock(period))
@@ -230,26 +171,8 @@ def test_losses_without_counters_are_counted_by_their_holes(period: float, drift
     assert max(abs(e) for e in errors[len(errors) // 2 :]) < 0.003
 
 
-def test_lateness_of_less_than_a_period_is_no_loss() -> None:
-    errors, lost_count = time_packets(make_slots(120.0, 0.1, jitter=0.01, loss=0.0), make_periodic_clock(0.1))
-    assert lost_count == 0
-    assert max(abs(e) for e in errors[600:]) < 0.003
-
-
 @pytest.mark.parametrize(("true", "assumed"), [(0.05, 0.1), (0.17, 0.1), (1.0, 0.1), (0.1, 0.05)])
 def test_a_period_that_was_never_written_is_found(true: float, assumed: float) -> None:
     stream = make_periodic_clock(assumed)
     time_packets(make_slots(60.0, true, loss=0.02), stream)
     assert stream.period == pytest.approx(true, rel=0.04)
-
-
-@given(st.lists(st.floats(0.0, 20.0, allow_nan=False), max_size=150))
-@settings(max_examples=60)
-def test_times_without_counters_strictly_increase(pauses: list[float]) -> None:
-    stream, arrival, newest = make_periodic_clock(0.1), 5.0, -1.0
-    for pause in pauses:
-        arrival += pause
-        sample_times = stream.add_packet(arrival)
-        assert sample_times.times[0] > newest
-        assert sample_times.lost_count >= 0
-        newest = sample_times.times[0]

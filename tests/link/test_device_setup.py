@@ -1,267 +1,185 @@
-"""Setup of a device without Bluetooth: the requests, one at a time, done by emulated devices or answered at will."""
+"""Setup of a device without Bluetooth: its requests in order, what ends it, and what a frozen stream leads to."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from math import inf, nextafter
 
 import pytest
 from attrs import evolve
-from benches import LEFT, RIGHT, ROUTE
-from hypothesis import given
-from hypothesis import strategies as st
+from decoded import info_value
 
-from solepath import Connected, LayoutKnown, LinkTrouble, PacketRejected, Session, StrideTaken
-from solepath.emulate.devices.attributes import AttError
-from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.faults import parse_faults
-from solepath.emulate.devices.peripheral import Peripheral
-from solepath.emulate.sensors.insole_device import Insole
-from solepath.emulate.sensors.sensortags import CC2541, CC2650
-from solepath.events import Event
+from solepath import Foot, Site
 from solepath.link.catalogue import PROFILES
 from solepath.link.devices.cc2650 import PROFILE as TAG
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.link.profile import Access, Profile, Write
-from solepath.link.setup.config import DeviceConfig, scan_filters, used_services
-from solepath.link.setup.device_setup import DeviceSetup, GattCharacteristic, Operation, Request, Value
-from solepath.link.setup.roster import Roster
-from solepath.types import Packet, Site
+from solepath.link.setup.config import DeviceConfig
+from solepath.link.setup.device_setup import DeviceSetup, GattCharacteristic, Operation, Value
+from solepath.link.setup.roster import Member, Roster
 
-Done = list[tuple[Request, bytes | str]]
-"""Requests with what was read, or the reason of the rejection."""
-
-
-def characteristics(device: Peripheral) -> frozenset[GattCharacteristic]:
-    return frozenset(
-        GattCharacteristic(service.uuid, one.uuid, "notify" in one.properties)
-        for service in device.services
-        for one in service.characteristics
-    )
-
-
-def all_characteristics(profile: Profile) -> frozenset[GattCharacteristic]:
-    return frozenset(
-        GattCharacteristic(one.service, one.characteristic, one.access is Access.NOTIFY) for one in profile.channels
-    )
+LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+READ, SUBSCRIBE, WRITE = Operation.READ, Operation.SUBSCRIBE, Operation.WRITE
+NAMED = [pytest.param(profile, id=profile.name) for profile in PROFILES]
 
 
 def setup_of(
-    device: Peripheral, profile: Profile, site: Site | None = None, roster: Roster | None = None
+    profile: Profile, without: str = "", member: Member | None = None, roster: Roster | None = None, address: str = "A"
 ) -> DeviceSetup:
+    """Return the setup of a device that has all characteristics of its profile but one."""
     roster = roster or Roster()
-    [member] = roster.add([DeviceConfig(site, device.address, profile)])
-    return DeviceSetup(roster, member, profile, characteristics(device), device.address, device.name, -60)
+    if member is None:
+        [member] = roster.add([DeviceConfig(LEFT, "A", profile)])
+    present = frozenset(
+        GattCharacteristic(one.service, one.characteristic, one.access is Access.NOTIFY)
+        for one in profile.channels
+        if one.name != without
+    )
+    return DeviceSetup(roster, member, profile, present, address, "Shoe", -60)
 
 
-def do(device: Peripheral, request: Request, now: float) -> bytes:
-    channel = request.channel.name
-    match request.operation:
-        case Operation.READ:
-            return device.read(channel, now) or b""
-        case Operation.SUBSCRIBE:
-            device.subscribe(channel, True, now)
-        case Operation.WRITE:
-            device.write(channel, request.value, now)
-    return b""
+def value_of(channel: str, foot: Foot = Foot.LEFT) -> bytes:
+    """Return what a device answers when this channel is read."""
+    return info_value(foot=foot) if channel == "insole/info" else b"\x32"
 
 
-def perform(setup: DeviceSetup, device: Peripheral, now: float, values: list[Value]) -> tuple[list[Value], Done]:
-    """Do all requests with an emulated device; return the values, after `values`, and what was done."""
-    values, done = [*values], []
-    while (request := setup.request) is not None:
-        try:
-            value = do(device, request, now)
-            values += setup.answer(now, value)
-            done.append((request, value))
-        except AttError as error:
-            values += setup.reject(now, str(error))
-            done.append((request, str(error)))
-    return values, done
+def perform(
+    setup: DeviceSetup, rejected: int = -1, foot: Foot = Foot.LEFT
+) -> tuple[list[tuple[Operation, str]], list[Value]]:
+    """Start, and answer all requests, one every second, but the one of this number; return requests and values."""
+    values, done = setup.start(0.0), list[tuple[Operation, str]]()
+    while (request := setup.request) is not None and setup.end is None:
+        done.append((request.operation, request.channel.name))
+        if len(done) - 1 == rejected:
+            values += setup.reject(float(len(done)), "busy")
+        else:
+            answer = value_of(request.channel.name, foot) if request.operation is READ else b""
+            values += setup.answer(float(len(done)), answer)
+    return done, values
 
 
-def connect(setup: DeviceSetup, device: Peripheral, now: float = 0.0) -> tuple[list[Value], Done]:
-    device.connected(now, device.mtu)
-    return perform(setup, device, now, setup.start(now))
-
-
-def feed(session: Session, setup: DeviceSetup, t: float, values: list[Value]) -> Iterator[Event]:
-    for channel, data in values:
-        yield from session.feed(Packet(t, setup.member.site, channel, data, setup.address))
-
-
-def operations(done: Done) -> list[tuple[Operation, str]]:
-    return [(request.operation, request.channel.name) for request, _ in done]
+def expected_requests(profile: Profile) -> list[tuple[Operation, str]]:
+    """Return what protocol/ says: reads, what must be written before, subscriptions, writes and what is read after."""
+    early, late = [], []
+    for write in profile.setup:
+        (early if write.before_subscribing else late).append((WRITE, write.channel))
+        late += [(READ, name) for name in write.then_read]
+    subscriptions = [(SUBSCRIBE, one.name) for one in profile.channels if one.access is Access.NOTIFY]
+    return [*[(READ, name) for name in profile.reads], *early, *subscriptions, *late]
 
 
 @pytest.mark.parametrize(
-    "device, profile",
-    [(Insole(), INSOLE), (CC2650(), TAG), (CC2541(), PROFILES[2])],
-    ids=["insole", "cc2650", "cc2541"],
+    "profile", [*NAMED, evolve(TAG, setup=(*TAG.setup[1:], evolve(TAG.setup[0], before_subscribing=True)))]
 )
-def test_a_device_that_is_set_up_walks_through_a_session(device: Insole | CC2650 | CC2541, profile: Profile) -> None:
-    emulated = Bench(ROUTE, devices={LEFT: device}, seed=3)[LEFT]
-    setup = setup_of(emulated, profile, LEFT)
-    values, done = connect(setup, emulated)
-    assert setup.is_listening and setup.end is None
-    order = [Operation.READ, Operation.SUBSCRIBE, Operation.WRITE]
-    kinds = [operation for operation, _ in operations(done)]
-    before_writes = kinds[: kinds.index(Operation.WRITE)]
-    assert before_writes == sorted(before_writes, key=order.index)
-    assert [channel for kind, channel in operations(done) if kind is Operation.WRITE] == [
-        write.channel for write in profile.setup
-    ]
-    session = Session()
-    events = list(feed(session, setup, 0.0, values))
-    while (due := emulated.next_due()) is not None and due < 20.0:
-        for outgoing in emulated.poll(due):
-            setup.add_notification(outgoing.channel, due)
-            events += feed(session, setup, due, [(outgoing.channel, outgoing.value)])
-        assert setup.check(due) == []
-    assert setup.has_streamed
-    assert not [event for event in events if isinstance(event, PacketRejected | LinkTrouble)]
-    assert [event.name for event in events if isinstance(event, Connected)] == [emulated.name]
-    assert any(isinstance(event, StrideTaken) for event in events)
+def test_a_device_is_read_subscribed_and_written_in_order_and_every_value_is_recorded(profile: Profile) -> None:
+    setup = setup_of(profile)
+    done, values = perform(setup)
+    assert done == expected_requests(profile)
+    assert setup.is_listening and setup.end is None and setup.member.address == "A"
+    assert setup.next_check_at() == len(done) + profile.stale_after
+    assert values[0] == ("receiver/connected", b"\xc4Shoe")
+    written = {
+        write.channel: [one.value for one in profile.setup if one.channel == write.channel] for write in profile.setup
+    }
+    recorded = [(READ, name, value_of(name)) if name not in written else (WRITE, name, written[name].pop(0))
+                for operation, name in done if operation is not SUBSCRIBE]  # fmt: skip
+    assert values[1:] == [(name, value) for _, name, value in recorded]
+    assert setup.disconnect() == [("receiver/disconnected", b"")] and setup.next_check_at() is None
+    with pytest.raises(ValueError, match="no request"):
+        setup.answer(99.0)
 
 
-def test_two_insoles_report_their_feet_and_another_right_one_ends_in_words() -> None:
-    bench, roster = Bench(ROUTE, seed=3), Roster()
-    members = roster.add([DeviceConfig(None, profile=INSOLE)] * 2)
-    for member, site in zip(members, (RIGHT, LEFT), strict=True):
-        device = bench[site]
-        setup = DeviceSetup(roster, member, INSOLE, characteristics(device), device.address, device.name)
-        values, _ = connect(setup, device)
-        assert member.site is site and [channel for channel, _ in values][0] == "receiver/connected"
-    other = Bench(ROUTE, devices={LEFT: Insole()}, seed=4)[LEFT]
-    members[1].address = ""
-    setup = DeviceSetup(roster, members[1], INSOLE, characteristics(bench[RIGHT]), other.address, "solepath X")
-    values, _ = connect(setup, bench[RIGHT])
-    assert setup.end == "solepath X is one more for the right foot"
-    assert values == [("receiver/trouble", setup.end.encode())]
-    assert setup.disconnect() == []
-    assert roster.is_excluded(members[1], other.address, "solepath X", 59.0)
-    assert not roster.is_excluded(members[1], other.address, "solepath X", 61.0)
+@pytest.mark.parametrize("profile", NAMED)
+def test_only_a_stream_or_the_record_of_the_foot_that_is_refused_ends_the_setup(profile: Profile) -> None:
+    words = {READ: "cannot be read: busy", SUBSCRIBE: "cannot be subscribed: busy", WRITE: "busy"}
+    for number, (operation, channel) in enumerate(expected_requests(profile)):
+        setup = setup_of(profile)
+        done, values = perform(setup, rejected=number)
+        needed = channel in profile.streams and operation is SUBSCRIBE or channel == "insole/info"
+        assert (setup.end is not None, setup.is_listening) == (needed, not needed)
+        (trouble,) = [data.decode() for name, data in values if name == "receiver/trouble"]
+        assert trouble.startswith(channel) and trouble.endswith(words[operation])
+        read_after = [name for write in profile.setup for name in write.then_read]
+        assert needed or {*done, *[(READ, name) for name in read_after]} == {*expected_requests(profile)}
 
 
-def test_an_insole_of_the_other_foot_and_a_device_of_another_kind_end_in_words() -> None:
-    right = Bench(ROUTE, devices={RIGHT: Insole()})[RIGHT]
-    setup = setup_of(right, INSOLE, LEFT)
-    connect(setup, right)
-    assert setup.end == f"{right.name} is a right foot one: expected at the left foot"
-    setup = setup_of(right, TAG, LEFT)
-    connect(setup, right)
-    assert setup.end == f"{right.name} is no cc2650: it has no cc2650/movement"
-
-
-@pytest.mark.parametrize(
-    "faults, ends, words",
-    [
-        ("0 left_foot refuse insole/info", True, "insole/info cannot be read"),
-        ("0 left_foot refuse device/firmware", False, "device/firmware cannot be read"),
-        ("0 left_foot refuse insole/control", False, "insole/control was not set to 01"),
-    ],
-)
-def test_a_rejection_ends_the_setup_only_if_nothing_can_be_received_without(
-    faults: str, ends: bool, words: str
-) -> None:
-    device = Bench(ROUTE, devices={LEFT: Insole()}, faults=parse_faults(faults))[LEFT]
-    setup = setup_of(device, INSOLE)
-    values, done = connect(setup, device)
-    assert (setup.end is not None, setup.is_listening) == (ends, not ends)
-    rejected = [answer for _, answer in done if isinstance(answer, str)]
-    assert [data.decode() for channel, data in values if channel == "receiver/trouble"] == [f"{words}: {rejected[0]}"]
+@pytest.mark.parametrize("profile", NAMED)
+def test_what_a_device_does_not_have_is_left_out_unless_it_is_a_stream(profile: Profile) -> None:
+    for channel in [
+        one.name for one in profile.channels if one.name not in ("orphe/info", "orphe/mode", "insole/info")
+    ]:
+        setup = setup_of(profile, without=channel)
+        done, values = perform(setup)
+        if channel in profile.streams:
+            assert setup.end == f"Shoe is no {profile.name}: it has no {channel}" and done == []
+            continue
+        read_after = [name for write in profile.setup if write.channel == channel for name in write.then_read]
+        assert done == [one for one in expected_requests(profile) if one[1] not in (channel, *read_after)]
+        missing = [data.decode() for name, data in values if name == "receiver/trouble"]
+        assert missing == [f"{channel} is not there to be set: the device keeps to its own"] * sum(
+            write.channel == channel for write in profile.setup
+        )
 
 
 def test_a_frozen_stream_is_set_up_again_twice_and_then_the_connection_ends() -> None:
-    device = Bench(ROUTE, devices={LEFT: CC2650()}, seed=3)[LEFT]
-    setup = setup_of(device, TAG, LEFT)
-    connect(setup, device)
-    restarts = []
+    setup = setup_of(TAG)
+    done, _ = perform(setup)
+    ready = float(len(done))
+    setup.add_notification("cc2650/movement", ready + 0.5)
+    setup.add_notification("cc2650/keys", ready + 2.0)  # another channel does not show that the stream is alive
+    due, restarts = ready + 0.5 + TAG.stale_after, 0
     while setup.end is None:
-        now = setup.next_check_at()
-        assert now is not None
-        values, done = perform(setup, device, now, setup.check(now))
-        restarts.append([channel for channel, _ in values])
-    assert restarts == [["receiver/restarted", *(write.channel for write in TAG.setup)]] * 2 + [["receiver/restarted"]]
-    assert setup.end == "cc2650/movement is frozen"
+        assert setup.next_check_at() == due and setup.check(nextafter(due, 0.0)) == []
+        values = setup.check(due)
+        assert values[0] == ("receiver/restarted", b"cc2650/movement")
+        while setup.request is not None:
+            assert setup.next_check_at() is None
+            values += setup.answer(due + 0.25)
+        if setup.end is None:
+            assert values[1:] == [(write.channel, write.value) for write in TAG.setup]
+        restarts += 1
+        if restarts == 1:  # it sends again: two more tries are left
+            setup.add_notification("cc2650/movement", due + 1.0)
+            assert setup.check(due + 1.0) == [] and setup.has_streamed
+            due += 1.0
+        due += TAG.stale_after
+    assert restarts == 4 and setup.end == "cc2650/movement is frozen"
 
 
-@pytest.mark.parametrize("config, checked", [("7f02", True), ("ff02", False)], ids=["always on", "wake on motion"])
-def test_a_device_that_waits_for_motion_is_not_checked(config: str, checked: bool) -> None:
-    device = Bench(ROUTE, devices={LEFT: CC2650()}, seed=3)[LEFT]
-    setup = setup_of(device, evolve(TAG, setup=(Write("cc2650/movement-config", bytes.fromhex(config)),)), LEFT)
-    connect(setup, device, 5.0)
-    assert setup.next_check_at() == (5.0 + TAG.stale_after if checked else None)
+def test_a_clock_that_restarts_gives_streams_their_whole_time_again() -> None:
+    setup = setup_of(TAG)
+    perform(setup)
+    setup.restart_clock(-50.0)
+    assert setup.next_check_at() == -50.0 + TAG.stale_after
 
 
-@given(profile=st.sampled_from(PROFILES), data=st.data())
-def test_any_answers_lead_to_listening_or_to_an_end(profile: Profile, data: st.DataObject) -> None:
+@pytest.mark.parametrize("config, watched", [("7f02", True), ("ff02", False)], ids=["always on", "wake on motion"])
+def test_a_device_that_waits_for_motion_is_not_checked(config: str, watched: bool) -> None:
+    setup = setup_of(evolve(TAG, setup=(Write("cc2650/movement-config", bytes.fromhex(config)),)))
+    perform(setup)
+    assert (setup.next_check_at() is not None) is watched and setup.check(inf if not watched else 0.0) == []
+
+
+def test_insoles_report_their_feet_and_one_that_is_not_expected_ends_in_words_for_a_minute() -> None:
     roster = Roster()
-    [member] = roster.add([DeviceConfig(LEFT, "A", profile)])
-    present = data.draw(st.sets(st.sampled_from(sorted(all_characteristics(profile), key=repr))))
-    setup = DeviceSetup(roster, member, profile, frozenset(present), "A", "a" * 300)
-    session, requests, now = Session(), 0, 0.0
-    values = setup.start(now)
-    for _ in range(200):
-        if setup.request is None:
-            break
-        requests += 1
-        now += 0.1
-        if data.draw(st.booleans()):
-            values += setup.answer(now, data.draw(st.binary(max_size=40)))
-        else:
-            values += setup.reject(now, data.draw(st.text(max_size=600)) or "?")
-    assert setup.request is None and (setup.end is None) is setup.is_listening
-    assert requests <= 1 + len(profile.channels) + sum(1 + len(write.then_read) for write in profile.setup)
-    values += setup.disconnect()
-    events = list(feed(session, setup, now, values))
-    assert not [
-        event for event in events if isinstance(event, PacketRejected) and event.channel.startswith("receiver/")
-    ]
-    with pytest.raises(ValueError, match="no request"):
-        setup.answer(now)
-
-
-def test_the_filters_of_a_chooser_find_each_emulated_device_and_know_its_services() -> None:
-    filters, services = scan_filters(PROFILES), used_services(PROFILES)
-    benches = [Bench(ROUTE, devices={LEFT: device}) for device in (Insole(), CC2650(), CC2541())]
-    for device in [bench[LEFT] for bench in benches]:
-        assert any(
-            device.name == one.name
-            or (one.prefix != "" and device.name.startswith(one.prefix))
-            or one.service in device.advertised
-            for one in filters
-        )
-        assert {service.uuid for service in device.services} & {*services}
-
-
-def test_layouts_come_from_the_record_that_was_read_for_the_site() -> None:
-    device = Bench(ROUTE, devices={RIGHT: Insole()})[RIGHT]
-    setup = setup_of(device, INSOLE)
-    values, done = connect(setup, device)
-    assert [channel for kind, channel in operations(done) if channel == "insole/info"] == ["insole/info"]  # read once
-    assert [channel for channel, _ in values][:2] == ["receiver/connected", "insole/info"]
-    assert [event.site for event in feed(Session(), setup, 0.0, values) if isinstance(event, LayoutKnown)] == [RIGHT]
-
-
-def test_the_writes_follow_the_subscriptions_except_those_that_are_needed_before() -> None:
-    first, *others = TAG.setup
-    early = evolve(TAG, setup=(*others, evolve(first, before_subscribing=True)))
-    for profile, key in ((TAG, None), (early, (first.channel, first.value))):
-        roster = Roster()
-        [member] = roster.add([DeviceConfig(LEFT, "X", profile)])
-        setup = DeviceSetup(roster, member, profile, all_characteristics(profile), "X", "")
-        setup.start(0.0)
-        done: list[Request] = []
-        while (request := setup.request) is not None:
-            done.append(request)
-            setup.answer(0.1 * len(done))
-        kinds = [one.operation for one in done if one.channel.name not in first.then_read]
-        writes = [(one.channel.name, one.value) for one in done if one.operation is Operation.WRITE]
-        assert sorted(writes) == sorted((one.channel, one.value) for one in TAG.setup)
-        subscribed = [place for place, kind in enumerate(kinds) if kind is Operation.SUBSCRIBE]
-        written = [place for place, kind in enumerate(kinds) if kind is Operation.WRITE]
-        if key is None:
-            assert max(subscribed) < min(written)
-        else:
-            assert writes[0] == key and written[0] < min(subscribed) < max(subscribed) < written[1]
-        assert setup.is_listening
+    members = roster.add([DeviceConfig(None, profile=INSOLE)] * 2)
+    for member, site, address in zip(members, (RIGHT, LEFT), "BC", strict=True):
+        perform(setup_of(INSOLE, "", member, roster, address), foot=Foot.RIGHT if site is RIGHT else Foot.LEFT)
+        assert (member.site, member.address) == (site, address)
+    assert [roster.is_excluded(members[0], address, "", 0.0) for address in "BCX"] == [False, True, False]
+    members[1].address = ""
+    setup = setup_of(INSOLE, "", members[1], roster, "X")
+    _, values = perform(setup, foot=Foot.RIGHT)
+    assert setup.end == "Shoe is one more for the right foot"
+    assert values == [("receiver/trouble", setup.end.encode())] and setup.disconnect() == []
+    assert roster.is_excluded(members[1], "X", "Shoe", nextafter(61.0, 0.0))
+    assert not roster.is_excluded(members[1], "X", "Shoe", 61.0)
+    setup = setup_of(INSOLE)
+    perform(setup, foot=Foot.RIGHT)
+    assert setup.end == "Shoe is a right foot one: expected at the left foot"
+    setup = setup_of(INSOLE)
+    setup.start(0.0)
+    assert setup.answer(1.0, b"?")[0][0] == "receiver/trouble" and setup.end is not None
+    assert setup.end.startswith("the INFO record of Shoe cannot be read")
+    named = Roster()
+    first, second = named.add([DeviceConfig(LEFT, "A", TAG), DeviceConfig(RIGHT, "Shoe", TAG)])
+    assert named.is_excluded(first, "Z", "Shoe", 0.0) and not named.is_excluded(second, "Z", "Shoe", 0.0)

@@ -5,19 +5,19 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from functools import partial
-from math import inf, nan
+from math import inf
 from typing import Any
 
 import pytest
 from attrs import evolve
-from toys import BASE, BOTH, COARSE, FORMATS, LEFT, NUMBERED, PROFILE, TICKING, data, toy
+from toys import BASE, BOTH, FORMATS, LEFT, NUMBERED, PROFILE, TICKING, data
 from walks import of
 
 from solepath import Packet, Session, SnapshotError
 from solepath.events import Limitation
 from solepath.link.catalogue import PROFILES
 from solepath.link.devices import orphe
-from solepath.link.driver import Driver, Reading
+from solepath.link.driver import Driver
 from solepath.link.kinds import BUILT_IN_KINDS, make_kinds
 from solepath.link.profile import Write
 
@@ -31,10 +31,8 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
         {"profile": elsewhere, "formats": {**FORMATS, "other/data": FORMATS["toy/data"]}},
         {"profile": evolve(PROFILE, streams=())},
         {"profile": evolve(PROFILE, setup=(Write("toy/start", b"\x01\x02"),))},
-        {"profile": evolve(PROFILE, setup=(Write("toy/start", b""),))},
         {"tick_rate": 100.0},
         {"tick_rate": inf, "tick_modulus": 256},
-        {"tick_modulus": 256},
         {"tick_rate": 100.0, "tick_modulus": 1 << 65},
         {"sequence": -1},
         {"sequence": 1},
@@ -47,7 +45,6 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
     "changes",
     [
         {"name": ""},
-        {"name": "toy/one"},
         {"streams": ("toy/typo",)},
         {"streams": ("toy/start",)},
         {"setup": (Write("toy/nothing", b"\x01"),)},
@@ -55,27 +52,14 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
         {"reads": ("toy/nothing",)},
         {"channels": (PROFILE.channels[0], *PROFILE.channels)},
         {"stale_after": 0.0},
-        {"stale_after": -1.0},
-        {"stale_after": inf},
-        {"stale_after": nan},
         {"nominal_rate": 0.0},
         {"nominal_rate": inf},
-        {"nominal_rate": nan},
     ],
     ids=str,
 )
 def test_a_profile_that_does_not_fit_together_is_rejected(changes: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match="^a profile|^toy: "):
         evolve(PROFILE, **changes)
-
-
-def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
-    def changes(sent: Any, known: Any) -> Reading:
-        return sent.nothing  # type: ignore[no-any-return]
-
-    device = toy(evolve(BASE, readers={"toy/data": changes}))
-    with pytest.raises(AttributeError):
-        device.send_data(1.0)
 
 
 def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> None:
@@ -131,14 +115,8 @@ def test_a_session_with_a_device_of_its_own_is_restored_with_it_and_not_without(
 
 @pytest.mark.parametrize(
     "other_driver",
-    [
-        evolve(NUMBERED, sequence=0),
-        evolve(NUMBERED, sequence=1 << 15),
-        BOTH,
-        COARSE,
-        evolve(NUMBERED, profile=evolve(PROFILE, nominal_rate=50.0)),
-    ],
-    ids=["no numbers", "other numbers", "ticks", "coarse ticks", "another rate"],
+    [evolve(NUMBERED, sequence=0), BOTH, evolve(NUMBERED, profile=evolve(PROFILE, nominal_rate=50.0))],
+    ids=["no numbers", "ticks", "another rate"],
 )
 def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_otherwise(other_driver: Driver) -> None:
     session = Session(profiles=[NUMBERED])
@@ -148,16 +126,3 @@ def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_ot
             restore(profiles=[other_driver])
         restored = restore(profiles=[evolve(NUMBERED, limitation="it is a toy")])
         assert restored.snapshot() == session.snapshot()
-
-
-def test_what_an_app_put_in_our_place_is_restored_with_it_and_not_with_ours() -> None:
-    replaced, own_driver = evolve(orphe.DRIVER, limitation=""), Session()
-    session = Session(profiles=[replaced])
-    session.feed(mode_4_packet())
-    own_driver.feed(mode_4_packet())
-    with pytest.raises(SnapshotError, match="orphe.*another driver"):
-        Session.restore(session.snapshot())
-    with pytest.raises(SnapshotError, match="orphe.*another driver"):
-        Session.restore(own_driver.snapshot(), profiles=[replaced])
-    assert Session.restore(session.snapshot(), profiles=[replaced]).snapshot() == session.snapshot()
-    assert Session.restore(own_driver.snapshot()).snapshot() == own_driver.snapshot()

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from math import radians
-
 import pytest
 from attrs import evolve
 from decoded import (
@@ -20,51 +17,20 @@ from decoded import (
 )
 from walks import of
 
-from solepath import Session
-from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection
+from solepath.events import ClockReset, Limitation, PacketRejected, PacketsLost, Rejection
 from solepath.link.decoder import Decoder
 from solepath.link.devices.insole import _TABLES, MOST_TABLES, InsoleLink
 from solepath.saving import codec
 from solepath.types import Sample, Site
-from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
 from solepath.wire.insole import InsoleSample
-
-
-def test_samples_are_in_si_units_by_the_scales_of_info() -> None:
-    decoder = Decoder(site=LEFT)
-    [known] = feed(decoder, packet(9.0, "insole/info", info_value()))
-    assert isinstance(known, LayoutKnown)
-    assert known.layout.scale == pytest.approx(0.05)
-    assert known.layout.full_scale == pytest.approx(4095 * 0.05)
-    assert known.layout.length == 0.26
-    raw = InsoleSample((100, 4095), (4096, 0, -4096, 32767, 0, -32768), (16384, 0, 0, 0))
-    [sample] = feed(decoder, frame_packet(0, samples=(raw,)))
-    assert sample.acc == pytest.approx((GRAVITY, 0.0, -GRAVITY), rel=1e-6)
-    assert sample.gyro == pytest.approx((radians(500) * 32767 / 32768, 0.0, -radians(500)), rel=1e-6)
-    assert sample.pressure == pytest.approx((5.0, 204.75), rel=1e-6)
-    assert sample.quat == (1.0, 0.0, 0.0, 0.0)
-    assert sample.t == sample.known_at == 10.0
 
 
 def test_before_info_16_g_and_2000_degrees_per_second_are_assumed_and_reported_once() -> None:
     decoder = Decoder(site=LEFT)
     raw = InsoleSample((7, 8), (2048, 0, 0, 16384, 0, 0), (0, 0, 0, 0))
-    limitation, sample = feed(decoder, frame_packet(0, samples=(raw,)))
-    assert isinstance(limitation, Limitation)
-    assert sample.acc == pytest.approx((GRAVITY, 0.0, 0.0))
-    assert sample.gyro == pytest.approx((radians(1000), 0.0, 0.0))
-    assert sample.pressure == (7.0, 8.0)
-    assert sample.quat is None
-    assert of(Limitation, feed(decoder, frame_packet(1), frame_packet(2))) == []
-
-
-def test_scales_of_zero_mean_no_such_sensor_and_pressure_in_counts() -> None:
-    decoder = Decoder(site=LEFT)
-    data = info_value(acc_scale=0.0, gyro_scale=0.0, pressure_scale=0.0)
-    [known, sample] = feed(decoder, packet(9.0, "insole/info", data), frame_packet(0))
-    assert known.layout.scale is None
-    assert (sample.acc, sample.gyro, sample.pressure) == (None, None, (100.0, 200.0))
+    limitation, sample, *others = feed(decoder, *[frame_packet(k, samples=(raw,)) for k in range(3)])
+    assert isinstance(limitation, Limitation) and sample.quat is None and len(of(Sample, others)) == len(others) == 2
 
 
 def test_insoles_with_more_scales_than_there_are_tables_have_forces_too() -> None:
@@ -132,15 +98,6 @@ def test_times_keep_their_order_across_a_reset() -> None:
     assert all(b > a for a, b in zip(times, times[1:], strict=False))
 
 
-def test_fragments_make_the_frame_that_they_were_cut_from() -> None:
-    whole_decoder, fragment_decoder = Decoder(site=LEFT), Decoder(site=LEFT)
-    raw = InsoleSample(tuple(range(24)), (0, 0, 2048, 0, 0, 0))
-    for k in range(10):
-        assert feed(fragment_decoder, *fragment_packets(k, k % 7)) == feed(
-            whole_decoder, frame_packet(k, samples=(raw,))
-        )
-
-
 @pytest.mark.parametrize("missing", range(4))
 def test_a_lost_fragment_costs_its_frame_and_no_other(missing: int) -> None:
     decoder = Decoder(site=LEFT)
@@ -151,15 +108,6 @@ def test_a_lost_fragment_costs_its_frame_and_no_other(missing: int) -> None:
     assert [event.reason for event in of(PacketRejected, outputs)] == [Rejection.TRUNCATED]
     assert [event.count for event in of(PacketsLost, outputs)] == [1]
     assert len(of(Sample, outputs)) == 2
-
-
-def test_the_last_fragment_that_comes_twice_is_a_duplicate() -> None:
-    decoder = Decoder(site=LEFT)
-    pieces = fragment_packets(0, 0)
-    feed(decoder, *pieces)
-    [rejected] = decoder.feed(pieces[-1])
-    assert rejected.reason is Rejection.DUPLICATE
-    assert len(of(Sample, feed(decoder, *fragment_packets(1, 1)))) == 1
 
 
 def test_an_end_of_a_fragment_is_not_that_fragment() -> None:
@@ -185,19 +133,9 @@ def test_a_frame_in_fragments_that_is_rejected_changes_nothing_but_its_fragments
     assert codec.save(decoder) == before
 
 
-def test_a_fragment_that_reports_the_loss_of_an_earlier_frame_is_used_itself() -> None:
-    session = Session()
-    first, _, *_ = fragment_packets(0, 0)
-    start, *rest = fragment_packets(1, 1)
-    session.feed(first)
-    [rejected] = session.feed(start)
-    assert isinstance(rejected, PacketRejected) and session.now == start.t > first.t
-    assert not of(PacketRejected, session.feed(rest))
-
-
-def test_fragments_without_end_do_not_fill_the_memory() -> None:
-    decoder = Decoder(site=LEFT)
-    for k in range(3000):
-        decoder.feed(packet(float(k) / 100, "insole/frame", bytes([(k % 5) << 5 | k % 16]) + bytes(400)))
-        assert decoder.link is not None
-        assert len(json.dumps(codec.save(decoder))) < 5000
+def test_of_the_newest_64_packets_it_is_known_whether_they_came() -> None:
+    decoder = fed_decoder(100)
+    again = [packet(11.0, "insole/frame", insole_frame(99 - k, retransmitted=True)) for k in (1, 63, 64, 90)]
+    reasons = [event.reason for event in of(PacketRejected, feed(decoder, *again))]
+    assert reasons == [Rejection.DUPLICATE, Rejection.DUPLICATE, Rejection.LATE, Rejection.LATE]
+    assert isinstance(decoder.link, InsoleLink) and decoder.link.packet_run.accepted_bits == 2**64 - 1

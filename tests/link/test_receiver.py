@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from decoded import LEFT, insole_frame
 
 from solepath import (
@@ -16,7 +15,6 @@ from solepath import (
     PacketsDropped,
     Rejection,
     Session,
-    Site,
     StreamRestarted,
 )
 from solepath.link.decoder import Decoder
@@ -57,12 +55,6 @@ def test_a_tick_lets_a_silence_become_known_as_advance_does() -> None:
     assert advanced_session.advance(5.0) == ticked_session.feed(packet(5.0, "receiver/tick")) != []
 
 
-@pytest.mark.parametrize("channel", ["receiver/tock", "receiver/", "receiver"])
-def test_invalid_receiver_packets_are_rejected(channel: str) -> None:
-    [event] = Session().feed(packet(0.0, channel))
-    assert isinstance(event, PacketRejected) and event.reason is Rejection.UNKNOWN_CHANNEL
-
-
 def reasons(session: Session, *packets: Packet) -> list[Rejection | None]:
     """Return the reason why each packet was rejected, None for an accepted packet."""
     reasons_found = []
@@ -82,20 +74,6 @@ def test_a_site_is_bound_to_the_first_device_it_receives() -> None:
     ]
     wrong_device = Rejection.WRONG_DEVICE
     assert reasons(Session(), *sent_packets) == [None, None, wrong_device, wrong_device, None]
-
-
-def test_a_site_that_was_bound_beforehand_accepts_no_other_device() -> None:
-    session = Session(devices={LEFT: "F0:02"})
-    sent_packets = [packet(float(t), "device/battery", CHARGED, f"F0:0{t}") for t in (1, 2, 3)]
-    wrong_device = Rejection.WRONG_DEVICE
-    assert reasons(session, *sent_packets) == [wrong_device, None, wrong_device]
-    assert reasons(Session(), Packet(0.0, Site.RIGHT_FOOT, "device/battery", CHARGED, "F0:01")) == [None]
-
-
-def test_a_packet_that_is_rejected_binds_nothing() -> None:
-    session = Session()
-    bad, good = packet(0.0, "device/battery", b"\xff", "F0:01"), packet(0.0, "device/battery", CHARGED, "F0:02")
-    assert reasons(session, bad, good) == [Rejection.MALFORMED, None]
 
 
 def test_receiver_packets_are_accepted_whatever_device_the_site_is_bound_to() -> None:
@@ -127,12 +105,3 @@ def test_an_insole_that_restarts_soon_after_its_start_is_not_taken_for_late() ->
     assert [type(item) for item in rest] == [Sample]
     [sample] = decoder.feed(packet(1.01, "insole/frame", insole_frame(1)))
     assert isinstance(sample, Sample)
-
-
-def test_counters_that_go_on_across_a_connection_show_losses() -> None:
-    decoder = Decoder(site=LEFT)
-    for k in range(60):
-        decoder.feed(packet(0.01 * k, "insole/frame", insole_frame(k)))
-    decoder.feed(packet(0.9, "receiver/connected", build_connected(ConnectionFrame("", None))))
-    lost, sample = decoder.feed(packet(1.0, "insole/frame", insole_frame(100)))
-    assert lost.count == 40 and isinstance(sample, Sample)  # type: ignore[union-attr]

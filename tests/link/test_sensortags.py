@@ -2,45 +2,16 @@
 
 from __future__ import annotations
 
-from math import radians
-
 import pytest
-from decoded import LEFT, acc_packet, cc2541_packet, cc2650_config_packet, cc2650_value, feed, gyro_packet, packet
+from decoded import LEFT, acc_packet, feed, gyro_packet, packet
 from walks import of
 
-from solepath.events import BatteryLevel, KeysChanged, Limitation
+from solepath.events import Limitation
 from solepath.link.decoder import Decoder
 from solepath.link.devices.cc2541 import counts_per_g
 from solepath.types import Sample
 from solepath.types.vector import GRAVITY
-from solepath.wire.device import build_battery, build_firmware
-
-
-def test_a_cc2650_is_scaled_by_its_configuration() -> None:
-    decoder = Decoder(site=LEFT)
-    raw = cc2650_value("movement", gyro=(131, 0, -131), acc=(0, 0, 4096), mag=(0, 32760, 0))
-    [at_8g] = feed(decoder, packet(1.0, "cc2650/movement", raw))
-    assert at_8g.acc == pytest.approx((0.0, 0.0, GRAVITY))
-    assert at_8g.gyro == pytest.approx((radians(131 * 500 / 65536), 0.0, -radians(131 * 500 / 65536)))
-    assert at_8g.mag == pytest.approx((4912e-6, 0.0, 0.0))
-    config_packet = cc2650_config_packet(16, mag=False, gyro_axes=(True, False, True))
-    [at_16g] = feed(decoder, config_packet, packet(1.1, "cc2650/movement", raw))
-    assert at_16g.acc == pytest.approx((0.0, 0.0, 2 * GRAVITY))
-    assert at_16g.gyro is None
-    assert at_16g.mag is None
-
-
-def test_keys_are_named_and_differ_between_the_tags() -> None:
-    cc2650_decoder, cc2541_decoder = Decoder(site=LEFT), Decoder(site=LEFT)
-    [pressed] = cc2650_decoder.feed(packet(1.0, "cc2650/keys", b"\x01"))
-    assert pressed == KeysChanged(t=1.0, known_at=1.0, site=LEFT, down=("left",))
-    [pressed] = cc2541_decoder.feed(packet(1.0, "cc2541/keys", b"\x05"))
-    assert pressed.down == ("right", "side")
-
-
-def test_battery_is_a_fraction() -> None:
-    [battery] = Decoder(site=LEFT).feed(packet(1.0, "device/battery", build_battery(83)))
-    assert battery == BatteryLevel(t=1.0, known_at=1.0, site=LEFT, level=0.83)
+from solepath.wire.device import build_firmware
 
 
 @pytest.mark.parametrize(
@@ -62,13 +33,6 @@ def test_the_scale_goes_by_firmware_and_range(firmware: str, code: int, expected
     feed(decoder, packet(0.0, "cc2541/accelerometer-config", bytes([code])))
     outputs = feed(decoder, acc_packet(1.0, (0, 0, expected)), gyro_packet(1.05))
     assert outputs[0].acc == pytest.approx((0.0, 0.0, GRAVITY))
-
-
-def test_firmware_may_be_read_after_the_tag_started() -> None:
-    decoder = Decoder(site=LEFT)
-    feed(decoder, acc_packet(1.0), gyro_packet(1.05), packet(1.06, "device/firmware", build_firmware("1.4 (Jul 2013)")))
-    [sample] = feed(decoder, acc_packet(1.1, (0, 0, 64)), gyro_packet(1.15))
-    assert sample.acc == pytest.approx((0.0, 0.0, GRAVITY))
 
 
 def test_a_gyroscope_that_stops_does_not_stop_the_samples() -> None:
@@ -94,14 +58,6 @@ def test_an_accelerometer_that_stops_leaves_the_gyroscope() -> None:
     assert len(samples) == 18
 
 
-def test_what_waits_for_the_gyroscope_comes_out_at_the_end() -> None:
-    decoder = Decoder(site=LEFT)
-    assert feed(decoder, acc_packet(1.0)) == []
-    [sample] = decoder.finish()
-    assert (sample.t, sample.gyro) == (1.0, None)
-    assert decoder.finish() == []
-
-
 def test_a_barometer_without_calibration_is_reported_once() -> None:
     decoder = Decoder(site=LEFT)
     raw = bytes.fromhex("b2eec584")
@@ -111,15 +67,3 @@ def test_a_barometer_without_calibration_is_reported_once() -> None:
     feed(decoder, packet(3.0, "cc2541/barometer-calibration", calibration))
     [sample] = feed(decoder, packet(4.0, "cc2541/barometer", raw))
     assert sample.air_pressure == pytest.approx(100960.5, abs=0.1)
-
-
-def test_a_cc2541_keeps_the_axes_as_they_were_sent() -> None:
-    decoder = Decoder(site=LEFT)
-    mag = cc2541_packet(0.9, "magnetometer", mag=(1, 2, 3))
-    [sample] = feed(decoder, mag, acc_packet(1.0, (16, 32, -16)), gyro_packet(1.05, (1000, 2000, 3000)))
-    scale = radians(500 / 65536)
-    assert sample.acc == pytest.approx((GRAVITY, 2 * GRAVITY, -GRAVITY))
-    assert sample.gyro == pytest.approx((1000 * scale, 2000 * scale, 3000 * scale))
-    assert sample.mag == pytest.approx(tuple(n * 2000e-6 / 65536 for n in (1, 2, 3)))
-    with pytest.raises(TypeError):
-        Decoder(LEFT, axes="ti-app")  # type: ignore[call-arg]

@@ -2,53 +2,17 @@
 
 from __future__ import annotations
 
-import json
-from math import inf
 from random import Random
-from typing import Any
 
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from toys import BASE, COARSE, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, Toy, times, toy
+from toys import BASE, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, times, toy
 from walks import of
 
-from solepath import Packet, Sample
-from solepath.events import (
-    BatteryLevel,
-    ClockReset,
-    KeysChanged,
-    LayoutKnown,
-    Limitation,
-    PacketRejected,
-    PacketsLost,
-    Rejection,
-    StreamStale,
-)
-from solepath.link.catalogue import DECLARED
-from solepath.link.decoder import Decoder
+from solepath import Sample
+from solepath.events import BatteryLevel, ClockReset, KeysChanged, LayoutKnown, PacketRejected, PacketsLost, Rejection
 from solepath.link.driver import TimeAxis
-from solepath.link.kinds import make_kinds
-from solepath.recipes import part_class
 from solepath.saving import codec
-
-
-def test_the_axis_is_the_best_that_a_device_has() -> None:
-    assert [driver.axis for driver in KIND.values()] == [
-        TimeAxis.ARRIVAL,
-        TimeAxis.COUNT,
-        TimeAxis.TICKS,
-        TimeAxis.TICKS,
-        TimeAxis.COUNT,
-    ]
-    assert {driver.name: driver.axis for driver in DECLARED} == {
-        "cc2650": TimeAxis.ARRIVAL,
-        "orphe": TimeAxis.COUNT,
-        "dot": TimeAxis.TICKS,
-        "dot-orientation": TimeAxis.TICKS,
-        "thingy": TimeAxis.ARRIVAL,
-    }
 
 
 @pytest.mark.parametrize("count", [1, 4])
@@ -66,15 +30,6 @@ def test_samples_are_as_far_apart_as_they_were_taken_whatever_the_radio_does(nam
     intervals = [b - a for a, b in zip(sample_times[500:], sample_times[501:], strict=False)]
     assert min(intervals) > 0.0099 and max(intervals) < 0.0101
     assert sample_times[-1] == pytest.approx(10.0 + (2000 // count - 1) * count / 100, abs=0.012)
-
-
-@pytest.mark.parametrize("name", ["number", "coarse"])
-@pytest.mark.parametrize("true_rate", [96.0, 104.0])
-def test_a_device_that_counts_at_another_rate_than_nominal_is_followed(name: str, true_rate: float) -> None:
-    device = toy(KIND[name])
-    sample_times = times([item for k in range(1500) for item in device.packet(k, true_rate=true_rate)])
-    assert (sample_times[1400] - sample_times[900]) / 500 == pytest.approx(1.0 / true_rate, rel=1e-3)
-    assert sample_times[-1] == pytest.approx(10.0 + 1499 / true_rate, abs=0.02)
 
 
 @pytest.mark.parametrize("name", ["number", "ticks", "both", "coarse"])
@@ -106,16 +61,6 @@ def test_a_device_that_restarts_gets_a_new_fit_and_times_go_on(name: str) -> Non
     assert sample_times[-1] == pytest.approx(17.0 + 2.99, abs=0.02)
 
 
-def test_right_after_a_new_connection_nothing_is_overtaken() -> None:
-    for name in ("number", "ticks", "both", "coarse"):
-        device = toy(KIND[name])
-        for k in range(50):
-            device.packet(k)
-        device.decoder.feed(Packet(10.6, LEFT, "receiver/connected", b"\x7fToy"), make_kinds([device.driver]))
-        output = device.send_data(10.7, 65_535, 2**32 - 2_400_000 if name != "coarse" else 76_000_500)
-        assert times(output) == pytest.approx([10.7], abs=0.02), name
-
-
 def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() -> None:
     for name, pause, resets in (("coarse", 0.8, 0), ("coarse", 40.0, 0), ("number", 6.0, 1)):
         device = toy(KIND[name])
@@ -128,16 +73,6 @@ def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() 
         sample_times = times(output)
         assert sample_times[300] - sample_times[299] == pytest.approx(0.01 + pause, abs=0.02)
         assert sample_times[-1] == pytest.approx(15.99 + pause, abs=0.02)
-
-
-def test_a_coarse_clock_that_is_set_changes_nothing() -> None:
-    for offset in (600, 1500, 3_600_000, -1500):
-        device = toy(COARSE)
-        output = [item for k in range(300) for item in device.packet(k)]
-        for k in range(300, 600):
-            output += device.send_data(10.0 + 0.01 * k, 65_530 + k, 86_398_000 + 10 * k + offset)
-        assert [item for item in output if not isinstance(item, Sample)] == []
-        assert times(output) == pytest.approx([10.0 + 0.01 * k for k in range(600)], abs=2e-3), offset
 
 
 @pytest.mark.parametrize("true_rate", [50.0, 200.0])
@@ -178,26 +113,6 @@ def test_a_clock_of_few_ticks_a_sample_reports_no_false_losses(true_rate: float,
     )
 
 
-def test_a_clock_too_coarse_for_the_samples_is_not_what_times_are_made_of() -> None:
-    for tick_rate, rate, axis in (
-        (1000.0, 600.0, TimeAxis.ARRIVAL),
-        (100.0, 60.0, TimeAxis.ARRIVAL),
-        (100.0, 50.0, TimeAxis.TICKS),
-    ):
-        driver = evolve(MILLISECONDS, tick_rate=tick_rate, profile=evolve(PROFILE, nominal_rate=rate))
-        assert driver.axis is axis
-        device = toy(driver)
-        output = [
-            item
-            for k in range(300)
-            for item in device.send_data(5.01 + k / rate, ticks=int(tick_rate * (5.0 + k / rate)))
-        ]
-        assert {type(item) for item in output} == {Sample}, (tick_rate, rate)
-    device = toy(MILLISECONDS)
-    (output,) = device.send_more(1.0, 1, 600.0)
-    assert isinstance(output, PacketRejected) and "600" in output.detail
-
-
 def test_losses_are_counted_at_the_rate_that_the_device_reported() -> None:
     for name in ("arrival", "ticks"):
         device = toy(KIND[name])
@@ -205,26 +120,6 @@ def test_losses_are_counted_at_the_rate_that_the_device_reported() -> None:
         output += [item for k in (*range(50), 52) for item in device.packet(k, true_rate=20.0)]
         (lost,) = of(PacketsLost, output)
         assert lost.count == 2, name
-
-
-def test_an_insole_that_is_set_to_another_mode_goes_on_at_another_rate() -> None:
-    decoder = Decoder(LEFT)
-
-    def value(header: int, serial: int) -> bytes:
-        ms = 500 + round(1000 * serial * 4 / 208)
-        return bytes([header]) + serial.to_bytes(2, "big") + bytes([7, 0, ms // 1000]) + (ms % 1000).to_bytes(2, "big")
-
-    output = []
-    for k in range(200):
-        data = value(56 if k < 100 else 55, k).ljust(104, b"\0")
-        output += decoder.feed(Packet(5.0 + 4 * k / 208, LEFT, "orphe/values", data))
-    (reset,) = of(ClockReset, output)
-    assert not reset.restarted and not of(PacketsLost, output)
-    sample_times = times(output)
-    assert len(sample_times) == 100 * 2 + 100 * 4 and sample_times == sorted(set(sample_times))
-    assert sample_times[199] - sample_times[198] == pytest.approx(1 / 104, abs=1e-4)
-    assert sample_times[-1] - sample_times[-2] == pytest.approx(1 / 208, abs=1e-4)
-    assert sample_times[-1] == pytest.approx(5.0 + 4 * 199 / 208, abs=0.01)
 
 
 def test_what_is_no_sample_becomes_an_event_or_is_remembered() -> None:
@@ -246,49 +141,3 @@ def test_air_pressure_rides_on_the_next_sample_or_stands_alone() -> None:
     (sample,), (next_one,) = device.send_data(1.51, 2), device.send_data(1.52, 3)
     assert (sample.air_pressure, sample.mag) == (101_001.0, (2e-5, 0.0, 0.0))
     assert (next_one.air_pressure, next_one.mag) == (None, None)
-
-
-def test_silence_is_an_event_unless_the_device_reported_that_it_may_be_silent() -> None:
-    for silent, stale in ((0.0, 1), (1.0, 0)):
-        device = toy(NUMBERED)
-        device.send_more(1.0, 2, silent)
-        device.send_data(1.1, 1)
-        assert len(of(StreamStale, device.decoder.advance(5.0, make_kinds([NUMBERED])))) == stale
-
-
-def test_a_limitation_is_reported_once() -> None:
-    device = toy(evolve(NUMBERED, limitation="it is a toy"))
-    output = [item for k in range(300) for item in device.send_data(1.0 + 0.01 * k, k, up=4.9)]
-    (limitation,) = of(Limitation, output)
-    assert limitation.what.startswith("it is a toy") and output.index(limitation) == 0
-
-
-def test_ticks_that_the_driver_does_not_explain_are_named_once() -> None:
-    device = toy(evolve(NUMBERED, limitation=""))
-    output = [item for k in range(300) for item in device.send_data(1.0 + 0.01 * k, k, up=4.9)]
-    (limitation,) = of(Limitation, output)
-    assert "no tick_rate and tick_modulus" in limitation.what
-
-
-@pytest.mark.parametrize("name", KIND)
-@given(
-    st.lists(
-        st.tuples(st.sampled_from(["data", "more", "start"]), st.binary(max_size=14), st.floats(-1, 70)), max_size=30
-    )
-)
-@settings(max_examples=60)
-def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: str, sent: list[Any]) -> None:
-    device, now, newest = toy(KIND[name]), 10.0, -inf
-    for which, value, wait in sent:
-        now += wait
-        for k in range(2):
-            value = value if k else value.ljust(11 if which == "data" else 9, b"\1")
-            for item in device.receive(now, which, value):
-                assert item.known_at >= item.t
-                if isinstance(item, ClockReset) and not item.restarted:
-                    newest = -inf
-                if isinstance(item, Sample):
-                    assert item.t > newest
-                    newest = item.t
-        saved = json.dumps(codec.save(device.decoder), allow_nan=False)
-        device = Toy(device.driver, codec.load(Decoder, json.loads(saved), part_class))

@@ -2,37 +2,27 @@
 
 from __future__ import annotations
 
+import json
 import re
 from copy import deepcopy
-from math import nan
 from typing import Any
 
 import pytest
-from attrs import evolve
-from toys import NUMBERED, more
+from toys import NUMBERED
 
-from solepath.link.driver import Measured, Reading
 from solepath.testing.vectors import disagreements
 
 VALID_HEX = "0006000000640141200000"
-FILE: dict[str, Any] = {
-    "schema": "solepath vectors 1",
-    "channel": "toy/data",
-    "header": "of the toy",
-    "notes": {},
-    "count": 3,
-    "vectors": [
-        {
-            "id": "fine",
-            "result": "valid",
-            "hex": VALID_HEX,
-            "fields": {"number": 6, "ticks": 100, "count": 1, "up": [10.0]},
-            "physical": {"tolerance": 1e-9, "sequence": 6, "samples": [{"acc": [0, 0, 10]}]},
-        },
-        {"id": "cut", "result": "invalid", "hex": VALID_HEX[2:], "reason": "truncated"},
-        {"id": "no-number", "result": "invalid", "hex": VALID_HEX[:-8] + "7fc00000", "reason": "not finite"},
-    ],
-}
+FILE: dict[str, Any] = json.loads("""{
+ "schema": "solepath vectors 1", "channel": "toy/data", "header": "of the toy", "notes": {}, "count": 3,
+ "vectors": [
+  {"id": "fine", "result": "valid", "hex": "0006000000640141200000",
+   "fields": {"number": 6, "ticks": 100, "count": 1, "up": [10.0]},
+   "physical": {"tolerance": 1e-9, "sequence": 6, "samples": [{"acc": [0, 0, 10]}]}},
+  {"id": "cut", "result": "invalid", "hex": "06000000640141200000", "reason": "truncated"},
+  {"id": "no-number", "result": "invalid", "hex": "000600000064017fc00000", "reason": "not finite"}
+ ]
+}""")
 
 
 def test_a_good_file_has_nothing_wrong_though_a_reading_may_have() -> None:
@@ -41,29 +31,16 @@ def test_a_good_file_has_nothing_wrong_though_a_reading_may_have() -> None:
 
 MISTAKES: dict[str, tuple[tuple[Any, ...], Any, str]] = {
     "another schema": (("schema",), "solepath vectors 2", "schema"),
-    "another channel": (("channel",), "toy/crumbs", "no channel 'toy/crumbs'"),
-    "no channel": (("channel",), None, "no channel"),
     "another count": (("count",), 4, "3 vectors, not 4"),
-    "no list": (("vectors",), {"id": "fine"}, "no list"),
-    "no object": (("vectors", 0), "fine", "no object"),
     "the same id twice": (("vectors", 1, "id"), "fine", "fine: .*twice"),
     "no id": (("vectors", 1, "id"), None, "id"),
-    "half a byte": (("vectors", 0, "hex"), "0", "fine: .*hex"),
-    "no bytes": (("vectors", 0, "hex"), None, "fine: .*hex"),
     "another result": (("vectors", 0, "result"), "good", "fine: .*result"),
     "no reason": (("vectors", 1, "reason"), None, "cut: .*reason"),
     "another reason": (("vectors", 1, "reason"), "malformed", "cut: truncated"),
     "no fields": (("vectors", 0, "fields"), None, "fine: .*fields"),
-    "a value too large": (("vectors", 0, "fields", "number"), 65536, "fine: .*built"),
-    "a value of another kind": (("vectors", 0, "fields", "up"), 5, "fine: .*built"),
     "a field missing": (("vectors", 0, "fields", "up"), None, "fine: .*built"),
-    "no tolerance": (("vectors", 0, "physical", "tolerance"), None, "fine: .*tolerance"),
-    "a tolerance in words": (("vectors", 0, "physical", "tolerance"), "small", "fine: .*tolerance"),
     "an unknown quantity": (("vectors", 0, "physical", "acceleration"), 9.8, "fine: .*'acceleration'"),
-    "no number": (("vectors", 0, "physical", "battery"), nan, "fine: battery is None"),
     "another value": (("vectors", 0, "physical", "sequence"), 7, "fine: sequence is 6"),
-    "physical that is none": (("vectors", 0, "physical"), 7, "fine: .*physical"),
-    "known by a word": (("vectors", 0, "physical", "known"), {"times": "two"}, "fine: .*known"),
     "taken though it is fine": (("vectors", 1, "hex"), VALID_HEX, "cut: taken"),
 }
 
@@ -82,17 +59,6 @@ def test_a_mistake_is_reported_in_a_sentence(name: str) -> None:
     reports = disagreements(NUMBERED, file)
     assert reports and any([re.search(reported, report) for report in reports]), reports
     assert disagreements(NUMBERED, FILE) == []
-
-
-def test_what_no_device_can_mean_is_an_invalid_vector() -> None:
-    def flat(sent: Any, known: Any) -> Reading:
-        return Reading((Measured((0.0, 9.8)),))  # type: ignore[arg-type]
-
-    driver = evolve(NUMBERED, readers={"toy/data": flat, "toy/more": more})
-    vector = {"id": "flat", "result": "invalid", "hex": VALID_HEX, "reason": "malformed"}
-    assert disagreements(driver, {**FILE, "count": 1, "vectors": [vector]}) == []
-    absurd_vector = {"id": "star", "result": "invalid", "hex": "037fe0000000000000", "reason": "absurd value"}
-    assert disagreements(driver, {**FILE, "channel": "toy/more", "count": 1, "vectors": [absurd_vector]}) == []
 
 
 def test_a_file_without_vectors_is_reported() -> None:

@@ -26,8 +26,9 @@ def test_a_recording_is_not_replaced_while_it_is_written(tmp_path: Path) -> None
         with pytest.raises(OSError, match=r"another program is recording into it: .*walk\.jsonl"):
             write_whole(path, "text")
         assert path.read_bytes() == before and list(tmp_path.iterdir()) == [path]
+    path.chmod(0o640)
     write_whole(path, "text")
-    assert path.read_text() == "text"
+    assert path.read_text() == "text" and path.stat().st_mode & 0o777 == 0o640
 
 
 def test_programs_that_replace_one_file_at_once_wait_for_each_other(tmp_path: Path) -> None:

@@ -2,51 +2,21 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
-import sys
 import tracemalloc
 import zlib
 from collections.abc import Callable
 from typing import Any
 
 import pytest
+from made import places, replaced
 from signed import signed
-from walks import samples
 
-from solepath import Foot, Session, SnapshotError
-from solepath.body.worn.wear import Wear
-from solepath.saving.codec import checksum
-from solepath.saving.limits import MAX_DEPTH, MAX_DIGITS, MAX_SIZE, MAX_VALUES, check_size
+from solepath import Session, SnapshotError
+from solepath.saving.limits import MAX_DEPTH, MAX_SIZE, MAX_VALUES, check_size
 from solepath.saving.streams import HEADER, from_bytes, to_bytes
 from solepath.session.packed import HEADER as SESSION_HEADER
 
 START = Session().pack()[: SESSION_HEADER.size]
-
-BYTES_PER_VALUE = 200
-"""Most memory that reading takes for a value, bytes; a float in a list takes 32, and arrays pass by on the way."""
-
-HOSTILE = """
-import resource
-from signed import signed
-from solepath import Session, SnapshotError
-
-saved = signed(Session().pack()[:16] + bytes(150_000_000))
-used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-resource.setrlimit(resource.RLIMIT_AS, (used + 20_000_000, -1))
-try:
-    Session.unpack(saved)
-except SnapshotError as error:
-    print(error)
-"""
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux limits the memory of a process so")
-def test_a_large_packed_state_behind_a_right_checksum_is_rejected_at_once() -> None:
-    paths = [path for path in sys.path if path]
-    program = f"import sys; sys.path[:0] = {paths!r}\n{HOSTILE}"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
-    assert (done.stdout, done.stderr) == (f"not a packed session: it has more than {MAX_SIZE} bytes\n", "")
 
 
 def body_of(counts: tuple[int, int, int, int], rest: bytes) -> bytes:
@@ -64,18 +34,6 @@ def test_more_values_than_a_state_may_have_are_not_read(counts: tuple[int, int, 
     tracemalloc.stop()
 
 
-@pytest.mark.parametrize("share", [0.01, 0.1])
-def test_memory_is_in_proportion_to_the_values(share: float) -> None:
-    count = round(share * MAX_VALUES)
-    saved = signed(START + body_of((count, 0, 0, 0), bytes(8 * count)))
-    tracemalloc.start()
-    with pytest.raises(SnapshotError):
-        Session.unpack(saved)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert peak < 300_000 + BYTES_PER_VALUE * count
-
-
 def test_what_could_not_be_read_is_not_written() -> None:
     assert from_bytes(to_bytes([0.0] * MAX_VALUES, [], [], []))[0] == [0.0] * MAX_VALUES
     with pytest.raises(ValueError, match="no state has more"):
@@ -83,13 +41,6 @@ def test_what_could_not_be_read_is_not_written() -> None:
     check_size([0.0] * MAX_VALUES)
     with pytest.raises(ValueError, match="no snapshot has more"):
         check_size([0.0] * MAX_VALUES + [0.0])
-
-
-@pytest.mark.parametrize("digits", [b"9" * (MAX_DIGITS + 2), b"9" * 1_000_000, b" " * 1_000_000, b"1 2 3", b"", b"x"])
-def test_large_ints_that_no_state_has_are_rejected(digits: bytes) -> None:
-    body = body_of((0, 1, 0, len(digits)), (-(2**63)).to_bytes(8, "little", signed=True) + digits)
-    with pytest.raises(SnapshotError):
-        Session.unpack(signed(START + body))
 
 
 def nested(depth: int) -> Any:
@@ -107,77 +58,21 @@ def endless() -> list[Any]:
 
 HOSTILE_VALUES: dict[str, Callable[[], Any]] = {
     "deep": lambda: nested(1_000_000),
-    "deep objects": lambda: json.loads('{"a":' * 500 + "1" + "}" * 500),
     "just too deep": lambda: nested(MAX_DEPTH + 1),
     "endless": endless,
     "long": lambda: [0.5] * (MAX_VALUES + 1),
-    "wide": lambda: [[0.5] * 1000] * 1_000_000,
     "long object": lambda: dict.fromkeys(map(str, range(MAX_VALUES + 1))),
     "long text": lambda: "x" * (MAX_SIZE + 1),
-    "long key": lambda: {"x" * (MAX_SIZE + 1): 1},
-    "huge": lambda: 10**MAX_DIGITS,
     "very huge": lambda: 1 << 10_000_000,
-    "very huge, negative": lambda: -1 << 10_000_000,
 }
 """Functions that return a value; each is called in its own test, since millions of values would slow all others."""
-
-
-def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    """Return a place of each kind of value: its path from the top."""
-    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    return [path, *[place for key, item in inner for place in places(item, (*path, key))]]
 
 
 @pytest.mark.parametrize("what", HOSTILE_VALUES)
 def test_hostile_json_is_rejected_in_one_sentence(what: str) -> None:
     state, hostile = Session().snapshot(), HOSTILE_VALUES[what]()
-    for place in places(state)[:: len(places(state)) // 60]:
-        saved: Any = {"": json.loads(json.dumps(state))}
-        *path, last = ("", *place)
-        inside = saved
-        for key in path:
-            inside = inside[key]
-        inside[last] = hostile
+    for place in (every := places(state))[:: len(every) // 15]:
         with pytest.raises(SnapshotError) as caught:
-            Session.restore(saved[""])
+            Session.restore(replaced(state, place, hostile))
         text = str(caught.value)
         assert text and "\n" not in text and len(text) < 300
-
-
-def test_the_largest_values_within_the_limits_are_rejected_in_one_sentence_too() -> None:
-    """They fit no field of a session, or the checksum is another."""
-    for value in ([[]] * MAX_VALUES, "x" * MAX_SIZE, nested(MAX_DEPTH - 2), 10**MAX_DIGITS - 1, [{}] * 1000):
-        state: Any = Session().snapshot()
-        for place in places(state)[1::40]:
-            saved = json.loads(json.dumps(state))
-            inside = saved
-            for key in place[:-1]:
-                inside = inside[key]
-            inside[place[-1]] = value
-            with pytest.raises(SnapshotError) as caught:
-                Session.restore(saved)
-            assert "\n" not in str(caught.value) and len(str(caught.value)) < 300
-
-
-def test_a_session_is_far_from_the_limits() -> None:
-    state = Session().snapshot()
-    check_size(state)
-    assert checksum(state) is not None
-
-
-@pytest.mark.parametrize("name", ["moments", "instants"])
-def test_bytes_that_are_no_whole_rows_are_rejected(name: str) -> None:
-    """Rows are read while a foot moves: a state that holds half a row would raise there."""
-    items = samples()  # without a layout, so that the sides of the feet are watched too
-    middle = next(k for k, sample in enumerate(items) if sample.t > items[0].t + 6.3)
-    session = Session()
-    session.feed(items[:middle])
-    tracker = session.feet[Foot.LEFT]
-    sides = next(part.sides for part in session._state.wearer.parts if isinstance(part, Wear))
-    holder: Any = tracker.gait.template if name == "moments" else sides.left.turn_integral
-    assert len(getattr(holder, name)) > 100
-    setattr(holder, name, getattr(holder, name)[:-1])
-    with pytest.raises(SnapshotError, match="no whole rows of"):
-        Session.restore(session.snapshot())
-    with pytest.raises(SnapshotError, match="no whole rows of"):
-        Session.unpack(session.pack())

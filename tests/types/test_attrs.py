@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import attrs
-import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solepath.types import attrs as ours
@@ -34,6 +33,7 @@ def made(by: Any, **options: Any) -> tuple[type[Any], type[Any]]:
 OURS, THEIRS = made(ours), made(attrs)
 
 
+@settings(max_examples=30)
 @given(st.lists(VALUES, min_size=4, max_size=4), st.lists(VALUES, min_size=4, max_size=4), st.integers(0, 4))
 def test_a_record_prints_compares_and_hashes_as_attrs_has_it(one: list[Any], two: list[Any], alike: int) -> None:
     two[:alike] = one[:alike]
@@ -44,32 +44,3 @@ def test_a_record_prints_compares_and_hashes_as_attrs_has_it(one: list[Any], two
         if mine(*one) == mine(*two):
             assert hash(mine(*one)) == hash(mine(*two))
     assert OURS[0](*one) != OURS[1](*one), "a class is part of what is compared"
-
-
-def test_mutable_classes_have_no_hash_unless_compared_by_identity() -> None:
-    @ours.define
-    class State:
-        value: float = 0.0
-
-    @ours.define(eq=False)
-    class Itself:
-        value: float = 0.0
-
-    assert State() == State() and State(1.0) != State()
-    with pytest.raises(TypeError, match="unhashable"):
-        hash(State())
-    assert Itself() != Itself() and len({Itself(), Itself()}) == 2
-
-
-def test_methods_defined_by_a_class_stay() -> None:
-    @ours.frozen
-    class Named:
-        name: str
-
-        def __repr__(self) -> str:
-            return self.name
-
-        def __eq__(self, other: object) -> bool:
-            return True
-
-    assert repr(Named("a")) == "a" and Named("a") == Named("b")

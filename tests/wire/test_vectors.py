@@ -9,17 +9,12 @@ import pytest
 from formats import DECLARED_FORMATS, FORMATS, VECTORS, Format
 
 from solepath.events import Rejection
-from solepath.link.catalogue import PROFILES
-from solepath.link.devices import cc2541
 from solepath.link.driver import Driver
-from solepath.testing.vectors import disagreements, plain
+from solepath.testing.vectors import disagreements
 from solepath.wire import fragment
 from solepath.wire.envelope import seal
 from solepath.wire.error import WireError
-from solepath.wire.fields import parse_whole
 
-NO_DEVICE = ("receiver/", "rsc/")
-"""Starts of channels that are of no device with samples."""
 FILES = {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(VECTORS.glob("*.json"))}
 
 
@@ -61,54 +56,33 @@ def test_a_frame_is_cut_into_the_notifications_of_the_vector(case: Any) -> None:
         assert b"".join(fragment.parse_fragment(n).body for n in notifications) == frame
 
 
-@pytest.mark.parametrize(
-    "vector", [v for v in FILES["cc2541-barometer"]["vectors"] if "physical" in v], ids=lambda vector: vector["id"]
-)
-def test_the_t5400_is_compensated_by_its_formulas(vector: Any) -> None:
-    physical = vector["physical"]
-    raw = parse_whole(cc2541.FORMATS["cc2541/barometer"], bytes.fromhex(vector["hex"]))
-    fields = parse_whole(cc2541.FORMATS["cc2541/barometer-calibration"], bytes.fromhex(physical["calibration"]))
-    calibration = cc2541.BarometerCalibration(**plain(fields))
-    assert calibration.celsius(raw.temperature) == pytest.approx(physical["celsius"], abs=physical["tolerance"])
-    pascal = calibration.pascal(raw.temperature, raw.pressure)
-    assert pascal == pytest.approx(physical["pascal"], abs=physical["tolerance"])
-
-
 @pytest.mark.parametrize("name", DECLARED_FORMATS)
 def test_a_declared_device_agrees_with_its_vectors(name: str) -> None:
     driver: Driver = DECLARED_FORMATS[name][0]
     assert disagreements(driver, FILES[name]) == []
-    changed = json.loads(json.dumps(FILES[name]))
-    for vector in changed["vectors"]:
-        vector["hex"] += "00"
-    reported = disagreements(driver, changed)
-    assert len({what.partition(":")[0] for what in reported}) >= 3, "it agrees with everything"
-
-
-@pytest.mark.parametrize("name", FORMATS)
-def test_a_vector_file_keeps_to_its_schema(name: str) -> None:
-    file = FILES[name]
-    assert file["schema"] == "solepath vectors 1"
-    assert file["count"] == len(file["vectors"]) == len({v["id"] for v in file["vectors"]})
-    for vector in file["vectors"]:
-        assert vector["source"] in {"datasheet", "hand", "capture", "generated"}
-        assert set(vector["notes"]) <= set(file["notes"])
-        assert ("fields" in vector) == (vector["result"] == "valid")
-        assert ("reason" in vector) == (vector["result"] == "invalid")
 
 
 def test_every_format_has_a_vector_file_and_the_other_way_round() -> None:
     assert set(FILES) == set(FORMATS)
 
 
-def test_every_channel_has_a_vector_file() -> None:
-    channels = {channel.name for profile in PROFILES for channel in profile.channels}
-    non_period_channels = {name for name in channels if not name.endswith("-period")}
-    file_channels = {file["channel"] for file in FILES.values() if not file["channel"].startswith(NO_DEVICE)}
-    assert file_channels - {"cc2650/movement-period"} == non_period_channels
-    files = {name for name in FILES if not name.replace("-", "/").startswith(NO_DEVICE)}
-    assert {name.replace("/", "-") for name in non_period_channels} | {"sensortag-period", "insole-fragment"} == files
-
-
-def test_the_crc_is_ccitt_false() -> None:
-    assert seal(b"123456789") == b"123456789\xb1\x29"
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_packet_with_a_changed_byte_is_rejected_or_is_another_record_of_the_same_bytes(name: str) -> None:
+    wire = FORMATS[name]
+    for data in [bytes.fromhex(vector["hex"]) for vector in FILES[name]["vectors"]][:8]:
+        for at, change in [
+            (at, change) for at in range(0, len(data), 1 + len(data) // 40) for change in (0x01, 0x80, 0xFF)
+        ]:
+            changed = bytearray(data)
+            changed[at] ^= change
+            for other in (
+                bytes(changed),
+                seal(bytes(changed[:-2])) if name in ("insole-frame", "insole-info") else b"",
+            ):
+                try:
+                    record = wire.parse(other)
+                except WireError:
+                    continue
+                assert name not in ("insole-frame", "insole-info") or other != changed, "its CRC is another"
+                assert wire.build(record) == other
+                assert wire.parse(bytearray(other)) == wire.parse(memoryview(other)) == record  # type: ignore[arg-type]

@@ -8,6 +8,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 from io import BytesIO
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 import attrs
@@ -92,6 +93,13 @@ def build_whole(definition: Definition, value: Any) -> bytes:
         return bytes(definition.build(value))
     except (ConstructError, OverflowError) as error:  # OverflowError: an infinite number was rounded
         raise ValueError(str(error).strip().splitlines()[-1]) from error
+
+
+def to_counts(value: float, per_unit: int) -> int:
+    """Return a number in whole counts, rounded; ValueError when it is not finite."""
+    if not isfinite(value):
+        raise ValueError(f"{value} is not finite")
+    return round(value * per_unit)
 
 
 def malformed(detail: str) -> WireError:

@@ -12,7 +12,7 @@ from ..types import Cell, Foot
 from ..types.attrs import frozen
 from .cells import Packed12, packed_size
 from .envelope import CRC_SIZE, INFO_TYPE, MAGIC, check_end, check_start, seal
-from .fields import Fields, build_whole, malformed, parse_whole
+from .fields import Fields, build_whole, malformed, parse_whole, to_counts
 from .insole import MAX_CELLS
 
 _RIGHT_FLAG = 1
@@ -140,9 +140,9 @@ def build_info(info: InsoleInfo) -> bytes:
     coordinates = [
         c
         for cell in info.cells
-        for c in (_to_counts(cell.x, _COUNTS_PER_METRE), _to_counts(cell.y, _COUNTS_PER_METRE) + _Y_ZERO_COUNTS)
+        for c in (to_counts(cell.x, _COUNTS_PER_METRE), to_counts(cell.y, _COUNTS_PER_METRE) + _Y_ZERO_COUNTS)
     ]
-    areas = [_to_counts(cell.area, _COUNTS_PER_SQUARE_METRE) for cell in info.cells]
+    areas = [to_counts(cell.area, _COUNTS_PER_SQUARE_METRE) for cell in info.cells]
     runs = [_AreaRun(len(list(equal)), area) for area, equal in groupby(areas)]
     firmware = info.firmware.encode("utf-8")
     header = _InfoHeader(
@@ -156,7 +156,7 @@ def build_info(info: InsoleInfo) -> bytes:
         info.acc_scale,
         info.gyro_scale,
         info.pressure_scale,
-        _to_counts(info.length, _COUNTS_PER_METRE),
+        to_counts(info.length, _COUNTS_PER_METRE),
         len(info.cells),
         len(runs),
         len(firmware),
@@ -166,12 +166,6 @@ def build_info(info: InsoleInfo) -> bytes:
         raise ValueError(problem)
     body = {"header": header, "coordinates": coordinates, "runs": runs, "firmware": firmware}
     return seal(build_whole(_BODY, body))
-
-
-def _to_counts(value: float, per_unit: int) -> int:
-    if not isfinite(value):
-        raise ValueError(f"{value} is not finite")
-    return round(value * per_unit)
 
 
 def _find_problem(header: _InfoHeader, runs: list[_AreaRun]) -> str:

@@ -9,7 +9,7 @@ from construct import GreedyRange, If, Int8ul, Int16ul, Int32ul, Struct, Termina
 from ..events import Rejection
 from ..types.attrs import frozen
 from .error import WireError
-from .fields import Definition, build_whole, malformed, parse_whole
+from .fields import Definition, build_whole, malformed, parse_whole, to_counts
 
 SPEED_UNIT, LENGTH_UNIT, DISTANCE_UNIT = 256, 100, 10
 """Counts for one m/s of speed, and for one m of stride length and of distance."""
@@ -137,10 +137,10 @@ def build_measurement(measurement: RscMeasurement) -> bytes:
     flags |= (_RUNNING_FLAG if measurement.running else 0) | measurement.reserved << 3
     numbers = {
         "flags": flags,
-        "speed": round(measurement.speed * SPEED_UNIT),
+        "speed": to_counts(measurement.speed, SPEED_UNIT),
         "cadence": measurement.cadence,
-        "stride_length": None if length is None else round(length * LENGTH_UNIT),
-        "distance": None if distance is None else round(distance * DISTANCE_UNIT),
+        "stride_length": None if length is None else to_counts(length, LENGTH_UNIT),
+        "distance": None if distance is None else to_counts(distance, DISTANCE_UNIT),
     }
     return build_whole(_MEASUREMENT, numbers)
 

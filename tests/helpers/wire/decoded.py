@@ -46,12 +46,6 @@ def cc2650_value(what: str, **fields: Any) -> bytes:
     return cc2650.DRIVER.write(f"cc2650/{what}", fields)
 
 
-def cc2650_config_packet(full_scale: int, **changes: Any) -> Packet:
-    everything = {"gyro_axes": (True,) * 3, "acc_axes": (True,) * 3, "mag": True, "wake_on_motion": False}
-    fields = {**everything, "range": full_scale, **changes}
-    return packet(1.05, "cc2650/movement-config", cc2650_value("movement-config", **fields))
-
-
 def cc2541_packet(t: float, sensor: str, **fields: Any) -> Packet:
     """Return a packet of a sensor of a CC2541."""
     return packet(t, f"cc2541/{sensor}", build_whole(cc2541.FORMATS[f"cc2541/{sensor}"], fields))
