@@ -120,6 +120,11 @@ class Levelling:
     walks: bool = field(default=True, init=False)
     """Flag: the foot was not still."""
 
+    @property
+    def found(self) -> bool:
+        """Flag: navigation has started with an attitude of a short span."""
+        return self.least_motion < LARGEST_MOTION
+
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[Quat, float] | None:
         """Return the attitude and the standard deviation of its tilt, rad, with which navigation starts, or None."""
         if self.started_at is None:

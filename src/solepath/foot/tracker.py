@@ -255,7 +255,7 @@ class FootTracker:
         k, (bx, by, bz) = rest.scale, rest.bias
         (x, y, z), (u, v, w) = acc, gyro
         acc, gyro = (x * k, y * k, z * k), (u - bx, v - by, w - bz)
-        if self.levelled or self.levelling.started_at is not None:
+        if self.levelled or self.levelling.found:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
         if not self.levelled:
