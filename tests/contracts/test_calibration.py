@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from attrs import evolve
 from here import PROTOCOL
 from walks import of, samples
 
@@ -248,27 +247,6 @@ def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_i
         "the calibration's noise is of 35 cells, the left insole has 96: it is not used",
     ]
     assert of(StrideTaken, saved) == of(StrideTaken, plain) != []
-
-
-def test_a_first_sample_that_is_cut_short_is_not_of_another_insole() -> None:
-    first, *others = samples(cells=96, rate=50.0)
-    known = Calibration({foot: InsoleCalibration(layout=layout(96, foot), noise=(0.0,) * 96) for foot in Foot})
-    session = Session(recipes.by_name("zupt"), calibration=known)
-    saved = session.feed([evolve(first, pressure=(0.0,) * 90), *others])
-    assert of(CellsFailed, saved) == [] and of(Limitation, saved) == []
-    assert all(foot.sole.insole.layout == layout(96, foot.foot) for foot in session.feet.values())
-
-
-def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> None:
-    separated = [
-        half
-        for sample in samples(cells=96, rate=50.0)
-        for half in (evolve(sample, pressure=None), evolve(sample, t=sample.t + 0.004, acc=None, gyro=None))
-    ]
-    session = Session(recipes.by_name("zupt"), calibration=OF_OTHER_INSOLES)
-    saved = session.feed(sorted(separated, key=attrgetter("t")))
-    assert [event for event in of(Limitation, saved) if "no pressure" in event.what] == []
-    assert of(StrideTaken, saved) != []
 
 
 def test_a_file_without_an_end_or_too_large_is_rejected(tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
 from enum import Enum
 from functools import cache
 from typing import Any
@@ -10,9 +9,9 @@ from typing import Any
 import attrs
 import pytest
 from attrs import evolve
-from hypothesis import Phase, given, settings
+from hypothesis import Phase, settings
 from hypothesis import strategies as st
-from walks import NAMES, SHORT, Machine, insoles, machine_events, machines, of, pieces, run_machine, samples
+from walks import NAMES, insoles, machine_events, machines, of, samples
 
 from solepath import (
     ActivityChanged,
@@ -21,17 +20,14 @@ from solepath import (
     HeelOff,
     HeelStrike,
     Packet,
-    Placed,
     Sample,
     Session,
     Site,
     StrideTaken,
     ToeOff,
-    TouchedDown,
 )
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.route import Route
-from solepath.events import LiveEvent
 from solepath.link.decoder import Decoder
 
 FEW_EXAMPLES = settings(max_examples=2, phases=[Phase.generate])
@@ -55,22 +51,6 @@ def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: 
             # a sample's own time may lie a little after its arrival while the clock's fit is young
             assert event.t <= event.known_at <= max(newest_time, event.t), event
             assert event.known_at == event.t or event.known_at in (item.t, *sample_times), event
-
-
-@pytest.mark.parametrize("name", NAMES)
-@given(st.data())
-@FEW_EXAMPLES
-def test_what_was_final_stays_when_more_comes(name: str, data: st.DataObject) -> None:
-    machine = machines()[name]
-    everything = fed_singly(name)
-    session = machine.start()
-    first_items = machine.items[: data.draw(st.integers(1, len(machine.items)))]
-    first_events = [event for item in first_items for event in session.feed(item)]
-    assert tuple(first_events) == everything[: len(first_events)]
-    # live positions and places are never final, a touchdown not before the wearer's first heading is settled, an
-    # activity as long as it may turn out to be another
-    live = LiveEvent | Placed | TouchedDown | ActivityChanged | Sample
-    assert all(event.final for event in first_events if not isinstance(event, live))
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
@@ -142,37 +122,6 @@ PIECE_SIZES = st.integers(0, 399).map(lambda k: 400 - k)
 """Sizes of pieces; hypothesis tries 400 first, since single items are what other sizes are compared with."""
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
-@given(st.lists(PIECE_SIZES, min_size=1, max_size=6), st.sampled_from([list, tuple, iter]))
-@FEW_EXAMPLES
-def test_any_chunking_gives_the_same_events_bit_for_bit(name: str, sizes: list[int], container: Any) -> None:
-    machine: Machine = machines()[name]
-    session = machine.start()
-    events = [event for piece in pieces(machine.items, sizes) for event in session.feed(container(piece))]
-    assert exactly(events) == exactly_fed_singly(name)
-    assert machine.save(session) == run_machine(name).fed
-
-
-def exactly(machine_events: Any) -> list[str]:
-    """Return the texts of the events, which differ for -0.0 and 0.0 and for 1 and 1.0, unlike ==."""
-    return [repr(event) for event in machine_events]
-
-
-@cache
-def exactly_fed_singly(name: str) -> list[str]:
-    return exactly(fed_singly(name))
-
-
-def test_packets_and_samples_may_come_mixed() -> None:
-    left = [packet for packet in insoles().packets if packet.site.value == "left_foot"]
-    right = [sample for sample in samples() if sample.site.value == "right_foot"]
-    mixed = sorted([*left, *right], key=lambda item: item.t)
-    session, second_session = Session(), Session()
-    machine_events = session.feed(mixed)
-    assert machine_events == [event for item in mixed for event in second_session.feed(item)]
-    assert {stride.foot.value for stride in of(StrideTaken, machine_events)} == {"left", "right"}
-
-
 PLAIN_TYPES = (float, int, bool, str, type(None))
 
 
@@ -194,13 +143,3 @@ def test_events_and_samples_are_plain_frozen_and_equal_to_their_copies(name: str
         assert event != evolve(event, t=event.t + 1.0)
         with pytest.raises(attrs.exceptions.FrozenInstanceError):
             event.t = 0.0
-
-
-def test_packets_and_positions_are_plain_too() -> None:
-    session = Session()
-    session.feed(samples(SHORT))
-    position = session.position
-    assert plain(position) and position == deepcopy(position)
-    packet = insoles().packets[5]
-    assert packet == Packet(packet.t, packet.site, packet.channel, bytes(packet.data))
-    assert len({packet, deepcopy(packet)}) == 1

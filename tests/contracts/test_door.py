@@ -28,7 +28,6 @@ from solepath import (
     Placed,
     Rejection,
     Sample,
-    SampleRejected,
     Session,
 )
 from solepath.body.checks.sensors import SensorChecks, SensorChecksSettings
@@ -36,7 +35,6 @@ from solepath.calibration import ShoeGeometry
 from solepath.link.driver import Measured, Reading
 from solepath.link.reading_check import check_reading
 from solepath.recipes import DEFAULT
-from solepath.types.plain import has_floats, with_floats
 from solepath.wire.error import WireError
 
 KINDS: dict[str, Callable[[float], Any]] = {
@@ -82,15 +80,6 @@ def test_a_walk_in_numbers_of_another_kind_gives_the_same_events_and_can_be_save
     session.pack()
     exact = [evolve(plain(sample, KINDS[kind]), saturated=False) for sample in walk]
     assert events + session.finish() == run_session(exact, poses=True, pressures=True)
-
-
-@pytest.mark.parametrize("name", ["t", "known_at", "acc", "gyro", "mag", "air_pressure", "pressure", "saturated"])
-def test_one_number_of_another_kind_is_converted_and_a_sample_without_any_is_left_alone(name: str) -> None:
-    sample = evolve(samples()[0], mag=(1e-5, 0.0, 4e-5), air_pressure=101_325.0)
-    assert has_floats(sample)
-    changed = evolve(sample, **{name: getattr(foreign(sample, np.float64), name)})
-    assert not has_floats(changed)
-    assert has_floats(with_floats(changed)) and with_floats(changed) == sample
 
 
 @pytest.mark.parametrize("sequence", [list, np.array], ids=["lists", "arrays"])
@@ -148,18 +137,6 @@ def test_the_events_before_an_item_that_cannot_be_used_come_with_the_error() -> 
         session.feed([evolve(walk[-1], t=walk[-1].t + 0.01), "x"])
 
 
-@pytest.mark.parametrize(
-    "pressure", [(1e30, 5e12, -1e30), (1e308, -1e308) * 4, (10**400, -(10**400)), (5.0, -1e7)], ids=repr
-)
-def test_cells_that_cancel_each_other_are_absurd_in_every_python(pressure: tuple[float, ...]) -> None:
-    session = Session()
-    session.feed(samples()[0])
-    before = session.snapshot()
-    (rejection,) = session.feed(evolve(samples()[1], pressure=pressure))
-    assert isinstance(rejection, SampleRejected) and rejection.reason is Rejection.ABSURD
-    assert session.snapshot() == before
-
-
 def test_texts_and_flags_of_numpy_can_be_saved() -> None:
     address = np.str_("C0:FF:EE:00:00:01")
     channels = sorted({one.channel for one in insoles().packets})
@@ -172,26 +149,6 @@ def test_texts_and_flags_of_numpy_can_be_saved() -> None:
     for wrong in ("yes", 2, None):
         with pytest.raises(TypeError, match="poses is True or False"):
             Session(poses=wrong)
-
-
-def test_times_of_packets_and_of_advance_may_be_of_another_kind() -> None:
-    packets = insoles().packets
-    rounded = [np.float32(packet.t) for packet in packets]
-    sessions = Session(), Session()
-    events = sessions[0].feed([evolve(packet, t=t) for packet, t in zip(packets, rounded, strict=True)])
-    assert events == sessions[1].feed([evolve(packet, t=float(t)) for packet, t in zip(packets, rounded, strict=True)])
-    end = packets[-1].t + 10.0
-    assert sessions[0].advance(np.float64(end)) == sessions[1].advance(end)
-    for session in sessions:
-        session.pack()
-    assert repr(sessions[0].snapshot()) == repr(sessions[1].snapshot())
-
-
-def test_the_sensors_of_a_limb_are_converted_too() -> None:
-    session = Session()
-    limb = evolve(samples()[0], site=next(site for site in type(LEFT) if site.foot is None))
-    (limitation,) = session.feed(foreign(limb, np.float64))
-    assert type(limitation.t) is float
 
 
 def test_a_sample_without_known_at_was_known_at_once() -> None:

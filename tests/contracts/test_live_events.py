@@ -19,7 +19,6 @@ from solepath import (
     Foot,
     FootPressed,
     LayoutKnown,
-    Limitation,
     Phase,
     Sample,
     Session,
@@ -136,23 +135,6 @@ def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_absent_while_the_foot
     for path in stances:
         assert path[2] < 0.09 and path[-3] > 0.17
     assert swings > 80 and centres < 0.25 * swings
-
-
-def test_without_a_layout_cells_are_shown_but_no_centre_of_theirs() -> None:
-    learnt = recipes.by_name("kupt-dfpc")  # a recipe of cells learns where they are, but not where from left to right
-    for session, learns in ((Session(pressures=True), False), (Session(learnt, pressures=True), True)):
-        emitted = session.feed(samples())
-        assert any("learnt" in event.what for event in of(Limitation, emitted)) == learns
-        pressed = of(FootPressed, emitted)
-        assert len(pressed) > 1000 and {event.centre for event in pressed} == {None}
-
-
-def test_a_sample_of_another_number_of_cells_is_not_shown() -> None:
-    cut = [evolve(sample, pressure=sample.pressure[:3]) for sample in frames(STRIDE_LOADS[0]) if sample.pressure]
-    session = Session(calibration=WITH_LAYOUT, pressures=True)
-    assert len(shown(session, frames(*STRIDE_LOADS))) == 5
-    assert shown(session, [evolve(sample, t=1.0) for sample in cut]) == []
-    assert len(shown(session, frames(*STRIDE_LOADS, t_start=2.0))) == 5
 
 
 def test_a_cell_without_a_number_is_shown_as_nothing_even_where_a_cubic_makes_something_of_nothing() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from attrs import evolve
-from walks import SAMPLE_NAMES, Item, insoles, machines, of, samples
+from walks import SAMPLE_NAMES, Item, insoles, machines, of
 
 from solepath import (
     ClockReset,
@@ -17,7 +17,6 @@ from solepath import (
     PacketsLost,
     Rejection,
     Sample,
-    SampleRejected,
     Session,
     Site,
     StreamResumed,
@@ -70,20 +69,6 @@ def test_every_session_goes_on_the_same_whatever_the_new_clock_shows(name: str) 
     assert found[REBOOT] == found[KEPT] == found[SET_FORWARD]
 
 
-@pytest.mark.parametrize("by", [REBOOT, SET_FORWARD])
-@pytest.mark.parametrize("name", ["session, whole frames", "session, samples"])
-def test_a_session_saved_after_its_clock_restarted_goes_on_as_if_it_had_not_been(name: str, by: float) -> None:
-    machine = machines()[name]
-    saved, now, rest = first_half(name)
-    fed = [shifted(item, by) for item in rest]
-    through, again, packed = machine.load(saved), machine.load(saved), machine.load(saved)
-    for session in (through, again, packed):
-        session.restart_clock(now + by)
-    again, packed = machine.load(machine.save(again)), machine.repacked(packed)
-    assert through.feed(fed) == again.feed(fed) == packed.feed(fed)
-    assert through.snapshot() == again.snapshot() == packed.snapshot()
-
-
 class App:
     """What docs/session.md says that an app does: it saves, its phone reboots, it restores and restarts the clock."""
 
@@ -126,18 +111,6 @@ def test_restarting_the_clock_again_without_data_adds_no_uncertainty() -> None:
     for t in (1.0, 2.0, 3.0):
         session.restart_clock(t)
     assert session.position == once
-
-
-@pytest.mark.parametrize("uptime", [4.0, 90_000.0])
-def test_no_sample_is_lost_after_a_reboot_and_the_track_goes_on(uptime: float) -> None:
-    walk = samples(cells=0)
-    session = Session()
-    session.feed([sample for sample in walk if sample.t < 5.0])
-    app = App(json.dumps(session.snapshot()), uptime)
-    assert [event.site for event in of(ClockReset, app.events)] == [Site.LEFT_FOOT, Site.RIGHT_FOOT]
-    events = app.session.feed([shifted(sample, uptime - 5.0) for sample in walk if sample.t >= 5.0])
-    assert not of(SampleRejected, events)
-    assert len(of(StrideTaken, events)) >= 2
 
 
 def test_without_the_call_packets_are_rejected_until_twenty_in_a_row_have_shown_it() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import subprocess
 import sys
 from functools import cache
@@ -12,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from attrs import asdict, evolve
+from attrs import evolve
 from encoded import other
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from walks import NAMES, PACKET_NAMES, machine_events, machines, of, run_machine
+from walks import NAMES, machines, of
 
 from solepath import Packet, Session, SnapshotError, StrideTaken
 from solepath.emulate.routes.building import BUILDING
@@ -28,60 +27,12 @@ FEW_EXAMPLES = settings(max_examples=2, phases=[Phase.generate])
 """Settings for tests whose every example is a whole walk: few examples, without shrinking."""
 
 
-@pytest.mark.parametrize("name", NAMES)
-@given(st.data())
-@FEW_EXAMPLES
-def test_a_machine_saved_at_any_moment_goes_on_as_if_nothing_had_happened(name: str, data: st.DataObject) -> None:
-    machine = machines()[name]
-    cut = data.draw(st.integers(0, len(machine.items)))
-    # cut = 0 is always tried; the machine has no state there yet, so 100 items are enough
-    end = len(machine.items) if cut else min(100, len(machine.items))
-    straight = machine.start()
-    for item in machine.items[:cut]:
-        straight.feed(item)
-    restored = machine.load(machine.save(straight))
-    assert machine.save(restored) == machine.save(straight)
-    if isinstance(straight, Session):
-        repacked = machine.repacked(straight)
-        assert repacked._state == restored._state
-        assert json.dumps(repacked.snapshot()) == json.dumps(straight.snapshot()), "-0.0 is not 0.0"
-    for item, events in zip(machine.items[cut:end], machine_events(name)[cut:end], strict=True):
-        assert repr(restored.feed(item)) == repr([*events])
-    if cut:
-        assert repr(restored.finish()) == repr([*machine_events(name)[-1]])
-        assert machine.save(restored) == run_machine(name).ended
-
-
-@pytest.mark.parametrize("name", ["session, whole frames", "session, cc2541", "session, cc2650", "decoder, fragments"])
-def test_a_machine_saved_before_every_thirtieth_item_is_the_same_machine(name: str) -> None:
-    machine = machines()[name]
-    session, events = machine.start(), []
-    for k, item in enumerate(machine.items):
-        if k % 30 == 0:
-            session = machine.load(machine.save(session)) if k % 60 else machine.repacked(session)
-        events += session.feed(item)
-    assert events + session.finish() == machine.events()
-
-
 def test_an_encoder_may_sort_keys_and_write_whole_floats_as_integers() -> None:
     machine = machines()["session, whole frames"]
     straight = machine.start()
     straight.feed(machine.items[:900])
     restored = Session.restore(json.loads(json.dumps(other(straight.snapshot()))))
     assert restored.feed(machine.items[900:]) == straight.feed(machine.items[900:])
-
-
-def test_a_snapshot_is_a_copy_and_saving_changes_nothing() -> None:
-    machine = machines()["session, samples with pressure"]
-    session = machine.start()
-    session.feed(machine.items[:700])
-    saved = session.snapshot()
-    text = json.dumps(saved, allow_nan=False)
-    events = session.feed(machine.items[700:])
-    assert json.dumps(saved) == text
-    twice = [Session.restore(saved) for _ in range(2)]
-    assert twice[0].feed(machine.items[700:]) == twice[1].feed(machine.items[700:]) == events
-    assert json.dumps(saved) == text
 
 
 CHILD_PROGRAM = """
@@ -127,16 +78,6 @@ def test_the_same_packets_give_the_same_events_in_every_process_whatever_its_has
     expected = [repr(event) for event in machine.events()]
     for seed in ("0", "12345"):
         assert elsewhere(tmp_path, None, machine.items, PYTHONHASHSEED=seed) == expected
-
-
-@pytest.mark.parametrize("name", SESSIONS)
-def test_two_sessions_of_one_recipe_share_nothing(name: str) -> None:
-    machine = machines()[name]
-    session, second_session = machine.start(), machine.start()
-    first_items = machine.items[: len(machine.items) // 3]
-    events = [event for item in first_items for event in session.feed(item)]
-    assert [event for item in first_items for event in second_session.feed(item)] == events
-    assert asdict(machine.start().recipe) == asdict(session.recipe)
 
 
 @cache
@@ -207,17 +148,6 @@ def test_a_snapshot_of_another_version_is_rejected_by_name(version: Any) -> None
     saved["solepath"] = version
     with pytest.raises(SnapshotError, match="version"):
         Session.restore(saved)
-
-
-@pytest.mark.parametrize("name", [name for name in PACKET_NAMES if name.startswith("session")])
-def test_a_flipped_digit_is_noticed(name: str) -> None:
-    text = saved_text(name)
-    match = re.search(r'"newest_arrival": (\d)', text)
-    assert match is not None
-    index = match.start(1)
-    digit = str((int(text[index]) + 1) % 10)
-    with pytest.raises(SnapshotError, match="damaged"):
-        Session.restore(json.loads(text[:index] + digit + text[index + 1 :]))
 
 
 def test_a_floor_plan_is_not_in_the_snapshot_but_the_same_one_must_be_given_again() -> None:

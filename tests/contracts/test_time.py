@@ -5,66 +5,19 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-import attrs
 import numpy as np
 import pytest
 from attrs import evolve
-from walks import LEFT, NAMES, PACKET_NAMES, RIGHT, machines, of, samples
+from walks import LEFT, PACKET_NAMES, RIGHT, machines, of, samples
 
-from solepath import (
-    Foot,
-    FootMoved,
-    PacketsLost,
-    Sample,
-    SampleGap,
-    Session,
-    StreamResumed,
-    StreamStale,
-    StrideTaken,
-    recipes,
-)
-from solepath.emulate.radio import CLEAN
+from solepath import Foot, Sample, Session, StreamResumed, StreamStale, StrideTaken, recipes
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
-
-
-def moved(item: Any, by: float) -> Any:
-    """Return the item `by` s later."""
-    if isinstance(item, Sample) and item.known_at is not None:
-        return evolve(item, t=item.t + by, known_at=item.known_at + by)
-    return evolve(item, t=item.t + by)
-
 
 SHIFTED_EARLIER = ("decoder", "session, whole frames", "session, cc2541", "session, samples")
 """Starts of the names of machines that are also tested at negative times; for other recipes one shift is enough."""
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
-
-
-def split(event: Any) -> tuple[list[float], dict[str, Any]]:
-    """Return the times of an event, s, and its other fields."""
-    values = {f.name: getattr(event, f.name) for f in attrs.fields(type(event))}
-    times = [values.pop(name) for name in TIMES if values.get(name) is not None]
-    return times, values
-
-
-@pytest.mark.parametrize(
-    ("name", "by"),
-    [(name, 1e6) for name in NAMES] + [(name, -3600.0) for name in NAMES if name.startswith(SHIFTED_EARLIER)],
-)
-def test_the_same_walk_at_another_time_gives_the_same_events_at_that_time(name: str, by: float) -> None:
-    machine = machines()[name]
-    events = machine.events()
-    shifted_events = machine.events(tuple(moved(item, by) for item in machine.items))
-    assert [type(event) for event in shifted_events] == [type(event) for event in events]
-    for before, shifted_event in zip(events, shifted_events, strict=True):
-        (times, values), (shifted_times, shifted_values) = split(before), split(shifted_event)
-        assert shifted_times == pytest.approx([t + by for t in times], rel=0, abs=1e-6)
-        if isinstance(before, StrideTaken | FootMoved):
-            name_of = "displacement" if isinstance(before, StrideTaken) else "position"
-            assert shifted_values[name_of] == pytest.approx(values[name_of], abs=1e-4)
 
 
 @pytest.mark.parametrize("name", [name for name in PACKET_NAMES if name.startswith("session")])
@@ -151,27 +104,6 @@ def test_jitter_of_the_sample_times_does_not_bend_the_track(seed: int) -> None:
         assert b.length == pytest.approx(a.length, abs=0.03)
     assert jittered_strides[-1].position == pytest.approx(regular_strides[-1].position, abs=0.2)
     assert not any(stride.degraded for stride in jittered_strides)
-
-
-def test_the_same_samples_with_regular_times_on_them_are_another_walk() -> None:
-    fed = jittered(1)
-    dt = (fed[-1].t - fed[0].t) / (len(fed) - 1)
-    with_regular_times = [evolve(sample, t=fed[0].t + k * dt) for k, sample in enumerate(fed)]
-    lengths = [[stride.length for stride in steps_of(samples_)] for samples_ in (regular(), fed, with_regular_times)]
-    assert max(abs(b - a) for a, b in zip(lengths[0], lengths[1], strict=True)) < 0.03
-    assert max(abs(b - a) for a, b in zip(lengths[0], lengths[2], strict=False)) > 0.15
-
-
-def test_lost_packets_are_counted_and_their_gap_degrades_the_step() -> None:
-    walk = emulate(ROUTE, devices={LEFT: Insole(cells=24)}, radio=CLEAN, seed=3)
-    remaining = [packet for packet in walk.packets if not 6.0 < packet.t < 6.1]
-    emitted = Session().feed(remaining)
-    (lost,) = of(PacketsLost, emitted)
-    (gap,) = of(SampleGap, emitted)
-    assert lost.count == len(walk.packets) - len(remaining) == round(gap.duration * 100) - 1
-    assert lost.t == pytest.approx(gap.t + 0.01, abs=1e-3)
-    assert [stride.degraded for stride in of(StrideTaken, emitted)].count(True) == 1
-    assert len(of(StrideTaken, emitted)) == len(walk.truth.strides(Foot.LEFT))
 
 
 @pytest.mark.parametrize("name", recipes.NAMES)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from attrs import evolve
-from hypothesis import Phase, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
 
@@ -72,55 +72,6 @@ def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(na
         elif not is_fragment:
             assert state_after == saved
     check_times([event for item in machine.items[k : k + 20] for event in session.feed(item)] + session.finish())
-
-
-def certainly_bad(packet: Packet, kind: str, number: int, bad_time: float) -> Packet:
-    """Return an unusable item made of a good packet."""
-    prefix, data = packet.channel.partition("/")[0], packet.data
-    other_channel = "cc2541/gyroscope" if prefix == "insole" else "insole/frame"
-    match kind:
-        case "unknown channel":
-            return evolve(packet, channel=f"{prefix}/crumbs", t=packet.t + 1000.0 * number)
-        case "another device":
-            return evolve(packet, channel=other_channel, data=b"\xf5" + bytes(5))
-        case "no time":
-            return evolve(packet, t=bad_time)
-        case "earlier":
-            return evolve(packet, t=packet.t - 1.0 - number)
-        case "site without a sensor":
-            return evolve(packet, site=Site.PELVIS, channel="nothing", t=packet.t + 1e6)
-        case "too long":
-            return evolve(packet, data=data + bytes(700))
-    channel = "insole/info" if prefix == "insole" else packet.channel
-    return evolve(packet, channel=channel, data=data + bytes(number + 30))
-
-
-FEW_EXAMPLES = settings(max_examples=2, phases=[Phase.generate])
-"""Settings for tests whose every example is a whole walk: few examples, without shrinking."""
-SIZES = {"min_size": 8, "max_size": 24}
-"""Sizes of lists of unusable items; hypothesis tries the smallest first, and a walk without any would show nothing."""
-KINDS = ("unknown channel", "another device", "no time", "earlier", "site without a sensor", "too long", "nonsense")
-
-
-@pytest.mark.parametrize("name", PACKET_NAMES)
-@given(st.lists(st.tuples(st.integers(10, 10_000), st.sampled_from(KINDS), st.integers(0, 99), TIMES), **SIZES))
-@FEW_EXAMPLES
-def test_good_packets_give_the_same_events_whatever_comes_between_them(
-    name: str, bad: list[tuple[int, str, int, float]]
-) -> None:
-    machine = machines()[name]
-    places: dict[int, list[tuple[str, int, float]]] = {}
-    for index, *what in bad:
-        places.setdefault(10 + index % (len(machine.items) - 10), []).append(tuple(what))
-    session, emitted = machine.start(), []
-    for k, item in enumerate(machine.items):
-        emitted += session.feed(item)
-        for what in places.get(k, ()):
-            if item.channel.startswith("device/"):
-                continue  # battery and firmware are any device's
-            events = session.feed(certainly_bad(item, *what))
-            assert [type(event) for event in events] == [PacketRejected], what
-    assert emitted + session.finish() == machine.events()
 
 
 def test_bytes_that_are_not_a_bytes_object_are_bytes_all_the_same() -> None:
@@ -188,23 +139,6 @@ def test_samples_that_cannot_be_used_change_nothing_and_are_named(name: str) -> 
             assert [(type(event), event.reason) for event in events] == [(SampleRejected, reason)], kind
             check_times(events)
         assert machine.save(session) == saved
-
-
-@pytest.mark.parametrize("name", SAMPLE_NAMES)
-@given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(SAMPLE_FAULTS)), **SIZES))
-@FEW_EXAMPLES
-def test_good_samples_give_the_same_events_whatever_comes_between_them(name: str, bad: list[tuple[int, str]]) -> None:
-    machine = machines()[name]
-    places: dict[int, list[str]] = {}
-    for index, kind in bad:
-        places.setdefault(FIRST_INDEX + index % (len(machine.items) - FIRST_INDEX), []).append(kind)
-    session, emitted = machine.start(), []
-    for k, item in enumerate(machine.items):
-        for kind in places.get(k, ()):
-            events = session.feed(spoilt(*around(machine.items, k))[kind][0])
-            assert [type(event) for event in events] == [SampleRejected]
-        emitted += session.feed(item)
-    assert emitted + session.finish() == machine.events()
 
 
 _FLOATS = st.floats(allow_nan=True, allow_infinity=True)

@@ -1,6 +1,6 @@
 """The packed form of a session: small, exact to the bit, and anything else is rejected.
 
-tests/contracts/test_saved.py checks that a session packed at any moment continues unchanged.
+tests/relations/test_streams.py checks that a session packed at any moment continues unchanged.
 """
 
 from __future__ import annotations

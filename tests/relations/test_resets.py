@@ -1,0 +1,255 @@
+"""A part that has walked and is then reset is as a fresh one, but for what the table names.
+
+Every record in the state of a session that has a method of `METHODS` is copied in the middle of walks, reset, and
+compared field by field with a fresh one. The records are found in the state itself, so a new one is found as well."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections import defaultdict
+from collections.abc import Iterator
+from copy import deepcopy
+from typing import Any
+
+import attrs
+import pytest
+from attrs import evolve
+from transforms import CLIMBING, worn
+from walks import machines
+
+from solepath import Foot, Packet, Session, Site, recipes
+from solepath.body.part import Part
+
+METHODS = ("reset", "restart", "clear", "forget", "cut", "drop", "_restart", "_forget", "restart_clock",
+           "handle_reconnection")  # fmt: skip
+WALKS = ("fragments", "cc2541", "dot", "thingy", "kupt-dfpc", "pressure-contour", "footstep-tracker-printed",
+         "shoe-sensing-printed", "seven sites", "particles", "Snake game")  # fmt: skip
+LOOK_EVERY = 61
+"""Number of items after which the state is looked at."""
+
+STAYS = """
+Activities._restart: flights left right strides pressure_height.restart()
+Activities.reset: left* right* apart flights.reset() left.restart() pressure_height.restart() right.restart()
+AirPressure.reset: degraded apart
+Altitude.reset: base* noise now* inputs_kept.clear()
+AnglePerMetre.reset: activity limitation_reported moved_at reported_t stride_t waiting_since* flights.reset()
+BetweenFeet.reset: usual_width apart
+BiasFilter.forget: before bias* noise rate
+BiasFilter.reset: before bias* noise rate
+BothFeet._restart: common directions distance divergence errors* evidence* left* placements right started width
+BothFeet.reset: common* directions distance divergence errors evidence* left* placements right* started width apart
+  evidence.reset()
+Cc2541Link.handle_reconnection: acc_clock calibration firmware gyro_clock
+Cc2541Link.restart_clock: assembler* calibration firmware
+CellHealth.reset: count lively_windows
+Clipping.reset: axes* largest near_end_square
+Compass.reset: distance disturbance first trust.reset()
+CompassTrust.reset:
+Contours.reset: cells levels per_area points rays
+CopCues.reset: foot_centre inertial* sagittal stage_t_start* inertial.reset()
+CopCues.restart: foot_centre inertial* sagittal touch* inertial.reset() inertial.restart() touch.restart()
+CriticalCues.reset:
+CriticalCues.restart:
+Decoder.restart_clock: firmware link* newest_stream_arrival* used link.restart_clock()
+DoubleFoot.reset: chosen error_balance paths*
+Flights.reset: level_stride_count rises stride_count t_end t_start trusted_rise
+FootBlocks.restart: bias bottom climb flat_height force gyro_bins rate_squares resolution sink speed squares
+  strike_height top tracked
+FootClocks._forget: idle left* right*
+FootClocks.reset: idle left* right*
+FootTracker.reset: corrector* cues* detector* gait* levelled limitations rest* rhythm sole* walk_scale* cues.reset()
+  cues.restart() gait.reset() rest.reset() sole.reset() walk_scale.reset()
+Footsteps.reset: idle paths
+Gait.reset: anchor_position heading_settled path phase stride* template* world stride.cut() template.reset()
+GaitCues.reset: inertial* sagittal inertial.reset()
+GaitCues.restart: inertial* sagittal inertial.reset() inertial.restart()
+GaitCycles.reset: between* idle left* left_progress* left_unsettled right_progress* right_unsettled apart
+  between.reset() means.reset()
+GaitMeans.reset: running walking_means apart
+InertialCues.reset: axis force impact landing_at lowest_rate moving_since not_turning_at peak_rate sagittal
+  swing_start turn
+InertialCues.restart: axis
+InsoleLink.handle_reconnection: acc_scale cells gyro_scale info_digest layout packet_run* pressure_scale reassembly*
+  reassembly.drop()
+InsoleLink.restart_clock: acc_scale cells gyro_scale info_digest layout packet_run* pressure_scale reassembly
+InsoleLoads.reset: forefoot* forefoot_cells heel* heel_cells layout load_risen sum tare tare_total total* was_airborne
+LimbSensors.reset: newest* times
+LoneFoot.restart: is_known newest stood_since
+Looseness.reset: apart
+LowerLimbs.reset: aligned facing segments* turn
+MeanOfFeet.reset: apart
+Modes.reset: limb_sensors* pending places* recognition* reference signs touchdowns limb_sensors.reset()
+  recognition.reset()
+PossibleMotion.reset: apart
+PressureHeight.restart: blocks compared newest noise walked
+RateIntegral.clear:
+RateIntegral.restart: instants* t*
+Reassembly.drop: frame_id skipping
+RecentInputs.clear:
+Recognition.reset: load_count mean_load soles*
+Recovery.reset: acc_clipping* earlier_acc earlier_dt earlier_rate gyro_clipping last_acc swing acc_clipping.reset()
+References.reset: activity
+Rest.reset: bias bias_filter* block_end count grain last scale bias_filter.reset()
+SensorChecks.reset: apart
+SessionState.restart_clock: decoders* now* wearer*
+SharedEvidence.reset: compass* measured_at path straight_ways* compass.reset() straight_ways.reset()
+Sides.reset:
+Sole.reset: count_checked guess had_cells health* highest insole* layout_estimated health.reset() insole.reset()
+StanceFinder._restart: best_motion duration force latest_motion since_best since_latest t turn
+StanceRhythm.reset: usual_stance usual_swing
+StraightWays.reset: straightness* straightness.reset()
+Straightness.reset: direction t_start
+StreamLink.handle_reconnection: last_t newest_arrival off_rate_interval off_rate_packets packet_run* periodic
+StreamLink.restart_clock: off_rate_interval off_rate_packets packet_run* periodic*
+StrideBuilder.cut: attitude contact_time cop cop_interval cop_skipped degraded* first_pitch flat_pitch
+  heel_strike_pitch load_count load_sum next_pitch number peak_height peak_speed pitch pitch_high pitch_low pitches
+  start t_heel_off t_heel_strike t_mid_stance t_pitch t_toe_off toe_off_pitch usual_flat_pitch usual_motion
+StrideScale.forget: factor
+StrideTemplate.reset: age bridged first_position infilled last_stride longest_stride stance_duration straight_on*
+  t_last_flat t_next_moment
+StrideTurn.reset: stride_turn
+Touch.restart: in_front
+TurnDetector.reset: left* pause right* t_end apart
+Turns.reset: detector* detector.reset()
+TwoSecondWindows.reset: limitation_reported moving_windows
+WalkScale.reset: drift_deviation force stance_deviation strides
+WearerParts.reset: feet* height parts* sampled* unsettled
+"""
+"""For each class and method the fields that stay, with a * if they change; the resets of its parts that it makes, with
+(); and `apart` where the reset of one foot leaves the other's fields alone.
+
+What stays is what was learnt of wearer, device and mounting (axis, bias, scale, layout, tare, usual times); the track,
+what was reported of it, and counts; and values that are set again before they are read, with a field that was reset."""
+ELSEWHERE = {"Decoder._restart", "PeriodicClock._restart"}
+"""Methods that go on with a packet: see the relations of streams."""
+
+
+def fresh(record: Any) -> Any:
+    """Return a record as it is made: its state are its fields of `init=False`, in a link all that have a default."""
+    fields = attrs.fields(type(record))
+    if any(not f.init for f in fields) and not type(record).__module__.startswith("solepath.link"):
+        return evolve(record)
+    return type(record)(**{f.alias: getattr(record, f.name) for f in fields if f.default is attrs.NOTHING})
+
+
+def records(value: Any) -> Iterator[Any]:
+    """Yield the records within a state, without settings."""
+    if attrs.has(type(value)):
+        yield value
+        for f in attrs.fields(type(value)):
+            if f.name != "settings":
+                yield from records(getattr(value, f.name))
+    elif isinstance(value, dict | list | tuple) and value:
+        for one in value.values() if isinstance(value, dict) else value:
+            if isinstance(one, float | int | str | None):
+                break
+            yield from records(one)
+
+
+def resets(kind: type) -> list[str]:
+    """Return the methods of a class that reset it."""
+    return [name for name in METHODS if hasattr(kind, name) and getattr(kind, name) is not getattr(Part, name, None)]
+
+
+def called(record: Any, name: str, state: list[Any]) -> list[Any]:
+    """Return copies of a record after the call: for either foot alone, and for both."""
+    parameters = [str(one.annotation) for one in inspect.signature(getattr(record, name)).parameters.values()]
+    error = next((one for one in state if type(one).__name__ == "CommonError"), None)
+    choices = {
+        "Site": (Site.LEFT_FOOT, Site.RIGHT_FOOT),
+        "Foot": tuple(Foot),
+        "int": (0, 1),
+        "float": (100.0, 100.0),
+        "float | None": (100.0, 100.0),
+        "CommonError": (error, error),
+    }
+    calls = [[choices[parameter][side] for parameter in parameters if parameter in choices] for side in (0, 1)]
+    results = []
+    for sides in (calls[:1], calls[1:], calls):
+        one = deepcopy(record)
+        for arguments in sides:
+            returned = getattr(one, name)(*arguments)
+            one = returned if type(returned) is type(record) else one
+        results.append(one)
+    return results
+
+
+def differing(one: Any, other: Any) -> set[str]:
+    return {f.name for f in attrs.fields(type(one)) if getattr(one, f.name) != getattr(other, f.name)}
+
+
+class Seen:
+    """What was seen of one method of a class."""
+
+    def __init__(self) -> None:
+        self.dirty: set[str] = set()
+        self.stays: set[str] = set()
+        self.changed: set[str] = set()
+        self.calls: dict[str, bool] = {}
+        self.sides: dict[str, bool] = {}
+
+    def look(self, record: Any, name: str, state: list[Any]) -> None:
+        new = fresh(record)
+        dirty = differing(record, new)
+        if dirty <= self.dirty and len(self.dirty):
+            return
+        self.dirty |= dirty
+        left, right, both = called(record, name, state)
+        self.stays |= differing(both, new)
+        self.changed |= differing(both, record)
+        for field in attrs.fields(type(record)):
+            inner, after = getattr(record, field.name), getattr(both, field.name)
+            if attrs.has(type(inner)) and type(inner) is type(after):
+                for method in resets(type(inner)):
+                    if called(inner, method, state)[2] != inner:
+                        call = f"{field.name}.{method}()"
+                        self.calls[call] = self.calls.get(call, True) and called(after, method, state)[2] == after
+            side = {"left": left, "right": right}.get(field.name.partition("_")[0])
+            if side is not None and inner != getattr(both, field.name):
+                other = left if side is right else right
+                assert getattr(side, field.name) == getattr(both, field.name), f"{field.name} of its own foot"
+                self.sides["apart"] = self.sides.get("apart", True) and getattr(other, field.name) == inner
+
+    def row(self) -> list[str]:
+        """Return the fields that stay, the resets of parts that are done with it, and whether each foot is apart."""
+        done = [name for names in (self.calls, self.sides) for name, holds in names.items() if holds]
+        return [f"{name}*" if name in self.changed else name for name in sorted(self.stays)] + sorted(done)
+
+
+@pytest.fixture(scope="module")
+def seen() -> dict[str, Seen]:
+    """Return what was seen of every method, over all walks."""
+    found: dict[str, Seen] = defaultdict(Seen)
+    climbing = Session(recipes.DEFAULT, poses=True), worn(CLIMBING)
+    walks = [machines()[f"session, {name}"] for name in WALKS]
+    for session, items in (climbing, *((walk.start(), walk.items) for walk in walks)):
+        for k, item in enumerate(items):
+            session.feed(item)
+            if k % LOOK_EVERY:
+                continue
+            if isinstance(item, Packet):  # rejected, and counted
+                session.feed(evolve(item, t=item.t - 1.0))
+            state = list(records(session._state))
+            for record in state:
+                for name in resets(type(record)):
+                    if f"{type(record).__name__}.{name}" not in ELSEWHERE:
+                        found[f"{type(record).__name__}.{name}"].look(record, name, state)
+    return found
+
+
+def test_a_part_that_is_reset_is_as_a_fresh_one_but_for_what_the_table_names(seen: dict[str, Seen]) -> None:
+    rows: dict[str, list[str]] = {}
+    row: list[str] = []
+    for word in STAYS.split():
+        row = rows.setdefault(word[:-1], []) if word.endswith(":") else row
+        if not word.endswith(":"):
+            row.append(word)
+    assert {name: one.row() for name, one in seen.items()} == rows
+
+
+def test_every_method_that_resets_a_record_is_in_the_table() -> None:
+    loaded = [module for name, module in sys.modules.items() if name.startswith("solepath.") and ".emulate" not in name]
+    kinds = {kind for module in loaded for kind in vars(module).values() if isinstance(kind, type)}
+    defined = {f"{kind.__name__}.{name}" for kind in kinds if attrs.has(kind) for name in METHODS if name in vars(kind)}
+    assert defined - ELSEWHERE <= {word[:-1] for word in STAYS.split()}
