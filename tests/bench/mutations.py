@@ -35,7 +35,6 @@ from typing import Any
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCE = ROOT / "src" / "solepath"
 KEPT = ROOT / ".mutations"
 SURVIVORS = Path(__file__).with_name("survivors.txt")
 ROOMS = ("wire", "link", "foot", "body", "floorplan", "place", "papers", "session", "saving", "events", "recording")
@@ -257,14 +256,14 @@ def parts(function: ast.FunctionDef | ast.AsyncFunctionDef) -> Iterator[ast.AST]
             left += ast.iter_child_nodes(node)
 
 
-def bugs_of(path: Path) -> Iterator[list[Bug]]:
+def bugs_of(path: Path, source_folder: Path) -> Iterator[list[Bug]]:
     """Yield the bugs that can be planted in each function of a file; none of a function without any."""
     source = path.read_text()
     starts = [0]
     for line in source.encode().splitlines(keepends=True):
         starts.append(starts[-1] + len(line))
     data = source.encode()
-    file = str(path.relative_to(SOURCE))
+    file = str(path.relative_to(source_folder))
     for name, function in functions(ast.parse(source)):
         found = []
         lines = (function.body[0].lineno, function.end_lineno or 0)
@@ -278,11 +277,12 @@ def bugs_of(path: Path) -> Iterator[list[Bug]]:
             yield found
 
 
-def draw(count: int, seed: int) -> list[Bug]:
-    """Return one bug in each of `count` functions; the same seed and code give the same bugs."""
+def draw(count: int, seed: int, project: Path) -> list[Bug]:
+    """Return one bug in each of `count` functions of a project; the same seed and code give the same bugs."""
     drawn = random.Random(seed)
-    files = [path for room in ROOMS for path in sorted((SOURCE / room).rglob("*.py"))]
-    everywhere = [found for path in files for found in bugs_of(path)]
+    source = project / "src" / "solepath"
+    files = [path for room in ROOMS for path in sorted((source / room).rglob("*.py"))]
+    everywhere = [found for path in files for found in bugs_of(path, source)]
     chosen = []
     for found in drawn.sample(everywhere, min(count, len(everywhere))):
         kind = drawn.choice(sorted({bug.kind for bug in found}))
@@ -293,12 +293,13 @@ def draw(count: int, seed: int) -> list[Bug]:
 # --- tests ------------------------------------------------------------------------------------------------------------
 
 
-def fingerprint() -> str:
-    """Return a hash of the code and the tests."""
+def fingerprint(project: Path) -> str:
+    """Return a hash of the code and the tests of a project."""
     digest = hashlib.sha256()
-    for path in sorted([*SOURCE.rglob("*.py"), *(ROOT / "tests").rglob("*.py"), ROOT / "pyproject.toml"]):
-        if KEPT not in path.parents:
-            digest.update(str(path.relative_to(ROOT)).encode() + path.read_bytes())
+    for path in sorted(
+        [*(project / "src").rglob("*.py"), *(project / "tests").rglob("*.py"), project / "pyproject.toml"]
+    ):
+        digest.update(str(path.relative_to(project)).encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 
 
@@ -312,7 +313,7 @@ class Contexts:
     def tests_of(self, bug: Bug) -> list[str]:
         """Return the tests that run a function, in the order in which they are tried, within MOST_SECONDS."""
         first, last = bug.lines
-        by_line = self.data.contexts_by_lineno(str(SOURCE / bug.file))
+        by_line = self.data.contexts_by_lineno(f"src/solepath/{bug.file}")
         tests = {
             one.removesuffix("|run").removesuffix("|setup")
             for line, names in by_line.items()
@@ -352,35 +353,28 @@ def run_tests(folder: Path, *arguments: str, timeout: float | None = None, **var
         return -1, "it does not end"
 
 
-def make_contexts(jobs: int, tests: str) -> Contexts:
-    """Return the contexts of this code, which a run of the tests below a folder makes unless they are there."""
+def make_contexts(project: Path, jobs: int, tests: str) -> Contexts:
+    """Return the contexts of a project, which a run of the tests below a folder makes unless they are there."""
     from coverage import CoverageData
 
-    folder = KEPT / f"{fingerprint()}-{tests.replace('/', '-')}"
+    folder = KEPT / f"{fingerprint(project)}-{tests.replace('/', '-')}"
     if not (folder / "seconds.json").exists():
         shutil.rmtree(KEPT, ignore_errors=True)
         folder.mkdir(parents=True)
-        rooms = "\n".join(f"    {SOURCE / room}/*" for room in ROOMS)
-        (folder / "coveragerc").write_text(f"[run]\ndata_file = {folder / 'contexts'}\ninclude =\n{rooms}\n")
+        rooms = "".join(f"    src/solepath/{room}/*\n" for room in ROOMS)
+        (folder / "coveragerc").write_text(
+            f"[run]\ndata_file = {folder / 'contexts'}\nrelative_files = true\ninclude =\n{rooms}"
+        )
         began = time.monotonic()
         measured = ("--cov", f"--cov-config={folder / 'coveragerc'}", "--cov-context=test", "--cov-report=")
-        status, output = run_tests(
-            ROOT,
-            tests,
-            "-n",
-            str(jobs),
-            "--dist",
-            "loadfile",
-            *measured,
-            MUTATIONS_SECONDS=str(folder / "seconds.json"),
-        )
+        parallel = ("-n", str(jobs), "--dist", "loadfile", "--no-loadscope-reorder")
+        status, output = run_tests(project, tests, *parallel, *measured, MUTATIONS_SECONDS=str(folder / "seconds.json"))
         if status not in (0, 1):
             raise SystemExit(f"the tests do not run:\n{output[-2000:]}")
         print(f"contexts made in {time.monotonic() - began:.0f} s", flush=True)
     data = CoverageData(str(folder / "contexts"))
     data.read()
-    seconds = json.loads((folder / "seconds.json").read_text())
-    return Contexts(data, seconds)
+    return Contexts(data, json.loads((folder / "seconds.json").read_text()))
 
 
 class Measured:
@@ -460,6 +454,33 @@ def read_survivors() -> dict[str, str]:
     return {f"{place} | {change}": reason for place, change, reason in lines}
 
 
+def plant(bugs: list[Bug], contexts: Contexts, copies: list[Path]) -> int:
+    """Plant the bugs one after the other in the copies, print a line for each, and return how many were killed."""
+    free: SimpleQueue[Path] = SimpleQueue()
+    for copy in copies:
+        free.put(copy)
+    reasons = read_survivors()
+    tests = {bug: contexts.tests_of(bug) for bug in bugs}
+
+    def attempt(bug: Bug) -> tuple[Bug, str, str, float]:
+        copy, began = free.get(), time.monotonic()
+        try:
+            verdict, by = judge(bug, tests[bug], copy)
+        finally:
+            free.put(copy)
+        return bug, verdict, by, time.monotonic() - began
+
+    killed = 0
+    with ThreadPoolExecutor(len(copies)) as pool:
+        for bug, verdict, by, seconds in pool.map(attempt, bugs):
+            killed += verdict == "killed"
+            place = f"{bug.file} {bug.function}"
+            reason = reasons.get(f"{place} | {bug.change}")
+            noted = f" (looked at: {reason})" if reason and verdict == "survived" else ""
+            print(f"{verdict:8} {place} | {bug.change} | {by}, {seconds:.0f} s{noted}", flush=True)
+    return killed
+
+
 def main() -> int:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--count", type=int, default=40, help="number of bugs")
@@ -469,36 +490,16 @@ def main() -> int:
     options.add_argument("--tests", default="tests", help="only tests below this folder")
     options.add_argument("--only", default="", help="only bugs in functions whose file and name contain this")
     given = options.parse_args()
-    bugs = [bug for bug in draw(given.count, given.seed) if given.only in f"{bug.file} {bug.function}"]
-    if given.list:
-        for bug in bugs:
-            print(f"{bug.file} {bug.function} | {bug.change}")
-        return 0
-    contexts = make_contexts(given.jobs, given.tests)
-    reasons = read_survivors()
     with tempfile.TemporaryDirectory() as work:
-        copies: SimpleQueue[Path] = SimpleQueue()
-        for k in range(given.jobs):
-            copies.put(copy_project(Path(work) / str(k)))
-
-        def attempt(bug: Bug) -> tuple[Bug, str, str, float]:
-            folder = copies.get()
-            began = time.monotonic()
-            try:
-                verdict, by = judge(bug, tests[bug], folder)
-            finally:
-                copies.put(folder)
-            return bug, verdict, by, time.monotonic() - began
-
-        tests = {bug: contexts.tests_of(bug) for bug in bugs}
-        killed = 0
-        with ThreadPoolExecutor(given.jobs) as pool:
-            for bug, verdict, by, seconds in pool.map(attempt, bugs):
-                killed += verdict == "killed"
-                place = f"{bug.file} {bug.function}"
-                reason = reasons.get(f"{place} | {bug.change}")
-                noted = f" (looked at: {reason})" if reason and verdict == "survived" else ""
-                print(f"{verdict:8} {place} | {bug.change} | {by}, {seconds:.0f} s{noted}", flush=True)
+        copies = [copy_project(Path(work) / str(k)) for k in range(1 if given.list else given.jobs)]
+        drawn = draw(given.count, given.seed, copies[0])
+        bugs = [bug for bug in drawn if given.only in f"{bug.file} {bug.function}"]
+        if given.list:
+            for bug in bugs:
+                print(f"{bug.file} {bug.function} | {bug.change}")
+            return 0
+        contexts = make_contexts(copies[0], given.jobs, given.tests)
+        killed = plant(bugs, contexts, copies)
     print(f"killed {killed} of {len(bugs)}")
     return 0
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 
 from attrs import evolve
+from kept import kept
 from walks import of
 
 from solepath import (
@@ -41,7 +41,7 @@ def above(*loads: float) -> tuple[float, ...]:
     return tuple(zero + load for zero, load in zip(TARE, loads, strict=True))
 
 
-@cache
+@kept
 def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
     """Return the samples of the left foot at 100 Hz without cells, and its true strides."""
     walker = Walker(route, seed=seed)

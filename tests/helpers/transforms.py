@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
-from functools import cache
 from math import cos, hypot, inf, radians, sin
 from random import Random
 from re import findall
@@ -13,6 +12,7 @@ from typing import Any
 import attrs
 import numpy as np
 from attrs import evolve, frozen
+from kept import kept
 from walks import suited
 
 from solepath import Calibration, Foot, FootMoved, Sample, Session, Site, Turn, WalkingMode, recipes
@@ -55,7 +55,7 @@ WALKING_MODES = tuple(name for name in recipes.NAMES if name.startswith(("walkin
 """Recipes with a use for the sensors of pelvis, thighs and shanks."""
 
 
-@cache
+@kept
 def worn(route: Route = LEVEL, field: Vec3 = FIELD) -> tuple[Sample, ...]:
     """Return a walk with everything that a foot can send: inertial sensor, cells, compass, barometer, range.
 
@@ -96,7 +96,7 @@ def run(recipe: Any, samples: Iterable[Sample]) -> list[Any]:
     return events + session.finish()
 
 
-@cache
+@kept
 def events_of(recipe: str, walk: str) -> tuple[Any, ...]:
     """Return the events of a walk as it is."""
     return tuple(run(recipe, WALKS[walk]()))

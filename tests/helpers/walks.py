@@ -11,6 +11,7 @@ from typing import Any
 import declared
 import numpy as np
 from attrs import evolve, frozen
+from kept import kept
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN, Radio
@@ -52,7 +53,7 @@ def insoles(route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: in
     return emulate(route, devices={LEFT: Insole(cells=cells), RIGHT: Insole(cells=cells)}, radio=radio, seed=seed)
 
 
-@cache
+@kept
 def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: int = 1) -> tuple[Sample, ...]:
     """Return the samples of both feet in the order of time, with the errors of an LSM6DSOX; without a radio."""
     return both_feet(Walker(route, seed=seed), rate, LSM6DSOX, cells)
@@ -145,7 +146,7 @@ def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
     return Machine(f"decoder, {name}", tuple(item for item in items if item.site is LEFT), start, load)
 
 
-@cache
+@kept
 def packets() -> dict[str, tuple[Packet, ...]]:
     """Return the packets of both feet over a poor radio connection, by the name of their device."""
     devices = {
@@ -198,7 +199,7 @@ class MachineRun:
     """Snapshot after the end."""
 
 
-@cache
+@kept
 def run_machine(name: str) -> MachineRun:
     """Return the result, computed once for all tests that compare with it."""
     machine = machines()[name]
@@ -232,7 +233,7 @@ RECIPES = (
 """Recipes with a part that no other recipe has."""
 
 
-@cache
+@kept
 def suited() -> tuple[Sample, ...]:
     """Return samples of pelvis, thighs, shanks and both feet, with insoles of 99 cells, in the order of time."""
     layouts = {LEFT: layout(99, Foot.LEFT), RIGHT: layout(99, Foot.RIGHT)}
