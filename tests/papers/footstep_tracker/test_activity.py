@@ -1,40 +1,25 @@
 """Two-second windows: features, decision tree, pulses of an elevator, hidden Markov model; expected values by hand."""
 
-import json
-from functools import cache
-from math import log, pi, sin
+from math import log, pi
 
-import attrs
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 from views import fed
 
-from solepath import Session, recipes
-from solepath.emulate.wearers.turning import matrices
-from solepath.events import ActivityChanged, LiftRidden, Limitation
+from solepath.events import ActivityChanged, LiftRidden
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
 from solepath.lab.emulated.activity import score
-from solepath.lab.reproduce import footstep_tracker
-from solepath.lab.train import activities, emulated
-from solepath.lab.train import footstep_activity as footstep_training
-from solepath.lab.train import turns as turns_training
 from solepath.papers.footstep_tracker.activity import two_second_windows
-from solepath.papers.footstep_tracker.activity.two_second_windows import (
-    LONGEST_RIDE,
-    MOVING_ACTIVITIES,
-    TwoSecondWindows,
-)
-from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel, shipped
+from solepath.papers.footstep_tracker.activity.two_second_windows import MOVING_ACTIVITIES, TwoSecondWindows
+from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel
 from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindows
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
-from solepath.saving.codec import save
 from solepath.show.timeline import Timeline
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
-from solepath.types.vector import GRAVITY, normalise
+from solepath.types.vector import GRAVITY
 
 SAMPLE_RATE = 20.0
 TRACKERS = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
@@ -51,12 +36,6 @@ def windows(accs, gyros=None, rate=SAMPLE_RATE):
 
 def upright(*a_z):
     return [(0.0, 0.0, GRAVITY + value) for value in a_z]
-
-
-def test_a_window_holds_two_seconds_and_slides_by_half_of_one():
-    # the first half-second has no axis yet; windows start at 0.5, 1.0, 1.5 s and the last one ends at 4.0 s
-    found = windows(upright(*[0.0] * 81))
-    assert [window.index for window in found] == [4, 5, 6, 7]
 
 
 def test_variance_and_mean_of_a_window_by_hand():
@@ -88,23 +67,6 @@ def test_the_gyroscope_counts_by_its_mean_square_and_is_optional():
 
 
 turns = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: sum(x * x for x in q) > 0.01)
-
-
-@given(quat=turns)
-def test_however_a_sensor_is_mounted_its_windows_are_the_same(quat):
-    turn = matrices(np.array([normalise(quat)]))[0]
-    k = np.arange(100)
-    accs = np.column_stack([2.0 * np.sin(k), np.cos(1.7 * k), GRAVITY + 3.0 * np.sin(0.8 * k)])
-    for a, b in zip(windows(accs.tolist()), windows((accs @ turn.T).tolist()), strict=True):
-        assert attrs.astuple(a)[:5] == pytest.approx(attrs.astuple(b)[:5], rel=1e-6, abs=1e-6)
-
-
-def test_no_window_goes_over_a_gap():
-    foot = FootWindows()
-    for t in [*np.arange(0.0, 2.0, 0.05), *np.arange(2.6, 6.0, 0.05)]:
-        foot.update(float(t), (0.0, 0.0, GRAVITY))
-    # no samples from 2.0 to 2.5 s; the window from 2.5 s on ends with half-second number 8
-    assert [window.index for window in foot.ready] == [8, 9, 10]
 
 
 PULSE_ACCELERATION = 0.8
@@ -140,11 +102,6 @@ def ride_acceleration(t, start, end, up=1.0):
     return -up * PULSE_ACCELERATION if end - 1.25 <= t < end else 0.0
 
 
-def walking_acceleration(t):
-    """Return the acceleration at `t` s of a walking foot, m/s^2: two peaks a second."""
-    return 8.0 * sin(4.0 * pi * t)
-
-
 @pytest.mark.parametrize(("up", "activity"), [(1.0, UP), (-1.0, DOWN)])
 def test_hypergravity_then_weightlessness_is_a_lift_up_and_the_other_order_one_down(up, activity):
     events = events_of(samples(lambda t: ride_acceleration(t, 6.0, 16.0, up), 24.0))
@@ -153,39 +110,6 @@ def test_hypergravity_then_weightlessness_is_a_lift_up_and_the_other_order_one_d
     assert arrived.t_start == pytest.approx(6.0, abs=0.5) and arrived.t == pytest.approx(16.0, abs=0.5)
     found = timeline(events)
     assert [found.at(t) for t in (3.0, 7.0, 11.0, 15.0, 20.0)] == [STILL, activity, activity, activity, STILL]
-
-
-def test_a_lift_that_has_set_off_is_reported_at_once_and_is_final_with_its_second_pulse():
-    events = [
-        e for e in events_of(samples(lambda t: ride_acceleration(t, 6.0, 16.0), 24.0)) if isinstance(e, ActivityChanged)
-    ]
-    assert [(e.activity, e.final) for e in events] == [(STILL, True), (UP, False), (UP, True), (STILL, True)]
-    first, again = events[1:3]
-    assert again.revises == first.t == again.t
-    assert first.known_at - 6.0 <= 1.0
-    assert again.known_at - 14.75 <= 1.0
-
-
-def test_who_walks_off_before_the_second_pulse_rode_no_lift():
-    events = events_of(
-        samples(lambda t: ride_acceleration(t, 6.0, 99.0) if t < 12.0 else walking_acceleration(t), 20.0)
-    )
-    assert not [event for event in events if isinstance(event, LiftRidden)]
-    found = timeline(events)
-    assert found.at(8.0) is STILL and found.at(14.0) in MOVING_ACTIVITIES
-
-
-def test_no_second_pulse_for_a_minute_means_that_there_was_no_ride():
-    events = events_of(samples(lambda t: ride_acceleration(t, 6.0, 999.0), 12.0 + 0.5 * LONGEST_RIDE))
-    assert timeline(events).at(30.0) is STILL
-    assert all(event.final for event in events[-1:])
-
-
-def test_a_foot_that_falls_silent_is_not_waited_for():
-    both = samples(lambda t: 0.0, 6.0)
-    one = samples(lambda t: ride_acceleration(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,))
-    events = events_of(both + [item for item in one if item.t >= 6.0])
-    assert [event.up for event in events if isinstance(event, LiftRidden)] == [True]
 
 
 def width_one_model():
@@ -236,63 +160,7 @@ numbers = st.floats(-499, 499)
 rows = st.tuples(st.floats(0, 3), st.booleans(), st.tuples(numbers, numbers, numbers))
 
 
-@given(items=st.lists(rows, max_size=120))
-def test_any_numbers_give_events_in_order_of_being_known(items):
-    part, t, found = TwoSecondWindows(), 0.0, []
-    for dt, left, acc in items:
-        t += 0.05 * dt**4 + 1e-3
-        foot = Foot.LEFT if left else Foot.RIGHT
-        found += fed(part, TRACKERS[foot], Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc), [])
-    assert all(a.known_at <= b.known_at for a, b in zip(found, found[1:], strict=False))
-    assert all(event.t <= event.known_at for event in found)
-    json.dumps(save(part), allow_nan=False)
-
-
-def test_a_restarted_clock_restarts_all_windows():
-    part = TwoSecondWindows()
-    events_of(samples(lambda t: 0.0, 6.0, start=100.0), part)
-    part.reset(SITE_OF_FOOT[Foot.LEFT])
-    assert part.activity is Activity.UNKNOWN
-    (first,) = events_of(samples(lambda t: 0.0, 6.0), part)
-    assert first.t == 0.0 and first.activity is STILL
-
-
-def test_the_shipped_model_is_sound_and_names_its_training_data():
-    known = shipped()
-    assert "hugadb" in known.trained_on and "seeds 101" in known.trained_on
-    assert known.moving > 0.0 and known.pulse > 0.0
-    for row in known.transitions:
-        assert sum(row) == pytest.approx(1.0, abs=1e-4)
-    for mixture in (known.walking, known.stairs_up, known.stairs_down):
-        assert sum([one.weight for one in mixture]) == pytest.approx(1.0, abs=1e-4)
-        assert all(len(one.mean) == len(one.factor) == len(FEATURES) for one in mixture)
-
-
-def test_no_wearer_that_is_scored_was_learnt_from():
-    first, last = emulated.FIRST_TRAINING_SEED, emulated.LAST_TRAINING_SEED
-    for seeds in (
-        range(first, first + footstep_training.WALK_COUNT),
-        range(turns_training.FIRST_TRAINING_SEED, turns_training.FIRST_TRAINING_SEED + turns_training.TURNS_PER_CLASS),
-        activities.EMULATED,
-    ):
-        assert first <= min(seeds) and max(seeds) <= last
-    assert last < footstep_tracker.FIRST_SEED and first > 50  # and the tests' own wearers come before
-
-
 def test_the_activities_of_an_emulated_wearer_are_found():
     scores = score(FOOTSTEP_TRACKER, 2)
     assert (scores.windows.accuracy or 0.0) >= 0.93
     assert scores.time.rides_found == scores.time.rides_true == 4
-
-
-@cache
-def first_packets():
-    return emulated.walk(12).packets[:4000]
-
-
-@pytest.mark.parametrize("name", ["footstep-tracker-printed", "shoe-sensing-printed"])
-def test_activities_as_printed_report_once_that_they_do_not_know_running(name: str) -> None:
-    session = Session(recipes.by_name(name))
-    events = session.feed(first_packets())
-    limits = [event.what for event in events if isinstance(event, Limitation) and event.site is None]
-    assert len(limits) == 1 and "running counts as walking" in limits[0]

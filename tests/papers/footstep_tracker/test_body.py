@@ -4,32 +4,25 @@ from __future__ import annotations
 
 from functools import cache
 from math import cos, degrees, hypot, pi, radians, sin
-from pathlib import Path
 
 import pytest
 from attrs import evolve
-from commands import run, run_failing
-from recordings import recorded
 from strides import stride
-from walks import LEFT, RIGHT, of, run_session
+from walks import LEFT, RIGHT
 
-from solepath import Session
 from solepath.body.gait.turn_detector import TurnDetector, TurnProcess
 from solepath.body.gait.turns import WEIGHTS, classify
 from solepath.calibration import Calibration, CalibrationError
-from solepath.calibration.file import read_calibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.shoe import IN_SOLE
-from solepath.events import StrideTaken, TurnMade
-from solepath.lab.train.turns import ANGLES, read, train_weights, walk
+from solepath.events import StrideTaken
+from solepath.lab.train.turns import read, train_weights
 from solepath.papers.footstep_tracker.footsteps import Footsteps
-from solepath.papers.footstep_tracker.projection import PRINTED, Projection
-from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
+from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.toe_out import ToeOut, printed_angle, toe_out, toe_out_calibration
-from solepath.recipes import DEFAULT, Recipe
 from solepath.types import Foot, Turn
 
 
@@ -79,34 +72,6 @@ def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
     assert body.restarts == 0
 
 
-def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
-    body = walked(5, 1.0, 1.0)
-    for k in range(5, 15):
-        body.add_stride(stride_of(Foot.LEFT, k + 0.5))
-    assert mean_position(body) == pytest.approx((15.0, 0.0))
-
-
-def turned_about(right_starts: float) -> Footsteps:
-    """Return the track of a wearer who turns about in three strides of the left foot and one of the right."""
-    body = walked(3, 1.0, 1.0)
-    for k in range(3):
-        body.add_stride(stride_of(Foot.LEFT, 4.0 + k, turn=-pi / 3.0, way=(0.1, 0.0)))
-    body.add_stride(stride(Foot.RIGHT, 6.5, (0.1, 0.0, 0.0), heading_change=-pi, t_start=right_starts))
-    return body
-
-
-def test_a_pivot_foot_that_takes_one_stride_for_three_turns_the_wearer_once() -> None:
-    body = turned_about(right_starts=3.0)
-    assert [path.heading for path in body.paths.values()] == pytest.approx([-pi, -pi])
-    lengths = [path.displacement[0] for path in body.paths.values()]
-    assert lengths[1] == pytest.approx(3.0, abs=0.2), "what was assumed of the right foot counts no more"
-
-
-def test_a_stride_after_a_gap_is_added_to_what_was_assumed() -> None:
-    body = turned_about(right_starts=5.9)
-    assert body.paths[Foot.RIGHT].heading == pytest.approx(-2.0 * pi)
-
-
 def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
     body = new_track()
     # the left foot measures 80 degrees and the right one 100; each then goes straight by its own track
@@ -140,10 +105,6 @@ def test_a_turn_over_several_steps_is_their_sum_and_the_mean_of_both_feet() -> N
     assert (found.t_start, found.t_end) == (1.0, 3.5)
 
 
-def test_who_walks_straight_on_makes_no_turn() -> None:
-    assert turns_of(TurnDetector(), alternate_strides([(3, -4), (-2, 5), (6, -3)] * 10)) == []
-
-
 def test_a_turn_ends_when_the_wearer_stands() -> None:
     direction = TurnDetector()
     assert turns_of(direction, alternate_strides([(0, 0), (90, 90)])) == []
@@ -156,17 +117,6 @@ def test_a_turn_ends_when_the_wearer_stands() -> None:
 def test_one_foot_stepping_on_the_spot_does_not_end_the_other_s_turn() -> None:
     found = turns_of(TurnDetector(), alternate_strides([(0, 0), (100, 0), (0, 90), (70, 80), (0, 0), (0, 0)]))
     assert len(found) == 1 and degrees(found[0].angle) == pytest.approx(170.0)
-
-
-def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
-    direction = TurnDetector()
-    turns_of(direction, alternate_strides([(0, 0), (0, 0)]))
-    for k in range(3):
-        assert direction.add_pivot(Foot.LEFT, 3.0 + k, 3.5 + k, radians(30.0)) is None
-        assert direction.add_pivot(Foot.RIGHT, 3.5 + k, 4.0 + k, radians(32.0)) is None
-    (found,) = turns_of(direction, alternate_strides([(0, 0), (0, 0)], first=7.0))
-    assert degrees(found.angle) == pytest.approx(93.0)
-    assert (found.t_start, found.t_end) == (3.0, 6.0)
 
 
 @pytest.mark.parametrize(
@@ -193,46 +143,12 @@ def test_the_weights_are_those_that_the_training_turns_give() -> None:
     assert train_weights(examples) == WEIGHTS
 
 
-def test_the_turn_of_a_wearer_is_reported() -> None:
-    right = 0
-    for seed in range(3, 7):
-        for turn in ANGLES:
-            events = run_session(walk(seed, turn).packets, FOOTSTEP_TRACKER)
-            right += [made.turn for made in of(TurnMade, events) if made.turn is not None] == [turn]
-    assert right >= 11  # of 12: who swings a foot round by 170 degrees at once does so too fast for its gyroscope
-
-
 @cache
 def corridor_walk(metres: float, seed: int = 1) -> EmulatedWalk:
     device = CC2541(rate=20.0, mounting=IN_SOLE)
     return emulate(
         Route().stand(3.0).walk(metres, 1.3).stop(2.0), devices={LEFT: device, RIGHT: evolve(device)}, seed=seed
     )
-
-
-def test_without_the_conditions_at_rest_a_clipping_gyroscope_makes_steps_too_short() -> None:
-    walked = corridor_walk(15.0)
-
-    def length(recipe: Recipe) -> float:
-        session = Session(recipe)
-        lengths: list[float] = [one.length for p in walked.packets for one in of(StrideTaken, session.feed(p))]
-        return sum(lengths)
-
-    as_printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(PRINTED)))
-    assert as_printed < 0.7 * length(FOOTSTEP_TRACKER)
-
-
-@pytest.mark.parametrize("recipe", [DEFAULT, FOOTSTEP_TRACKER])
-@pytest.mark.parametrize(("degrees_", "turn"), [(90.0, Turn.LEFT), (-90.0, Turn.RIGHT), (-180.0, Turn.ABOUT)])
-def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_ground(
-    recipe: Recipe, degrees_: float, turn: Turn
-) -> None:
-    device = CC2541(rate=20.0, mounting=IN_SOLE)
-    route = Route().stand(2.0).walk(3.0, 1.2).turn(radians(degrees_)).walk(3.0).stop(2.0)
-    walked = emulate(route, devices={LEFT: device, RIGHT: evolve(device)}, seed=109)
-    (made,) = of(TurnMade, run_session(walked.packets, recipe))
-    assert made.turn is turn
-    assert abs(degrees(made.angle) - degrees_) < 30.0
 
 
 def test_the_toe_out_angle_of_a_walk_is_the_wearers_within_twice_its_error() -> None:
@@ -273,26 +189,3 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
     known = Calibration(toe_out={Foot.RIGHT: 0.2})
     left, right = (Projection().calibrated(foot, known).settings for foot in Foot)
     assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
-
-
-def test_calibrate_toe_out_writes_the_angles_of_a_walk_with_their_errors(tmp_path: Path) -> None:
-    file, out = recorded(tmp_path / "walk.jsonl", corridor_walk(15.0).packets), tmp_path / "me.json"
-    done = run("calibrate", "toe-out", file, "--out", out)
-    assert done.returncode == 0 and "toe-out degrees" in done.stdout and "+-" in done.stdout
-    assert set(read_calibration(out).toe_out) == set(Foot)
-    done = run("calibrate", "toe-out", file, "--distance", "20", "--out", tmp_path / "too.json")
-    assert "by the length" in done.stdout and "none" in done.stdout
-    for distance in ("3", "80", "1e308"):
-        failure = run_failing("calibrate", "toe-out", file, "--distance", distance, "--out", tmp_path / "no")
-        assert "is that the length of the walk?" in failure
-    assert not (tmp_path / "no").exists()
-
-
-def test_calibrate_toe_out_learns_nothing_of_feet_that_point_ahead(tmp_path: Path) -> None:
-    device = CC2541(rate=20.0, mounting=IN_SOLE)
-    route = Route().stand(2.5).walk(15.0, 1.2).stop(2.0)
-    walked = emulate(route, wearer=Wearer(toe_out=0.0), devices={LEFT: device, RIGHT: evolve(device)}, seed=111)
-    file = recorded(tmp_path / "walk.jsonl", walked.packets)
-    failure = run_failing("calibrate", "toe-out", file, "--out", tmp_path / "no")
-    assert "less than 2 of its errors" in failure and "nothing is learnt" in failure
-    assert not (tmp_path / "no").exists()

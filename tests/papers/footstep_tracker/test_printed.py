@@ -6,7 +6,6 @@ from math import atan, hypot, pi, radians, tan
 
 import pytest
 from floors import OFFICE
-from strides import stride
 from walks import of, run_session
 
 from solepath.body.place.rows.rows import Row as PlaceRow
@@ -17,9 +16,8 @@ from solepath.events import StrideTaken
 from solepath.foot.stance.stance import Stance
 from solepath.papers.footstep_tracker.closed_stride import closed_stride
 from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row
-from solepath.papers.footstep_tracker.footsteps import Footsteps, FootstepsSettings
 from solepath.papers.footstep_tracker.projection import PRINTED, Interval, Projection, ProjectionSettings
-from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
+from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.segment import FootAxes, StrideSegment
 from solepath.papers.footstep_tracker.snake import PrintedSnake, SnakeGame, moved_rows
 from solepath.papers.footstep_tracker.static_zones import StaticZones, StaticZonesSettings
@@ -95,35 +93,6 @@ def test_the_axis_of_the_foot_is_read_before_the_shoe_leaves_the_ground() -> Non
     assert axes.right == pytest.approx((0.0, -1.0, 0.0), abs=1e-6)
 
 
-def printed_track() -> Footsteps:
-    body = Footsteps(FootstepsSettings(as_printed=True))
-    for path in body.paths.values():
-        path.has_samples = True
-    return body
-
-
-def wearer_at(body: Footsteps) -> float:
-    """Return x of the wearer while the feet rest, m."""
-    (x, _), (x0, _) = body.paths[Foot.RIGHT].displacement, body.restart_position
-    return x0 + x
-
-
-def test_as_printed_the_one_metre_rule_once_it_acts_acts_at_every_stride() -> None:
-    body = printed_track()
-    body.add_stride(stride(Foot.LEFT, 0.5, (0.7, 0.0, 0.0)))
-    assert (body.restarts, wearer_at(body)) == (0, 0.0)  # the right foot has not moved
-    for k in range(4):
-        body.add_stride(stride(Foot.RIGHT, k + 1.0, (1.4, 0.0, 0.0)))  # 0.7 m ahead: no difference of more than 1 m
-        assert (body.restarts, wearer_at(body)) == (0, pytest.approx(1.4 * (k + 1)))
-        body.add_stride(stride(Foot.LEFT, k + 1.5, (1.4, 0.0, 0.0)))
-    body.add_stride(stride(Foot.RIGHT, 5.0, (2.0, 0.0, 0.0)))  # right 7.6 m, left 6.3 m: both at 6.95 m
-    assert (body.restarts, wearer_at(body)) == (1, pytest.approx(6.95))
-    body.add_stride(stride(Foot.LEFT, 5.5, (1.4, 0.0, 0.0)))
-    assert (body.restarts, wearer_at(body)) == (2, pytest.approx(7.65))
-    body.add_stride(stride(Foot.RIGHT, 6.0, (1.4, 0.0, 0.0)))
-    assert (body.restarts, wearer_at(body)) == (3, pytest.approx(8.35))
-
-
 def test_as_printed_a_wall_drops_a_candidate_and_changes_no_weight() -> None:
     # two candidates in the corridor at the bottom of the office: one walks along it, the other into a room's wall
     along: PlaceRow = (10.0, 6.2, 1.0, 0.0, 0.25, 0, 0, 0)
@@ -134,14 +103,6 @@ def test_as_printed_a_wall_drops_a_candidate_and_changes_no_weight() -> None:
     assert game.extend(OFFICE, [along, across], (2.0, 0.0), 1.0, 0.0) == kept
     assert game.thin([along, across], 1) == [along, across]
     assert len(SnakeGame().extend(OFFICE, [along], (2.0, 0.0), 1.0, pi)) == 1
-
-
-def test_the_recipes_stand_side_by_side() -> None:
-    ours, printed = FOOTSTEP_TRACKER, FOOTSTEP_TRACKER_PRINTED
-    assert isinstance(printed.corrector, Projection) and printed.corrector.settings == PRINTED
-    assert isinstance(ours.corrector, Projection) and ours.corrector.settings == ProjectionSettings()
-    assert isinstance(printed.detector, StaticZones) and not printed.detector.settings.has_loose_rule
-    assert isinstance(printed.place, PrintedSnake) and isinstance(ours.place, SnakeGame)
 
 
 LOW_PASSED = TriadErrors(density=1e-6, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=10.0)

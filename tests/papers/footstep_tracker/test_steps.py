@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from math import cos, pi, radians, sin, sqrt
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
@@ -18,7 +15,6 @@ from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.segment import StrideSegment
 from solepath.papers.footstep_tracker.static_zones import StaticZones
 from solepath.papers.footstep_tracker.stride_length import stride_length
-from solepath.saving import codec as machine
 from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
 
@@ -55,17 +51,6 @@ def test_a_foot_that_lies_still_or_only_trembles_has_no_critical_times() -> None
     assert critical_times(rows_of(0.05, [0.0] * 12, [0.0] * 12)) is None
     assert critical_times(rows_of(0.05, [0.4, -0.4] * 6, [0.3, -0.3] * 6)) is None
     assert critical_times([]) is None
-
-
-@settings(max_examples=60)
-@given(st.lists(st.tuples(*[st.floats(-600.0, 600.0)] * 3), max_size=30))
-def test_whatever_a_foot_does_its_critical_times_follow_each_other(values: list[tuple[float, float, float]]) -> None:
-    drawn = [(0.02 * k, x, a, -G, g, 0.0, x) for k, (x, a, g) in enumerate(values)]
-    times = critical_times(drawn)
-    if times is not None:
-        assert times.uplift <= times.liftoff <= times.landing <= times.rest
-        stride_length(drawn, times)
-        closed_stride(drawn, times).length()
 
 
 def test_gravity_alone_moves_no_step_however_the_foot_is_tilted() -> None:
@@ -179,65 +164,6 @@ def test_a_sample_away_from_the_others_restarts_the_zone() -> None:
     found = feed(StaticZones(), samples)
     # the sixth after the odd one, which itself was a zone's first
     assert [k for k, one in enumerate(found) if one.hint is Phase.STATIONARY][0] == 10
-
-
-def samples_of_strides(
-    rate: float, *, lasts: float = 0.6, rest: float = 0.4, strides: int = 3
-) -> list[tuple[float, Vec3, Vec3]]:
-    """Return samples of a foot, x forward and y left, that rests, turns toe down, swings toe up, and rests again."""
-    period = lasts + rest
-    samples = []
-    for k in range(int(strides * period * rate) + int(0.5 * rate)):
-        t = k / rate
-        u = (t % period) - rest
-        if u < 0.0 or t > strides * period:
-            samples.append((t, (0.0, 0.0, G), ZERO))
-            continue
-        s = u / lasts
-        pitch = 6.0 * sin(2.0 * pi * s)
-        samples.append((t, (12.0 * sin(2.0 * pi * s), 0.5, G + 8.0 * sin(4.0 * pi * s)), (0.0, pitch, 0.3)))
-    return samples
-
-
-@pytest.mark.parametrize("rate", [20.0, 60.0, 100.0, 400.0])
-def test_every_stride_is_a_segment_at_any_rate(rate: float) -> None:
-    found = [
-        one.detail for one in feed(StaticZones(), samples_of_strides(rate)) if isinstance(one.detail, StrideSegment)
-    ]
-    times = [segment.times for segment in found if segment.times is not None]
-    assert len(times) == 3
-    for k, one in enumerate(times):
-        assert one.uplift == pytest.approx(0.4 + k, abs=0.06)
-        assert one.rest == pytest.approx(1.0 + k, abs=0.08)
-
-
-@settings(max_examples=40)
-@given(
-    st.lists(
-        st.tuples(
-            st.floats(1e-9, 1e6), st.tuples(*[st.floats(-500.0, 500.0)] * 3), st.tuples(*[st.floats(-100.0, 100.0)] * 3)
-        ),
-        max_size=40,
-    )
-)
-def test_no_numbers_of_a_sensor_are_too_much_for_segments_and_projection(
-    samples: list[tuple[float, Vec3, Vec3]],
-) -> None:
-    zones, projection, t = StaticZones(), Projection(), 0.0
-    projection.start((1.0, 0.0, 0.0, 0.0), 0.1)
-    for dt, acc, gyro in samples:
-        t += dt
-        projection.predict(min(dt, 0.25), acc, gyro)
-        projection.correct(t, zones.update(t, dt, acc, gyro, None, projection.attitude))
-    json.dumps([machine.save(zones), machine.save(projection)], allow_nan=False)
-
-
-def test_the_foot_s_axes_are_learnt_from_how_the_heel_rises() -> None:
-    zones = StaticZones()
-    feed(zones, samples_of_strides(100.0))
-    right, forward = zones.axes.axes((0.0, 0.0, 1.0)) or (ZERO, ZERO)
-    assert right == pytest.approx((0.0, -1.0, 0.0), abs=0.1)
-    assert forward == pytest.approx((1.0, 0.0, 0.0), abs=0.1)
 
 
 def swing_segment(turn: float = 0.0) -> StrideSegment:

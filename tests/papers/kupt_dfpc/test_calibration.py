@@ -11,11 +11,6 @@ import pytest
 from attrs import evolve
 
 from solepath.calibration import Calibration, CalibrationError, InsoleCalibration, Newtons, ShoeGeometry
-from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insoles import layout
-from solepath.emulate.wearers.walker import Walker
-from solepath.foot.pressure.insole import InsoleLoads
-from solepath.foot.settings import InsoleSettings
 from solepath.papers.kupt_dfpc.kinematics import forefoot_position
 from solepath.papers.kupt_dfpc.noise import pressure_noise
 from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
@@ -86,25 +81,6 @@ def test_each_foot_has_its_own_noise_and_nothing_else_is_calibrated() -> None:
 def test_a_walk_that_shows_no_noise_is_rejected(rows: list[tuple[float, ...]], complaint: str) -> None:
     with pytest.raises(CalibrationError, match=complaint):
         pressure_noise(samples_of(rows))
-
-
-def test_with_its_noise_removed_a_foot_in_the_air_has_no_load() -> None:
-    walker = Walker(Route().stand(1.0).walk(20.0, 1.3).stop(1.0), seed=203)
-    cells = layout(96, Foot.LEFT)
-    rng = np.random.default_rng(5)
-    samples = []
-    for sample in walker.samples(Foot.LEFT, 50.0, layout=cells):
-        pressure = np.array(sample.pressure) + 0.8 + 0.15 * rng.standard_normal(96)
-        samples.append(Sample(t=sample.t, site=sample.site, pressure=tuple(pressure.tolist())))
-    noise = pressure_noise(samples).insoles[Foot.LEFT].noise
-    assert noise == pytest.approx([0.8 + 3 * 0.15] * 96, abs=0.12)
-    insole = InsoleLoads(InsoleSettings(noise=noise))
-    insole.set_layout(cells)
-    swings = walker.truth().feet[Foot.LEFT].strides[1:-1]
-    for sample in samples:
-        load = insole.update(sample.t, sample.pressure or ())
-        if load is not None and any(s.t_toe_off + 0.02 < sample.t < s.t_heel_strike - 0.02 for s in swings):
-            assert sum(load.cells) < 3.0
 
 
 HEADER = "pitch_deg,L_r_m,L_p2t_m\n"

@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-from functools import cache
-from math import isfinite
 from typing import Any
 
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
 from hypothesis import strategies as st
 from strides import stride
-from views import fed
-from walks import insoles, of
 
-from solepath import Session, recipes
-from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
-from solepath.events import Event, StrideFeatures, StrideFused, StrideTaken
-from solepath.foot.pressure.cells import centre as centre_of
+from solepath.events import StrideFeatures, StrideFused, StrideTaken
 from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
 from solepath.papers.kupt_dfpc.similarity import POINTS, correlation, own_share, resample_cop
-from solepath.saving import codec as machine
-from solepath.types import Cell, Foot, Layout, Sample, Site
+from solepath.types import Foot
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 CENTRE = 0.14
@@ -62,15 +53,6 @@ def test_similarity_is_the_correlation_of_equation_9_worked_by_hand() -> None:
 def test_a_step_that_rolls_the_other_way_is_as_similar_since_9_takes_the_absolute_value() -> None:
     assert correlation((1.0, 2.0, 3.0, 4.0), (-2.0, -1.0, -4.0, -3.0)) == pytest.approx(3.0 / 5.0)
     assert correlation((1.0, 2.0, 3.0), (6.0, 4.0, 2.0)) == pytest.approx(1.0)
-
-
-def test_steps_of_unequal_sample_counts_are_compared_over_their_own_time() -> None:
-    slow = stride_of(LEFT, 10.0, lasts=2.0, cop=tuple((0.09 + 0.13 * k / 31, 0.0) for k in range(32)))
-    quick = stride_of(RIGHT, 10.0, lasts=0.8, cop=tuple((0.09 + 0.13 * k / 9, 0.0) for k in range(10)))
-    one, other = resample_cop(slow, CENTRE), resample_cop(quick, CENTRE)
-    assert len(one) == len(other) == POINTS
-    assert one == pytest.approx(other)
-    assert correlation(one, other) == pytest.approx(1.0)
 
 
 def test_the_centre_of_pressure_stays_at_the_foot_centre_while_the_foot_is_in_the_air() -> None:
@@ -139,15 +121,6 @@ def test_a_wearer_who_stood_starts_again_without_the_other_foot() -> None:
     assert fused[2].stride_length == 1.2
 
 
-def test_an_abnormal_step_neither_is_calibrated_nor_calibrates() -> None:
-    _, fused = walked(
-        stride_of(LEFT, 2.0, 1.2), stride_of(RIGHT, 2.55, 2.0, index=None), stride_of(LEFT, 3.1, 1.3, number=2)
-    )
-    assert [one.stride_length for one in fused] == [1.2, 2.0, 1.3]
-    assert [one.error_index for one in fused] == [0.1, None, 0.1]
-    assert fused[2].similarity is None
-
-
 def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> None:
     pairs = [(0.3, 0.1, 1.1, 1.4), (0.1, 0.2, 1.2, 1.2), (0.1, 0.5, 1.2, 1.2)]
     body, expected, chosen = DoubleFoot(BY_ERROR_INDEX), 0.0, set[Foot]()
@@ -162,35 +135,6 @@ def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> N
     assert chosen == {LEFT, RIGHT}
 
 
-def test_a_foot_whose_step_is_abnormal_beside_a_normal_one_is_not_chosen_for_having_no_error() -> None:
-    steps = [stride_of(LEFT, 2.0, 1.2, index=0.3), stride_of(RIGHT, 2.55, 1.2, index=0.1)]
-    body, fused = walked(*steps)
-    assert fused[-1].chosen is RIGHT
-    body.add_stride(stride_of(LEFT, 3.1, 1.2, index=0.3, number=2), CENTRE)
-    before = body.paths[Foot.RIGHT].distance
-    last = body.add_stride(stride_of(RIGHT, 3.65, 20.1, index=None, number=2), CENTRE)
-    # it counts as 1 m/s worse than the other, by the mean of both lengths
-    assert body.error_balance == pytest.approx(0.2 * 1.2 - 1.0 * 0.5 * (20.1 + 1.2), abs=0.02)
-    assert last.chosen is LEFT
-    assert last.distance == pytest.approx(before + 1.2, abs=0.3)
-    # the other way round, with the normal step after the abnormal one
-    body, fused = walked(stride_of(LEFT, 2.0, 9.0, index=None), stride_of(RIGHT, 2.55, 1.2, index=0.1))
-    assert [one.chosen for one in fused] == [LEFT, RIGHT]
-
-
-def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell() -> None:
-    """The paper's lie from 34 to 166 mm and it has the centre at 100 mm, wherever the insole ends."""
-    insole = Layout(3, LEFT, (Cell(0.034, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.26)
-    session = Session(recipes.by_name("kupt-dfpc"), calibration=Calibration(insoles={LEFT: InsoleCalibration(insole)}))
-    flat = Sample(0.0, Site.LEFT_FOOT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0), pressure=(1.0, 2.0, 3.0))
-    session.feed(flat)
-    body = DoubleFoot(BY_ERROR_INDEX)
-    fed(body, session.feet[LEFT], flat, [stride_of(LEFT, 2.0)])
-    assert body.paths[Foot.LEFT].strides[-1].cop_path[-1] == pytest.approx(0.1)
-    assert centre_of(insole) == pytest.approx(0.1)
-    assert centre_of(Layout(0, LEFT, (), 0.26)) is None
-
-
 def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> None:
     body, fused = walked(
         stride_of(LEFT, 2.0, 1.2, index=0.3, direction=(0.6, 0.8)),
@@ -202,44 +146,7 @@ def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> N
     assert body.paths[Foot.LEFT].end == pytest.approx((0.72, 0.96, 0.0))
 
 
-def test_a_walk_of_equal_steps_ends_where_it_ended_without_calibration() -> None:
-    steps = [stride_of(foot, 2.0 + 0.55 * k, number=k // 2 + 1) for k, foot in enumerate((LEFT, RIGHT) * 10)]
-    body, fused = walked(*steps)
-    assert fused[-1].distance == pytest.approx(13.0)
-    assert body.error_balance == 0.0
-    assert {one.chosen for one in fused} == {LEFT}
-
-
 WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
-
-
-@cache
-def run_walk(silent: bool = False) -> tuple[Session, list[Event]]:
-    """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one sends nothing from 8 s on."""
-    session = Session(recipes.by_name("kupt-dfpc"))
-    packets = insoles(WALK).packets
-    return session, session.feed([p for p in packets if not (silent and p.site is Site.LEFT_FOOT and p.t > 8.0)])
-
-
-def test_most_steps_of_a_steady_walk_are_similar_and_calibrated() -> None:
-    fused = [one for one in of(StrideFused, run_walk()[1]) if one.similarity is not None]
-    assert len(fused) > 12
-    steady = fused[:-1]
-    assert min([one.similarity for one in steady]) > 0.8
-    assert all([0.05 < one.coefficient < 0.95 for one in steady])
-
-
-def test_the_wearer_stands_at_the_end_of_the_chosen_path_and_within_its_covariance() -> None:
-    session, events = run_walk()
-    fused = of(StrideFused, events)
-    here = session.position
-    assert here is not None
-    assert here.position == pytest.approx(fused[-1].position, abs=0.02)
-    assert fused[-1].distance == pytest.approx(14.0, rel=0.03)
-    xx, xy, _, yy, _, _ = here.covariance
-    assert xx > 0.0
-    assert xx * yy > xy * xy
-    assert abs(here.position[0] - 14.0) < 3.0 * xx**0.5
 
 
 INDICES = st.one_of(st.none(), st.floats(0.0, 50.0), st.sampled_from([0.0, float("nan"), float("inf"), -1.0]))
@@ -261,21 +168,3 @@ def numbers_in(value: Any) -> list[float]:
     if isinstance(value, list):
         return [number for item in value for number in numbers_in(item)]
     return [float(value)] if isinstance(value, int | float) else []
-
-
-@given(st.lists(st.tuples(STEPS, st.one_of(st.none(), st.just(CENTRE))), max_size=30))
-@settings(max_examples=150)
-def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
-    steps: list[tuple[StrideTaken, float | None]],
-) -> None:
-    body = DoubleFoot(BY_ERROR_INDEX)
-    size = 0
-    for one, centre in steps:
-        fused = body.add_stride(one, centre)
-        assert 0.0 <= fused.coefficient <= 1.0
-        assert fused.similarity is None or 0.0 <= fused.similarity <= 1.0
-        assert all(isfinite(x) for x in (fused.stride_length, fused.distance, *fused.position))
-        assert fused.stride_length >= 0.0
-        assert all(isfinite(number) for number in numbers_in(machine.save(body)))
-        size = max(size, len(body.paths[Foot.LEFT].strides), len(body.paths[Foot.RIGHT].strides))
-    assert size <= 3

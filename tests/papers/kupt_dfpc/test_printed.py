@@ -4,25 +4,14 @@ from __future__ import annotations
 
 from math import inf
 
-import numpy as np
 import pytest
 from attrs import evolve
-from walks import run_session
 
-from solepath import recipes
-from solepath.calibration import Calibration, InsoleCalibration
-from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insoles import layout
-from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.emulate.wearers.walker import Walker
-from solepath.events import StrideTaken
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
-from solepath.papers.kupt_dfpc.cop_cues import CopCues
-from solepath.papers.kupt_dfpc.recipe import KUPT_DFPC, KUPT_DFPC_PRINTED, ZUPT
 from solepath.papers.kupt_dfpc.swing.dedrift import SwingDedrift
 from solepath.papers.kupt_dfpc.swing.settings import PRINTED
-from solepath.types import Foot, Phase
+from solepath.types import Phase
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
 
@@ -60,23 +49,3 @@ def test_as_printed_equation_8_holds_for_heights_too_and_ours_takes_one_line_out
         if cue is not None:
             corrector.mark(0.1 * k, cue)
     assert corrector.position[2] == pytest.approx(rise, abs=1e-9)
-
-
-def test_only_as_printed_do_jumps_of_the_centre_of_pressure_have_a_sign() -> None:
-    for recipe, signed in ((KUPT_DFPC_PRINTED, True), (KUPT_DFPC, False), (ZUPT, False)):
-        assert isinstance(recipe.cues, CopCues) and recipe.cues.settings.signed is signed
-
-
-@pytest.mark.parametrize("seed", [331, 332])
-def test_as_printed_a_walk_of_20_metres_has_its_length_and_stays_on_the_floor(seed: int) -> None:
-    walker = Walker(Route().stand(2.0).walk(20.0, 1.3).stop(1.5), seed=seed)
-    layouts = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
-    for foot in Foot:
-        walk = walker.samples(foot, 30.0, LSM6DSOX, layout=layout(96, foot))
-        events = run_session(walk, recipes.by_name("kupt-dfpc-printed"), calibration=layouts)
-        strides = [event for event in events if isinstance(event, StrideTaken)]
-        true = walker.truth().strides(foot)
-        assert np.array([one.length for one in strides]).sum() == pytest.approx(
-            np.array([one.length for one in true]).sum(), abs=1.0
-        )
-        assert abs(strides[-1].position[2] - strides[0].position[2]) < 0.6

@@ -8,22 +8,18 @@ from math import radians
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from walks import of, run_session
 
-from solepath import LayoutKnown, Limitation, Session, StrideTaken
+from solepath import LayoutKnown, Limitation, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole, boot
 from solepath.emulate.sensors.insoles import layout
-from solepath.emulate.sensors.parts import INERTIACUBE3
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.foot.pressure.insole import InsoleLoads as Cells
 from solepath.foot.stance.stance import Load
 from solepath.link.decoder import Decoder
 from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude, GyroscopeSettings
-from solepath.papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
-from solepath.recipes import Recipe
+from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
 from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
 from solepath.types.vector import GRAVITY, ZERO
 
@@ -80,36 +76,6 @@ def test_a_wobbling_foot_stands_in_each_of_its_stances_once_its_lowest_rates_are
     assert not any(any(swing) for swing in swings)
 
 
-def test_the_threshold_of_a_foot_that_wobbles_little_is_no_higher_for_that() -> None:
-    detector = GyroscopeMagnitude()
-    standing_flags(detector, *strides(0.03))
-    assert detector.levels == pytest.approx((0.03,) * 5, abs=0.02)
-    assert standing_flags(detector, 3.0, *[0.3] * 50) == [False] * 51
-
-
-def test_standing_sets_no_threshold_for_walking() -> None:
-    detector = GyroscopeMagnitude()
-    standing_flags(detector, *strides(0.6))
-    walking = detector.levels
-    standing_flags(detector, *[5.0] * 50, *[0.0] * 200, 5.0)
-    assert detector.levels == walking
-
-
-@pytest.mark.parametrize("slowest", [0.5, 2.0, 6.0])
-def test_a_motion_without_any_rest_ends_at_its_lowest_rate(slowest: float) -> None:
-    turning = [slowest + (8.0 - slowest) * abs(k % 100 - 50) / 50.0 for k in range(500)]
-    still = standing_flags(GyroscopeMagnitude(), *turning)
-    assert still.index(True) <= 350, "the first quietest moment after 2.5 s"
-    assert turning[still.index(True)] <= 1.8 * 1.4 * slowest
-
-
-@given(st.lists(st.integers(0, 400), min_size=20, max_size=60))
-def test_no_motion_of_any_kind_lasts_longer_than_some_seconds(values: list[int]) -> None:
-    cycle = [0.1 * value for value in values + values[::-1]]
-    repeated = (cycle * (1000 // len(cycle) + 1))[:1000]
-    assert any(standing_flags(GyroscopeMagnitude(), *repeated))
-
-
 def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], list[bool]]:
     """Return the times of the samples with a load, and flags: the foot stands by the contours."""
     cells, decoder = Cells(), Decoder(Site.LEFT_FOOT)
@@ -133,16 +99,6 @@ def test_contours_rest_only_while_the_foot_truly_stands(name: str) -> None:
     t, still = evidence(ContourVelocity(), DEVICES[name])
     stands = np.array([phase is Phase.STATIONARY for phase in walk.truth.feet[LEFT].phases(np.array(t))])
     assert np.mean(~stands[np.array(still)]) <= 0.01
-
-
-@pytest.mark.parametrize("name", list(DEVICES))
-def test_they_rest_in_nearly_every_stance(name: str) -> None:
-    walk = walk_with(DEVICES[name])
-    t, still = (np.array(found) for found in evidence(ContourVelocity(), DEVICES[name]))
-    strides = walk.walker.plan.strides[LEFT]
-    stances = [(one.foot_flat, after.heel_off) for one, after in zip(strides[1:], strides[2:], strict=False)]
-    rested = [bool(still[(t > start) & (t < end)].any()) for start, end in stances]
-    assert len(stances) >= 8 and sum(rested) >= len(rested) - 1
 
 
 def heel_load(share: float, *, airborne: bool = False, cells: tuple[float, ...] = ()) -> Load:
@@ -191,54 +147,9 @@ def test_a_heel_that_rolls_at_a_few_centimetres_a_second_does_not_stand() -> Non
     assert Phase.STATIONARY not in fed(detector_with_layout(), [*[IN_AIR] * 10, *rolling])
 
 
-def test_a_heel_without_contours_is_left_to_the_gyroscope_after_a_while() -> None:
-    on_edge = heel_load(0.8, cells=tuple([100.0 if cell.y > 0.02 else 0.0 for cell in CELLS.cells]))
-    hints = fed(detector_with_layout(), [on_edge] * 30, rate=0.0)
-    assert hints[:10] == [None] * 10 and hints[11:] == [Phase.STATIONARY] * 19
-
-
-@pytest.mark.parametrize("pace", [2, 4])
-def test_between_loads_that_come_more_slowly_than_samples_the_contours_keep_their_word(pace: int) -> None:
-    loads = [load if k % pace == 0 else None for k, load in enumerate([*[IN_AIR] * 12, *[AT_REST] * 28])]
-    hints = fed(detector_with_layout(), loads, rate=2.0)  # a gyroscope that never rests
-    assert hints[:12] == [Phase.SWING] * 12 and hints[20:] == [Phase.STATIONARY] * 20
-    hints = fed(detector_with_layout(), loads, rate=0.0)  # and one that rests in the air
-    assert hints[:12] == [Phase.SWING] * 12
-
-
 def test_without_a_recent_load_the_gyroscope_decides() -> None:
     hints = fed(detector_with_layout(), [*[AT_REST] * 10, *[None] * 10], rate=2.0)
     assert hints[9:14] == [Phase.STATIONARY] * 5 and hints[15:] == [None] * 5
-
-
-def test_the_contours_of_a_loose_insole_rest_at_the_wearers_own_slowest() -> None:
-    detector = detector_with_layout()
-    creeping = [heel_load(0.8, cells=loads_at(0.040 + 0.00008 * k)) for k in range(40)]  # 8 mm/s
-    rolling = [heel_load(0.8, cells=loads_at(0.035 + 0.0005 * k)) for k in range(40)]  # 5 cm/s
-    stride = [*[IN_AIR] * 50, *creeping]
-    assert Phase.STATIONARY not in fed(detector, stride)
-    for k in range(3):
-        hints = fed(detector, stride, start=1.0 + k)
-    assert hints[60:] == [Phase.STATIONARY] * 30
-    for n, load in enumerate([*[IN_AIR] * 50, *rolling]):
-        fed(detector, [load], start=4.0 + 0.01 * n)
-        assert not detector.standing
-
-
-@pytest.mark.parametrize("share", [0.0, 0.08])
-def test_a_heel_that_never_comes_down_leaves_no_motion_without_an_end(share: float) -> None:
-    detector, on_toes = detector_with_layout(), heel_load(share, airborne=share == 0.0, cells=loads_at())
-    stances = [
-        detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0 + 3.0 * abs(k % 100 - 50) / 50.0, 0.0), on_toes)
-        for k in range(400)
-    ]
-    assert Phase.STATIONARY in [stance.hint for stance in stances]
-
-
-def test_as_long_as_the_load_is_not_known_the_gyroscope_speaks() -> None:
-    detector = detector_with_layout()
-    assert fed(detector, [None] * 6, rate=0.0)[-1] is Phase.STATIONARY
-    assert fed(detector, [None] * 6, rate=1.0)[-1] is None
 
 
 def test_too_few_cells_are_reported_once_and_the_walk_continues_by_the_gyroscope() -> None:
@@ -251,18 +162,3 @@ def test_too_few_cells_are_reported_once_and_the_walk_continues_by_the_gyroscope
         "2 pressure cells under the heel have no contour, 4 are the fewest; the gyroscope says when the foot stands"
     ]
     assert len(of(StrideTaken, events)) >= len(walk.truth.strides(LEFT)) - 1
-
-
-@pytest.mark.parametrize("recipe", [PRESSURE_CONTOUR, GYROSCOPE], ids=["contours", "gyroscope"])
-def test_all_steps_are_found_and_a_square_ends_where_it_started(recipe: Recipe) -> None:
-    side = Route().stand(2.0)
-    for _ in range(4):
-        side = side.walk(8.0, 1.2).turn(radians(90), radius=1.0)
-    device = Insole(quaternion=True, attitude=INERTIACUBE3)
-    walk = emulate(side.stop(2.0), devices={Site.LEFT_FOOT: device}, seed=108)
-    session = Session(recipe)
-    events = session.feed(walk.packets) + session.finish()
-    assert len(of(StrideTaken, events)) == len(walk.truth.strides(LEFT))
-    x, y, _ = session.feet[LEFT].position
-    true = walk.truth.pose(LEFT, walk.truth.duration).position[0]
-    assert np.hypot(x, y) - np.hypot(true[0], true[1]) < 0.6

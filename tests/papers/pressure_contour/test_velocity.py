@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from math import hypot, inf, pi
+from math import hypot, pi
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.emulate.sensors.insoles import heel_array, layout
 from solepath.papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
 from solepath.types import Cell, Foot, Layout
 
@@ -96,12 +94,6 @@ def test_levels_that_follow_the_load_need_no_scale() -> None:
     assert raw == pytest.approx(newtons)
 
 
-def test_fixed_pressures_need_newtons() -> None:
-    contours = Contours(ContourSettings(pascals=PAPER_LEVELS))
-    contours.set_layout(grid(scale=None))
-    assert not contours.levels_in_pascals and contours.levels == contours.settings.shares
-
-
 def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells() -> None:
     where = grid()
     edge = 0.030  # towards the side, where the cells end at 42 mm
@@ -118,21 +110,6 @@ def test_looks_that_are_not_to_be_compared_are_not_and_the_next_one_is(again: fl
     assert contours.velocity(again + INTERVAL, cone_loads(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
 
 
-@pytest.mark.parametrize("foot", list(Foot))
-def test_insoles_of_many_layouts_and_the_array_under_the_heel_have_contours(foot: Foot) -> None:
-    for cells in (*(layout(count, foot) for count in (24, 35, 96, 99)), heel_array(foot)):
-        assert Contours().set_layout(cells) is None
-
-
-def test_too_few_cells_under_the_heel_have_none() -> None:
-    cells = tuple(Cell(x, 0.01 * k) for k, x in enumerate((0.02, 0.04, 0.06, 0.20, 0.22)))
-    contours = Contours()
-    assert contours.set_layout(Layout(1, Foot.LEFT, cells, LENGTH)) == (
-        "3 pressure cells under the heel have no contour, 4 are the fewest"
-    )
-    assert contours.velocity(0.0, []) is None
-
-
 def test_cells_in_a_row_surround_nothing() -> None:
     cells = tuple(Cell(0.01 * k, 0.0) for k in range(1, 9))
     assert "do not surround" in str(Contours().set_layout(Layout(1, Foot.LEFT, cells, LENGTH)))
@@ -140,13 +117,3 @@ def test_cells_in_a_row_surround_nothing() -> None:
 
 numbers = st.floats(-1e9, 1e9, allow_nan=False)
 places = st.tuples(st.floats(-0.1, 0.4), st.floats(-0.1, 0.1), st.sampled_from([0.0, 1e-6, 1e-4]))
-
-
-@given(st.lists(places, max_size=14), st.data())
-def test_no_cells_and_no_loads_are_too_odd(where: list[tuple[float, float, float]], data: st.DataObject) -> None:
-    contours = Contours()
-    contours.set_layout(Layout(1, Foot.LEFT, tuple(Cell(*place) for place in where), LENGTH, 1.0))
-    for t in (0.0, 0.05, 0.05, 0.1, 0.01):
-        loads = data.draw(st.lists(numbers, min_size=len(contours.cells), max_size=len(contours.cells)))
-        found = contours.velocity(t, loads)
-        assert found is None or all(abs(value) < inf for value in found)

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 from strides import stride
 
 from solepath.body.activity.flights import Flights
-from solepath.body.activity.steepness import HIGHEST_RISE
 from solepath.events import FlightClimbed, StrideTaken
-from solepath.saving import codec as machine
-from solepath.types import Foot, Vec3
+from solepath.types import Foot
 
 RISER = 0.16
 FEET = (Foot.LEFT, Foot.RIGHT)
@@ -82,44 +78,6 @@ def flights_of_strides(strides: Iterable[tuple[float, int | None]], degraded: bo
     return found + flights.finish(60.0)
 
 
-def test_one_misjudged_stride_of_two_feet_does_not_part_a_flight() -> None:
-    (flight,) = flights_of_strides((2 * RISER, 0 if k == 5 else 1) for k in range(12))
-    # the misjudged stride's rise is the flight's all the same
-    assert flight.height == pytest.approx(6 * 2 * RISER)
-
-
-@pytest.mark.parametrize(
-    ("first", "last", "risers"),
-    [((1.1, 0.0, RISER), (1.2, 0.0, 0.0), 9), ((20.0, 0.0, 5.0), (20.0, 0.0, 5.0), 8)],
-    ids=["onto the first tread", "of an impossible height"],
-)
-def test_a_long_level_stride_before_a_flight_is_its_first_riser_if_it_can_be_one(
-    first: Vec3, last: Vec3, risers: int
-) -> None:
-    flights = Flights()
-    found = flights.add_stride(stride(Foot.LEFT, 1.0, first), 0)
-    found += [event for k in range(4) for event in flights.add_stride(stride_of(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
-    found += flights.add_stride(stride(Foot.LEFT, 7.0, last), 0)
-    assert found[0].height == pytest.approx(risers * RISER)
-
-
-def test_a_wearer_who_stops_with_a_foot_on_each_tread_has_not_arrived() -> None:
-    paused = [0, 0, *range(1, 7)]
-    flights = Flights()
-    found: list[FlightClimbed] = []
-    stood = dict.fromkeys(FEET, 0)
-    for k, riser in enumerate(paused):
-        foot = FEET[k % 2]
-        rise, stood[foot] = riser - stood[foot], riser
-        found += flights.add_stride(stride_of(foot, 0.6 * k, RISER * rise), int(rise > 0))
-    assert found + flights.advance(60.0, 60.0) == []
-    found += flights.add_stride(stride_of(Foot.LEFT, 60.0, RISER), 1)  # joins the other foot
-    assert found == []
-    (flight,) = flights.advance(64.0, 64.0)
-    assert flight.t == 60.0
-    assert flight.known_at == 64.0
-
-
 def test_a_restarted_clock_gives_up_the_flight() -> None:
     flights = Flights()
     for k in range(6):
@@ -142,27 +100,6 @@ def test_a_stride_higher_than_any_stairs_rises_by_what_the_others_do() -> None:
     assert flights_upstairs([2.3, 0.32, 0.32, 0.32])[0].height == pytest.approx(4 * 0.16)
 
 
-def test_strides_none_of_which_can_be_of_stairs_are_no_flight() -> None:
-    # with the heights of strides that a clipped gyroscope at 20 Hz has made
-    assert flights_upstairs([2.31, 1.53, 1.69], degraded=True) == []
-    assert flights_upstairs([1.19, 2.81, 0.91, 3.88]) == []
-
-
-def test_two_treads_at_a_time_are_climbed_too_when_nothing_is_missing() -> None:
-    assert flights_upstairs([0.68] * 4)[0].height == pytest.approx(4 * 0.34)
-    assert flights_upstairs([0.68] * 4, degraded=True) == []
-
-
-def test_a_stride_that_rises_where_the_stairs_go_down_rises_by_what_the_others_do() -> None:
-    (flight,) = flights_upstairs([0.32, 0.32, -0.58, 0.32, 0.32, 0.32])
-    assert flight.height == pytest.approx(6 * 0.16)
-
-
-def test_where_most_strides_are_not_trusted_there_is_no_height() -> None:
-    assert flights_upstairs([0.32, 0.32, 5.0, 5.0, 5.0]) == []
-    assert len(flights_upstairs([0.32, 0.32, 5.0, 5.0])) == 1
-
-
 def flights_by_directions(ways: list[int | None]) -> list[FlightClimbed]:
     """Return the flights of strides with these directions; None: of 5 m, without a direction."""
     return flights_of_strides([(5.0 if way is None else 0.32 * way, way) for way in ways])
@@ -176,23 +113,6 @@ def test_a_stride_that_nobody_can_judge_is_of_the_flight_when_the_next_one_is() 
     assert flights_by_directions([None, 1, 1, 1])[0].steps == 3
 
 
-def test_strides_that_nobody_can_judge_end_a_flight_as_level_ones_do() -> None:
-    first, second = flights_by_directions([1, 1, 1, 1, None, None, 1, 1, 1, 1])
-    assert (first.steps, second.steps) == (4, 4)
-    assert first.known_at == pytest.approx(0.6 * 5)
-
-
-def test_a_wearer_who_stops_after_a_stride_of_unknown_height_has_arrived() -> None:
-    flights = Flights()
-    for k, height in enumerate((0.32, 0.32, 7.0, 0.32)):
-        assert flights.add_stride(stride_of(FEET[k % 2], 0.6 * k, height), 1) == []
-    assert [flight.steps for flight in flights.advance(6.0, 6.0)] == [4]
-
-
-def test_strides_that_sink_are_no_flight_upwards() -> None:
-    assert flights_upstairs([-0.32] * 6) == []
-
-
 strides = st.lists(
     st.tuples(
         st.sampled_from(FEET),
@@ -202,21 +122,3 @@ strides = st.lists(
     ),
     max_size=40,
 )
-
-
-@given(strides)
-def test_whatever_the_strides_flights_are_in_order_and_high(taken: list[tuple[Foot, float, float, int | None]]) -> None:
-    flights, t = Flights(), 0.0
-    found: list[FlightClimbed] = []
-    for foot, dt, height, way in taken:
-        t += dt
-        found += flights.add_stride(stride_of(foot, t, height), way)
-        found += flights.advance(t + 1.0, t + 1.0)
-        flights = machine.load(Flights, json.loads(json.dumps(machine.save(flights), allow_nan=False)))
-    for flight in found:
-        assert flight.final
-        assert flight.t_start <= flight.t <= flight.known_at
-        assert abs(flight.height) >= 0.4
-        assert flight.up == (flight.height > 0.0)
-        # a level stride may add to each stair stride, and one to each foot before the first
-        assert abs(flight.height) <= HIGHEST_RISE * (2 * flight.steps + 2)

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from itertools import pairwise
 from math import hypot, pi
 
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import of
 
@@ -27,10 +25,8 @@ from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import WALKING_MODES, WALKING_MODES_PRINTED
 from solepath.papers.walking_modes.settings import ModeRule, ModesSettings
-from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
 from solepath.recipes import DEFAULT
 from solepath.session import Session
-from solepath.show.page.body import legs_of
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 from solepath.types.vector import sub
 
@@ -95,21 +91,6 @@ def test_the_legs_at_a_touchdown_reach_down_and_as_far_apart_as_the_feet() -> No
     assert before is not None
 
 
-def test_the_legs_of_a_session_move_between_touchdowns() -> None:
-    session = Session(METHOD_III.exchanged(TrackPart, Modes(settings=KNOWN_HEADING)), calibration=KNOWN)
-    seen = []
-    for sample in suit_samples():
-        session.feed(sample)
-        if sample.site is Site.PELVIS and 4.0 < sample.t < 5.0:
-            seen.append(legs_of(session))
-    assert legs_of(Session()) is None
-    times = [legs[0] for legs in seen if legs is not None]
-    assert len(set(times)) == len(seen) > 40
-    apart = [left[3][0] - right[3][0] for left, right in (legs[1] for legs in seen if legs is not None)]
-    assert max(apart) > 0.3 and min(apart) < -0.3
-    assert max(abs(b - a) for a, b in pairwise(apart)) < 0.15
-
-
 def test_a_touchdown_is_known_within_three_samples() -> None:
     assert all(down.t <= down.known_at < down.t + 0.07 for down in of(TouchedDown, run_walk()))
 
@@ -120,16 +101,6 @@ def test_the_world_of_the_sensors_may_point_anywhere() -> None:
     for one, other in zip(here, there, strict=True):
         assert one.position[:2] == pytest.approx(other.position[:2], abs=0.1)
         assert one.final is other.final
-
-
-def test_touchdowns_are_final_once_the_first_heading_is() -> None:
-    finals = [down.final for down in of(TouchedDown, run_walk())]
-    assert finals == sorted(finals) and not finals[0] and finals[4]
-
-
-@pytest.mark.parametrize("method", [Height(), NetAcceleration()])
-def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceleration) -> None:
-    assert hypot(*end_error(Modes(method, KNOWN_HEADING), suit_samples())[0]) < 0.1 * walker_on().route.length
 
 
 def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
@@ -170,13 +141,6 @@ def share_of_contacts(mode: WalkingMode, rule: ModeRule, wearer: Wearer) -> floa
     return right / whole
 
 
-def test_a_wearer_who_stands_is_in_mode_standing() -> None:
-    session = Session(METHOD_III, calibration=KNOWN)
-    changes = of(WalkingModeChanged, session.feed([s for s in suit_samples() if s.t < 1.9]))
-    assert {change.foot for change in changes} == set(Foot)
-    assert all(change.mode is WalkingMode.STANDING for change in changes)
-
-
 def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
     straight = {foot: {WalkingMode.STRAIGHT: (0.02, 0.0)} for foot in Foot}
     compensated = Modes(settings=evolve(KNOWN_HEADING, compensation=straight))
@@ -210,42 +174,5 @@ def test_a_first_heading_is_taken_by_the_recipes_with_body_sensors_and_by_no_oth
             WALKING_MODES.headed(wrong)
 
 
-def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
-    bare = [evolve(sample, quat=None) for sample in suit_samples()]
-    assert hypot(*end_error(Modes(), bare)[0]) < 0.15 * walker_on().route.length
-
-
-def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> None:
-    session = Session(METHOD_III.exchanged(TrackPart, Modes(settings=KNOWN_HEADING)), calibration=KNOWN)
-    events = session.feed([s for s in suit_samples() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
-    assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker_on().plan.strides.values())
-
-
 SITES = st.sampled_from(list(Site))
 NUMBERS = st.floats() | st.sampled_from((0.0, 1.0, -9.8, 1e300))
-
-
-@settings(max_examples=30)
-@given(
-    st.lists(
-        st.tuples(
-            SITES,
-            st.floats(0.0, 60.0),
-            st.none() | st.tuples(*[NUMBERS] * 3),
-            st.none() | st.tuples(*[NUMBERS] * 3),
-            st.none() | st.tuples(*[NUMBERS] * 4),
-            st.none() | st.lists(NUMBERS, min_size=99, max_size=99).map(tuple),
-        ),
-        max_size=40,
-    ),
-    st.booleans(),
-)
-def test_whatever_is_fed_in_whatever_order_the_session_goes_on(rows: list[tuple[object, ...]], walked: bool) -> None:
-    session = Session(WALKING_MODES, calibration=KNOWN)
-    if walked:
-        session.feed(suit_samples()[:1500])
-    for site, t, acc, gyro, quat, pressure in rows:
-        session.feed(Sample(t, site, acc, gyro, pressure, quat))  # type: ignore[arg-type]
-    position = session.position
-    assert position is None or all(abs(value) < 1e9 for value in position.position)
-    session.snapshot()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cache
-from math import hypot, pi
+from math import hypot
 
 import pytest
 import spoiled
@@ -19,10 +19,10 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import Event, Limitation, SampleRejected, TouchedDown, WalkingModeChanged
+from solepath.events import Event, Limitation, TouchedDown
 from solepath.recipes import DEFAULT, Recipe, by_name
 from solepath.session import Session
-from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from solepath.types import SITE_OF_FOOT, Foot, Sample, Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(96, foot) for foot in Foot}
@@ -97,16 +97,6 @@ def test_an_insole_without_usable_pressure_does_not_lead_astray(how: str) -> Non
     assert strides - 4 <= len(of(TouchedDown, events)) <= strides + 1
 
 
-@pytest.mark.parametrize("since", [10.0, 10.45, None])
-def test_nor_does_it_with_seven_sites(since: float | None) -> None:
-    """`since`: without pressure, s; None for an insole that never unloads."""
-    sites = seven()
-    worn = spoiled.never_unloads(sites, LEFT, 30.0) if since is None else spoiled.cut_off(sites, LEFT, 0, since)
-    (x, y), _ = run_walk("walking-modes", worn)
-    clean_x, clean_y = end_without_fault(seven)
-    assert hypot(x - clean_x, y - clean_y) < 1.3
-
-
 @pytest.mark.parametrize("recipe", RECIPES)
 def test_the_feet_alone_go_all_the_way_by_any_method(recipe: str) -> None:
     (x, y), events = run_walk(recipe, insole_samples())
@@ -165,62 +155,3 @@ def test_a_foot_that_falls_silent_neither_freezes_nor_halves_the_wearer(
     (x, y), events = run_walk(recipe, spoiled.silent(insole_samples(), LEFT, *silence))
     assert hypot(x - WALK_LENGTH, y) < 1.7
     assert len([what for what in sentences(events) if "not heard" in what]) == 1
-
-
-def test_with_the_chain_too() -> None:
-    for silence in ((8.0, 100.0), (8.4, 13.3)):
-        (x, y), _ = run_walk("walking-modes", spoiled.silent(seven(), LEFT, *silence))
-        assert hypot(x - WALK_LENGTH, y) < 2.0
-
-
-@cache
-def walk_round_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
-    """Ten metres, a quarter to the left, fifteen metres: by two insoles, and by seven sensors."""
-    walked = Walker(Route().stand(2.0).walk(10.0, 1.2).turn(pi / 2, 3.0).walk(15.0).stop(2.0), seed=2)
-    seven = limb_samples(walked, 50.0, seed=2, layouts=LAYOUTS)
-    return walked, both_feet(walked, 50.0, LSM6DSOX, 96), tuple(seven)
-
-
-@pytest.mark.parametrize(("site", "end"), [(LEFT, 13.3), (RIGHT, 15.3), (RIGHT, 100.0)])
-def test_a_foot_that_comes_back_after_a_bend_goes_on_beside_the_other(site: Site, end: float) -> None:
-    walked, two, _ = walk_round_bend()
-    (x, y), events = run_walk("walking-modes", spoiled.silent(two, site, 8.4, end))
-    assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 1.0
-    downs = [down.t for down in of(TouchedDown, events) if SITE_OF_FOOT[down.foot] is site]
-    strides = [s.heel_strike for foot in Foot for s in walked.plan.strides[foot] if SITE_OF_FOOT[foot] is site]
-    assert len([t for t in strides if t < 8.4 or t > end + 4.0]) <= len(downs) <= len(strides)
-    assert all(min(abs(t - strike) for strike in strides) < 0.15 for t in downs)
-
-
-def test_a_chain_that_is_known_only_after_a_bend_lies_in_the_world_as_the_tracks_do() -> None:
-    """The sensors above the ankles are 0.3 s behind until 14 s, when the wearer is round the bend."""
-    walked, _, sensors = walk_round_bend()
-    late = [evolve(s, known_at=s.t + 0.3) if s.site.foot is None and s.t < 14.0 else s for s in sensors]
-    (x, y), events = run_walk("walking-modes", sorted(late, key=_known_at))
-    assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 2.5
-    assert all(down.final for down in of(TouchedDown, events)[8:])
-
-
-def test_insoles_without_a_layout_give_no_walking_modes_by_table_2() -> None:
-    _, events = run_walk("walking-modes-printed", insole_samples(), Calibration())
-    assert {change.mode for change in of(WalkingModeChanged, events)} <= {WalkingMode.STANDING}
-    assert {down.mode for down in of(TouchedDown, events)} == {WalkingMode.STRAIGHT}
-    assert len([what for what in sentences(events) if "no walking modes" in what]) == 2
-
-
-def test_feet_that_turn_show_walking_modes_whatever_the_layout_of_their_cells() -> None:
-    _, events = run_walk("walking-modes", insole_samples(), Calibration())
-    assert WalkingMode.STRAIGHT in {change.mode for change in of(WalkingModeChanged, events)}
-    assert not [what for what in sentences(events) if "no walking modes" in what]
-
-
-def test_one_sample_from_the_far_future_does_not_silence_its_site() -> None:
-    samples: list[Sample] = []
-    for sample in seven():
-        samples.append(sample)
-        if sample.site is Site.PELVIS and 10.0 <= sample.t < 10.02:
-            samples.append(evolve(sample, t=1e10))
-    _, events = run_walk("walking-modes", samples)
-    (rejected,) = of(SampleRejected, events)
-    assert rejected.site is Site.PELVIS
-    assert not [what for what in sentences(events) if "own inertial tracks" in what]

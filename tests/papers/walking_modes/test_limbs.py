@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from math import cos, pi, radians, sin
 
 import numpy as np
@@ -20,7 +19,6 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.papers.walking_modes.limbs.inclination import Inclination
 from solepath.papers.walking_modes.limbs.limbs import LIMB_SITES, SEGMENTS, LowerLimbs, joints
 from solepath.papers.walking_modes.settings import ModesSettings
-from solepath.saving import codec as machine
 from solepath.types import Foot, Quat, Site, Vec3
 from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
 
@@ -129,18 +127,6 @@ def test_the_first_step_shows_the_wearers_heading_in_the_world_of_the_sensors() 
     step = np.subtract(chain.end(Foot.LEFT, 0.62), chain.end(Foot.RIGHT, 0.62))
     assert step[0] == pytest.approx(0.85 * (sin(radians(20)) + sin(radians(15))))
     assert step[1] == pytest.approx(0.2)
-
-
-@given(st.lists(st.tuples(st.sampled_from(SEGMENTS), st.floats(-5, 5), st.tuples(*[st.floats()] * 4)), max_size=40))
-def test_for_any_attitudes_the_chain_is_finite(attitudes: list[tuple[Site, float, Quat]]) -> None:
-    chain = LowerLimbs(SETTINGS)
-    stood(chain, MOUNTINGS)
-    for site, t, quat in attitudes:
-        chain.set_attitude(site, t, quat)
-    chain.add_touchdown(Foot.LEFT, 0.7)
-    for foot in Foot:
-        assert all(abs(value) < 2.0 for value in (*chain.end(foot, 0.6), *chain.forward(foot, 0.6)))
-    assert machine.load(LowerLimbs, json.loads(json.dumps(machine.save(chain), allow_nan=False))) == chain
 
 
 def test_a_sensor_without_an_attitude_of_its_own_is_held_upright_by_gravity() -> None:

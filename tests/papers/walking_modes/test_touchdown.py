@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
-from walks import of, samples
 
-from solepath import Session, TouchedDown, recipes
 from solepath.papers.walking_modes.compensation import epsilon_p
 from solepath.papers.walking_modes.touchdown import (
-    AnyTouchdown,
     FootState,
     Height,
     NetAcceleration,
@@ -21,7 +15,6 @@ from solepath.papers.walking_modes.touchdown import (
     displace,
     v_change,
 )
-from solepath.saving import codec as machine
 from solepath.types import Foot, WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -118,29 +111,3 @@ def test_in_flight_nothing_changes() -> None:
 
 
 values = st.none() | st.floats(-1e6, 1e6)
-
-
-@given(st.lists(st.tuples(st.floats(-10.0, 10.0), *[values] * 8), max_size=30))
-def test_for_any_states_there_is_one_reference_or_none(samples: list[tuple[float | None, ...]]) -> None:
-    methods: list[AnyTouchdown] = [Height(), NetAcceleration(), PressureTouchdown()]
-    references = [ReferenceFoot() for _ in methods]
-    for t, *shown in samples:
-        left, right = FootState(*shown[:4]), FootState(*shown[4:])
-        for k, method in enumerate(methods):
-            flags = method.update(t or 0.0, left, right)
-            taken = references[k].update(flags)
-            assert taken is None or taken[0] is references[k].foot
-            again = machine.load(type(method), json.loads(json.dumps(machine.save(method), allow_nan=False)))
-            assert again == method
-
-
-@pytest.mark.parametrize("name", ["walking-modes", "touchdown-height"])
-def test_touchdowns_of_a_foot_are_in_order_though_the_samples_of_its_feet_come_in_bursts(name: str) -> None:
-    burst = 0.7
-    in_bursts = sorted(samples(cells=96), key=lambda sample: (sample.t // burst, sample.site.foot is LEFT, sample.t))
-    session = Session(recipes.by_name(name))
-    touchdowns = of(TouchedDown, [event for sample in in_bursts for event in session.feed(sample)])
-    for foot in Foot:
-        times = [touchdown.t for touchdown in touchdowns if touchdown.foot is foot and touchdown.final]
-        assert times == sorted(times) and len(times) >= 4
-    assert all(touchdown.known_at >= touchdown.t for touchdown in touchdowns)
