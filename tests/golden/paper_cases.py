@@ -1,4 +1,4 @@
-"""Cases for what the other cases do not meet of the parts after papers: rides, exchanged devices, limbs, calibrations."""
+"""Cases for what the other cases do not meet of the parts after papers: rides, devices, limbs, calibrations."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def rides(rate: float = 20.0, until: float = 275.0) -> Iterator[Item]:
 
 
 def exchanged(items: tuple[Any, ...], at: float, shift: float, silent: Site | None = None) -> Iterator[Item]:
-    """Give the left foot another device at `at`, s, whose clock is `shift` ahead; the other foot falls silent or not."""
+    """Give the left foot another device at `at`, s, whose clock is `shift` ahead; a site falls silent then."""
     bound = False
     for item in items:
         if item.t >= at and not bound:
@@ -127,7 +127,7 @@ def renorthed(item: Sample, turn: tuple[float, float]) -> Sample:
 
 
 def toe_outs() -> Iterator[Any]:
-    """Yield the toe-out so far of each foot all along a walk, or why there is none, and what a calibration has of it."""
+    """Yield the toe-out so far of each foot all along a walk, or why there is none, and its calibration."""
     walk = ToeOutWalk()
     for k, item in enumerate(given("cc2541")):
         walk.feed(item)
@@ -192,8 +192,8 @@ SUIT = partial(of, "suit")
 PAPERS: tuple[Case, ...] = (
     Case("rides in lifts, footstep-tracker-printed", rides, "footstep-tracker-printed"),
     *(
-        Case(f"another device {shift:g} s ahead, shoe-sensing", at_50_hz(partial(exchanged, at=9.0, shift=shift), until=26.0),
-             "shoe-sensing-printed")
+        Case(f"another device {shift:g} s ahead, shoe-sensing",
+             at_50_hz(partial(exchanged, at=9.0, shift=shift), until=26.0), "shoe-sensing-printed")
         for shift in (-40.0, 3.0)
     ),
     Case("another device and silence, shoe-sensing",
@@ -204,6 +204,7 @@ PAPERS: tuple[Case, ...] = (
     ),
     Case("insoles of two cells, kupt-dfpc", at_50_hz(first_and_last, until=20.0), "kupt-dfpc", two_cells),
     Case("cells alone, footstep-tracker", at_50_hz(without("acc", "gyro"), until=20.0), "footstep-tracker", calibrated),
+    Case("cells alone, kupt-dfpc", at_50_hz(without("acc", "gyro"), until=12.0), "kupt-dfpc", calibrated),
     *(
         Case(f"a sensor that slips on the foot, {name}",
              at_50_hz(each(lambda item: turned(item, 1.8), 10.0, site=LEFT), until=24.0), name)
@@ -218,10 +219,10 @@ PAPERS: tuple[Case, ...] = (
     Case("above the ankles without attitudes", SUIT(above(bare), until=20.0), "walking-modes", heading=0.5),
     Case("sites above the ankles that restart", SUIT(stands_again, until=20.0), "walking-modes"),
     Case("a pelvis far ahead", SUIT(ahead, until=20.0), "walking-modes"),
-    Case("a pelvis that is late", SUIT(each(lambda item: later(item, -0.4), 5.0, 9.0, Site.PELVIS), ordered, until=15.0),
-         "walking-modes"),
+    Case("a pelvis that is late",
+         SUIT(each(lambda item: later(item, -0.4), 5.0, 9.0, Site.PELVIS), ordered, until=15.0), "walking-modes"),
     Case("nobody stood at first", SUIT(each(lambda item: None, until=3.0), until=20.0), "walking-modes"),
-    Case("limbs that are measured", SUIT(until=20.0), "touchdown-height", calibrated),
+    Case("limbs that are measured", SUIT(above(lambda item: later(item, -0.015)), ordered, until=20.0), "touchdown-height", calibrated),
     Case("toe-out", toe_outs),
     Case("compensation of walking modes", compensations),
     Case("a standing pose", stood),

@@ -1,209 +1,285 @@
-"""`solepath calibrate newton` and `modes`: calibration by a gauge and by marked walks."""
+"""Calibrations of walking modes against what is known exactly: a gauge, marks on the floor, a standing pose."""
 
 from __future__ import annotations
 
 from functools import cache
-from math import cos, sin
+from math import cos, pi, sin, sqrt
 from pathlib import Path
 
 import pytest
+from attrs import evolve
 
-from solepath.calibration import Calibration, CalibrationError
+from solepath.calibration import Calibration, CalibrationError, Limbs, Newtons
 from solepath.emulate.routes.laps import marked, marks, write_marks
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import TouchedDown
-from solepath.foot.pressure.insole import in_newtons
 from solepath.papers.walking_modes.calibrate import (
     ModeMark,
+    StepError,
     fit_modes,
     mean_errors,
     read_marks,
-    remove_heading_error,
     step_errors,
 )
+from solepath.papers.walking_modes.limbs.limbs import SEGMENTS
+from solepath.papers.walking_modes.limbs.standing import check_standing, limbs_of
 from solepath.papers.walking_modes.newton import fit_gauge
 from solepath.recording.decoded import DecodedRecording
-from solepath.types import SITE_OF_FOOT, Foot, WalkingMode
+from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from solepath.types.vector import GRAVITY, from_rotation_vector
+
+LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
+STRAIGHT, WIDE = WalkingMode.STRAIGHT, WalkingMode.LEFT_WIDE
+
+
+# --- a gauge ----------------------------------------------------------------------------------------------------------
 
 
 def force_of(counts: float) -> float:
-    """Return the force on a cell of 14 bits, N: a cubic with 0 N at 0 and 200 N at 16000 counts."""
+    """Return the force on a cell, N: a cubic with 1 N at 0 and 201 N at 16000 counts."""
     u = counts / 16000.0
-    return 60.0 * u + 40.0 * u**2 + 100.0 * u**3
+    return 1.0 + 60.0 * u + 40.0 * u**2 + 100.0 * u**3
 
 
-def write_gauge(path: Path, counts: list[float], lines: tuple[str, ...] = ()) -> Path:
-    rows = [f"{count},{force_of(count)}" for count in counts]
-    path.write_text("\n".join(["counts,newtons", *rows, *lines]) + "\n")
+def write_gauge(path: Path, rows: list[tuple[float, float]], *lines: str) -> Path:
+    path.write_text("\n".join(["counts,newtons", *[f"{counts},{force}" for counts, force in rows], *lines]) + "\n")
     return path
 
 
-def test_a_cubic_is_found_again_below_5_newtons_is_nothing_and_more_than_200_is_200(tmp_path: Path) -> None:
-    found = fit_gauge(write_gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)]))
-    assert found.points == 17 and found.residual < 1e-6 and found.worst < 1e-6
-    for count in (2500.0, 9000.0, 15500.0):
-        assert in_newtons(found.newtons, (count,))[0] == pytest.approx(force_of(count))
-    low, high = in_newtons(found.newtons, (1000.0, 20000.0))
-    assert force_of(1000.0) < 5.0 and low == 0.0 and high == 200.0
-
-
-def test_noise_of_the_gauge_is_its_residual(tmp_path: Path) -> None:
-    path = tmp_path / "g.csv"
-    rows = [f"{500 * k},{force_of(500 * k) + (0.5 if k % 2 else -0.5)}" for k in range(1, 32)]
-    path.write_text("\n".join(["counts,newtons", *rows]))
-    assert fit_gauge(path).residual == pytest.approx(0.5, rel=0.1)
+def test_the_cubic_of_a_gauge_is_found_and_what_lies_beside_it_is_its_residual(tmp_path: Path) -> None:
+    # -1, 5, -10, 10, -5, 1 is orthogonal to every cubic over six equal steps: root mean square sqrt(252 / 6)
+    aside = (-0.2, 1.0, -2.0, 2.0, -1.0, 0.2)
+    rows = [(3000.0 * k, force_of(3000.0 * k) + aside[k]) for k in range(6)]
+    found = fit_gauge(write_gauge(tmp_path / "g.csv", rows))
+    coefficients = (1.0, 60.0 / 16000.0, 40.0 / 16000.0**2, 100.0 / 16000.0**3)
+    assert found.newtons == Newtons(pytest.approx(coefficients, rel=1e-9), 5.0, 200.0)  # type: ignore[arg-type]
+    assert found.residual == pytest.approx(0.2 * sqrt(42.0)) and found.worst == pytest.approx(2.0)
+    assert found.points == 6
 
 
 @pytest.mark.parametrize(
-    ("lines", "message"),
+    ("rows", "line", "message"),
     [
-        (("hello,5",), "line 19: counts is 'hello', not a number"),
-        (("7,nan",), "line 19: newtons is 'nan', not a finite number"),
-        (("7",), "line 19: 1 values, and the header has 2"),
-        (("7,250",), "line 19: newtons is 250, which is not between 0 and 200 N"),
+        ([(0.0, 0.0)] * 3, "hello,5", "line 5: counts is 'hello', not a number"),
+        ([(0.0, 0.0)] * 3, "7,200.5", "line 5: newtons is 200.5, which is not between 0 and 200 N"),
+        ([(k % 4, 20.0 * k) for k in range(8)], "3,200", "4 different counts, and a cubic needs 5 or more"),
+        ([(k, 200.0 - 20.0 * k) for k in range(9)], "", "does not rise"),
+        ([(k, k) for k in range(5)], "", "does not rise"),  # 4 N at most: the insole feels none of it
     ],
 )
-def test_a_bad_line_is_named(tmp_path: Path, lines: tuple[str, ...], message: str) -> None:
-    path = write_gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)], lines)
-    with pytest.raises(CalibrationError, match=message) as error:
-        fit_gauge(path)
-    assert str(path) in str(error.value)
+def test_a_gauge_that_shows_no_cubic_is_rejected(
+    tmp_path: Path, rows: list[tuple[float, float]], line: str, message: str
+) -> None:
+    with pytest.raises(CalibrationError, match=message):
+        fit_gauge(write_gauge(tmp_path / "g.csv", rows, line))
 
 
-def test_a_table_that_is_none_is_rejected(tmp_path: Path) -> None:
-    empty, short, falling = (tmp_path / name for name in ("empty.csv", "short.csv", "falling.csv"))
-    empty.write_text("")
-    with pytest.raises(CalibrationError, match="line 1: needs one column counts"):
-        fit_gauge(empty)
-    with pytest.raises(CalibrationError, match="4 different counts"):
-        fit_gauge(write_gauge(short, [0.0, 1000.0, 2000.0, 3000.0]))
-    falling.write_text("counts,newtons\n" + "\n".join(f"{k},{200 - 20 * k}" for k in range(9)))
-    with pytest.raises(CalibrationError, match="does not rise"):
-        fit_gauge(falling)
-    with pytest.raises(CalibrationError, match="No such file"):
-        fit_gauge(tmp_path / "nowhere.csv")
+def test_five_counts_are_enough_and_forces_below_5_newtons_need_not_rise(tmp_path: Path) -> None:
+    rows = [(k, max(200.0 * (k - 1.0) ** 3 / 27.0, 0.0)) for k in range(5)]
+    assert fit_gauge(write_gauge(tmp_path / "g.csv", rows)).points == 5
 
 
-def touchdown(foot: Foot, t: float, x: float, y: float) -> TouchedDown:
-    return TouchedDown(
-        t=t, known_at=t, foot=foot, position=(x, y, 0.0), mode=WalkingMode.STRAIGHT, compensation=(0.0, 0.0, 0.0)
-    )
+# --- marks on the floor -----------------------------------------------------------------------------------------------
+
+ERRORS = {
+    (LEFT, STRAIGHT): (0.02, -0.01), (RIGHT, STRAIGHT): (-0.015, 0.004),
+    (LEFT, WIDE): (0.03, 0.012), (RIGHT, WIDE): (0.01, -0.02),
+}  # fmt: skip
+"""How far, m, forward and to the left, the steps of a foot in a mode are measured short of their marks."""
 
 
-def straight_walk(short: float, turned: float = 0.0) -> tuple[list[ModeMark], list[TouchedDown]]:
-    """Return marks and touchdowns of nine steps of 0.6 m, measured `short` m short, in a frame turned by `turned`."""
-    found, downs = [], []
-    for k in range(9):
-        foot, y = (Foot.LEFT, 0.1) if k % 2 == 0 else (Foot.RIGHT, -0.1)
-        x = 0.6 * k
-        c, s = cos(turned), sin(turned)
-        found.append(ModeMark(f"line {k}", foot, c * x - s * y, s * x + c * y, WalkingMode.STRAIGHT, t=float(k)))
-        downs.append(touchdown(foot, k + 0.02, (0.6 - short) * k, y))
-    return found, downs
+def walk_on_marks(turned: float = 0.0) -> tuple[list[ModeMark], list[TouchedDown]]:
+    """Return the marks of a circle of 3 m to the left in steps of 0.2 rad, and the touchdowns in a frame that is turned
+    by `turned` against theirs. Chords of a circle are parallel to its tangent in the middle between their ends."""
+    marked_points, downs = list[ModeMark](), list[TouchedDown]()
+    x = y = 0.0
+    for k in range(16):
+        foot, mode = (LEFT, RIGHT)[k % 2], STRAIGHT if k < 9 else WIDE
+        radius = 2.9 if foot is LEFT else 3.1
+        mark = ModeMark(f"line {k}", foot, radius * sin(0.2 * k), 3.0 - radius * cos(0.2 * k), mode, t=float(k))
+        if marked_points:
+            before, along = marked_points[-1], 0.2 * (k - 0.5)
+            forward, left = ERRORS[foot, mode]
+            x += mark.x - before.x - cos(along) * forward + sin(along) * left
+            y += mark.y - before.y - sin(along) * forward - cos(along) * left
+        place = (cos(turned) * x + sin(turned) * y, cos(turned) * y - sin(turned) * x, 0.0)
+        marked_points.append(mark)
+        downs.append(TouchedDown(k + 0.29, k + 0.3, foot, place, mode, (0.0, 0.0, 0.0)))
+    return marked_points, downs
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.7])
+def test_every_step_has_the_error_with_which_it_was_measured(turned: float) -> None:
+    errors = step_errors(*walk_on_marks(turned), turn=turned)
+    assert [(one.foot, one.mode) for one in errors] == [((LEFT, RIGHT)[k % 2], STRAIGHT if k < 9 else WIDE)
+                                                        for k in range(3, 16)]  # fmt: skip
+    for one in errors:
+        assert (one.forward, one.left) == pytest.approx(ERRORS[one.foot, one.mode], abs=1e-12)
 
 
 @pytest.mark.parametrize("turned", [0.0, 2.0])
-def test_steps_that_are_measured_too_short_have_that_error_wherever_the_marks_x_points(turned: float) -> None:
-    errors = step_errors(*straight_walk(0.02, turned))
-    assert len(errors) == 6
-    assert [(error.forward, error.left) for error in errors] == [pytest.approx((0.02, 0.0), abs=1e-9)] * 6
+def test_where_no_heading_is_given_the_turn_that_fits_all_steps_best_is_taken_out(turned: float) -> None:
+    errors, about = step_errors(*walk_on_marks(turned)), step_errors(*walk_on_marks(turned + 0.01))
+    assert [(one.forward, one.left) for one in errors] == [
+        pytest.approx((one.forward, one.left), abs=1e-12) for one in about
+    ]
+    for one in errors:
+        assert (one.forward, one.left) == pytest.approx(ERRORS[one.foot, one.mode], abs=0.01)
+    exact = [evolve(one, position=(cos(turned) * mark.x + sin(turned) * mark.y,
+                                   cos(turned) * mark.y - sin(turned) * mark.x, 0.0))
+             for mark, one in zip(*walk_on_marks(), strict=True)]  # fmt: skip
+    for one in step_errors(walk_on_marks()[0], exact):
+        assert (one.forward, one.left) == pytest.approx((0.0, 0.0), abs=1e-12)
 
 
-def test_a_foot_that_is_measured_too_far_to_the_left_errs_to_the_right() -> None:
-    marked_points, downs = straight_walk(0.0)
-    moved = [touchdown(one.foot, one.t, one.position[0], 0.1 if one.foot is Foot.LEFT else -0.09) for one in downs]
-    means = mean_errors(step_errors(marked_points, moved, turn=0.0), known_heading=True)
-    # marked steps go 0.2 m to the side, measured ones 0.19 m
-    assert means[Foot.RIGHT][WalkingMode.STRAIGHT] == pytest.approx((0.0, -0.01), abs=1e-3)
-    assert means[Foot.LEFT][WalkingMode.STRAIGHT] == pytest.approx((0.0, 0.01), abs=1e-3)
+def test_steps_after_a_touchdown_in_another_frame_and_steps_that_do_not_alternate_have_no_error() -> None:
+    marked_points, downs = walk_on_marks()
+    early = [evolve(down, final=k > 4) for k, down in enumerate(downs)]
+    assert step_errors(marked_points, early, turn=0.0) == step_errors(marked_points, downs, turn=0.0)[3:]
+    twice = [evolve(one, foot=RIGHT) if k == 8 else one for k, one in enumerate(downs)]
+    marks_so = [evolve(one, foot=RIGHT) if k == 8 else one for k, one in enumerate(marked_points)]
+    found = step_errors(marks_so, twice, turn=0.0)
+    assert len(found) == 13 - 4, "four steps have the one that did not alternate among their four"
+    # a touchdown without a mark likewise
+    assert len(step_errors([*marked_points[:8], *marked_points[9:]], downs, turn=0.0)) == 13 - 4
 
 
-def test_with_a_known_heading_what_turns_every_step_is_an_error_of_the_wearer() -> None:
-    marked_points, downs = straight_walk(0.0, turned=0.05)  # measured 0.05 rad to the right of the marks
-    mode = WalkingMode.STRAIGHT
-    fitted = mean_errors(step_errors(marked_points, downs))
-    known = mean_errors(step_errors(marked_points, downs, turn=0.0), known_heading=True)
-    for foot in Foot:
-        assert fitted[foot][mode] == pytest.approx((0.0, 0.0), abs=1e-9)
-    assert 0.5 * (known[Foot.LEFT][mode][1] + known[Foot.RIGHT][mode][1]) == pytest.approx(0.6 * sin(0.05), rel=0.05)
+def test_the_compensation_is_the_mean_error_without_what_both_feet_err_to_the_same_side() -> None:
+    errors = [
+        StepError(LEFT, STRAIGHT, 0.01, -0.03),
+        StepError(LEFT, STRAIGHT, 0.03, -0.01),
+        StepError(RIGHT, STRAIGHT, 0.05, 0.03),
+        StepError(RIGHT, WIDE, 0.0, 0.04),
+    ]
+    known = {LEFT: {STRAIGHT: (0.02, -0.02)}, RIGHT: {STRAIGHT: (0.05, 0.03), WIDE: (0.0, 0.04)}}
+    assert mean_errors(errors, known_heading=True) == {foot: pytest.approx(row) for foot, row in known.items()}
+    fitted = mean_errors(errors)
+    assert fitted[LEFT][STRAIGHT] == pytest.approx((0.02, -0.025))
+    assert fitted[RIGHT][STRAIGHT] == pytest.approx((0.05, 0.025)) and fitted[RIGHT][WIDE] == (0.0, 0.04)
 
 
-def test_errors_do_not_accumulate_and_are_separated_by_foot() -> None:
-    marked_points, downs = straight_walk(0.0)
-    moved = [touchdown(one.foot, one.t, one.position[0] + (0.03 if k >= 5 else 0.0), one.position[1])
-             for k, one in enumerate(downs)]  # fmt: skip
-    errors = step_errors(marked_points, moved)
-    assert sorted(round(error.forward, 6) for error in errors)[:2] == pytest.approx([-0.03, 0.0], abs=0.002)
-    means = mean_errors(errors)
-    assert means[Foot.RIGHT][WalkingMode.STRAIGHT][0] == pytest.approx(-0.01, abs=0.002)
-    assert means[Foot.LEFT][WalkingMode.STRAIGHT][0] == pytest.approx(0.0, abs=0.002)
-
-
-def test_what_both_feet_are_off_to_one_side_is_a_heading_and_no_compensation() -> None:
-    mode = WalkingMode.STRAIGHT
-    means = {Foot.LEFT: {mode: (0.01, -0.02)}, Foot.RIGHT: {mode: (0.02, 0.03), WalkingMode.LEFT_WIDE: (0.0, 0.04)}}
-    remove_heading_error(means)
-    assert means[Foot.LEFT][mode] == pytest.approx((0.01, -0.025))
-    assert means[Foot.RIGHT][mode] == pytest.approx((0.02, 0.025))
-    assert means[Foot.RIGHT][WalkingMode.LEFT_WIDE] == (0.0, 0.04)
-
-
-def test_marks_that_belong_to_no_touchdown_are_named() -> None:
-    marked_points, downs = straight_walk(0.0)
-    with pytest.raises(CalibrationError, match=r"line 7: the right foot did not come down at 7 s"):
-        step_errors(marked_points, downs[:7])
-    twice = [*marked_points, marked_points[0]]
+def test_a_mark_is_of_the_touchdown_nearest_to_its_time_or_of_its_number() -> None:
+    marked_points, downs = walk_on_marks()
+    numbered = [evolve(one, t=None, step=k // 2 + 1) for k, one in enumerate(marked_points)]
+    assert step_errors(numbered, downs) == step_errors(marked_points, downs)
+    close = [*downs[:5], evolve(downs[5], t=5.28), evolve(downs[5], t=5.1, foot=LEFT), *downs[6:]]
+    assert len(step_errors(marked_points, close)) == 13 - 4
+    with pytest.raises(CalibrationError, match="line 6: the left foot did not come down at 6 s"):
+        step_errors(marked_points, [evolve(one, t=one.t + 0.02) if k == 6 else one for k, one in enumerate(downs)])
     with pytest.raises(CalibrationError, match="line 0: the same touchdown as at line 0"):
-        step_errors(twice, downs)
-    beyond = [ModeMark("line 9", Foot.LEFT, 0.0, 0.0, WalkingMode.STRAIGHT, step=6)]
-    with pytest.raises(CalibrationError, match="line 9: the left foot came down 5 times only"):
-        step_errors(beyond, downs)
+        step_errors([*marked_points, marked_points[0]], downs)
+    with pytest.raises(CalibrationError, match="line 9: the left foot came down 8 times only"):
+        step_errors([ModeMark("line 9", LEFT, 0.0, 0.0, STRAIGHT, step=9)], downs)
+
+
+def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
+    path = tmp_path / "marks.csv"
+    path.write_text("foot,t,step,x,y,mode\nleft,,1,1.5,0.1,LEFT_WIDE\nright,2.5,7,-1.5,0.2,STRAIGHT\n")
+    left, right = read_marks(path)
+    assert left == ModeMark(f"{path}, line 2", LEFT, 1.5, 0.1, WIDE, step=1)
+    assert right == ModeMark(f"{path}, line 3", RIGHT, -1.5, 0.2, STRAIGHT, t=2.5)
 
 
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("middle,1,0,0,STRAIGHT", "line 2: foot is 'middle', not one of left, right"),
-        ("left,1,0,0,STANDING", "line 2: mode is 'STANDING', not one of STRAIGHT"),
-        ("left,,0,0,STRAIGHT", "line 2: neither t nor step"),
-        ("left,1,zero,0,STRAIGHT", "line 2: x is 'zero', not a number"),
+        ("middle,1,,0,0,STRAIGHT", "line 2: foot is 'middle', not one of left, right"),
+        ("left,1,,0,0,STANDING", "line 2: mode is 'STANDING', not one of STRAIGHT"),
+        ("left,,,0,0,STRAIGHT", "line 2: neither t nor step"),
+        ("left,,0,0,0,STRAIGHT", "line 2: step is 0, not a whole number from 1"),
+        ("left,,2.5,0,0,STRAIGHT", "line 2: step is 2.5, not a whole number from 1"),
+        ("", "no marks"),
     ],
 )
 def test_a_bad_mark_is_named(tmp_path: Path, line: str, message: str) -> None:
     path = tmp_path / "marks.csv"
-    path.write_text(f"foot,t,x,y,mode\n{line}\n")
+    path.write_text(f"foot,t,step,x,y,mode\n{line}\n")
     with pytest.raises(CalibrationError, match=message):
         read_marks(path)
 
 
-def test_marks_may_name_the_number_of_the_step(tmp_path: Path) -> None:
-    path = tmp_path / "marks.csv"
-    path.write_text("foot,step,x,y,mode\nleft,3,1.5,0.1,LEFT_WIDE\n")
-    (mark,) = read_marks(path)
-    assert (mark.foot, mark.step, mark.t, mark.mode) == (Foot.LEFT, 3, None, WalkingMode.LEFT_WIDE)
-    path.write_text("foot,step,x,y,mode\nleft,2.5,1.5,0.1,LEFT_WIDE\n")
-    with pytest.raises(CalibrationError, match="step is 2.5"):
-        read_marks(path)
-
-
 @cache
-def marked_walk(mode: WalkingMode) -> tuple[DecodedRecording, Walker]:
-    walker = Walker(marked(mode, steps=24), seed=103)
-    layouts = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
-    samples = limb_samples(walker, 50.0, seed=103, layouts=layouts)
-    return DecodedRecording(tuple(samples), {foot: layout(99, foot) for foot in Foot}), walker
+def marked_walk() -> tuple[DecodedRecording, Walker]:
+    walker = Walker(marked(STRAIGHT, steps=12), seed=103)
+    layouts = {foot: layout(99, foot) for foot in Foot}
+    samples = limb_samples(walker, 25.0, seed=103, layouts={SITE_OF_FOOT[foot]: layouts[foot] for foot in Foot})
+    return DecodedRecording(tuple(samples), layouts), walker
 
 
-def test_a_marked_walk_teaches_both_feet_some_centimetres(tmp_path: Path) -> None:
-    walks = []
-    for mode in (WalkingMode.STRAIGHT, WalkingMode.LEFT_TIGHT):
-        recording, walker = marked_walk(mode)
-        write_marks(tmp_path / f"{mode.name}.csv", marks(walker))
-        walks.append((recording, tmp_path / f"{mode.name}.csv"))
-    found = fit_modes(walks, Calibration(limbs=walker.wearer.limbs), heading=0.0).modes
-    assert found is not None
-    for foot in Foot:
-        assert set(found[foot]) == {WalkingMode.STRAIGHT, WalkingMode.LEFT_TIGHT}
-        assert all(abs(value) < 0.06 for pair in found[foot].values() for value in pair)
+def test_marks_that_lie_elsewhere_teach_a_walk_just_that_much_more(tmp_path: Path) -> None:
+    recording, walker = marked_walk()
+    path, known = tmp_path / "marks.csv", Calibration(limbs=walker.wearer.limbs)
+
+    def fitted(ahead: float, aside: float, heading: float | None) -> list[tuple[float, float]]:
+        """Return the compensation of both feet where the left one's marks lie elsewhere by so much, m."""
+        write_marks(path, marks(walker))
+        head, *lines = path.read_text().splitlines()
+        x, y = head.split(",").index("x"), head.split(",").index("y")
+        rows = [line.split(",") for line in lines]
+        for row in rows:
+            if row[head.split(",").index("foot")] == "left":
+                row[x], row[y] = str(float(row[x]) + ahead), str(float(row[y]) + aside)
+        path.write_text("\n".join([head, *[",".join(row) for row in rows]]) + "\n")
+        modes = fit_modes([(recording, path)], known, heading).modes
+        return [modes[foot][STRAIGHT] for foot in Foot]
+
+    usual, other = fitted(0.0, 0.0, 0.0), fitted(0.03, 0.02, 0.0)
+    assert all(abs(value) < 0.06 for pair in usual for value in pair)
+    changes = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(usual, other, strict=True)]
+    assert changes == [pytest.approx((0.03, 0.02), abs=1e-3), pytest.approx((-0.03, -0.02), abs=1e-3)]
+    left, right = fitted(0.0, 0.0, None)
+    assert left[1] == pytest.approx(-right[1], abs=1e-12), "without a heading what is common belongs to it"
+    path.write_text("\n".join(path.read_text().splitlines()[:4]) + "\n")
+    with pytest.raises(CalibrationError, match="no four marks one after the other"):
+        fit_modes([(recording, path)], known)
+
+
+# --- a standing pose --------------------------------------------------------------------------------------------------
+
+TILTS = {site: 0.1 * k for k, site in enumerate(SEGMENTS)}
+
+
+def standing(until: float, moves: Site | None = None, bare: bool = False) -> list[Sample]:
+    """Return samples of sensors that are tilted by TILTS from a quarter turn, at 50 Hz up to `until` s, included."""
+    found = []
+    for k in range(round(until / 0.02) + 1):
+        for site, tilt in TILTS.items():
+            turn = 0.5 * pi + tilt + (0.05 * k if site is moves else 0.0)
+            acc = (-GRAVITY * sin(turn), 0.0, GRAVITY * cos(turn))
+            quat = None if bare else from_rotation_vector((0.0, turn, 0.0))
+            found.append(Sample(0.02 * k, site, acc=acc, gyro=(0.0, 0.0, 0.0), quat=quat))
+    return found
+
+
+@pytest.mark.parametrize("bare", [False, True])
+def test_who_stands_with_seven_sensors_may_walk_on_however_they_sit(bare: bool) -> None:
+    stood = check_standing(standing(1.5, bare=bare))
+    assert [sensor.site for sensor in stood] == list(SEGMENTS)
+    assert [sensor.tilt for sensor in stood] == pytest.approx(list(TILTS.values()), abs=1e-6)
+    assert all(sensor.own_world is bare for sensor in stood)
+
+
+def test_a_standing_pose_is_half_a_second_of_all_seven_sensors() -> None:
+    assert len(check_standing(standing(0.5))) == 7
+    with pytest.raises(CalibrationError, match=r"never stood still for 0.5 s with all seven sensors: the pelvis, "):
+        check_standing(standing(0.48))
+    with pytest.raises(CalibrationError, match="with all seven sensors: the left shank moved last"):
+        check_standing(standing(1.5, Site.LEFT_SHANK))
+    with pytest.raises(CalibrationError, match="no attitude of the pelvis: all seven sensors are needed"):
+        check_standing([sample for sample in standing(1.5) if sample.site is not Site.PELVIS])
+
+
+def test_lengths_follow_the_stature_unless_they_were_measured() -> None:
+    usual = Limbs()
+    assert limbs_of(1.75) == usual
+    assert limbs_of(1.925, thigh=0.5) == Limbs(
+        *[pytest.approx(1.1 * value) for value in (usual.hip_width,)],  # type: ignore[arg-type]
+        thigh=0.5,
+        shank=pytest.approx(1.1 * usual.shank),  # type: ignore[arg-type]
+        foot=pytest.approx(1.1 * usual.foot),  # type: ignore[arg-type]
+        ankle_height=pytest.approx(1.1 * usual.ankle_height),  # type: ignore[arg-type]
+    )
+    measured = limbs_of(1.75, spines=0.25, shank=0.47)
+    assert measured == evolve(usual, hip_width=pytest.approx(0.18), shank=0.47)
