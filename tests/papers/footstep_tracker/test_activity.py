@@ -11,12 +11,10 @@ from solepath.events import ActivityChanged, LiftRidden
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
-from solepath.lab.emulated.activity import score
 from solepath.papers.footstep_tracker.activity import two_second_windows
 from solepath.papers.footstep_tracker.activity.two_second_windows import MOVING_ACTIVITIES, TwoSecondWindows
 from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel
 from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindows
-from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.show.timeline import Timeline
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 from solepath.types.vector import GRAVITY
@@ -158,9 +156,3 @@ def test_the_variance_tree_comes_first():
 
 numbers = st.floats(-499, 499)
 rows = st.tuples(st.floats(0, 3), st.booleans(), st.tuples(numbers, numbers, numbers))
-
-
-def test_the_activities_of_an_emulated_wearer_are_found():
-    scores = score(FOOTSTEP_TRACKER, 2)
-    assert (scores.windows.accuracy or 0.0) >= 0.93
-    assert scores.time.rides_found == scores.time.rides_true == 4

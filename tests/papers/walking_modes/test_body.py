@@ -91,38 +91,23 @@ def test_the_legs_at_a_touchdown_reach_down_and_as_far_apart_as_the_feet() -> No
     assert before is not None
 
 
-def test_a_touchdown_is_known_within_three_samples() -> None:
-    assert all(down.t <= down.known_at < down.t + 0.07 for down in of(TouchedDown, run_walk()))
-
-
-def test_the_world_of_the_sensors_may_point_anywhere() -> None:
-    """x is along the first heading, for any north of the sensors."""
-    here, there = (of(TouchedDown, run_walk(north=north)) for north in (0.0, 2.5))
-    for one, other in zip(here, there, strict=True):
-        assert one.position[:2] == pytest.approx(other.position[:2], abs=0.1)
-        assert one.final is other.final
-
-
 def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
     (dx, dy), (xx, xy, _, yy, _, _) = end_error(Modes(settings=KNOWN_HEADING), suit_samples())
     assert hypot(dx, dy) < 0.15
     assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
 
 
-BENDS = [mode for mode in WalkingMode if mode is not WalkingMode.STANDING]
+SLOWLY = [pytest.param(mode, marks=pytest.mark.soak) for mode in (WalkingMode.STRAIGHT, WalkingMode.RIGHT_WIDE)]
+    WalkingMode.LEFT_TIGHT,
+    *[pytest.param(one, marks=pytest.mark.soak) for one in (WalkingMode.STRAIGHT, WalkingMode.RIGHT_WIDE)],
+]
 STEADY_OUTWARD = Wearer()
 VARIED_AS_MEASURED = Wearer(load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN, load_variation=0.004)
 
 
-@pytest.mark.parametrize("mode", BENDS)
+@pytest.mark.parametrize("mode", [WalkingMode.LEFT_TIGHT, *SLOWLY])
 def test_a_bend_is_known_by_how_the_feet_turn_wherever_the_load_moves(mode: WalkingMode) -> None:
     assert share_of_contacts(mode, ModeRule.TURN, VARIED_AS_MEASURED) >= 0.95
-
-
-def test_a_bend_is_known_from_insoles_only_where_the_load_moves_as_table_2_has_it() -> None:
-    mode = WalkingMode.LEFT_TIGHT
-    assert share_of_contacts(mode, ModeRule.TABLE_2_AT_SPEED, STEADY_OUTWARD) >= 0.95
-    assert share_of_contacts(mode, ModeRule.TABLE_2_AT_SPEED, VARIED_AS_MEASURED) < 0.5
 
 
 def share_of_contacts(mode: WalkingMode, rule: ModeRule, wearer: Wearer) -> float:

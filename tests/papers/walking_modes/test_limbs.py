@@ -10,13 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.calibration import Limbs
-from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.parts import MPU9250
-from solepath.emulate.sensors.suit import limb_samples
-from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.turning import matrices
-from solepath.emulate.wearers.walker import Walker
-from solepath.papers.walking_modes.limbs.inclination import Inclination
 from solepath.papers.walking_modes.limbs.limbs import LIMB_SITES, SEGMENTS, LowerLimbs, joints
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.types import Foot, Quat, Site, Vec3
@@ -127,33 +121,6 @@ def test_the_first_step_shows_the_wearers_heading_in_the_world_of_the_sensors() 
     step = np.subtract(chain.end(Foot.LEFT, 0.62), chain.end(Foot.RIGHT, 0.62))
     assert step[0] == pytest.approx(0.85 * (sin(radians(20)) + sin(radians(15))))
     assert step[1] == pytest.approx(0.2)
-
-
-def test_a_sensor_without_an_attitude_of_its_own_is_held_upright_by_gravity() -> None:
-    """A shank of four emulated walks: its lean from where it stood, against the truth. What the accelerometer is off by
-    at rest is in both attitudes, and so in neither lean; how well the bias is learnt differs between walks."""
-    off = [leans(seed) for seed in range(1, 5)]
-    assert np.mean([np.median(np.abs(one)) for one in off]) < radians(1.5)
-    assert max(np.abs(one).max() for one in off) < radians(5.0)
-
-
-def leans(seed: int) -> list[float]:
-    walker = Walker(Route().stand(2.0).walk(15.0, 1.2).stop(1.0), Wearer(), seed=seed)
-    site = Site.LEFT_SHANK
-    exact = [s for s in limb_samples(walker, 100.0, seed=seed, attitude=None, errors=None) if s.site is site]
-    samples = [s for s in limb_samples(walker, 100.0, seed=seed, attitude=None, errors=MPU9250) if s.site is site]
-    sensor = Inclination()
-    off: list[float] = []
-    stood: tuple[Quat, Quat] | None = None
-    for true, sample in zip(exact, samples, strict=True):
-        assert true.quat is not None and sample.acc is not None and sample.gyro is not None
-        attitude = sensor.update(sample.t, sample.acc, sample.gyro)
-        if attitude is None or sample.t < 1.0:
-            continue
-        stood = stood or (attitude, true.quat)
-        off.append(lean(attitude, stood[0]) - lean(true.quat, stood[1]))
-    assert len(off) > 1000 and sensor.heading is not None
-    return off
 
 
 def lean(attitude: Quat, stood: Quat) -> float:
