@@ -98,9 +98,6 @@ def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
 
 
 SLOWLY = [pytest.param(mode, marks=pytest.mark.soak) for mode in (WalkingMode.STRAIGHT, WalkingMode.RIGHT_WIDE)]
-    WalkingMode.LEFT_TIGHT,
-    *[pytest.param(one, marks=pytest.mark.soak) for one in (WalkingMode.STRAIGHT, WalkingMode.RIGHT_WIDE)],
-]
 STEADY_OUTWARD = Wearer()
 VARIED_AS_MEASURED = Wearer(load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN, load_variation=0.004)
 
