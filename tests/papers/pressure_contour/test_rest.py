@@ -2,132 +2,135 @@
 
 from __future__ import annotations
 
+from functools import cache
 from math import sqrt
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 from solepath.calibration import Calibration, CalibrationError, RestNoise
-from solepath.calibration.merging import merged
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt
 from solepath.papers.pressure_contour.rest import allan_variance, fit_noise, rest_calibration, rest_noise
-from solepath.types import Foot, Sample, Site
+from solepath.types import Foot, Sample, Site, Vec3
 from solepath.types.vector import GRAVITY
 
-RATE = 50.0
-ACC, GYRO = (1.2e-3, 1.5e-4), (6e-5, 2e-6)
-"""Density, u/sqrt(Hz), and walk, u/sqrt(s), of an accelerometer, m/s^2, and a gyroscope, rad/s."""
+RATE = 64.0
+ACC, GYRO = 6e-3, 3e-4
+"""Standard deviations of the samples of an accelerometer, m/s^2, and of a gyroscope, rad/s."""
 
 
-def noise(density: float, walk: float, count: int, rng: np.random.Generator) -> np.ndarray:
-    white = density * sqrt(0.5 * RATE) * rng.standard_normal((count, 3))
-    return white + np.cumsum(walk / sqrt(RATE) * rng.standard_normal((count, 3)), axis=0)
+@cache
+def at_rest(duration: float, site: Site = Site.RIGHT_FOOT, seed: int = 1) -> tuple[Sample, ...]:
+    count, rng = round(duration * RATE) + 1, np.random.default_rng(seed)
+    acc = ACC * rng.standard_normal((count, 3)) + (0.3, -0.2, GRAVITY)
+    gyro = GYRO * rng.standard_normal((count, 3)) + (0.01, 0.0, -0.02)
+    rows = zip(acc.tolist(), gyro.tolist(), strict=True)
+    return tuple([Sample(k / RATE, site, tuple(a), tuple(g)) for k, (a, g) in enumerate(rows)])
 
 
-def at_rest(duration: float, site: Site = Site.RIGHT_FOOT, seed: int = 1) -> list[Sample]:
-    count, rng = int(duration * RATE), np.random.default_rng(seed)
-    acc = noise(*ACC, count, rng) + (0.3, -0.2, GRAVITY)
-    gyro = noise(*GYRO, count, rng) + (0.01, 0.0, -0.02)
-    return [
-        Sample(k / RATE, site, tuple(a), tuple(g))
-        for k, (a, g) in enumerate(zip(acc.tolist(), gyro.tolist(), strict=True))
-    ]
+def test_the_allan_variance_of_a_ramp_and_of_a_zigzag_by_hand() -> None:
+    # means over n samples of a ramp of a in each sample differ by n a: the variance is (n a)^2 / 2
+    ramp = np.outer(np.arange(72.0), (0.1, 0.1, 0.1)) + 5.0
+    tau, variance = allan_variance(ramp, 0.02)
+    assert tau == pytest.approx([0.02, 0.04, 0.08, 0.16]), "up to a ninth of 72 samples"
+    assert variance == pytest.approx([0.005, 0.02, 0.08, 0.32])
+    assert len(allan_variance(ramp[:71], 0.02)[0]) == 3
+    # neighbours of a zigzag of 1 and -1 differ by 2, and means of two by nothing; one axis of three zigzags
+    zigzag = np.outer((-1.0) ** np.arange(36), (1.0, 0.0, 0.0))
+    assert allan_variance(zigzag, 1.0)[1] == pytest.approx([2.0 / 3.0, 0.0, 0.0])
 
 
-def test_the_densities_and_walks_of_an_hour_at_rest_come_out() -> None:
-    (fit,) = rest_noise(at_rest(3600.0))
-    assert fit.foot is Foot.RIGHT and fit.duration == pytest.approx(3600.0, abs=0.1)
-    found = fit.noise
-    assert found.acc_density == pytest.approx(ACC[0], rel=0.03) and found.gyro_density == pytest.approx(
-        GYRO[0], rel=0.03
-    )
-    assert found.acc_wander == pytest.approx(ACC[1], rel=0.35) and found.gyro_wander == pytest.approx(GYRO[1], rel=0.35)
-    assert found.rate == pytest.approx(RATE)
-    assert fit.acc_instability < ACC[0]
+def test_density_flicker_and_walk_are_the_terms_of_the_variance() -> None:
+    tau = 0.02 * 2.0 ** np.arange(10)
+    white, flicker, walk = 4e-6, 3e-6, 2e-8
+    density, wander = fit_noise(tau, white / tau + flicker + walk * tau, 100.0)
+    assert density == pytest.approx(sqrt(2.0 * white))
+    assert wander == pytest.approx(sqrt(3.0 * (walk + flicker / tau[-1])))
+    assert fit_noise(tau, white / tau, 100.0) == pytest.approx((sqrt(2.0 * white), 0.0), abs=1e-9)
 
 
-def test_two_minutes_show_the_densities() -> None:
-    left, right = rest_noise([*at_rest(150.0, Site.LEFT_FOOT, 2), *at_rest(150.0, Site.RIGHT_FOOT, 3)])
-    assert (left.foot, right.foot) == (Foot.LEFT, Foot.RIGHT)
-    for fit in (left, right):
-        assert fit.noise.acc_density == pytest.approx(ACC[0], rel=0.1)
-        assert fit.noise.gyro_density == pytest.approx(GYRO[0], rel=0.1)
-        assert fit.noise.acc_wander < 5.0 * ACC[1]
-
-
-def test_white_noise_averages_down_with_the_time_and_has_no_walk() -> None:
-    values = 0.02 * np.random.default_rng(4).standard_normal((100_000, 3))
-    tau, variance = allan_variance(values, 0.02)
-    assert tau[0] == 0.02 and variance[0] == pytest.approx(4e-4, rel=0.02)
-    assert variance[5] == pytest.approx(variance[0] / 32.0, rel=0.1)
-    density, walk = fit_noise(tau, variance, 2000.0)
-    assert density == pytest.approx(0.02 * sqrt(2.0 * 0.02), rel=0.02)
-    assert walk < 2e-4
-
-
-def moved(one: Sample, acc: tuple[float, float, float], gyro: tuple[float, float, float]) -> Sample:
-    assert one.acc is not None and one.gyro is not None
-    (x, y, z), (p, q, r) = one.acc, one.gyro
-    return Sample(one.t, one.site, (x + acc[0], y + acc[1], z + acc[2]), (p + gyro[0], q + gyro[1], r + gyro[2]))
-
-
-@pytest.mark.parametrize(
-    ("acc", "gyro", "during", "reason"),
-    [
-        ((0.0, 0.0, 0.0), (0.0, 0.0, 0.2), (90.0, 93.0), "moved 90 s after the start"),
-        ((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), (0.0, 150.0), "turns by up to 2 rad/s on average"),
-        ((0.0, 0.0, -9.0), (0.0, 0.0, 0.0), (0.0, 150.0), "reads 0.9 m/s"),
-    ],
-)
-def test_a_sensor_that_turns_or_falls_is_not_at_rest(
-    acc: tuple[float, float, float], gyro: tuple[float, float, float], during: tuple[float, float], reason: str
-) -> None:
-    start, end = during
-    samples = [moved(one, acc, gyro) if start <= one.t < end else one for one in at_rest(150.0)]
-    with pytest.raises(CalibrationError, match=reason):
-        rest_noise(samples)
-
-
-def test_noise_below_the_resolution_is_no_calibration() -> None:
-    coarse = [Sample(0.05 * k, Site.LEFT_FOOT, (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0)) for k in range(3000)]
+def test_a_variance_counts_by_its_relative_error_and_no_term_is_negative() -> None:
+    # steeper than 1 / tau, so that only this term is left; its factor by least squares with weights 1 / (v^2 tau)
+    tau = 2.0 ** np.arange(5)
+    variance = tau**-1.5
+    factor = (1.0 / (variance * tau**2)).sum() / (1.0 / (variance**2 * tau**3)).sum()
+    assert fit_noise(tau, variance, 100.0) == pytest.approx((sqrt(2.0 * factor), 0.0))
+    seen = np.array([0.0, *variance[1:]])
+    assert fit_noise(tau, seen, 100.0) == pytest.approx(fit_noise(tau[1:], variance[1:], 100.0)), "0 is not known"
+    assert fit_noise(tau[:3], variance[:3], 9.0)[1] == 0.0
     with pytest.raises(CalibrationError, match="reads the same all the time"):
-        rest_noise(coarse)
+        fit_noise(tau[:3], seen[:3], 9.0)
 
 
-def test_a_gap_of_four_intervals_ends_a_rest() -> None:
-    with pytest.raises(CalibrationError, match="75 s without a gap"):
-        rest_noise([one for one in at_rest(150.0) if not 75.0 < one.t < 75.07])
+def test_each_foot_has_the_noise_of_its_sensor() -> None:
+    samples = [*at_rest(120.0, Site.LEFT_FOOT, 2), *at_rest(130.0)]
+    left, right = rest_noise(samples)
+    assert (left.foot, right.foot, left.duration, right.duration) == (Foot.LEFT, Foot.RIGHT, 120.0, 130.0)
+    assert rest_noise(samples, Foot.RIGHT) == (right,)
+    assert rest_calibration([left, right]).rest == {Foot.LEFT: left.noise, Foot.RIGHT: right.noise}
+    assert right.noise.rate == pytest.approx(RATE)
+    assert right.noise.acc_density == pytest.approx(ACC * sqrt(2.0 / RATE), rel=0.03)
+    assert right.noise.gyro_density == pytest.approx(GYRO * sqrt(2.0 / RATE), rel=0.03)
+    for found, name in ((right.acc_instability, "acc"), (right.gyro_instability, "gyro")):
+        tau, variance = allan_variance(np.array([getattr(one, name) for one in at_rest(130.0)]), 1.0 / RATE)
+        assert found == pytest.approx(sqrt(variance.min()))
+        density, wander = fit_noise(tau, variance, 130.0)
+        assert getattr(right.noise, f"{name}_density") == pytest.approx(density)
+        assert getattr(right.noise, f"{name}_wander") == pytest.approx(wander)
+
+
+def test_the_longest_rest_without_a_gap_counts_and_three_intervals_are_no_gap() -> None:
+    samples = [one for one in at_rest(150.0) if not 10.0 < one.t < 10.5 and not 70.0 < one.t < 70.04]
+    (fit,) = rest_noise(samples)
+    assert fit.duration == pytest.approx(139.5)
+    with pytest.raises(CalibrationError, match="the right foot has 80 s without a gap; 120 s of rest"):
+        rest_noise([one for one in samples if not 70.0 < one.t < 70.05])
+    with pytest.raises(CalibrationError, match="120 s without a gap; 120 s of rest"):
+        rest_noise(at_rest(119.98))
+    with pytest.raises(CalibrationError, match="no foot's accelerations"):
+        rest_noise([Sample(0.0, Site.RIGHT_FOOT, pressure=(1.0,))])
+    with pytest.raises(CalibrationError, match="the right foot has too few samples"):
+        rest_noise(at_rest(120.0)[:1])
+
+
+def moved(acc: Vec3, gyro: Vec3, start: float, end: float) -> list[Sample]:
+    """Return two minutes at rest, in which so much is added from `start` to `end`, s."""
+    made = []
+    for one in at_rest(120.0):
+        if start <= one.t < end and one.acc is not None and one.gyro is not None:
+            (x, y, z), (p, q, r) = one.acc, one.gyro
+            added = (x + acc[0], y + acc[1], z + acc[2]), (p + gyro[0], q + gyro[1], r + gyro[2])
+            one = evolve(one, acc=added[0], gyro=added[1])
+        made.append(one)
+    return made
 
 
 @pytest.mark.parametrize(
-    ("samples", "reason"),
+    ("still", "moves", "during", "reason"),
     [
-        (at_rest(60.0), "60 s without a gap; 120 s of rest"),
-        ([Sample(0.0, Site.RIGHT_FOOT, pressure=(1.0,))], "no foot's accelerations"),
+        (((0.0, 0.0, 0.0), (0.0, 0.095, 0.0)), ((0.0, 0.0, 0.0), (0.0, -0.105, 0.0)), (90.0, 93.0), "moved 90 s after"),
+        (((0.19, 0.0, 0.0), (0.0, 0.0, 0.0)), ((0.0, -0.21, 0.0), (0.0, 0.0, 0.0)), (50.0, 51.0), "moved 50 s after"),
+        (((0.0, 0.0, 0.9), (0.0, 0.0, 0.0)), ((0.0, 0.0, 1.1), (0.0, 0.0, 0.0)), (0.0, 150.0), "reads 10.9 m/s"),
+        (((0.0, 0.0, -0.9), (0.0, 0.0, 0.0)), ((0.0, 0.0, -1.1), (0.0, 0.0, 0.0)), (0.0, 150.0), "reads 8.7 m/s"),
         (
-            [
-                Sample(one.t, one.site, (one.acc[0] + (2.0 if 90.0 < one.t < 93.0 else 0.0), *one.acc[1:]), one.gyro)
-                for one in at_rest(150.0)
-                if one.acc is not None
-            ],
-            "moved 90 s after the start",
+            ((0.0, 0.0, 0.0), (0.0, 0.49, 0.0)),
+            ((0.0, 0.0, 0.0), (0.0, -0.51, 0.0)),
+            (0.0, 150.0),
+            "turns by up to 0.51 rad/s on average",
         ),
     ],
 )
-def test_too_short_a_rest_and_a_sensor_that_moved_are_no_calibration(samples: list[Sample], reason: str) -> None:
+def test_a_sensor_that_turns_or_falls_is_not_at_rest(
+    still: tuple[Vec3, Vec3], moves: tuple[Vec3, Vec3], during: tuple[float, float], reason: str
+) -> None:
+    assert len(rest_noise(moved(*still, *during))) == 1
     with pytest.raises(CalibrationError, match=reason):
-        rest_noise(samples)
+        rest_noise(moved(*moves, *during))
 
 
 def test_the_filter_trusts_a_standing_foot_by_the_noise_of_its_sensor_at_rest() -> None:
-    (fit,) = rest_noise(at_rest(150.0))
-    known = merged(Calibration(rest={Foot.LEFT: RestNoise(0.01, 1e-3, 1e-4, 1e-5, 100.0)}), rest_calibration([fit]))
-    assert set(known.rest) == set(Foot)
-    bias = BiasZupt().calibrated(Foot.RIGHT, known).bias
-    assert bias.settings.sample_noise == pytest.approx(ACC[0] * sqrt(0.5 * RATE), rel=0.1)
-    assert BiasZupt().calibrated(Foot.LEFT, known).bias.settings.sample_noise == pytest.approx(0.01 * sqrt(50.0))
-    bias.correct((-0.1, 0.0, 0.0))
-    usual = BiasZupt().bias
-    usual.correct((-0.1, 0.0, 0.0))
-    assert usual.variance is not None and bias.variance is not None
-    assert bias.settings.sample_noise < usual.settings.sample_noise and bias.variance < usual.variance
+    known = Calibration(rest={Foot.LEFT: RestNoise(0.01, 1e-3, 1e-4, 1e-5, 100.0)})
+    noise = BiasZupt().calibrated(Foot.LEFT, known).bias.settings
+    assert (noise.sample_noise, noise.wander) == (pytest.approx(0.01 * sqrt(50.0)), 1e-3)
+    assert BiasZupt().calibrated(Foot.RIGHT, known).bias.settings == BiasZupt().bias.settings

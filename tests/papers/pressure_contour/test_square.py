@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import hypot
+from math import pi, sqrt
 from pathlib import Path
 
 import pytest
@@ -13,13 +13,19 @@ from walks import of, run_session
 from solepath import StrideTaken
 from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.routes.laps import square
-from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import AttitudeErrors
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.papers.pressure_contour.recipe import GYROSCOPE
-from solepath.papers.pressure_contour.square import CornerMark, check_laps, fit_drift, read_marks, square_drift
+from solepath.papers.pressure_contour.square import (
+    CornerMark,
+    SquareDrift,
+    check_laps,
+    fit_drift,
+    read_marks,
+    square_drift,
+)
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.decoded import decode_recording
 from solepath.types import Foot, Packet, Sample, Site, Vec3
@@ -57,32 +63,20 @@ def drifting_recipe(x: float, y: float) -> Recipe:
     return evolve(GYROSCOPE, corrector=BiasZupt(BiasZuptSettings(drift=(-x, -y))))
 
 
-def test_a_known_slope_comes_out_in_the_frame_of_the_device() -> None:
-    without = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE)
-    with_it = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=drifting_recipe(0.03, -0.02))
-    assert with_it.slope[0] - without.slope[0] == pytest.approx(0.03, abs=2e-4)
-    assert with_it.slope[1] - without.slope[1] == pytest.approx(-0.02, abs=2e-4)
-    assert with_it.marks == MARKS_PER_LAP and with_it.foot is LEFT
+@cache
+def measured(*drift: float) -> SquareDrift:
+    recipe = drifting_recipe(*drift) if drift else GYROSCOPE
+    return square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=recipe)
 
 
-def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
-    fast = (0.04, -0.025)
-    found = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=drifting_recipe(*fast))
-    assert found.agreed and found.kept == found.slope
-
-    def end(recipe: Recipe, calibration: Calibration) -> StrideTaken:
-        last: StrideTaken = of(StrideTaken, run_session(samples(), recipe, calibration=calibration))[-1]
-        return last
-
-    # what the recipe adds, the calibration takes off again, but for the stands, in which nothing is taken off
-    plain, corrected = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift={LEFT: fast}))
-    apart = hypot(*(a - b for a, b in zip(plain.position[:2], corrected.position[:2], strict=True)))
-    assert apart == pytest.approx(hypot(*fast) * plain.t, rel=0.1)
-
-
-def test_a_drift_that_laps_disagree_on_is_removed_only_on_request() -> None:
-    found = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE)
-    assert not found.agreed and found.kept == (0.0, 0.0)
+def test_a_known_slope_comes_out_in_the_frame_of_the_device_and_is_kept_if_all_laps_agree_on_it() -> None:
+    without, with_it = measured(), measured(0.04, -0.025)
+    assert with_it.slope[0] - without.slope[0] == pytest.approx(0.04, abs=2e-4)
+    assert with_it.slope[1] - without.slope[1] == pytest.approx(-0.025, abs=2e-4)
+    assert with_it.marks == MARKS_PER_LAP and with_it.foot is LEFT and with_it.gated
+    assert with_it.agreed and with_it.kept == with_it.slope
+    assert not without.agreed and without.kept == (0.0, 0.0)
+    assert evolve(without, gated=False).kept == without.slope
 
 
 def test_laps_agree_when_a_wandering_foot_would_do_so_once_in_a_hundred_times() -> None:
@@ -99,26 +93,30 @@ def test_laps_agree_when_a_wandering_foot_would_do_so_once_in_a_hundred_times() 
     assert agreed(0.40) and not agreed(0.42)
 
 
-def test_the_slope_is_the_mean_of_the_marks_lines() -> None:
-    # by least squares: (0, 0), (1, 1), (2, 5) has the slope 2.5, and (0, 0), (1, 3), (2, 3) has 1.5
-    first = [(0.0, (0.0, 0.0, 0.0)), (1.0, (1.0, 0.0, 0.0)), (2.0, (5.0, 0.0, 0.0))]
-    second = [(0.0, (0.0, 0.0, 0.0)), (1.0, (3.0, 0.0, 0.0)), (2.0, (3.0, 0.0, 0.0))]
-    found = fit_drift(LEFT, {"A": first, "B": second}, 0.0)
-    assert found.slope == pytest.approx((2.0, 0.0)) and (found.marks, found.visits) == (2, 6)
-
-
-def test_marks_by_time_give_the_same_as_counted_steps() -> None:
+def test_marks_by_time_give_the_same_as_counted_steps_whatever_drift_was_known_before() -> None:
     steps = of(StrideTaken, run_session(samples(), GYROSCOPE))
     marks = [CornerMark(str(k % MARKS_PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
-    counted = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE)
-    assert square_drift(samples(), marks=marks, recipe=GYROSCOPE) == counted
+    known = Calibration(drift={LEFT: (0.5, 0.5)})
+    assert square_drift(samples(), marks=marks, recipe=GYROSCOPE, calibration=known) == measured()
+    late = [*marks, CornerMark("nowhere", steps[-1].t + 1.01)]
+    assert square_drift(samples(), marks=late, recipe=GYROSCOPE, lenient=True) == measured()
+    assert "no stride ends at mark nowhere near" in failure_of(marks=late)
 
 
-def test_a_drift_known_before_is_not_taken_off_while_calibrating() -> None:
-    known = Calibration(drift=(0.5, 0.5))
-    assert square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE, calibration=known) == square_drift(
-        samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE
-    )
+def test_slope_and_scatter_of_two_marks_in_four_laps_by_hand() -> None:
+    # the mark A moves by 1, 3 and 2 m and then by 1, 3 and 5 a lap of 10 s along x and y, B by 0.2 m/s along x:
+    # laps move by the means (0.15, 0.05), (0.25, 0.15), (0.2, 0.25) m/s; variances 0.0025 and 0.01
+    first = [(10.0 * k, (x, y, 9.0 * k)) for k, (x, y) in enumerate(((0.0, 0.0), (1.0, 1.0), (4.0, 4.0), (6.0, 9.0)))]
+    second = [(10.0 * k + 5.0, (2.0 * k, 7.0, 0.0)) for k in range(4)]
+    twice = [(10.0 * k, (100.0 * k, 0.0, 0.0)) for k in range(2)]
+    back = [(10.0 * (k % 3), (100.0 * k, 0.0, 0.0)) for k in range(4)]
+    found = fit_drift(LEFT, {"A": first, "B": second, "twice": twice, "back": back}, 0.0)
+    # A by least squares over -15, -5, 5, 15 s: (90 - 5 + 20) / 500 = 0.21 and (135 - 5 + 20) / 500 = 0.3
+    assert found.slope == pytest.approx((0.5 * (0.21 + 0.2), 0.15))
+    assert found.scatter == pytest.approx(sqrt(0.5 * (0.0025 + 0.01) / 3.0))
+    assert (found.marks, found.visits, found.foot) == (2, 8, LEFT)
+    turned = fit_drift(LEFT, {"A": first, "B": second}, 0.5 * pi)
+    assert turned.slope == pytest.approx((-0.15, 0.5 * (0.21 + 0.2)))
 
 
 def visits_at(*places: tuple[float, float, float]) -> dict[str, list[tuple[float, Vec3]]]:
@@ -150,18 +148,22 @@ def test_a_faster_drift_is_no_drift() -> None:
         check_laps(fit_drift(LEFT, laps_of_four(0.06), 0.0), laps_of_four(0.06))
 
 
-def test_laps_that_do_not_close_are_rejected_though_their_slope_is_small() -> None:
-    skewed = laps_of_four(0.0, turn=9.0)
-    with pytest.raises(CalibrationError, match="laps do not close: a mark lies 9.0 m from where it lay a lap before"):
-        check_laps(fit_drift(LEFT, skewed, 0.0), skewed)
-
-
 def test_a_straight_walk_is_no_laps() -> None:
     straight = visits_at(*[(1.1 * k, 1.3 * k, 0.0) for k in range(20)])
     with pytest.raises(CalibrationError, match="laps do not close: a mark lies 5.2 m from"):
         check_laps(fit_drift(LEFT, straight, 0.0), straight)
-    walk = emulate(Route().stand(2.0).walk(25.0, 1.2).stop(1.0), devices={Site.LEFT_FOOT: Insole(rate=50.0)}, seed=3)
-    assert "the laps do not close" in failure_of(items=walk.packets, steps_per_lap=4)
+
+
+@pytest.mark.parametrize(("turn", "closes"), [(6.6, True), (7.8, False)])
+def test_laps_close_within_a_quarter_of_the_diagonal_and_the_largest_drift(turn: float, closes: bool) -> None:
+    """The middles of the marks of 12 by 12 m lie 17.0 m apart: 4.24 m and 60 s times 0.05 m/s are 7.24 m."""
+    laps = laps_of_four(0.0, turn)
+    drift = evolve(fit_drift(LEFT, laps, 0.0), slope=(0.0, 0.0))
+    if closes:
+        check_laps(drift, laps)
+    else:
+        with pytest.raises(CalibrationError, match="laps do not close: a mark lies 7.8 m from where it lay a lap"):
+            check_laps(drift, laps)
 
 
 def failure_of(**changes: object) -> str:
@@ -176,9 +178,8 @@ def test_an_unusable_walk_is_reported_in_one_line() -> None:
     assert failure_of(items=()) == "no stride of the left foot in the recording"
     assert failure_of(foot=Foot.RIGHT) == "no stride of the right foot in the recording"
     assert failure_of(recipe=DEFAULT) == "recipe default takes no drift off"
-    assert failure_of(marks=[CornerMark("a", 1e4)]) == "no stride ends at mark a near 10000.00 s"
     assert failure_of(marks=[CornerMark("a", 5.0)]) == "no mark was stood on 3 times"
-    assert failure_of(steps_per_lap=0) == "0 marks are no square"
+    assert failure_of(steps_per_lap=3) == "3 marks are no square"
 
 
 def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
@@ -192,10 +193,7 @@ def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
     [
         ("mark,t\nA1,soon\n", "line 2: t is 'soon', not a number"),
         ("mark,t\nA1,1.0\n,2.0\n", "line 3: nothing in column mark"),
-        ("mark,t\nA1,nan\n", "line 2: t is 'nan', not a finite number"),
-        ("a,b\n1,2\n", "line 1: needs one column mark and one column t"),
         ("mark,t\n", "no visits of marks"),
-        ("", "line 1: needs one column mark"),
     ],
 )
 def test_a_table_of_something_else_is_named(tmp_path: Path, text: str, message: str) -> None:
@@ -203,11 +201,3 @@ def test_a_table_of_something_else_is_named(tmp_path: Path, text: str, message: 
     file.write_text(text)
     with pytest.raises(CalibrationError, match=message):
         read_marks(file)
-
-
-def test_no_file_and_no_text_are_named(tmp_path: Path) -> None:
-    with pytest.raises(CalibrationError, match="No such file"):
-        read_marks(tmp_path / "none.csv")
-    (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00mark")
-    with pytest.raises(CalibrationError, match="is not a csv file"):
-        read_marks(tmp_path / "bytes.csv")
