@@ -11,6 +11,7 @@ from strides import stride
 from walks import LEFT, RIGHT
 
 from solepath.body.gait.turn_detector import TurnDetector, TurnProcess
+from solepath.body.gait.turning_steps import TurningStrideFilter
 from solepath.body.gait.turns import WEIGHTS, classify
 from solepath.calibration import Calibration, CalibrationError
 from solepath.emulate.routes.route import Route
@@ -189,3 +190,16 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
     known = Calibration(toe_out={Foot.RIGHT: 0.2})
     left, right = (Projection().calibrated(foot, known).settings for foot in Foot)
     assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
+
+
+def test_a_curve_stays_a_curve_and_a_corner_keeps_its_first_and_last_turn() -> None:
+    """A circle of 24 strides of 15 degrees, most of which `turn` takes for straight; a corner of 5, 40, 40 and 5."""
+    ours, printed = TurningStrideFilter(), TurningStrideFilter()
+    circle = [radians(15.0)] * 24
+    assert sum([ours.corner_turn(turn) for turn in circle]) == pytest.approx(2.0 * pi)
+    assert sum([printed.turn(turn) for turn in circle]) < 0.3 * 2.0 * pi
+    corner = [radians(turn) for turn in (0.0, 5.0, 40.0, 40.0, 5.0, 0.0)]
+    turns = [ours.corner_turn(turn) for turn in corner]
+    assert turns[:2] == [0.0, 0.0] and turns[5] == 0.0
+    # the usual turn follows the first 5 degrees by a tenth: 5 + 39.5 + 39.5 + 4.5
+    assert sum(turns) == pytest.approx(radians(88.5))

@@ -106,21 +106,6 @@ def test_each_step_is_calibrated_by_the_step_before_it_as_the_other_foot_measure
     assert [one.stride_length for one in fused] == pytest.approx([1.2, 1.3, 1.3])
 
 
-def test_the_first_step_has_nothing_to_be_compared_with_and_keeps_its_length() -> None:
-    _, (fused,) = walked(stride_of(LEFT, 2.0, 1.2))
-    assert (fused.stride_length, fused.coefficient, fused.similarity, fused.chosen) == (1.2, 1.0, None, LEFT)
-    assert (fused.distance, fused.position) == (1.2, (1.2, 0.0, 0.0))
-
-
-def test_a_wearer_who_stood_starts_again_without_the_other_foot() -> None:
-    _, fused = walked(
-        stride_of(LEFT, 2.0), stride_of(RIGHT, 2.55, 1.0), stride_of(LEFT, 22.0, 1.2, lasts=20.0, number=2)
-    )
-    assert fused[1].similarity is not None
-    assert fused[2].similarity is None
-    assert fused[2].stride_length == 1.2
-
-
 def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> None:
     pairs = [(0.3, 0.1, 1.1, 1.4), (0.1, 0.2, 1.2, 1.2), (0.1, 0.5, 1.2, 1.2)]
     body, expected, chosen = DoubleFoot(BY_ERROR_INDEX), 0.0, set[Foot]()
@@ -133,17 +118,6 @@ def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> N
         assert b.chosen is (RIGHT if expected > 0.0 else LEFT)
         chosen.add(b.chosen)
     assert chosen == {LEFT, RIGHT}
-
-
-def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> None:
-    body, fused = walked(
-        stride_of(LEFT, 2.0, 1.2, index=0.3, direction=(0.6, 0.8)),
-        stride_of(RIGHT, 2.55, 1.4, index=0.1, direction=(0.0, 1.0)),
-    )
-    assert fused[1].chosen is RIGHT
-    assert fused[1].position == pytest.approx((0.0, 1.35, 0.0))
-    assert fused[1].distance == pytest.approx(1.35)
-    assert body.paths[Foot.LEFT].end == pytest.approx((0.72, 0.96, 0.0))
 
 
 WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)

@@ -2,65 +2,29 @@
 
 from __future__ import annotations
 
-from functools import cache
 from math import inf
 
 import pytest
 from attrs import evolve
 from strides import stride
 
-from solepath import Session, recipes
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
-from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.emulate.wearers.gait import Wearer
-from solepath.emulate.wearers.shoe import Shoe
-from solepath.emulate.wearers.soles.contact import RIGID, GroundContact
-from solepath.emulate.wearers.walker import Walker
 from solepath.events import StrideFeatures, StrideTaken
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Stance
 from solepath.papers.kupt_dfpc.fusion import DoubleFoot, FusionSettings
 from solepath.papers.kupt_dfpc.swing.drift_parts import DriftParts
-from solepath.papers.kupt_dfpc.swing.rolling_errors import RollingError
 from solepath.papers.kupt_dfpc.swing.settings import SoftSwingSettings
 from solepath.papers.kupt_dfpc.swing.soft import SoftSwing
-from solepath.types import Foot, Phase, Sample
+from solepath.types import Foot, Phase
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
 ROUTE = Route().stand(2.0).walk(20.0, 1.3).stop(1.5)
 LAYOUTS = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
 PUSH_OFF, LOADING = Phase.PUSH_OFF, Phase.LOADING
 SEEDS = (321, 322, 323, 324)
-
-
-@cache
-def walker_of(contact: GroundContact, seed: int) -> Walker:
-    return Walker(ROUTE, Wearer(shoe=Shoe(contact=contact)), seed=seed)
-
-
-@cache
-def samples(contact: GroundContact, seed: int, foot: Foot) -> tuple[Sample, ...]:
-    return tuple(walker_of(contact, seed).samples(foot, 30.0, LSM6DSOX, layout=layout(96, foot)))
-
-
-def learnt(contact: GroundContact, seed: int) -> SoftSwing:
-    """Return the corrector of a left foot that has walked 20 m in a shoe with this contact."""
-    session = Session(recipes.by_name("kupt"), calibration=LAYOUTS)
-    session.feed(samples(contact, seed, Foot.LEFT))
-    corrector = session.feet[Foot.LEFT].corrector
-    assert isinstance(corrector, SoftSwing)
-    return corrector
-
-
-@pytest.mark.parametrize("shift", [-0.01, 0.01, 0.02])
-def test_a_pivot_that_is_not_where_the_postures_put_it_is_learnt_from_walking(shift: float) -> None:
-    for seed in SEEDS[:2]:
-        there, here = learnt(evolve(RIGID, pivot_shift=shift), seed).pivot, learnt(RIGID, seed).pivot
-        assert there.shift - here.shift == pytest.approx(shift, abs=0.002)
-        assert abs(here.shift) < 0.004
-        assert there.variance < 0.003**2
 
 
 def test_parts_that_are_measured_exactly_are_those_of_equation_8() -> None:
@@ -90,25 +54,6 @@ def test_the_error_index_of_ours_is_the_sum_of_the_errors_at_toe_off_and_heel_st
             corrector.mark(0.1 * k, marks[k])
     # (10): |(0.15 - 0.11) + (0.55 - 0.40)|
     assert corrector.error_index == pytest.approx(0.04 + 0.15)
-
-
-def test_rolling_velocities_that_nobody_can_trust_leave_the_zero_velocity_alone() -> None:
-    trusting, alone = DriftParts((0.01, 0.04, 0.01)), DriftParts((0.01, 0.04, 0.01))
-    trusting.measure(1, (3.0, 0.0), 1e9)
-    for parts in (trusting, alone):
-        parts.measure(3, (0.6, 0.0), 1e-9)
-    assert trusting.x == pytest.approx(alone.x, abs=1e-6)
-    assert alone.x == pytest.approx([0.1, 0.4, 0.1], abs=1e-6)
-
-
-def test_a_slide_that_is_the_same_in_every_stride_is_learnt_and_one_that_varies_stays_uncertain() -> None:
-    steady, unsteady = RollingError(), RollingError()
-    for k in range(40):
-        steady.add(0.08, 1e-4)
-        unsteady.add(0.08 + (0.3 if k % 2 else -0.3), 1e-4)
-    assert steady.mean == pytest.approx(0.08, abs=0.005)
-    assert steady.noise < 0.05**2
-    assert unsteady.noise > 0.2**2
 
 
 def stride_of(foot: Foot, end: float, length: float, sigma: float, index: float) -> StrideTaken:

@@ -59,23 +59,6 @@ def test_a_stance_lasts_until_the_foot_turns_much_faster_than_at_its_lowest_rate
     assert standing_flags(immediate_detector(), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
 
 
-def strides(lowest_rate: float, count: int = 8) -> list[float]:
-    """Rates of so many strides of 1.1 s, at 100 Hz: half a second of swing, and a stance with its lowest rate in its
-    middle."""
-    swing = [3.0, *[5.0] * 48, 3.0]
-    stance = [lowest_rate + (3.0 - lowest_rate) * (abs(k - 30) / 30.0) ** 2 for k in range(60)]
-    return [rate for _ in range(count) for rate in (*swing, *stance)]
-
-
-@pytest.mark.parametrize("lowest_rate", [0.03, 0.3, 0.6, 0.9, 1.2])
-def test_a_wobbling_foot_stands_in_each_of_its_stances_once_its_lowest_rates_are_known(lowest_rate: float) -> None:
-    still = standing_flags(GyroscopeMagnitude(), *strides(lowest_rate))
-    stands = [any(still[k : k + 110]) for k in range(0, len(still), 110)]
-    assert all(stands[2:])
-    swings = [still[k + 10 : k + 50] for k in range(0, len(still), 110)]
-    assert not any(any(swing) for swing in swings)
-
-
 def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], list[bool]]:
     """Return the times of the samples with a load, and flags: the foot stands by the contours."""
     cells, decoder = Cells(), Decoder(Site.LEFT_FOOT)
@@ -145,11 +128,6 @@ def test_a_heel_at_rest_is_a_standing_foot_until_it_is_unloaded() -> None:
 def test_a_heel_that_rolls_at_a_few_centimetres_a_second_does_not_stand() -> None:
     rolling = [heel_load(0.8, cells=loads_at(0.040 + 0.0005 * k)) for k in range(15)]  # 5 cm/s
     assert Phase.STATIONARY not in fed(detector_with_layout(), [*[IN_AIR] * 10, *rolling])
-
-
-def test_without_a_recent_load_the_gyroscope_decides() -> None:
-    hints = fed(detector_with_layout(), [*[AT_REST] * 10, *[None] * 10], rate=2.0)
-    assert hints[9:14] == [Phase.STATIONARY] * 5 and hints[15:] == [None] * 5
 
 
 def test_too_few_cells_are_reported_once_and_the_walk_continues_by_the_gyroscope() -> None:

@@ -86,34 +86,5 @@ def test_levels_that_follow_the_load_see_nothing_of_a_heel_that_is_unloaded() ->
     assert hypot(*seen) < 1e-9
 
 
-def test_levels_that_follow_the_load_need_no_scale() -> None:
-    counts = grid(scale=None)
-    first, second = cone_loads(counts, 0.046, 0.0), cone_loads(counts, 0.048, 0.0)
-    newtons = measured_velocity(Contours(), grid(), first, second)
-    raw = measured_velocity(Contours(), counts, [4095.0 * load for load in first], [4095.0 * load for load in second])
-    assert raw == pytest.approx(newtons)
-
-
-def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells() -> None:
-    where = grid()
-    edge = 0.030  # towards the side, where the cells end at 42 mm
-    seen = measured_velocity(Contours(), where, cone_loads(where, 0.046, edge), cone_loads(where, 0.048, edge))
-    assert seen[0] == pytest.approx(0.002 / INTERVAL, rel=0.3)
-
-
-@pytest.mark.parametrize("again", [1.2, -98.0], ids=["too long after", "of a clock that begins anew"])
-def test_looks_that_are_not_to_be_compared_are_not_and_the_next_one_is(again: float) -> None:
-    where, contours = grid(), Contours()
-    contours.set_layout(where)
-    contours.velocity(1.0, cone_loads(where, 0.046, 0.0))
-    assert contours.velocity(again, cone_loads(where, 0.046, 0.0)) is None
-    assert contours.velocity(again + INTERVAL, cone_loads(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
-
-
-def test_cells_in_a_row_surround_nothing() -> None:
-    cells = tuple(Cell(0.01 * k, 0.0) for k in range(1, 9))
-    assert "do not surround" in str(Contours().set_layout(Layout(1, Foot.LEFT, cells, LENGTH)))
-
-
 numbers = st.floats(-1e9, 1e9, allow_nan=False)
 places = st.tuples(st.floats(-0.1, 0.4), st.floats(-0.1, 0.1), st.sampled_from([0.0, 1e-6, 1e-4]))

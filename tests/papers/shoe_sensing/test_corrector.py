@@ -94,50 +94,6 @@ def test_what_level_steps_have_in_common_is_taken_off_the_stairs_that_follow() -
     assert one.position[2] == pytest.approx(0.32, abs=0.015)
 
 
-def test_a_ramp_after_level_strides_is_climbed_and_a_stride_in_a_turn_is_level() -> None:
-    ramp, turning = standing_corrector(), standing_corrector()
-    for one in (ramp, turning):
-        for _ in range(20):
-            feed_flat_stride(one, 1.2, 0.0)
-    for _ in range(10):
-        feed_flat_stride(ramp, 1.2, 0.06, pitch=0.05)
-        feed_flat_stride(turning, 1.2, 0.06, turn=0.5)
-    assert ramp.position[2] == pytest.approx(0.6, abs=0.08)
-    assert turning.position[2] == pytest.approx(0.0, abs=1e-6)
-    feed_flat_stride(turning, 0.6, 0.32, turn=0.5)  # winding stairs
-    assert turning.position[2] == pytest.approx(0.32, abs=0.02)
-
-
-def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
-    tilted = from_rotation_vector((0.0, 0.1, 0.0))
-    # the foot is level, by the attitude it is pitched by 0.1 rad
-    for stance, expected in ((STILL, 0.1 * 0.3679), (MOVING, 0.1)):
-        one = standing_corrector(kp=1.0)
-        one.standing = stance is STILL
-        one.attitude = tilted
-        feed_accelerations(one, [ZERO] * 100, stance)
-        assert 2.0 * one.attitude[2] == pytest.approx(expected, rel=0.03)  # exp(-Kp t) after 1 s
-
-
-def test_the_velocity_left_at_the_end_of_a_motion_turns_the_tilt_that_would_explain_it() -> None:
-    # pitched by 0.05 rad too little: gravity leaks 0.05 g forwards; when the stance is over, half of it is corrected
-    one = standing_corrector(tilt_share=0.5, kp=0.0)
-    one.attitude = from_rotation_vector((0.0, 0.05, 0.0))
-    one.force = None
-    feed_accelerations(one, [ZERO] * 59, MOVING)
-    feed_accelerations(one, [ZERO] * 10, STILL)
-    assert 2.0 * one.attitude[2] == pytest.approx(0.05, rel=1e-3)
-    feed_accelerations(one, [ZERO], MOVING)
-    assert 2.0 * one.attitude[2] == pytest.approx(0.025, rel=0.05)
-
-
-def test_in_mid_swing_a_moment_without_acceleration_is_no_stance() -> None:
-    one = standing_corrector()
-    feed_accelerations(one, [(8.0, 0.0, 0.0)] * 40, MOVING)  # 3.2 m/s
-    assert not feed_accelerations(one, [ZERO], STILL)
-    assert one.velocity[0] == pytest.approx(3.2, rel=0.02)
-
-
 def test_an_uncertain_landing_is_corrected_by_the_certain_one_that_follows() -> None:
     sure, hasty = standing_corrector(), standing_corrector()
     n = 80
@@ -152,16 +108,6 @@ def test_an_uncertain_landing_is_corrected_by_the_certain_one_that_follows() -> 
     feed_accelerations(hasty, swing[-4:], UNCERTAIN)
     feed_accelerations(hasty, [ZERO] * 10, STILL)
     assert hasty.position == pytest.approx(sure.position, abs=2e-3)
-
-
-def test_a_gap_discards_the_motion_and_the_stance_position_is_repaired() -> None:
-    one = standing_corrector()
-    feed_accelerations(one, [(5.0, 0.0, 0.0)] * 30, MOVING)
-    assert one.bridge(3.0) == 0.0
-    assert one.velocity == ZERO
-    one.repair(0.0, (2.0, 0.0, 0.5))
-    feed_stride(one, 1.0, 0.02)
-    assert one.position == pytest.approx((3.0, 0.0, 0.52), abs=0.01)
 
 
 numbers = st.floats(-500.0, 500.0)

@@ -59,13 +59,6 @@ def test_a_landing_parts_two_flights_and_one_foot_alone_sees_it_too() -> None:
         assert sum(f.height for f in alone) == pytest.approx(3.2)
 
 
-def test_down_is_separated_from_up_also_without_a_landing_between() -> None:
-    found = flights_of([*UP_10[:-3], *range(9, -1, -1), 0])
-    assert [f.up for f in found] == [True, False]
-    assert found[1].height < 0.0
-    assert found[1].known_at == pytest.approx(0.6 * 23 + 5.0)  # both stand: nobody need walk on
-
-
 def test_a_kerb_is_no_flight() -> None:
     assert flights_of([0, 0, 1, 1, 1, 1, 0, 0, 0]) == []
 
@@ -76,15 +69,6 @@ def flights_of_strides(strides: Iterable[tuple[float, int | None]], degraded: bo
     for k, (height, way) in enumerate(strides):
         found += flights.add_stride(stride_of(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
     return found + flights.finish(60.0)
-
-
-def test_a_restarted_clock_gives_up_the_flight() -> None:
-    flights = Flights()
-    for k in range(6):
-        flights.add_stride(stride_of(FEET[k % 2], 1000.0 + k, 2 * RISER), 1)
-    flights.reset()
-    assert flights.advance(2.0, 2.0) == []
-    assert flights.add_stride(stride_of(Foot.LEFT, 3.0, 0.0), 0) == []
 
 
 def flights_upstairs(heights: list[float], *, degraded: bool = False) -> list[FlightClimbed]:
@@ -98,19 +82,6 @@ def test_a_stride_higher_than_any_stairs_rises_by_what_the_others_do() -> None:
     assert flight.height == pytest.approx(6 * 0.16)
     # also when it is the first one, before anybody knows what the others will do
     assert flights_upstairs([2.3, 0.32, 0.32, 0.32])[0].height == pytest.approx(4 * 0.16)
-
-
-def flights_by_directions(ways: list[int | None]) -> list[FlightClimbed]:
-    """Return the flights of strides with these directions; None: of 5 m, without a direction."""
-    return flights_of_strides([(5.0 if way is None else 0.32 * way, way) for way in ways])
-
-
-def test_a_stride_that_nobody_can_judge_is_of_the_flight_when_the_next_one_is() -> None:
-    (flight,) = flights_by_directions([1, 1, 1, None, 1, 1])
-    assert flight.steps == 6
-    assert flight.height == pytest.approx(6 * 0.16)
-    assert flights_by_directions([1, 1, 1, 1, None])[0].steps == 4
-    assert flights_by_directions([None, 1, 1, 1])[0].steps == 3
 
 
 strides = st.lists(

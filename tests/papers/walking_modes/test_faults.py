@@ -50,10 +50,6 @@ def seven() -> tuple[Sample, ...]:
     return tuple(limb_samples(emulated_walker(), 50.0, seed=1, layouts=LAYOUTS))
 
 
-def without_numbers(samples: Sequence[Sample], since: float) -> list[Sample]:
-    return spoiled.missing(samples, LEFT, range(96), since)
-
-
 def run_walk(
     recipe: str | Recipe, samples: Sequence[Sample], known: Calibration = KNOWN
 ) -> tuple[tuple[float, float], list[Event]]:
@@ -134,10 +130,3 @@ def test_a_lost_chain_is_replaced_by_the_tracks_and_reported_once(how: str) -> N
     assert hypot(x - by_tracks(how), y) < 2.3
     (limitation,) = [what for what in sentences(events) if "own inertial tracks" in what]
     assert named in limitation
-
-
-@pytest.mark.parametrize("silence", [(8.0, 100.0), (8.4, 13.3)])
-def test_a_foot_that_falls_silent_neither_freezes_nor_halves_the_wearer(silence: tuple[float, float]) -> None:
-    (x, y), events = run_walk("walking-modes", spoiled.silent(insole_samples(), LEFT, *silence))
-    assert hypot(x - WALK_LENGTH, y) < 1.7
-    assert len([what for what in sentences(events) if "not heard" in what]) == 1

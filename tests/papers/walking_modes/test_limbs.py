@@ -6,12 +6,10 @@ from math import cos, pi, radians, sin
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.calibration import Limbs
-from solepath.emulate.wearers.turning import matrices
-from solepath.papers.walking_modes.limbs.limbs import LIMB_SITES, SEGMENTS, LowerLimbs, joints
+from solepath.papers.walking_modes.limbs.limbs import SEGMENTS, LowerLimbs, joints
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.types import Foot, Quat, Site, Vec3
 from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
@@ -48,27 +46,6 @@ def test_a_pelvis_turned_left_moves_its_left_hip_back() -> None:
 
 
 quaternions = st.tuples(*[st.floats(-1.0, 1.0)] * 4).filter(lambda q: sum(x * x for x in q) > 0.01).map(normalise)
-
-
-def as_matrix(rotation: Quat, translation: Vec3) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-    made = np.eye(4)
-    made[:3, :3] = matrices(np.array([rotation]))[0]
-    made[:3, 3] = translation
-    return made
-
-
-@given(quaternions, quaternions, quaternions, quaternions)
-def test_the_end_is_the_last_column_of_the_product_of_homogeneous_matrices(
-    pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat
-) -> None:
-    product = (
-        as_matrix(pelvis, (0.0, 0.0, 0.0))
-        @ as_matrix(multiply(conjugate(pelvis), thigh), HIP)
-        @ as_matrix(multiply(conjugate(thigh), shank), (0.0, 0.0, -LIMBS.thigh))
-        @ as_matrix(multiply(conjugate(shank), foot), (0.0, 0.0, -LIMBS.shank))
-        @ as_matrix(IDENTITY, (LIMBS.foot, 0.0, -LIMBS.ankle_height))
-    )
-    assert joints(pelvis, thigh, shank, foot, HIP, LIMBS)[3] == pytest.approx(tuple(product[:3, 3]), abs=1e-9)
 
 
 def stood(chain: LowerLimbs, mounted: dict[Site, Quat], segments: dict[Site, Quat] | None = None) -> None:
@@ -127,37 +104,3 @@ def lean(attitude: Quat, stood: Quat) -> float:
     """Return the angle from the vertical, rad, of an axis that stood upright."""
     _, _, z = rotate(multiply(attitude, conjugate(stood)), (0.0, 0.0, 1.0))
     return float(np.arccos(min(1.0, z)))
-
-
-def stand_again(chain: LowerLimbs, site: Site, world: Quat, start: float) -> None:
-    """The wearer stands for 0.6 s more, with a sensor whose world is turned by `world` from the one before."""
-    for k in range(31):
-        for other in SEGMENTS:
-            attitude = multiply(world, MOUNTINGS[other]) if other is site else MOUNTINGS[other]
-            chain.set_attitude(other, start + 0.02 * k, attitude)
-
-
-def test_a_restarted_sensor_is_used_again_in_its_new_world_once_it_stood_still() -> None:
-    chain = LowerLimbs(SETTINGS)
-    stood(chain, MOUNTINGS)
-    world = from_yaw(2.0)
-    chain.reset(Site.LEFT_THIGH)
-    chain.set_attitude(Site.LEFT_THIGH, 0.62, multiply(world, MOUNTINGS[Site.LEFT_THIGH]))
-    assert not chain.is_current(0.62)
-    assert "left thigh restarted" in chain.why_unusable(0.62, SEGMENTS)
-    stand_again(chain, Site.LEFT_THIGH, world, 0.64)
-    assert chain.is_current(1.24)
-    assert chain.end(Foot.LEFT, 1.24) == pytest.approx((0.2, 0.1, -0.95))
-    swing_left_leg(chain, 1.26, world)
-
-
-def test_why_the_chain_is_not_known_names_the_site() -> None:
-    chain = LowerLimbs(SETTINGS)
-    assert chain.why_unusable(0.0, ()).startswith("no sensor heard at the pelvis, left thigh")
-    assert chain.why_unusable(0.0, LIMB_SITES).startswith("no attitude, and no acceleration")
-    stood(chain, MOUNTINGS)
-    for site in SEGMENTS:
-        if site is not Site.RIGHT_SHANK:
-            chain.set_attitude(site, 1.0, MOUNTINGS[site])
-    assert not chain.is_current(1.0)
-    assert chain.why_unusable(1.0, LIMB_SITES) == "the newest attitude of the right shank is 0.4 s old"

@@ -109,21 +109,6 @@ def test_standing_is_more_than_seven_tenths_of_the_bodys_weight_on_both_feet(new
     assert seen == ({None, WalkingMode.STANDING} if stands else {None})
 
 
-@pytest.mark.parametrize("cells", [96, 99])
-@pytest.mark.parametrize("foot", list(Foot))
-def test_seven_regions_of_two_points_each_are_on_any_fine_insole(cells: int, foot: Foot) -> None:
-    insole = layout(cells, foot)
-    found = regions(insole)
-    assert {name: len(where) for name, where in found.items()} == dict.fromkeys(REGION_POINTS, 2)
-    outward = 1.0 if foot is LEFT else -1.0
-    for name, where in found.items():
-        across = [outward * insole.cells[k].y for k in where]
-        if name.startswith("L"):
-            assert min(across) > 0.02
-        elif name.startswith("R"):
-            assert max(across) < -0.02
-
-
 def test_a_contact_gives_each_region_as_a_multiple_of_the_mean_cell() -> None:
     insole, contact = layout(99, LEFT), Contact()
     contact.set_layout(insole)
