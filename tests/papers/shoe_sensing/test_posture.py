@@ -69,38 +69,6 @@ def test_one_step_of_a_constant_rate_has_four_terms_of_the_series() -> None:
     assert turn(IDENTITY, (0.0, 0.0, 2.0), (0.0, 0.0, 2.0), 0.1) == pytest.approx(expected, abs=1e-15)
 
 
-def runge_kutta(rate: Vec3, h: float, weights: tuple[float, float, float, float]) -> Quat:
-    """Return Q after `h` s at a constant rate, from the identity: 1 + h/6 of the weighted k, each k = 1/2 Q w."""
-
-    def derivative(q: Quat) -> Vec4:
-        w, x, y, z = multiply(q, (0.0, *rate))
-        return (0.5 * w, 0.5 * x, 0.5 * y, 0.5 * z)
-
-    def moved(k: Vec4, by: float) -> Quat:
-        w, x, y, z = IDENTITY
-        return (w + by * k[0], x + by * k[1], y + by * k[2], z + by * k[3])
-
-    k1 = derivative(IDENTITY)
-    k2 = derivative(moved(k1, 0.5 * h))
-    k3 = derivative(moved(k2, 0.5 * h))
-    k4 = derivative(moved(k3, h))
-    a, b, c, d = weights
-    w, x, y, z = (a * k1[i] + b * k2[i] + c * k3[i] + d * k4[i] for i in range(4))
-    return normalise(moved((w, x, y, z), h / 6.0))
-
-
-def test_the_printed_weights_turn_a_sixth_too_far_and_the_classical_ones_do_not() -> None:
-    # 1e-4 rad about z: each k is 0.005 of z, so k1 + 2 k2 + 3 k3 + k4 is 0.035, and h/6 of it half of 7/6 of 1e-4 rad
-    rate = (0.0, 0.0, 0.01)
-    assert 2.0 * runge_kutta(rate, 0.01, (1.0, 2.0, 3.0, 1.0))[3] == pytest.approx(7.0 / 6.0 * 1e-4, rel=1e-6)
-    assert 2.0 * turn(IDENTITY, rate, rate, 0.01)[3] == pytest.approx(1e-4, rel=1e-6)
-
-
-def test_the_quaternion_is_moved_by_the_classical_weights() -> None:
-    rate = (3.0, -2.0, 4.0)
-    assert turn(IDENTITY, rate, rate, 0.1) == pytest.approx(runge_kutta(rate, 0.1, (1.0, 2.0, 2.0, 1.0)), abs=1e-15)
-
-
 def test_a_rate_that_grows_counts_with_its_mean() -> None:
     q = turn(IDENTITY, (0.0, 0.0, 0.0), (0.0, 2.0, 0.0), 0.1)
     assert q == pytest.approx((cos(0.05), 0.0, sin(0.05), 0.0), abs=1e-6)
