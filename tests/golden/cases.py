@@ -344,9 +344,6 @@ PLACES: tuple[Case, ...] = (
     Case("a heading walk", heading),
 )
 
-PARTS: dict[str, tuple[Case, ...]] = {"devices": DEVICES, "faults": FAULTS, "recipes": RECIPES, "places": PLACES}
-"""All cases by the part of the corpus that they are in."""
-
 LONGEST = 40.0
 """Longest part of a recording that is fed, s."""
 EVERY_RECIPE = ("marpino_heel_toe", "hugadb")
@@ -373,9 +370,3 @@ def recorded() -> list[Case]:
                     Case(f"{path.parent.name} {file.stem}, {name}", partial(read_cut, file), name, recorded=True)
                 )
     return cases
-
-
-@cache
-def all_cases() -> dict[str, Case]:
-    """Return every case by its name, the long ones first, since several are computed at a time."""
-    return {case.name: case for case in (*PLACES, *RECIPES, *DEVICES, *FAULTS, *recorded())}

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from cases import PARTS
 from corpus import Case, differences
+from table import PARTS
 
 
 @pytest.mark.parametrize("case", PARTS["recipes"], ids=lambda case: case.name)

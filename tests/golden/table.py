@@ -1,0 +1,27 @@
+"""All cases of the golden corpus, by the part that a test file checks."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from cases import DEVICES, FAULTS, PLACES, RECIPES, recorded
+from corpus import Case
+from paper_cases import PAPERS
+
+PARTS: dict[str, tuple[Case, ...]] = {
+    "devices": DEVICES,
+    "faults": FAULTS,
+    "recipes": RECIPES,
+    "papers": PAPERS,
+    "places": PLACES,
+}
+
+
+@cache
+def all_cases() -> dict[str, Case]:
+    """Return every case by its name, the long ones first, since several are computed at a time."""
+    parts = [case for name in ("places", "recipes", "devices", "faults", "papers") for case in PARTS[name]]
+    cases = [*parts, *recorded()]
+    named = {case.name: case for case in cases}
+    assert len(named) == len(cases), "two cases have one name"
+    return named
