@@ -10,7 +10,6 @@ import attrs
 import pytest
 from attrs import evolve
 from hypothesis import Phase, settings
-from hypothesis import strategies as st
 from walks import NAMES, insoles, machine_events, machines, of, samples
 
 from solepath import (
@@ -116,10 +115,6 @@ def test_live_position_comes_with_the_sample() -> None:
         for event in moved:
             assert event.known_at == max(packet.t, event.t)
             assert not event.final
-
-
-PIECE_SIZES = st.integers(0, 399).map(lambda k: 400 - k)
-"""Sizes of pieces; hypothesis tries 400 first, since single items are what other sizes are compared with."""
 
 
 PLAIN_TYPES = (float, int, bool, str, type(None))

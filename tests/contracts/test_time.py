@@ -15,8 +15,6 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
 
-SHIFTED_EARLIER = ("decoder", "session, whole frames", "session, cc2541", "session, samples")
-"""Starts of the names of machines that are also tested at negative times; for other recipes one shift is enough."""
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
 
 

@@ -11,7 +11,7 @@ import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
+from walks import DEVICE_NAMES, LEFT, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
 
 from solepath import FootMoved, Packet, PacketRejected, Rejection, Sample, SampleRejected, Session, Site, StrideTaken
 from solepath.link.catalogue import PROFILES
@@ -47,7 +47,7 @@ def check_times(events: list[Any]) -> None:
         assert isfinite(event.t) and isfinite(event.known_at) and event.known_at >= event.t, event
 
 
-@pytest.mark.parametrize("name", PACKET_NAMES)
+@pytest.mark.parametrize("name", [*DEVICE_NAMES, "session, kupt-dfpc", "session, walking-modes"])
 @given(st.data())
 @settings(max_examples=12)
 def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(name: str, data: st.DataObject) -> None:
@@ -115,13 +115,6 @@ def spoilt(sample: Sample, last: Sample) -> dict[str, tuple[Sample, Rejection]]:
         "earlier": (evolve(sample, t=last.t - 0.5), Rejection.TIME_BACKWARDS),
         "much earlier": (evolve(sample, t=-1e9), Rejection.TIME_BACKWARDS),
     }
-
-
-SAMPLE_FAULTS = sorted(spoilt(Sample(0.0, LEFT), Sample(0.0, LEFT)))
-
-
-FIRST_INDEX = len(Site)
-"""Index of the first item before which every site has sent a sample."""
 
 
 def around(items: tuple[Sample, ...], k: int) -> tuple[Sample, Sample]:

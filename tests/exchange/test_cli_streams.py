@@ -66,8 +66,12 @@ def test_what_live_publishes_is_run_by_lsl_and_published_again(tmp_path: Path) -
     assert len(strikes) > 6 and all(-0.5 < event["t"] < 9.0 for event in strikes)
 
 
+@pytest.mark.soak
 def test_a_stream_that_is_not_there_is_one_sentence() -> None:
     done = run("live", "--left", "lsl:none of these", expect=2)
     assert "there is no stream 'none of these'; there are: none" in done.stderr
+
+
+def test_a_stream_without_a_name_or_with_other_units_is_one_sentence() -> None:
     assert "lsl: names no stream" in run("live", "--left", "lsl:", expect=2).stderr
     assert "not ACC,GYRO" in run("live", "--left", "lsl:x", "--units", "g", expect=2).stderr

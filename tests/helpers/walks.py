@@ -254,6 +254,7 @@ _STREAMS = (
 )
 DEVICES = ("few frames", *_STREAMS)
 """Names of `packets`, known without an emulation."""
+DEVICE_NAMES = tuple(f"session, {device}" for device in _STREAMS)
 PACKET_NAMES = (
     *(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS),
     *(f"session, {recipe}" for recipe in RECIPES),

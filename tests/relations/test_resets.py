@@ -123,7 +123,7 @@ What stays is what was learnt of wearer, device and mounting (axis, bias, scale,
 what was reported of it, and counts; and values that are set again before they are read, with a field that was reset."""
 ELSEWHERE = {"Decoder._restart", "PeriodicClock._restart", "DeviceSetup.restart_clock", "PitchGauge.restart"}
 """Methods that go on with a packet, see the relations of streams; and two whose records are no state of a session: a
-device's setup (tests/link/test_device_setup.py) and the gauge of a shoe (tests/papers/kupt_dfpc/test_calibration.py)."""
+device's setup (tests/link/test_device_setup.py), and a shoe's gauge (tests/papers/kupt_dfpc/test_calibration.py)."""
 ROOMS = ("link", "foot", "body", "floorplan", "papers", "session", "saving")
 """Rooms whose records can be in the state of a session."""
 

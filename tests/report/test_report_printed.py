@@ -61,7 +61,7 @@ async def test_a_report_ends_on_two_pages_of_paper_or_on_one_without_gait_and_no
         assert await view.tab.evaluate(CUT) == []
 
 
-@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("dark", [False, pytest.param(True, marks=pytest.mark.soak)])
 async def test_on_a_screen_nothing_is_cut_no_letter_is_small_and_axe_finds_no_violation(
     chromium: Browser, dark: bool, tmp_path: Path
 ) -> None:

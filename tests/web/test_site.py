@@ -20,6 +20,7 @@ TO_THE_END = """(() => { const seek = document.getElementById('seek');
     seek.value = seek.max; seek.dispatchEvent(new Event('change')); })()"""
 
 
+@pytest.mark.soak
 async def test_without_its_server_the_demonstration_gives_the_strides_that_cpython_gives(
     chromium: Browser, site: Path
 ) -> None:
