@@ -7,12 +7,10 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.floorplan.crossing import Walls
-from solepath.floorplan.enclosure import Enclosure
-from solepath.floorplan.grid import Grid
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import (
     Connector,
@@ -24,7 +22,7 @@ from solepath.floorplan.plan import (
     Level,
     Wall,
 )
-from solepath.floorplan.segments import distance, side, touch
+from solepath.floorplan.segments import touch
 
 Line = tuple[tuple[float, float], tuple[float, float]]
 
@@ -56,26 +54,11 @@ def test_lines_touch_exactly_when_fractions_do(a: Line, b: Line) -> None:
     assert touch(*a[0], *a[1], *b[0], *b[1]) == exactly_touch(a, b)
 
 
-@given(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 6))
-def test_a_side_is_exact_for_all_finite_floats(p: tuple[float, ...]) -> None:
-    ax, ay, bx, by, cx, cy = map(Fraction, p)
-    turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    assert side(*p) == (turn > 0) - (turn < 0)
-
-
 @given(walls_of, st.lists(lines, min_size=1, max_size=8))
 def test_a_move_crosses_when_it_touches_any_wall_exactly(walls: list[Line], moves: list[Line]) -> None:
     grid = Walls(walls)
     for start, end in moves:
         assert grid.crosses(*start, *end) == any(exactly_touch((start, end), wall) for wall in walls)
-
-
-@given(walls_of, places, st.floats(0.0, 1.5), st.floats(0.0, 6.3))
-def test_a_step_crosses_when_it_touches_any_wall_exactly(
-    walls: list[Line], start: tuple[float, float], length: float, heading: float
-) -> None:
-    end = (start[0] + length * math.cos(heading), start[1] + length * math.sin(heading))
-    assert Walls(walls).crosses(*start, *end) == any(exactly_touch((start, end), wall) for wall in walls)
 
 
 @given(st.integers(0, 10_000_000), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0),
@@ -114,50 +97,6 @@ def test_nobody_leaves_a_round_room_of_a_thousand_walls() -> None:
             x, y = 9.9 * math.cos(heading), 9.9 * math.sin(heading)
             assert walls.crosses(x, y, x + length * math.cos(heading), y + length * math.sin(heading))
         assert not walls.crosses(0.0, 0.0, 9.8 * math.cos(heading), 9.8 * math.sin(heading))
-
-
-@given(lines, st.lists(lines, max_size=3), st.floats(0.0, 3.0), st.integers(64, 3000))
-def test_walking_along_a_line_finds_all_cells_that_are_near_and_no_others(
-    line: Line, others: list[Line], within: float, most: int
-) -> None:
-    flat = [(*start, *end) for start, end in (line, *others)]
-    grid = Grid(flat, 0.5, 0.25, most)
-    cells = grid.find_near(*flat[0], within)
-    assert len(dict(cells)) == len(cells)
-    for cell in range(grid.columns * grid.rows):
-        x, y = (
-            grid.left + (cell % grid.columns + 0.5) * grid.cell,
-            grid.bottom + (cell // grid.columns + 0.5) * grid.cell,
-        )
-        distance_ = distance(*flat[0], x, y)
-        if abs(distance_ - within) > 1e-9:
-            assert (cell in dict(cells)) == (distance_ < within)
-
-
-def test_a_wall_across_the_largest_plan_is_in_the_cells_along_it_only() -> None:
-    grid = Grid([(0.0, 0.0, 5000.0, 5000.0)], 2.0, 0.5, 100_000)
-    assert grid.columns * grid.rows > 95_000
-    assert len(grid.find_near(0.0, 0.0, 5000.0, 5000.0, 13.0)) < 1300
-
-
-@settings(max_examples=60)
-@given(walls_of, st.integers(64, 400))
-def test_outside_is_what_a_walk_over_the_lattice_reaches_without_touching_a_wall(walls: list[Line], most: int) -> None:
-    level, solid = Level("0", "", 0, 0.0, tuple(Wall(start, end) for start, end in walls)), Walls(walls)
-    enclosure = Enclosure(level, solid, most)
-    points_by_index = {(i, j): enclosure.point(i, j) for i in range(enclosure.columns) for j in range(enclosure.rows)}
-    assume(all(distance(*start, *end, *place) > 1e-6 for start, end in walls for place in points_by_index.values()))
-    reached, queue = {(0, 0)}, [(0, 0)]
-    for i, j in queue:
-        for neighbour in ((i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)):
-            if (
-                neighbour in points_by_index
-                and neighbour not in reached
-                and not solid.crosses(*points_by_index[i, j], *points_by_index[neighbour])
-            ):
-                reached.add(neighbour)
-                queue.append(neighbour)
-    assert sorted(enclosure.outside) == sorted(points_by_index[at] for at in reached)
 
 
 def level(level_id: str, elevation: float, **more: object) -> Level:

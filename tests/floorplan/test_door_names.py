@@ -3,26 +3,21 @@
 from __future__ import annotations
 
 import csv
-import math
 from pathlib import Path
 
 import pytest
 from attrs import evolve
-from floorplans import FILES, archive, plans
+from floorplans import FILES, archive
 from floors import METHODS, Method, Pedestrian, follow, placed
-from hypothesis import given
-from hypothesis import strategies as st
 
 from solepath import Placed
 from solepath.emulate.routes.building import BUILDING
 from solepath.events import Candidate
-from solepath.floorplan.door_names import REACH
 from solepath.floorplan.doors import cut_doors
 from solepath.floorplan.importers.geojson import format_floorplan
-from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
+from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall
-from solepath.floorplan.segments import distance
 from solepath.show.output import TrackFiles
 from solepath.show.tables.summary import place_line
 
@@ -53,26 +48,6 @@ def test_a_wearer_on_the_doorstep_is_at_the_door_from_post_to_post() -> None:
     assert {plan.door(0, 4.6 + 0.05 * k, 0.0) for k in range(1, 20)} == {"west door"}
 
 
-def test_a_door_without_a_name_does_not_count_and_any_number_is_a_place() -> None:
-    plan = IndexedPlan(flat(evolve(LEFT, name=""), RIGHT))
-    assert plan.door(0, 5.2, -0.3) == "east door"
-    assert [plan.door(0, *place) for place in ((math.nan, 0.0), (0.0, math.inf), (1e300, -1e300))] == [None] * 3
-    assert IndexedPlan(flat(evolve(LEFT, name=""))).door(0, 5.0, 0.3) is None
-
-
-@given(plans(), st.floats(-10.0, 10.0), st.floats(-10.0, 10.0))
-def test_the_grid_finds_a_door_only_where_a_look_at_every_door_finds_it(plan: FloorPlan, x: float, y: float) -> None:
-    index = IndexedPlan(plan)
-    for number, level in enumerate(plan.levels):
-        far = {door: distance(*door.start, *door.end, x, y) for door in level.doors if door.name}
-        seen = index.door(number, x, y)
-        assert seen is None or seen in {door.name for door, away in far.items() if away <= REACH}
-        if index._door_names[number] is not None:
-            found = index._door_names[number].near(x, y)
-            assert {door for door, _, _ in found} == {door for door, away in far.items() if away <= REACH}
-            assert [far[door] for door, _, _ in found] == sorted([far[door] for door, _, _ in found])
-
-
 def named_in_geojson() -> bytes:
     text = (FILES / "house.geojson").read_text(encoding="utf-8")
     return text.replace('"door", "level": "0", "name": ""', '"door", "level": "0", "name": "street"', 1).encode()
@@ -92,18 +67,6 @@ def test_a_door_has_the_name_that_its_file_gives_it(file: bytes) -> None:
     assert [door.name for level in plan.levels for door in level.doors if door.name] == ["street"]
     assert IndexedPlan(plan).door(0, 0.5, 5.0) == "street" and IndexedPlan(plan).door(0, 4.5, 5.5) is None
     assert parse_floorplan(format_floorplan(plan).encode()) == plan
-
-
-@pytest.mark.parametrize("key", ["name", "ref"])
-def test_an_entrance_of_openstreetmap_has_its_name_or_its_number(key: str) -> None:
-    text = (FILES / "house.osm").read_text(encoding="utf-8")
-    assert text.count('<tag k="door" v="yes"/>') > 1
-    entrance = f'<tag k="entrance" v="main"/><tag k="{key}" v="A3"/>'
-    plan = parse_floorplan(text.replace('<tag k="door" v="yes"/>', entrance, 1).encode())
-    named = [door for level in plan.levels for door in level.doors if door.name]
-    assert {door.name for door in named} == {"A3"}
-    (ax, ay), (bx, by) = named[0].start, named[0].end
-    assert IndexedPlan(plan).door(0, 0.5 * (ax + bx) + 0.2, 0.5 * (ay + by) + 0.2) == "A3"
 
 
 def named_building() -> FloorPlan:
@@ -130,15 +93,6 @@ def test_a_wearer_who_goes_into_a_room_is_at_its_door_on_the_way(method: type[Me
     assert rooms[0] == "corridor 1" and rooms[-1] == "room 5"
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_wearer_who_goes_by_a_lift_to_the_way_out_is_at_one_and_then_at_the_other(method: type[Method]) -> None:
-    part = method()
-    wearer = Pedestrian(4, "0", (9.0, 6.0)).known_to(part)
-    wearer.walk((9.0, 1.0))
-    events = placed(follow(part, wearer.received, IndexedPlan(BUILDING)))
-    assert events[0].door == "lift A" and events[-1].door == "way out"
-
-
 def test_the_table_of_places_and_the_line_for_people_have_the_door(tmp_path: Path) -> None:
     candidates = (Candidate("0", (1.0, 2.0, 0.0), 0.0, 1.0, "start"),)
     place = Placed(
@@ -153,9 +107,3 @@ def test_the_table_of_places_and_the_line_for_people_have_the_door(tmp_path: Pat
     files.close()
     rows = list(csv.DictReader((tmp_path / "places.csv").open(encoding="utf-8")))
     assert [row["door"] for row in rows] == ["X", ""]
-
-
-def test_the_house_of_the_protocol_reads_without_names_of_doors() -> None:
-    house = read_floorplan(FILES / "house.geojson")
-    assert not any(door.name for level in house.levels for door in level.doors)
-    assert IndexedPlan(house).door(0, 0.5, 5.0) is None

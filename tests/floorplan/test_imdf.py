@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from solepath.floorplan.importers.earth import Tangent
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, FloorPlanError, Point
+from solepath.floorplan.plan import Anchor, ConnectorKind, FloorPlan, Point
 
 CORNER = Tangent(Anchor(48.15, 11.57))
 HOUSE = read_floorplan(FILES / "house.geojson")
@@ -86,14 +86,6 @@ def test_an_opening_of_several_parts_is_as_many_doors() -> None:
         ((4.0, 0.0), (5.0, 0.0), "Revolving door"), ((5.0, 0.0), (5.0, 1.0), "Revolving door")]  # fmt: skip
 
 
-def test_a_unit_of_several_polygons_and_one_with_a_hole() -> None:
-    ring = box(0, 0, 12, 10) + box(4, 4, 8, 6)
-    plan = IndexedPlan(plan_of([unit("u", "room", [ring, box(14, 2, 18, 8)], geometry="MultiPolygon")]))
-    for x, y, inside in ((2.0, 2.0, True), (6.0, 5.0, False), (10.0, 5.0, True), (13.0, 5.0, False), (16.0, 5.0, True)):
-        assert plan.inside(0, x, y) == inside
-    assert plan.crosses(0, 3.5, 5.0, 4.5, 5.0)
-
-
 def test_lifts_are_joined_where_they_lie_over_each_other_and_stop_where_they_are_shown() -> None:
     levels = [level("L0", 0, short_name={"en": "G"}), level("L1", 1, short_name={"en": "1"}),
               level("L2", 2, short_name={"en": "2"})]  # fmt: skip
@@ -120,12 +112,6 @@ def test_levels_lie_a_storey_apart_by_their_ordinals_whatever_their_order() -> N
     found = plan_of([], [level("up", 2), level("down", -1), level("ground", 0)])
     assert [(one.id, one.ordinal, one.elevation) for one in found.levels] == [
         ("down", -1, -3.0), ("ground", 0, 0.0), ("up", 2, 6.0)]  # fmt: skip
-
-
-def test_a_unit_far_from_the_others_is_named() -> None:
-    far = "^unit 'u': latitude 48.15, longitude 12 is far from the rest of the plan$"
-    with pytest.raises(FloorPlanError, match=far):
-        plan_of([unit("u", "room", [[[12.0, 48.15], [12.1, 48.15], [12.1, 48.2]]])])
 
 
 @settings(max_examples=25)

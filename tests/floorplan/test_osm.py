@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from xml.sax.saxutils import quoteattr
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from solepath.floorplan.importers.earth import Tangent
 from solepath.floorplan.importers.osm_tags import parse_levels
@@ -77,15 +75,6 @@ def test_other_values_have_no_levels(text: str) -> None:
         parse_levels(text)
 
 
-@given(st.text(alphabet="0123456789-;. x", max_size=10))
-def test_any_value_has_levels_in_order_or_none(text: str) -> None:
-    try:
-        found = parse_levels(text)
-    except FloorPlanError:
-        return
-    assert found == sorted(set(found))
-
-
 def test_a_room_has_walls_an_area_has_none_and_a_corridor_has_them_towards_neither() -> None:
     drawn = Map().way(box(0, 0, 10, 4), indoor="room", level="0").way(box(0, 4, 10, 8), indoor="corridor", level="0")
     drawn.way(box(10, 4, 20, 8), indoor="corridor", level="0").way(box(0, 8, 20, 12), indoor="area", level="0")
@@ -96,14 +85,6 @@ def test_a_room_has_walls_an_area_has_none_and_a_corridor_has_them_towards_neith
     assert plan.crosses(0, 15.0, 5.0, 15.0, 3.0)  # corridor to nothing
     assert not plan.crosses(0, 5.0, 11.0, 5.0, 13.0)  # area to nothing
     assert all(plan.inside(0, x, y) for x, y in ((5.0, 2.0), (5.0, 6.0), (15.0, 6.0), (5.0, 10.0)))
-
-
-def test_walls_and_pillars_are_solid_and_no_rooms() -> None:
-    drawn = house().way([(5.0, 0.0), (5.0, 6.0), (8.0, 6.0)], indoor="wall", level="0")
-    plan = IndexedPlan(drawn.way(box(14, 4, 15, 5), indoor="column", level="0").plan())
-    assert plan.crosses(0, 4.0, 3.0, 6.0, 3.0)
-    assert plan.crosses(0, 13.5, 4.5, 14.5, 4.5)
-    assert len(plan.plan.levels[0].rooms) == 1
 
 
 def test_a_door_node_is_centred_in_its_wall_with_its_width() -> None:
@@ -123,13 +104,6 @@ def test_a_door_beside_a_wall_belongs_to_it_and_one_far_from_all_is_remarked_upo
     plan = house().node((5.0, 0.3), door="yes", level="0", width="2").node((5.0, 5.0), door="yes", level="0").plan()
     assert plan.levels[0].doors == (Door((4.0, 0.0), (6.0, 0.0)),)
     assert plan.remarks == ("node '6': a door on level '0' that is in no wall",)
-
-
-def test_doors_drawn_as_lines_and_doors_of_some_levels_only() -> None:
-    drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-2")
-    drawn.way([(3.0, 0.0), (5.0, 0.0)], indoor="door", level="0").node((0.0, 0.0), door="hinged", level="1-2")
-    assert [len(level.doors) for level in drawn.plan().levels] == [1, 1, 1]
-    assert drawn.node((20.0, 10.0), door="no").plan().levels[2].doors == (Door((0.0, 0.0), (1.0, 0.0)),)
 
 
 def test_repeat_on_puts_one_room_on_many_levels() -> None:
@@ -195,33 +169,3 @@ def test_a_room_that_does_not_close_is_walls_and_a_remark() -> None:
     assert plan.remarks == ("way '7': its outline does not close",)
     assert IndexedPlan(plan).crosses(0, 5.0, 1.5, 5.0, 2.5)
     assert len(plan.levels[0].rooms) == 1
-
-
-tags = st.dictionaries(
-    st.sampled_from(["indoor", "level", "repeat_on", "door", "highway", "stairs", "width", "incline", "name", "area"]),
-    st.sampled_from(["room", "area", "corridor", "wall", "door", "level", "0", "0-1", "1;2", "-1", "yes", "no", "2",
-                     "elevator", "steps", "down", "x"]), max_size=4)  # fmt: skip
-grid = st.tuples(st.integers(0, 5), st.integers(0, 5)).map(lambda p: (float(p[0]), float(p[1])))
-
-
-members_of = st.lists(st.tuples(st.integers(1, 6), st.sampled_from(["outer", "inner", ""])), max_size=3)
-
-
-@given(st.lists(st.tuples(st.lists(grid, max_size=6), st.booleans(), tags), max_size=5),
-       st.lists(st.tuples(grid, tags), max_size=4), st.lists(st.tuples(members_of, tags), max_size=2))  # fmt: skip
-def test_anything_drawn_with_any_tags_is_a_plan_or_rejected(
-    ways: list[tuple[list[Point], bool, dict[str, str]]],
-    nodes: list[tuple[Point, dict[str, str]]],
-    relations: list[tuple[list[tuple[int, str]], dict[str, str]]],
-) -> None:
-    drawn = Map().way(box(0, 0, 6, 6), indoor="room", level="0")
-    for i, (places, closed, level_tag) in enumerate(ways):
-        drawn.way([*places, places[0]] if closed and places else places, i + 1, **level_tag)
-    for place, level_tag in nodes:
-        drawn.node(place, **level_tag)
-    for members, level_tag in relations:
-        drawn.relation(members, **level_tag)
-    try:
-        IndexedPlan(drawn.plan())
-    except FloorPlanError as error:
-        assert "\n" not in str(error)

@@ -46,8 +46,3 @@ def test_a_picture_that_cannot_be_written_is_reported_before_the_walk_is_compute
     done = run("track", walk, "--floorplan", plan, "--out", tmp_path / "out")
     assert done.returncode == 2 and done.stdout == "" and "plan.svg" in done.stderr.splitlines()[-1]
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["plan.svg"], "nothing was written"
-
-
-def test_the_legend_names_only_what_the_plan_has() -> None:
-    texts = {one.text for one in PlanPicture(named("0", "hall")).drawn("walk").iter()}
-    assert {"candidate", "lift"} <= texts and "stairs" not in texts

@@ -7,17 +7,15 @@ import math
 
 import pytest
 from attrs import evolve
-from floorplans import FILES, archive, plans
+from floorplans import FILES, archive
 from floors import METHODS, Method, Pedestrian, follow, placed
-from hypothesis import given
-from hypothesis import strategies as st
 
 from solepath.emulate.routes.building import BUILDING
 from solepath.floorplan.checks import find_fault
 from solepath.floorplan.importers.geojson import format_floorplan
 from solepath.floorplan.importers.reading import parse_floorplan, read_floorplan
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.outlines import Ring, area, contains, edges
+from solepath.floorplan.outlines import Ring
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall, with_rooms
 
 HOUSE = read_floorplan(FILES / "house.geojson")
@@ -55,33 +53,12 @@ def test_outside_of_every_room_and_in_a_room_without_a_name_there_is_no_name() -
     assert plan.inside(0, 4.0, 7.0) and plan.room(0, 4.0, 7.0) is None
 
 
-def test_a_plan_without_names_has_rooms_and_none_of_them_is_named() -> None:
-    plan = flat((KITCHEN[0], ""), (BATH[0], ""))
-    assert plan.levels[0].room_names == () and len(plan.levels[0].rooms) == 2
-    assert IndexedPlan(plan).room(0, 2.5, 2.5) is None
-
-
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_booth_in_a_hall_is_the_booth_in_whatever_order_and_direction_they_are_drawn(turned: bool) -> None:
     rooms = [(box(0.0, 0.0, 20.0, 20.0), "hall"), (box(8.0, 8.0, 10.0, 10.0), "booth")]
     drawn = [(ring[::-1], name) for ring, name in rooms[::-1]] if turned else rooms
     plan = IndexedPlan(flat(*drawn))
     assert plan.room(0, 9.0, 9.0) == "booth" and plan.room(0, 7.0, 9.0) == "hall"
-
-
-def test_a_room_has_the_same_name_on_one_level_only() -> None:
-    plan = IndexedPlan(HOUSE)
-    assert [plan.room(level, 4.0, 2.0) for level in (0, 1)] == ["A", "AB"]
-
-
-@given(plans(), st.floats(-10.0, 10.0), st.floats(-10.0, 10.0))
-def test_the_grid_finds_what_a_look_at_every_room_finds(plan: FloorPlan, x: float, y: float) -> None:
-    index = IndexedPlan(plan)
-    for number, level in enumerate(plan.levels):
-        named = [(ring, name) for ring, name in zip(level.rooms, level.room_names, strict=False) if name]
-        around = [(abs(area(ring)), name) for ring, name in named if contains(edges(ring), x, y)]
-        found = index.room(number, x, y)
-        assert found in [name for size, name in around if size == min(around)[0]] if around else found is None
 
 
 @pytest.mark.parametrize(("names", "message"), [
@@ -120,13 +97,6 @@ def test_the_rooms_of_the_house_have_their_names_in_every_format(name: str) -> N
     assert [level.room_names for level in levels] == [("A", "Corridor", "C", "B", "D"), ("AB", "Corridor", "C", "D")]
 
 
-def test_a_room_of_openstreetmap_without_a_name_has_its_number() -> None:
-    text = (FILES / "house.osm").read_text(encoding="utf-8")
-    numbered = text.replace('<tag k="name" v="A"/>', '<tag k="ref" v="12"/>').replace('<tag k="name" v="B"/>', "")
-    level = parse_floorplan(numbered.encode()).levels[0]
-    assert level.room_names == ("12", "Corridor", "C", "", "D")
-
-
 def test_a_unit_of_imdf_has_its_name_in_the_language_of_the_archive() -> None:
     files = {path.name: path.read_bytes() for path in (FILES / "house-imdf").iterdir()}
     text = files["unit.geojson"].decode().replace('{"en": "A"}', '{"de": "Küche", "en": "A"}')
@@ -143,15 +113,6 @@ def test_a_wearer_who_goes_through_a_door_is_in_the_corridor_and_then_in_the_roo
     rooms = [event.room for event in placed(follow(part, wearer.received, IndexedPlan(BUILDING)))]
     assert rooms[0] == "corridor 1" and rooms[-1] == "room 5"
     assert set(rooms) <= {"corridor 1", "room 5"}
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_a_wearer_who_leaves_the_building_is_in_no_room(method: type[Method]) -> None:
-    part = method()
-    wearer = Pedestrian(4, "0", (9.0, 4.0)).known_to(part)
-    wearer.walk((9.0, -1.5))
-    rooms = [event.room for event in placed(follow(part, wearer.received, IndexedPlan(BUILDING)))]
-    assert rooms[0] == "corridor 1" and rooms[-1] is None
 
 
 def test_on_a_plan_without_names_no_place_of_a_wearer_has_a_room_and_all_places_are_the_same() -> None:

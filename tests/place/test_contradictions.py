@@ -5,10 +5,9 @@ from __future__ import annotations
 from math import dist, pi
 
 import pytest
-from floors import LIFTS, LOW, OFFICE, RIGHT, STOREY, Method, Pedestrian, beside, follow, placed, round_to, tour
+from floors import LIFTS, LOW, RIGHT, STOREY, Method, Pedestrian, beside, follow, placed, round_to, tour
 
-from solepath import Event, LiftRidden, PlanContradicted, PositionReported, Site, Start
-from solepath.body.place.contradictions import contradicted_heading
+from solepath import Event, LiftRidden, PlanContradicted, Start
 
 SEEDS = range(1, 9)
 LIFT = LIFTS["lift south"]
@@ -102,22 +101,3 @@ def test_a_lift_to_a_landing_that_the_plan_lacks_is_reported_and_who_comes_back_
     pedestrian.walk(beside(LIFT), (RIGHT, LOW))
     events = follow(part, pedestrian.received[before:])
     assert placed(events) and weight_near(part, "0", pedestrian.place) > 0.0
-
-
-def test_a_heading_that_fits_is_not_contradicted_by_a_clock_that_was_set_back() -> None:
-    fitting = (0.0, 0.0, 1.0, 0.0, 1.0, 0, 0, 0)
-    assert contradicted_heading([fitting], (0.0, 0.24), 1000.0, 5.0, 5.0) is None
-
-
-def test_a_ride_that_contradicted_the_plan_is_forgotten_when_a_person_reports_the_place(part: Method) -> None:
-    pedestrian = in_the_lift(part, 1)
-    ride(pedestrian, -0.6 * STOREY)
-    pedestrian.walk(beside(LIFT))
-    assert contradicted(follow(part, pedestrian.received)) and part.unmapped
-    assert part.place is not None
-    x, y, _ = part.place.position
-    part.plan = OFFICE
-    reported = PositionReported(
-        t=pedestrian.t, known_at=pedestrian.t, site=Site.LEFT_FOOT, position=(x, y), level=part.place.level, sigma=1.0
-    )
-    assert not part.receive(reported) and not part.unmapped

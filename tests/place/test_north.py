@@ -9,7 +9,7 @@ import pytest
 from attrs import evolve
 from floors import OFFICE, FloorEvents, Method, follow, office, placed, tour
 
-from solepath import Event, PlanContradicted, Start
+from solepath import Event, PlanContradicted
 from solepath.body.place.north import DECLINATION, LARGEST_ERROR, HeadingSource, heading_by_north
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, FloorPlan
@@ -87,15 +87,6 @@ def test_without_a_north_in_the_plan_or_with_a_vague_one_in_the_feet_nothing_cha
     assert follow(new(), with_north(pedestrian.received, pedestrian.turned, vague), PLAN) == plain
     assert follow(new(), with_north(pedestrian.received, pedestrian.turned), OFFICE) == plain
     assert follow(new(), with_north(pedestrian.received, pedestrian.turned), PLAN) != plain
-
-
-def test_a_first_heading_that_the_app_gave_counts_and_not_the_compass(part: Method) -> None:
-    new, pedestrian = type(part), tour(4)
-    parts = [new(), new()]
-    for one in parts:
-        one.set_out(Start(heading=-pedestrian.turned))
-    received = with_north(pedestrian.received, pedestrian.turned + 0.5 * pi)
-    assert follow(parts[0], received, PLAN) == follow(parts[1], pedestrian.received, PLAN)
 
 
 @pytest.mark.parametrize(("bearing", "direction", "heading"), [

@@ -32,7 +32,7 @@ from solepath.floorplan.plan import (
     with_rooms,
 )
 from solepath.show.places import PlaceCounts
-from solepath.show.tables.plan import TRACK_COLOURS, PlanPicture, blend
+from solepath.show.tables.plan import PlanPicture
 from solepath.show.tables.summary import place_lines
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -69,32 +69,6 @@ def test_a_picture_with_an_anchor_shows_north_and_a_known_start_is_called_so() -
     one.walk((RIGHT, LOW))
     svg = pictured(office(Anchor(48.0, 11.0, 0.3)), one, Start("0", (12.0, LOW), -one.turned))
     assert {"N", "start", "end"} <= set(words(svg))
-
-
-def test_a_plan_is_drawn_without_any_place_too_and_every_coordinate_is_a_plain_number() -> None:
-    picture = PlanPicture(office())
-    svg = ElementTree.tostring(picture.drawn("nothing")).decode()
-    assert "nan" not in svg and "inf" not in svg and "e-" not in svg.replace("stroke-", "")
-    bare = PlanPicture(FloorPlan("x", (Level("0", "0", 0, 0.0, ()),)))
-    assert "level 0, 0.0 m" in words(bare.drawn("bare"))
-
-
-def test_the_track_is_broken_where_the_place_was_lost() -> None:
-    picture = PlanPicture(office())
-    part = Particles()
-    one = Pedestrian(32, "0", (12.0, LOW)).known_to(part)
-    one.walk((24.0, LOW))
-    for event in follow(part, one.received):
-        picture.add(event)
-    whole = len([1 for line in picture.drawn("t").iter() if line.tag == "polyline"])
-    picture.breaks |= {6, 12}
-    assert len([1 for line in picture.drawn("t").iter() if line.tag == "polyline"]) > whole
-
-
-def test_colours_run_from_the_start_to_the_end() -> None:
-    shades = [blend(TRACK_COLOURS, share) for share in (-1.0, 0.0, 0.5, 1.0, 2.0)]
-    assert shades[0] == shades[1] != shades[2] != shades[3] == shades[4]
-    assert all(len(blend(TRACK_COLOURS, k / 50.0)) == 7 for k in range(51))
 
 
 def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels() -> None:
@@ -151,12 +125,6 @@ def test_track_writes_places_and_the_picture_and_prints_where_the_wearer_is(
     assert [event["room"] for event in events if event["event"] == "Placed"] == [row["room"] for row in rows]
     svg = ElementTree.parse(tmp_path / "plan.svg").getroot()
     assert svg.tag == f"{SVG}svg" and "walk.jsonl, recipe default" in words(svg)
-
-
-def test_without_a_floor_plan_nothing_of_it_is_written_or_printed(walk: Path, tmp_path: Path) -> None:
-    done = run("track", walk, "--out", tmp_path)
-    assert done.returncode == 0 and "place:" not in done.stdout
-    assert not (tmp_path / "places.csv").exists() and not (tmp_path / "plan.svg").exists()
 
 
 def test_a_floor_plan_or_a_start_that_cannot_be_used_is_rejected_in_one_line(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import cos, dist, hypot, inf, sin
 
 import pytest
-from attrs import evolve
 from floors import HIGH, LOW, OFFICE, RIGHT, Method, Pedestrian, follow, lost, placed
 
 from solepath import Session, Site
@@ -13,7 +12,7 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.ways import corridor
 from solepath.emulate.walk import sampled
 from solepath.events import Event, Placed, PositionRejected, PositionReported, TrackRevised
-from solepath.floorplan.plan import ConnectorKind, FloorPlanError, Point, Start
+from solepath.floorplan.plan import ConnectorKind, Point, Start
 
 
 def reported(t: float, place: Point, sigma: float = 1.0, level: str = "0") -> PositionReported:
@@ -67,14 +66,6 @@ def test_a_place_where_the_track_cannot_have_led_is_rejected_and_a_second_one_is
     pedestrian.walk((34.0, LOW))
     follow(part, pedestrian.received)
     assert off(part, (34.0, HIGH)) < 2.0
-
-
-def test_before_the_first_position_the_start_of_the_app_counts(part: Method) -> None:
-    pedestrian = Pedestrian(7, "0", (12.0, LOW)).known_to(part)
-    part.plan = OFFICE
-    assert not part.receive(reported(0.0, (12.0, LOW))) and not part.rows
-    pedestrian.walk((14.0, LOW))
-    assert {len(one.candidates) for one in placed(follow(part, pedestrian.received))} == {1}
 
 
 @pytest.mark.parametrize(("level", "place", "word"), [("7", (12.0, LOW), "no level"), ("0", (900.0, LOW), "nowhere")])
@@ -141,10 +132,3 @@ def test_whoever_stands_at_a_lift_reports_its_name() -> None:
         session.here("the printer", level=stop.level)
     with pytest.raises(ValueError, match="attic"):
         session.here(lift.name, level="attic")
-
-
-def test_a_name_that_two_stairs_share_is_no_landmark() -> None:
-    (stairs,) = BUILDING.connectors[:1]
-    level = stairs.stops[0].level
-    with pytest.raises(FloorPlanError, match="2 stairs or lifts"):
-        evolve(BUILDING, connectors=(stairs, stairs)).landmark(stairs.name, level)

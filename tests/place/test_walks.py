@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, degrees, dist, radians, sin
+from math import atan2, cos, degrees, dist, sin
 
 import pytest
 from attrs import define, field
@@ -27,8 +27,7 @@ from floors import (
     tour,
 )
 
-from solepath import Activity, Event, LiftRidden
-from solepath.body.place.particles import Particles
+from solepath import Activity, Event
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start
 
@@ -170,14 +169,6 @@ def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(part: 
     assert {event.level for event in placed(result.events)} == {"0"}
 
 
-def test_who_stands_in_a_lift_that_has_stopped_is_on_the_level_that_it_went_to(part: Method) -> None:
-    pedestrian = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
-    pedestrian.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
-    pedestrian.ride("1", STOREY)
-    last = placed(follow_and_score(part, pedestrian.received).events)[-1]
-    assert last.level == "1" and last.t == pedestrian.t and dist(last.position[:2], pedestrian.place) <= 1.0
-
-
 def test_a_lift_that_only_the_activity_reports_changes_the_level_too(part: Method) -> None:
     pedestrian = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
     pedestrian.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
@@ -219,22 +210,6 @@ def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(part
     assert result.dropped == 0 and result.errors[-1] <= 1.0
 
 
-def test_a_lift_ride_that_was_reported_is_not_reported_again_by_the_activity() -> None:
-    part = Particles()
-    pedestrian = Pedestrian(15, "1", LIFTS["lift south"]).known_to(part)
-    pedestrian.step(0.0, 0.1)
-    pedestrian.emit(activity_changed(pedestrian.t + 1.0, pedestrian.t + 3.0, Activity.ELEVATOR_DOWN))
-    pedestrian.t += 12.0
-    pedestrian.level = "0"
-    pedestrian.emit(
-        LiftRidden(t=pedestrian.t, known_at=pedestrian.t, t_start=pedestrian.t - 11.0, up=False, height=None)
-    )
-    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t + 1.0, Activity.STANDING))
-    pedestrian.walk(beside(pedestrian.place), (24.0, LOW))
-    result = follow_and_score(part, pedestrian.received)
-    assert placed(result.events)[-1].level == "0" and result.mean < 1.0
-
-
 def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(part: Method) -> None:
     room = ((1e6, 1e6), (1e6 + 60.0, 1e6), (1e6 + 60.0, 1e6 + 60.0), (1e6, 1e6 + 60.0))
     hall = IndexedPlan(FloorPlan("hall", (Level("0", "ground", 0, 0.0, (), (), (room,)),)))
@@ -245,15 +220,3 @@ def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(part: Met
     assert len(placed(events)) == len(events) > 5
     x, y, _ = placed(events)[-1].position
     assert dist((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)
-
-
-def test_the_track_turned_by_any_angle_leads_to_the_same_place() -> None:
-    ends = []
-    for turn in (0.0, 90.0, 217.0):
-        pedestrian = Pedestrian(16, "0", (12.0, LOW))
-        pedestrian.turned = radians(turn)
-        part = Particles()
-        part.set_out(Start("0", pedestrian.place, -pedestrian.turned))
-        pedestrian.walk((RIGHT, LOW), (RIGHT, 14.0))
-        ends.append(placed(follow_and_score(part, pedestrian.received).events)[-1].position)
-    assert max(dist(end[:2], pedestrian.place) for end in ends) <= 1.0

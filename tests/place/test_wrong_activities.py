@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, dist, radians, sin
+from math import dist, radians
 
 import pytest
 from attrs import evolve
@@ -25,7 +25,6 @@ from floors import (
 )
 
 from solepath import Activity, LiftRidden, TurnMade
-from solepath.body.place.rows.rows import round_rows
 from solepath.floorplan.index import IndexedPlan
 
 NEAR_DISTANCE = 3.5
@@ -73,22 +72,6 @@ def test_stairs_up_that_are_reported_as_stairs_down_lead_up_where_there_is_no_wa
     pedestrian.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
     follow(part, pedestrian.received)
     assert weight_near(part, "1", pedestrian.place) > 0.1
-
-
-def test_a_wearer_whose_flights_are_reported_up_and_down_may_be_on_either_level(part: Method) -> None:
-    pedestrian = Pedestrian(203, "1", STAIRS["stairs south"])
-    pedestrian.step(0.1, 0.0, counts=False)
-    for flight, word in enumerate((Activity.STAIRS_UP, Activity.STAIRS_DOWN)):
-        pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, word))
-        for _ in range(10):
-            pedestrian.step(0.0, 0.28 if flight == 0 else -0.28, counts=False)
-    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t, Activity.WALKING))
-    pedestrian.level = "0"
-    pedestrian.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
-    follow(part, pedestrian.received)
-    assert part.place is not None
-    assert weight_near(part, "0", pedestrian.place) > 0.0
-    assert {candidate.level for candidate in part.place.candidates} == {"0", "1"}
 
 
 @pytest.mark.parametrize("wrong", [-165.0, -110.0, -75.0, 75.0, 100.0, 165.0])
@@ -154,11 +137,3 @@ def test_a_ride_over_a_storey_of_another_height_than_guessed_ends_on_the_next_le
     pedestrian.walk(beside(pedestrian.place), (24.0, LOW))
     follow(part, pedestrian.received, unknown_heights())
     assert weight_near(part, "1", pedestrian.place) > 0.9
-
-
-def test_rows_are_kept_to_three_digits_and_no_less_when_they_are_kept_again() -> None:
-    rows = [(10.0 + k, 2.0 * k, cos(0.1 * k), sin(0.1 * k), 1.0 / (1 + k), k % 3, k % 2, 0) for k in range(40)]
-    again = round_rows(rows)
-    for before, after in zip(rows, again, strict=True):
-        assert after[:5] == pytest.approx(before[:5], rel=1e-3, abs=1e-3) and after[5:] == before[5:]
-    assert round_rows(again) == again and round_rows([]) == []

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from floors import CORNERS, LOW, METHODS, OFFICE, RIGHT, WIDE, Method, Pedestrian, follow
+from floors import CORNERS, LOW, METHODS, RIGHT, WIDE, Method, Pedestrian, follow
 
-from solepath.body.place.rows.alike_levels import hold_alike_levels
 from solepath.body.place.rows.rows import Row
-from solepath.events import Placed
 
 ROUNDS = 3
 
@@ -51,19 +49,3 @@ def test_an_exit_that_only_one_floor_has_decides(method: type[Method]) -> None:
     pedestrian.walk((RIGHT, LOW), (WIDE - 1.5, LOW), (WIDE + 4.0, LOW))
     follow(part, pedestrian.received)
     assert weight_of(part, "0") > 0.95
-
-
-@pytest.mark.parametrize("distance", [5.3, 5.8, 6.0, 6.3])
-def test_rows_of_another_floor_that_are_near_by_are_neither_doubled_nor_lost(distance: float) -> None:
-    here, move = (10.0, LOW), (0.7, 0.0)
-    level = OFFICE.number("0")
-    other = OFFICE.number("1")
-    before: list[Row] = [(here[0], here[1], 1.0, 0.0, 0.04, level, 0, 0)] * 10
-    before += [(here[0] + distance, here[1], 1.0, 0.0, 0.02, other, 0, 0)] * 10
-    after: list[Row] = [(x + move[0], y, *rest) for x, y, *rest in before]  # type: ignore[misc]
-    placed = Placed(t=0.0, known_at=0.0, level="0", position=(*here, 0.0), spread=1.0, candidates=())
-    held = hold_alike_levels(OFFICE, before, after, move, placed)
-    assert len(held) == len(after)
-    for number in (level, other):
-        weights = [sum([row[4] for row in rows if row[5] == number]) for rows in (held, after)]
-        assert weights[0] == pytest.approx(weights[1])

@@ -6,12 +6,9 @@ from math import dist
 
 import pytest
 from attrs import evolve
-from floors import LOW, OFFICE, STAIRS, Method, Pedestrian, activity_changed, beside, follow, office, placed
+from floors import LOW, OFFICE, STAIRS, Method, Pedestrian, activity_changed, beside, office, placed
 
 from solepath import Activity, FlightClimbed
-from solepath.body.place.connectors.landings import Landing, find_exits, list_landings
-from solepath.body.place.connectors.passage import RISER_HEIGHT
-from solepath.body.place.connectors.storeys import riser_height, storeys_of
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import ConnectorKind, ConnectorStop, FloorPlan
 
@@ -31,13 +28,6 @@ def unequal(flights: int | None = 2, heights_known: bool = True) -> FloorPlan:
         for one in plan.connectors
     ]  # fmt: skip
     return evolve(plan, levels=tuple(levels), connectors=tuple(connectors), heights_known=heights_known)
-
-
-def landing(plan: FloorPlan, level: int) -> Landing:
-    (found,) = [
-        one for one in list_landings(plan) if one.level == level and plan.connectors[one.connector].name == NAME
-    ]
-    return found
 
 
 def climb(pedestrian: Pedestrian, level: str, flights: tuple[float, ...], rest: float) -> None:
@@ -99,58 +89,3 @@ def test_a_rest_half_way_is_no_arrival_and_the_second_half_is_one(part: Method, 
 
 def test_a_wearer_who_turns_back_on_the_landing_is_on_the_floor_where_they_started(part: Method) -> None:
     assert climbed(part, unequal(), "1", "1", (2.8, -2.8), 30.0)[-1] == "1"
-
-
-def test_without_elevations_two_flights_of_two_are_one_storey_of_any_height() -> None:
-    for flights, most in ((2, 1), (None, 2)):
-        plan = unequal(flights, heights_known=False)
-        exits = {
-            found.level: weight
-            for found, weight in find_exits(plan, list_landings(plan), landing(plan, 0), True, 5.6, 2)
-        }
-        assert max(exits, key=lambda level: exits[level]) == most
-    counted = dict(find_exits(plan, list_landings(plan), landing(plan, 0), True, 5.6, None))
-    assert counted == dict(find_exits(plan, list_landings(plan), landing(plan, 0), True, 5.6, 2))
-
-
-def test_one_flight_more_than_the_plan_has_leaves_both_floors_possible() -> None:
-    plan = unequal(2, heights_known=False)
-    exits = {
-        found.level: weight for found, weight in find_exits(plan, list_landings(plan), landing(plan, 0), True, 5.6, 3)
-    }
-    assert set(exits) == {1, 2} and min(exits.values()) > 0.1
-
-
-def test_the_storeys_of_a_place_are_those_of_its_levels() -> None:
-    plan = unequal()
-    assert storeys_of(plan, frozenset([1])).rises == pytest.approx((2.6, 5.6))
-    assert storeys_of(plan, frozenset([0])).rises == pytest.approx((2.6, 8.2))
-    assert storeys_of(plan, frozenset()).rises == pytest.approx((2.6, 5.6, 8.2))
-    assert storeys_of(plan, frozenset()).flights == 2 and storeys_of(unequal(None), frozenset()).flights is None
-    assert storeys_of(unequal(heights_known=False), frozenset([1])).heights == pytest.approx((2.4, 5.0))
-
-
-def test_risers_have_the_height_that_the_plan_gives_them() -> None:
-    plan = office()
-    steep = tuple(evolve(one, rise=0.2) if one.kind is ConnectorKind.STAIRS else one for one in plan.connectors)
-    assert riser_height(plan) == RISER_HEIGHT and riser_height(evolve(plan, connectors=steep)) == pytest.approx(0.2)
-
-
-def test_counted_risers_of_a_track_without_height_have_the_height_of_the_plan(part: Method) -> None:
-    """Climb 9 risers of 0.2 m twice: 3.6 m, of which usual risers would be less than 3."""
-    plan = office()
-    steep = tuple(evolve(one, rise=0.2) if one.kind is ConnectorKind.STAIRS else one for one in plan.connectors)
-    heights = []
-    for chosen in (plan, evolve(plan, connectors=steep)):
-        new = type(part)()
-        pedestrian = Pedestrian(5, "0", (20.0, LOW)).known_to(new)
-        pedestrian.walk(beside(STAIRS[NAME]), STAIRS[NAME])
-        start = pedestrian.t
-        pedestrian.emit(activity_changed(start, start, Activity.STAIRS_UP))
-        for k in range(18):
-            pedestrian.step(0.0, 0.28 if k < 9 else -0.28, counts=False)
-        follow(new, pedestrian.received, IndexedPlan(chosen))
-        passage = new.references.passage
-        assert passage is not None
-        heights.append(passage.height(pedestrian.track))
-    assert heights[1] == pytest.approx(heights[0] * 0.2 / RISER_HEIGHT) and heights[1] == pytest.approx(3.6, abs=0.41)
