@@ -6,22 +6,12 @@ import math
 from fractions import Fraction
 from itertools import pairwise
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.floorplan.crossing import Walls
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import (
-    Connector,
-    ConnectorKind,
-    ConnectorStop,
-    Door,
-    FloorPlan,
-    FloorPlanError,
-    Level,
-    Wall,
-)
+from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Wall
 from solepath.floorplan.segments import touch
 
 Line = tuple[tuple[float, float], tuple[float, float]]
@@ -61,14 +51,6 @@ def test_a_move_crosses_when_it_touches_any_wall_exactly(walls: list[Line], move
         assert grid.crosses(*start, *end) == any(exactly_touch((start, end), wall) for wall in walls)
 
 
-@given(st.integers(0, 10_000_000), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0),
-       st.floats(-3.0, 3.0))  # fmt: skip
-def test_walls_far_from_the_origin_are_as_solid(offset: int, x0: float, y0: float, x1: float, y1: float) -> None:
-    walls = [((offset - 1.0, offset + 0.5), (offset + 2.0, offset + 0.75))]
-    move = (offset + x0, offset + y0, offset + x1, offset + y1)
-    assert Walls(walls).crosses(*move) == exactly_touch((move[:2], move[2:]), walls[0])
-
-
 @given(st.tuples(any_float, any_float, any_float, any_float))
 def test_any_floats_get_an_answer_and_no_place_is_behind_a_wall(move: tuple[float, float, float, float]) -> None:
     walls = [((0.0, 0.0), (5.0, 0.0)), ((5.0, 0.0), (5.0, 5.0))]
@@ -86,17 +68,6 @@ def test_nobody_slips_through_a_corner_where_walls_meet() -> None:
         heading = k * 0.5 * math.pi / 1000
         dx, dy = 0.2 * math.cos(heading), 0.2 * math.sin(heading)
         assert walls.crosses(corner[0] - dx, corner[1] - dy, corner[0] + dx, corner[1] + dy)
-
-
-def test_nobody_leaves_a_round_room_of_a_thousand_walls() -> None:
-    ring = [(10.0 * math.cos(k * math.tau / 1000), 10.0 * math.sin(k * math.tau / 1000)) for k in range(1000)]
-    walls = Walls(list(pairwise([*ring, ring[0]])))
-    for k in range(3000):
-        heading = k * math.tau / 3000
-        for length in (0.7, 3.0, 40.0):
-            x, y = 9.9 * math.cos(heading), 9.9 * math.sin(heading)
-            assert walls.crosses(x, y, x + length * math.cos(heading), y + length * math.sin(heading))
-        assert not walls.crosses(0.0, 0.0, 9.8 * math.cos(heading), 9.8 * math.sin(heading))
 
 
 def level(level_id: str, elevation: float, **more: object) -> Level:
@@ -149,10 +120,3 @@ def test_the_grid_of_rooms_agrees_with_counting_the_edges(
             if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
                 odd = not odd
         assert plan.inside(0, x, y) == odd
-
-
-def test_levels_go_by_their_ids() -> None:
-    plan = IndexedPlan(HOUSE)
-    assert [plan.number("0"), plan.number("1")] == [0, 1]
-    with pytest.raises(FloorPlanError, match="^the plan has no level 'attic', only 0, 1$"):
-        plan.number("attic")

@@ -7,15 +7,12 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
-from floorplans import FILES, archive
 from floors import METHODS, Method, Pedestrian, follow, placed
 
 from solepath import Placed
 from solepath.emulate.routes.building import BUILDING
 from solepath.events import Candidate
 from solepath.floorplan.doors import cut_doors
-from solepath.floorplan.importers.geojson import format_floorplan
-from solepath.floorplan.importers.reading import parse_floorplan
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall
 from solepath.show.output import TrackFiles
@@ -46,27 +43,6 @@ def test_a_door_of_the_next_room_does_not_count_through_the_wall() -> None:
 def test_a_wearer_on_the_doorstep_is_at_the_door_from_post_to_post() -> None:
     plan = IndexedPlan(flat(LEFT))
     assert {plan.door(0, 4.6 + 0.05 * k, 0.0) for k in range(1, 20)} == {"west door"}
-
-
-def named_in_geojson() -> bytes:
-    text = (FILES / "house.geojson").read_text(encoding="utf-8")
-    return text.replace('"door", "level": "0", "name": ""', '"door", "level": "0", "name": "street"', 1).encode()
-
-
-def named_in_imdf() -> bytes:
-    files = {path.name: path.read_bytes() for path in (FILES / "house-imdf").iterdir()}
-    lines = files["opening.geojson"].decode().splitlines()
-    number = next(k for k, line in enumerate(lines) if "pedestrian.principal" in line)
-    lines[number] = lines[number].replace('"name": null', '"name": {"en": "street"}', 1)
-    return archive({**files, "opening.geojson": "\n".join(lines).encode()})
-
-
-@pytest.mark.parametrize("file", [named_in_geojson(), named_in_imdf()])
-def test_a_door_has_the_name_that_its_file_gives_it(file: bytes) -> None:
-    plan = parse_floorplan(file)
-    assert [door.name for level in plan.levels for door in level.doors if door.name] == ["street"]
-    assert IndexedPlan(plan).door(0, 0.5, 5.0) == "street" and IndexedPlan(plan).door(0, 4.5, 5.5) is None
-    assert parse_floorplan(format_floorplan(plan).encode()) == plan
 
 
 def named_building() -> FloorPlan:

@@ -100,12 +100,6 @@ def test_a_door_on_a_corner_starts_there_along_the_longer_wall() -> None:
     assert level.doors == (Door((19.0, 10.0), (20.0, 10.0)),)
 
 
-def test_a_door_beside_a_wall_belongs_to_it_and_one_far_from_all_is_remarked_upon() -> None:
-    plan = house().node((5.0, 0.3), door="yes", level="0", width="2").node((5.0, 5.0), door="yes", level="0").plan()
-    assert plan.levels[0].doors == (Door((4.0, 0.0), (6.0, 0.0)),)
-    assert plan.remarks == ("node '6': a door on level '0' that is in no wall",)
-
-
 def test_repeat_on_puts_one_room_on_many_levels() -> None:
     plan = Map().way(box(0, 0, 20, 10), indoor="room", level="0", repeat_on="1;3-4").plan()
     assert [(level.id, level.ordinal, level.elevation) for level in plan.levels] == [
@@ -135,14 +129,6 @@ def test_a_flight_drawn_as_a_line_goes_from_its_lowest_end_to_its_highest() -> N
         [(3.0, 5.0), (8.0, 5.0)], [(8.0, 7.0), (3.0, 7.0)]]  # fmt: skip
 
 
-def test_a_flight_within_a_stairwell_is_that_stairwell() -> None:
-    drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-1").way(box(2, 2, 6, 8), stairs="yes", level="0-1",
-                                                                         indoor="room")  # fmt: skip
-    found = drawn.way([(3.0, 3.0), (3.0, 7.0)], highway="steps", level="0-1").plan().connectors
-    assert len(found) == 1
-    assert found[0].stops[0].outline == ((2.0, 2.0), (6.0, 2.0), (6.0, 8.0), (2.0, 8.0))
-
-
 def test_stairs_drawn_level_by_level_are_joined_where_they_overlap() -> None:
     drawn = Map().way(box(0, 0, 20, 10), indoor="room", level="0-2")
     for level in "012":
@@ -161,11 +147,3 @@ def test_a_relation_has_a_hole_and_its_outline_may_be_of_several_ways() -> None:
     assert plan.inside(0, 5.0, 5.0)
     assert plan.crosses(0, 7.5, 5.0, 8.5, 5.0)
     assert plan.crosses(0, 19.5, 5.0, 20.5, 5.0)
-
-
-def test_a_room_that_does_not_close_is_walls_and_a_remark() -> None:
-    drawn = house().way([(2.0, 2.0), (8.0, 2.0), (8.0, 8.0)], 7, indoor="room", level="0")
-    plan = drawn.plan()
-    assert plan.remarks == ("way '7': its outline does not close",)
-    assert IndexedPlan(plan).crosses(0, 5.0, 1.5, 5.0, 2.5)
-    assert len(plan.levels[0].rooms) == 1

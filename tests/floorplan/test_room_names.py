@@ -19,7 +19,6 @@ from solepath.floorplan.outlines import Ring
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall, with_rooms
 
 HOUSE = read_floorplan(FILES / "house.geojson")
-NAMELESS = evolve(BUILDING, levels=tuple([evolve(level, room_names=()) for level in BUILDING.levels]))
 STREET = Wall((-20.0, -20.0), (40.0, -20.0))
 
 
@@ -79,18 +78,6 @@ def test_a_hostile_name_is_a_name_like_any_other_and_survives_the_file(name: str
     assert IndexedPlan(again).room(0, 8.0, 2.5) == name
 
 
-def test_a_room_of_a_file_may_have_a_number_for_a_name_but_no_list() -> None:
-    def with_name(name: object) -> bytes:
-        collection = json.loads(format_floorplan(flat(KITCHEN, BATH)))
-        collection["features"][-1]["properties"]["name"] = name
-        return json.dumps(collection).encode()
-
-    assert parse_floorplan(with_name(12)).levels[0].room_names == ("kitchen", "12")
-    assert parse_floorplan(with_name(None)).levels[0].room_names == ("kitchen", "")
-    with pytest.raises(ValueError, match="its name is a list, not a text$"):
-        parse_floorplan(with_name(["bath"]))
-
-
 @pytest.mark.parametrize("name", ["house.geojson", "house-wgs84.geojson", "house.osm", "house-imdf"])
 def test_the_rooms_of_the_house_have_their_names_in_every_format(name: str) -> None:
     levels = read_floorplan(FILES / name).levels
@@ -113,14 +100,3 @@ def test_a_wearer_who_goes_through_a_door_is_in_the_corridor_and_then_in_the_roo
     rooms = [event.room for event in placed(follow(part, wearer.received, IndexedPlan(BUILDING)))]
     assert rooms[0] == "corridor 1" and rooms[-1] == "room 5"
     assert set(rooms) <= {"corridor 1", "room 5"}
-
-
-def test_on_a_plan_without_names_no_place_of_a_wearer_has_a_room_and_all_places_are_the_same() -> None:
-    def walked(plan: FloorPlan) -> list[tuple[object, object]]:
-        part = METHODS[0]()
-        wearer = Pedestrian(5, "0", (9.0, 25.0)).known_to(part)
-        wearer.walk((9.0, 32.5), (3.0, 32.5))
-        return [(event.position, event.room) for event in placed(follow(part, wearer.received, IndexedPlan(plan)))]
-
-    assert [place for place, _ in walked(NAMELESS)] == [place for place, _ in walked(BUILDING)]
-    assert {room for _, room in walked(NAMELESS)} == {None}

@@ -14,7 +14,6 @@ from floors import (
     METHODS,
     OFFICE,
     RIGHT,
-    STAIRS,
     Method,
     Pedestrian,
     activity_changed,
@@ -196,16 +195,6 @@ def test_without_start_stairs_and_lifts_the_place_is_reported_as_lost(part: Meth
     pedestrian.ride("1")
     what = "no start was given and the plan has neither stairs nor lifts: the place cannot be known"
     assert lost(follow(part, pedestrian.received, bare)) == [what] and part.place is None
-
-
-def test_stairs_that_the_plan_does_not_have_change_no_level(part: Method) -> None:
-    lifts_only = IndexedPlan(evolve(office(), connectors=office().connectors[:3]))
-    pedestrian = Pedestrian(27, "0", (20.0, LOW)).known_to(part)
-    pedestrian.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
-    pedestrian.climb("1", "stairs south")
-    pedestrian.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
-    events = follow(part, pedestrian.received, lifts_only)
-    assert {event.level for event in events if isinstance(event, Placed)} == {"0"}
 
 
 def test_the_position_is_never_bent_to_the_plan() -> None:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from math import pi
-
 import pytest
 from floors import LOW, RIGHT, Method, Pedestrian, follow, lost, placed, tour
 
 from solepath import Session, Start, read_floorplan
 from solepath.floorplan.plan import FloorPlanError
 
-SEEDS = range(1, 9)
+SEEDS = range(1, 4)
 
 
 def decided(part: Method, seed: int, off: float | None) -> int:
@@ -26,18 +24,6 @@ def test_with_the_heading_fewer_strides_decide_where_the_wearer_is(part: Method)
     new = type(part)
     with_heading, without = [[decided(new(), seed, off) for seed in SEEDS] for off in (0.1, None)]
     assert sum(with_heading) < 0.7 * sum(without)
-
-
-def test_a_heading_that_is_wrong_is_given_up_by_the_walls(part: Method) -> None:
-    pedestrian = tour(3)
-    part.set_out(Start(heading=-pedestrian.turned + 0.5 * pi))
-    places = placed(follow(part, pedestrian.received))
-    last = [update for update in pedestrian.received if update.place is not None][-1]
-    assert last.place is not None
-    near = [
-        abs(c.position[0] - last.place[0]) + abs(c.position[1] - last.place[1]) < 4.0 for c in places[-1].candidates
-    ]
-    assert any(near), "it is a plan whose north is wrong, or a magnet beside the sensor"
 
 
 def test_a_heading_alone_is_no_place_before_the_first_stairs_or_lift(part: Method) -> None:

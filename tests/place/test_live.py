@@ -6,12 +6,14 @@ import csv
 from pathlib import Path
 
 import commands
+import pytest
 from floors import office
 from programs import emulator, run
 
 from solepath.floorplan.importers.geojson import write_floorplan
 
 
+@pytest.mark.soak
 def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> None:
     plan, out_directory = tmp_path / "office.geojson", tmp_path / "out"
     write_floorplan(plan, office())

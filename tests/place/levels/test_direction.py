@@ -75,19 +75,3 @@ def test_stairs_that_are_revised_near_their_end_lead_down_as_a_whole(part: Metho
 def test_stairs_that_are_revised_after_the_arrival_led_down(part: Method) -> None:
     found = after_stairs(part, late=True)
     assert found["0"] > 0.6 and found["2"] < 0.25
-
-
-def test_the_same_direction_once_more_after_the_arrival_is_no_second_climb(part: Method) -> None:
-    pedestrian = Pedestrian(6, "0", (20.0, LOW)).known_to(part)
-    pedestrian.walk(beside(STAIRS[NAME]), STAIRS[NAME])
-    start = climb_without_height(pedestrian, None, Activity.STAIRS_UP)
-    end = pedestrian.t
-    pedestrian.walk(beside(STAIRS[NAME]), (20.0, LOW))
-    pedestrian.emit(
-        revised(start, pedestrian.t, Activity.STAIRS_UP, start), revised(end, pedestrian.t, Activity.WALKING, None)
-    )
-    pedestrian.walk((15.0, LOW))
-    for one in pedestrian.received:
-        part.follow(PLAN, one.events, one.here)
-    found = weights(part)
-    assert found["1"] > 0.6 and found["2"] < 0.2
