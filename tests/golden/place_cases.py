@@ -16,7 +16,19 @@ from typing import Any
 
 from attrs import evolve
 from corpus import FOLDER, Case
-from floors import CORNERS, LIFTS, STAIRS, STOREY, FloorEvents, Pedestrian, activity_changed, beside, office, round_to
+from floors import (
+    CORNERS,
+    LIFTS,
+    STAIRS,
+    STOREY,
+    FloorEvents,
+    Pedestrian,
+    activity_changed,
+    beside,
+    follow,
+    office,
+    round_to,
+)
 
 from solepath import (
     Activity,
@@ -214,6 +226,8 @@ class Tale:
                 one.emit(
                     FlightClimbed(t=one.t, known_at=one.t, t_start=begun, up=said[flight], steps=steps, height=height)
                 )
+            if not flight and random.random() < 0.3:
+                one.t -= 40.0
             if rest and not flight:
                 one.t += rest
                 one.emit(activity_changed(one.t - rest + 0.5, one.t, Activity.STANDING))
@@ -324,6 +338,22 @@ def told(numbers: range, method: Callable[[], Particles | SnakeGame] = Particles
             north = None if compass is None or count < 20 else (0.5 * pi + BEARING + tale.one.turned + off, compass)
             here = evolve(item.here, north=north, heading_sigma=tale.random.choice([None, 0.002 * count]))
             yield from part.follow(plan, item.events, here)
+
+
+def stairs_again() -> Iterator[Any]:
+    """Yield the events of a wearer whose clock is set back on the stairs, which then begin once more."""
+    plan, place = buildings()[0][0], STAIRS["stairs south"]
+    part = Particles()
+    one = Pedestrian(5, "0", (20.0, 6.2)).known_to(part)
+    one.walk(beside(place), place)
+    for steps, way, back in ((3, 1.0, 40.0), (7, 1.0, 0.0), (10, -1.0, 0.0)):
+        one.emit(activity_changed(one.t, one.t, Activity.STAIRS_UP))
+        for _ in range(steps):
+            one.step(0.0, 0.28 * way, 0.18)
+        one.t -= back
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
+    one.walk(beside(place), (30.0, 6.2))
+    yield from follow(part, one.received, plan)
 
 
 # --- floor plans ------------------------------------------------------------------------------------------------------
@@ -481,6 +511,7 @@ def limits() -> Iterator[Any]:
         0.61,
         50.0,
         53.1,
+        -47.0,
         -47.1,
         100_000,
         100_001,
@@ -591,6 +622,7 @@ MORE_PLACES: tuple[Case, ...] = (
     *[Case(f"pedestrians from {k} on", partial(told, range(k, k + 9))) for k in range(0, 27, 9)],
     Case("pedestrians, the Snake game", partial(told, range(36, 40), SnakeGame)),
     *[Case(f"floor plans of {kind}", partial(read, kind)) for kind in ("osm", "imdf", "geojson")],
+    Case("stairs on a clock set back", stairs_again),
     Case("damaged floor plans", damaged),
     Case("the limits of floor plans", limits),
     Case("stairs and lifts by name", landmarks),
