@@ -356,6 +356,20 @@ def stairs_again() -> Iterator[Any]:
     yield from follow(part, one.received, plan)
 
 
+def reported_again() -> Iterator[Any]:
+    """Yield the events of a wearer who reports a wrong place twice, and whose track is revised in between."""
+    part = Particles()
+    one = Pedestrian(5, "0", (12.0, 6.2)).known_to(part)
+    one.walk((20.0, 6.2))
+    part.plan = buildings()[0][0]
+    yield from follow(part, one.received, part.plan)
+    t = one.t
+    wrong = PositionReported(t=t, known_at=t, site=Site.LEFT_FOOT, position=(20.0, 23.8), level="0", sigma=1.0)
+    for by in ((-9.0, 14.0), (3.0, -5.0)):
+        yield from part.receive(wrong)
+        yield from part.receive(TrackRevised(t=t, known_at=t, by=by, turn=0.3, nodes=()))
+
+
 # --- floor plans ------------------------------------------------------------------------------------------------------
 
 
@@ -623,6 +637,7 @@ MORE_PLACES: tuple[Case, ...] = (
     Case("pedestrians, the Snake game", partial(told, range(36, 40), SnakeGame)),
     *[Case(f"floor plans of {kind}", partial(read, kind)) for kind in ("osm", "imdf", "geojson")],
     Case("stairs on a clock set back", stairs_again),
+    Case("a wrong place twice", reported_again),
     Case("damaged floor plans", damaged),
     Case("the limits of floor plans", limits),
     Case("stairs and lifts by name", landmarks),
