@@ -71,7 +71,7 @@ def test_a_foot_whose_steps_are_not_seen_any_more_does_not_hold_the_other_one_ba
     assert session.position is not None and session.position.position[0] > 0.9 * 40.0
 
 
-@pytest.mark.parametrize("first_direction", [-1.0, 2.0, 3.1])
+@pytest.mark.parametrize("first_direction", [-1.0, 3.1])
 def test_a_foot_that_first_steps_aside_does_not_bend_either_track(first_direction: float) -> None:
     session = Session()
     steps: list[StrideTaken] = []

@@ -81,7 +81,7 @@ def test_a_cycle_goes_from_contact_to_contact_and_the_other_foot_divides_it() ->
         assert stride.single_support == pytest.approx(0.4)
 
 
-@pytest.mark.parametrize("late", [-0.3, -0.2, 0.2, 0.3, 0.45])
+@pytest.mark.parametrize("late", [-0.3, 0.2, 0.45])
 def test_a_cycle_with_a_flight_and_a_double_support_is_no_walk_and_no_run_and_compares_nothing(late: float) -> None:
     cycles = walk_on(walked(L, R), 16, late=late, start=1.0)
     assert len(cycles) > 8 and all(cycle.stance_time == pytest.approx(0.6) for cycle in cycles)
@@ -89,7 +89,7 @@ def test_a_cycle_with_a_flight_and_a_double_support_is_no_walk_and_no_run_and_co
     assert between == {(None, None, None, None)} and {cycle.single_support for cycle in cycles[1:]} == {None}
 
 
-@pytest.mark.parametrize("late", [-0.14, -0.06, 0.06, 0.14])
+@pytest.mark.parametrize("late", [-0.14, 0.06])
 def test_uneven_steps_of_a_walker_are_no_contradiction(late: float) -> None:
     cycles = walk_on(walked(L, R), 16, late=late, start=1.0)
     assert {cycle.initial_double_support is None for cycle in cycles[1:]} == {False}

@@ -81,7 +81,7 @@ def weaves(radius: float, arc: float) -> Callable[[float], float]:
     return lambda s: (min(s % (2.0 * arc), 2.0 * arc - s % (2.0 * arc)) - 0.5 * arc) / radius
 
 
-@pytest.mark.parametrize("drift", [-0.002, -0.0007, 0.0007, 0.002])
+@pytest.mark.parametrize("drift", [-0.002, 0.0007])
 def test_corridors_show_the_drift(drift: float) -> None:
     errors = [Walked(corridors(25.0, 1.0), 500.0, drift, seed).error for seed in range(6)]
     off = [abs(one.drift_with_bias(0.0) - drift) for one in errors]
@@ -91,7 +91,7 @@ def test_corridors_show_the_drift(drift: float) -> None:
     assert all(sigma < 0.4 * DRIFT for sigma in sigmas), "and the filter knows that it has learnt"
 
 
-@pytest.mark.parametrize("radius", [-150.0, -60.0, 15.0, 40.0, 100.0])
+@pytest.mark.parametrize("radius", [-60.0, 15.0, 100.0])
 def test_a_ring_is_not_straightened(radius: float) -> None:
     """Ten times round a ring of 40 m radius, and as far in others; the drift may be learnt by 3 % of the bend."""
     for seed in range(3):
@@ -99,7 +99,7 @@ def test_a_ring_is_not_straightened(radius: float) -> None:
         assert abs(error.drift_with_bias(0.0)) < 0.03 * 2.0 * STEP / abs(radius)
 
 
-@pytest.mark.parametrize(("radius", "arc"), [(60.0, 15.0), (100.0, 30.0), (150.0, 40.0)])
+@pytest.mark.parametrize(("radius", "arc"), [(60.0, 15.0), (150.0, 40.0)])
 def test_a_slow_weave_is_not_straightened(radius: float, arc: float) -> None:
     drifts = [Walked(weaves(radius, arc), 1000.0, 0.0, seed).error.drift_with_bias(0.0) for seed in range(6)]
     assert np.mean(np.abs(drifts)) < 2.5e-4

@@ -18,7 +18,7 @@ def walked(speed: float, rate: float = 100.0, far: float = 15.0) -> tuple[Walker
     return walker, [Sample(s.t, s.site, s.acc, s.gyro) for s in walker.samples(Foot.LEFT, rate)]
 
 
-@pytest.mark.parametrize("speed", [0.9, 1.3, 1.7])
+@pytest.mark.parametrize("speed", [0.9, 1.7])
 def test_without_cells_toe_off_and_heel_strike_are_seen_by_how_the_foot_turns(speed: float) -> None:
     walker, samples = walked(speed)
     events = Session().feed(samples)
@@ -31,7 +31,7 @@ def test_without_cells_toe_off_and_heel_strike_are_seen_by_how_the_foot_turns(sp
         assert max(offsets) - min(offsets[1:]) < 0.2, kind.__name__
 
 
-@pytest.mark.parametrize("rate", [20.0, 50.0, 200.0, 400.0])
+@pytest.mark.parametrize("rate", [20.0, 200.0])
 def test_heel_strike_is_where_the_ground_stops_the_foot_at_any_rate(rate: float) -> None:
     walker, samples = walked(1.2, rate, 8.0)
     detected = [event.t for event in of(HeelStrike, Session().feed(samples))]
@@ -41,7 +41,7 @@ def test_heel_strike_is_where_the_ground_stops_the_foot_at_any_rate(rate: float)
     assert abs(median(a - b for a, b in zip(detected, true_times, strict=True))) < 0.015 + 0.5 / rate
 
 
-@pytest.mark.parametrize("speed", [0.7, 1.3, 1.8])
+@pytest.mark.parametrize("speed", [0.7, 1.8])
 def test_heel_strike_and_toe_off_are_known_within_60_ms(speed: float) -> None:
     _, samples = walked(speed)
     events = Session().feed(samples)

@@ -67,7 +67,7 @@ def correct_share(timeline: Timeline, route: Route) -> float:
     return sum(timeline.at(t) is truth.activity(t) for t in times) / len(times)
 
 
-@pytest.mark.parametrize(("route", "rate"), [(HOUSE, 100.0), (HOUSE, 20.0), (CELLAR, 50.0)])
+@pytest.mark.parametrize(("route", "rate"), [(HOUSE, 20.0), (CELLAR, 50.0)])
 def test_standing_walking_running_stairs_and_lifts_are_reported(route: Route, rate: float) -> None:
     _, timeline = run(samples(route, rate))
     assert correct_share(timeline, route) >= CORRECT_SHARE

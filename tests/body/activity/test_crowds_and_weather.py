@@ -94,16 +94,16 @@ WEATHER = {
 
 @pytest.mark.parametrize(
     "weather",
-    ["rising", "a storm", "a front", *(pytest.param(one, marks=pytest.mark.soak) for one in ("falling", "gusts"))],
+    ["rising", "a storm", *(pytest.param(one, marks=pytest.mark.soak) for one in ("a front", "falling", "gusts"))],
 )
-@pytest.mark.parametrize("seed", SEEDS[:2])
+@pytest.mark.parametrize("seed", SEEDS[:1])
 def test_weather_makes_neither_stairs_nor_lifts_of_level_ways_and_standing(seed: int, weather: str) -> None:
     found = outcome(LEVEL, "SensorTags", seed, WEATHER[weather])
     assert directions(found) == ([], [])
     assert found.reported() <= {Activity.STANDING, Activity.WALKING, Activity.UNKNOWN}
 
 
-@pytest.mark.parametrize("change", [-30.0, 30.0])
+@pytest.mark.parametrize("change", [-30.0, pytest.param(30.0, marks=pytest.mark.soak)])
 def test_a_door_in_the_way_makes_no_stairs(change: float) -> None:
     doors = tuple(PressureStep(t, change if k % 2 else -change, lasting=3.0) for k, t in enumerate((24.0, 31.0, 38.0)))
     found = outcome(LEVEL, "SensorTags", 1, Air(steps=doors))
@@ -112,7 +112,7 @@ def test_a_door_in_the_way_makes_no_stairs(change: float) -> None:
 
 
 @pytest.mark.parametrize("kit", KITS)
-@pytest.mark.parametrize("height", [4.5, -4.5])
+@pytest.mark.parametrize("height", [4.5, pytest.param(-4.5, marks=pytest.mark.soak)])
 def test_who_walks_on_an_escalator_climbs_in_its_direction_and_takes_no_lift(height: float, kit: str) -> None:
     found = outcome(Route().stand(3.0).walk(6.0, 1.3).escalator(height, walking=True).walk(6.0).stand(4.0), kit, 1)
     assert directions(found) == ([height > 0.0], [])

@@ -77,7 +77,7 @@ def of_steps(events: Iterator[Event], part: FootClocks | None = None) -> list[De
     return [output for event in events for output in part.receive(event) if isinstance(output, DefectFound)]
 
 
-@pytest.mark.parametrize("delay", [0.05, -0.1, 0.3, -0.4])
+@pytest.mark.parametrize("delay", [0.05, -0.4])
 def test_feet_with_separate_clocks_are_reported_once_with_the_time_to_add_to_the_right_foot(delay: float) -> None:
     (defect,) = found(Session().feed(with_late_right_foot(level(), delay)))
     assert (defect.site, defect.spoils) == (RIGHT, False)

@@ -31,7 +31,7 @@ def found(events: list[Event]) -> list[DefectFound]:
     return [event for event in of(DefectFound, events) if event.defect is Defect.CLOCKS]
 
 
-@pytest.mark.parametrize("delay", [3.0, -5.0, 10.0, -10.0])
+@pytest.mark.parametrize("delay", [3.0, -10.0])
 def test_clocks_that_are_seconds_apart_are_reported_without_an_offset(delay: float) -> None:
     defect = found(Session().feed(shifted(delay)))[-1]
     assert (defect.site, defect.offset, defect.sigma, defect.spoils) == (RIGHT, None, None, False)

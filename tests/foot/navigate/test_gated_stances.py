@@ -30,7 +30,7 @@ def drifted(sample: Sample, heel_strikes: list[float], drift: float) -> Sample:
 
 
 @pytest.mark.parametrize("speed", [1.3, 1.7])
-@pytest.mark.parametrize("drift", [0.5, 0.7, 0.9])
+@pytest.mark.parametrize("drift", [0.5, 0.9])
 def test_no_two_strides_merge_after_a_swing_with_a_wrong_velocity(speed: float, drift: float) -> None:
     walker = Walker(Route().stand(2.0).walk(40.0, speed).stop(2.0), seed=3)
     true = walker.truth().strides(Foot.LEFT)
@@ -54,7 +54,7 @@ def forty_metres() -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
 
 
 @pytest.mark.parametrize("scale", [1.0, 1.05])
-@pytest.mark.parametrize("phase", [0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9])
+@pytest.mark.parametrize("phase", [0.15, 0.6])
 def test_a_recording_that_starts_in_mid_walk_has_each_stride_after_its_first_stance(phase: float, scale: float) -> None:
     walk, true = forty_metres()
     start = true[4].t_start + phase * (true[4].t_end - true[4].t_start)
@@ -73,7 +73,7 @@ def test_a_recording_that_starts_in_mid_walk_has_each_stride_after_its_first_sta
     assert abs(sum(stride.height_change for stride in found)) < 0.1
 
 
-@pytest.mark.parametrize("phase", [0.3, 0.4, 0.8])
+@pytest.mark.parametrize("phase", [0.4])
 @pytest.mark.parametrize(
     "name, key, start, longest",
     [("pyshoe_vicon/2017-12-15-18-00-13", "", 4.84, 1.5), ("ipol_10m_uturn/19-1", "_left", 13.17, 1.5)],
@@ -95,9 +95,7 @@ def test_a_real_walk_from_its_middle_has_no_long_stride(
     assert len(strides) >= 6 and max(stride.length for stride in strides) < longest
 
 
-@pytest.mark.parametrize(
-    "name, strides", [("m02", 47), ("m30", 51), ("m32", 50), ("m34", 50), ("m36", 51), ("m38", 51), ("m44", 43)]
-)
+@pytest.mark.parametrize("name, strides", [("m02", 47), ("m44", 43)])
 def test_each_stance_of_brisk_loops_is_found(data_dir: Path, name: str, strides: int) -> None:
     """`openshoe_loops`: 5 km/h and 7 km/h (m44), stances of 0.25 s, a sensor whose swings drift by up to 0.7 m/s."""
     data = np.load(data_dir / "openshoe_loops" / f"{name}.npz")
