@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from math import hypot, pi
-
 import numpy as np
 import pytest
 
 from solepath.body.fuse.common_error import FEET, NO_MOVE, CommonError
 from solepath.body.fuse.learnt_bias import add_rest
-from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import sampled
 from solepath.foot.navigate.bias import Bias
-from solepath.lab.emulated.heading_walks import insoles_of, wearer_of
-from solepath.session import Session
-from solepath.types import Site
 
 ON = (1.3, 0.0)
 """A stride straight on, m."""
@@ -65,24 +58,3 @@ def test_a_rest_after_a_walk_turns_the_track_back_by_what_its_bias_has_turned(fe
     assert y == pytest.approx(0.5 * turned * length, rel=0.1)
     assert error.bias == pytest.approx([0.0, 0.0], abs=2e-5), "the feet have removed it"
     assert error.heading_sigma < 0.3 * turned and is_covariance(error)
-
-
-def test_a_foot_that_falls_silent_now_and_then_leaves_the_track_and_its_sigma_as_they_were() -> None:
-    """For 2 s in every 12 s, between two halts."""
-    route = Route().stand(3.0)
-    for side in (1.0, 1.0, -1.0):
-        route = route.walk(25.0, 1.3).stand(5.0).turn(side * 0.5 * pi, 1.0)
-    walk = sampled(route.walk(10.0).stop(3.0), wearer=wearer_of(103), insoles=insoles_of(103), seed=103)
-    ends, sigmas = [], []
-    for has_gaps in (False, True):
-        session = Session()
-        for sample in walk.samples:
-            if not (has_gaps and sample.site is Site.RIGHT_FOOT and sample.t % 12.0 > 10.0):
-                session.feed(sample)
-        assert session.position is not None and session.position.heading_sigma is not None
-        ends.append(session.position)
-        sigmas.append(session.position.heading_sigma)
-    (x, y, _), (u, v, _) = (end.position for end in ends)
-    assert hypot(x - u, y - v) < 2.5
-    assert 0.7 * sigmas[0] < sigmas[1] < 2.0 * sigmas[0]
-    assert min(ends[1].covariance[0], ends[1].covariance[3]) > 0.05
