@@ -143,7 +143,7 @@ BODY: tuple[Case, ...] = (
     Case("a foot that first steps aside", half(ASIDE, until=12.0), "default", live),
     Case("places on a plan", of("building-3", ON_PLAN, until=16.0), "default", partial(planned, STARTS[3])),
     Case("bursts", half(each(in_bursts), until=16.0), "default"),
-    Case("milliseconds", half(each(lambda item: later(item, rate=1000.0)), until=1.5), "default"),
+    Case("milliseconds", half(each(lambda item: later(item, rate=1000.0)), until=2.5), "default"),
     Case("a time that hardly passes", half(each(lambda item: later(item, rate=1e-3)), until=8.0), "default"),
     Case("too few samples", of("stroll", lambda items: ordered(items[::18]), until=30.0), "default"),
     Case("values beyond all", half(beyond, until=10.0), "default", live),
