@@ -94,19 +94,17 @@ def of_no_number(values: tuple[float, ...], t: float) -> tuple[Any, ...]:
 NAMED = calls(
     here(5.0, (0.0, 0.0), 0.3),
     here(8.0, "door"),
-    here(14.0, (60.0, 40.0), 0.5),
-    here(16.0, "stairs", 0.5),
-    here(21.0, "door", 0.5),
-    here(28.0, (66.0, 46.0), 0.5),
-    here(34.0, (60.0, 40.0), 0.2),
-    here(41.0, (70.5, 40.0), 0.5),
+    here(10.7, (69.9, 39.4), 1.0),
+    here(20.4, (59.3, 38.0), 1.0),
+    here(28.0, "stairs", 0.5),
+    here(34.0, (160.0, 40.0), 0.2),
     here(47.0, "stairs", 2.0),
     here(52.0, None, 0.5),
     here(56.0, "door", 1.0),
 )
 OFTEN = calls(*(here(4.0 + 0.7 * k, (0.8 * k if k < 8 else 6.0, 0.1 * k % 7), 60.0) for k in range(60)))
 ON_PLAN = calls(here(9.0, (6.9, 4.9), 0.5, level="1"), here(14.0, (7.5, 9.0), 0.7, level="1"))
-ASIDE = each(lambda item: added(item, gyro=(0.0, 0.0, 1.4)), 2.0, 2.5, RIGHT)
+ASIDE = each(lambda item: added(item, gyro=(0.0, 0.0, 3.0)), 3.0, 3.4, RIGHT)
 """The first strides of both feet diverge."""
 
 
