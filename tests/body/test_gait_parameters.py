@@ -131,29 +131,6 @@ def test_the_toe_off_angle_is_as_right_as_the_time_of_toe_off() -> None:
         assert abs(stride.toe_off_angle - values["toe_off_angle"]) <= 0.06 + 10.0 * abs(late)
 
 
-def test_a_stride_is_known_at_the_foot_flat_after_it() -> None:
-    _, strides, _ = walked(LEVEL)
-    assert all(stride.final and 0.0 <= stride.known_at - stride.t <= 0.25 for stride in strides)
-
-
-def test_strides_of_a_foot_are_numbered_and_follow_each_other() -> None:
-    for route in (LEVEL, BENT, HALTED):
-        _, strides, _ = walked(route)
-        for foot in Foot:
-            own = [stride for stride in strides if stride.foot is foot]
-            assert [stride.number for stride in own] == list(range(1, len(own) + 1))
-            assert all(after.t_start >= before.t for before, after in zip(own, own[1:], strict=False))
-
-
-def test_stance_and_swing_are_the_cycle_and_shares_add_up() -> None:
-    _, strides, _ = walked(LEVEL)
-    for stride in strides:
-        assert stride.stance_time + stride.swing_time == pytest.approx(stride.stride_time)
-        assert stride.stance_share + stride.swing_share == pytest.approx(1.0)
-        assert stride.double_support is not None and stride.single_support is not None
-        assert stride.double_support + stride.single_support == pytest.approx(stride.stance_time)
-
-
 def test_one_foot_alone_gives_no_parameter_between_the_feet() -> None:
     _, strides, gait = walked(LEVEL, 0, (Foot.RIGHT,))
     assert len(strides) >= 7
@@ -188,36 +165,11 @@ def test_an_insole_without_an_inertial_sensor_gives_times_alone() -> None:
     assert session.gait.cadence == pytest.approx(cadence(LEVEL), abs=1.5)
 
 
-def test_without_a_frame_for_both_feet_nobody_knows_the_length_of_a_step() -> None:
-    _, strides, _ = walked(LEVEL, 0)
-    assert {stride.foot for stride in strides} == set(Foot)
-    assert all(stride.step_length is None and stride.step_width is None for stride in strides)
-
-
 def cadence(route: Route) -> float:
     """Return the true cadence between the first and the last stride of each foot, steps/min."""
     truth, *_ = walked(route)
     times = [values["stride_time"] for foot in Foot for values in list(really(truth, foot).values())[1:-1]]
     return 120.0 * len(times) / sum(times)
-
-
-def test_running_means_are_those_of_the_steady_strides() -> None:
-    truth, strides, gait = walked(LEVEL)
-    assert gait is not None and not gait.running
-    assert gait.cadence == pytest.approx(cadence(LEVEL), abs=1.0)
-    assert gait.both.speed is not None and gait.both.speed.mean == pytest.approx(1.3, abs=0.05)
-    for foot in Foot:
-        own = [stride for stride in strides if stride.foot is foot]
-        counted = [stride.stride_time for stride in own[:-1] if stride.steady]
-        assert not own[0].steady
-        figure = gait.feet[foot].stride_time
-        assert figure is not None and figure.strides == len(counted) == len(own) - 2
-        assert figure.mean == pytest.approx(np.mean(counted))
-        assert figure.sd == pytest.approx(np.std(counted, ddof=1))
-        assert figure.cv == pytest.approx(np.std(counted, ddof=1) / np.mean(counted))
-    assert abs(gait.asymmetry("step_time") or 1.0) <= 0.03
-    assert gait.coordination is not None and gait.coordination <= 0.05
-    assert gait.both.share("stance_time") == pytest.approx(0.62, abs=0.05)
 
 
 def test_a_stand_is_no_part_of_a_stride_and_the_first_after_it_is_not_steady() -> None:

@@ -8,9 +8,8 @@ from typing import ClassVar
 import pytest
 from attrs import define, evolve, field
 
-from solepath import Foot, Sample, Session, Site, recipes
+from solepath import Foot, Session, Site, recipes
 from solepath.body.part import Part, PartInput, PartOutput
-from solepath.body.worn.wear import Wear
 from solepath.emulate import Route, Walker
 from solepath.events import PositionReported
 from solepath.foot.view import FootView
@@ -109,16 +108,3 @@ def test_a_part_that_declares_no_need_of_samples_gets_none_of_a_barometer_either
     session = with_part(EventPart())
     session.feed([evolve(sample, air_pressure=101325.0) for sample in WALK_SAMPLES])
     assert last_part(session) == EventPart()
-
-
-def test_the_centre_of_pressure_of_a_foot_without_accelerometer_is_sampled_beside_its_rates() -> None:
-    """Cells and rates come as samples of their own."""
-    session = Session()
-    sides = next(part.sides for part in session._state.wearer.parts if isinstance(part, Wear))
-    sampled_at = set()
-    for k in range(400):
-        t = 0.01 * k
-        session.feed(Sample(t=t, site=Site.LEFT_FOOT, gyro=(0.0, 0.1, 0.0)))
-        session.feed(Sample(t=t + 0.005, site=Site.LEFT_FOOT, pressure=(float(k % 50),) * 8))
-        sampled_at.add(sides.left.centre_at)
-    assert len(sampled_at) >= 60, "twenty times a second"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
-from math import exp, isclose, isfinite, log
+from math import exp, isclose
 
 from hypothesis import given
 from hypothesis import strategies as st
@@ -41,13 +41,3 @@ def test_the_belief_is_that_of_all_courses_up_to_now(log_likelihoods: list[tuple
         isclose(a, b, rel_tol=1e-6, abs_tol=1e-9)
         for a, b in zip(probabilities_of(log_likelihoods), sum_over_courses(log_likelihoods), strict=True)
     )
-
-
-@given(st.lists(st.tuples(*[st.floats(allow_nan=True, allow_infinity=True)] * 3), min_size=1, max_size=20))
-def test_any_input_gives_finite_probabilities(log_likelihoods: list[tuple[float, ...]]) -> None:
-    belief = probabilities_of(log_likelihoods)
-    assert isclose(sum(belief), 1.0, rel_tol=1e-9) and all(isfinite(p) and p > 0.0 for p in belief)
-
-
-def test_nan_gives_no_evidence() -> None:
-    assert scaled_likelihoods((float("nan"), log(0.5), 0.0)) == (1.0, 0.5, 1.0)

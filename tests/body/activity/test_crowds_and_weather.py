@@ -33,10 +33,6 @@ LIFTS = (Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
 VERY_RAPIDLY = 600.0 / 10800.0
 """Rate at which the pressure rises or falls "very rapidly", Pa/s: 6 hPa in three hours (air.py)."""
 LEVEL = Route().stand(15.0).walk(25.0, 1.2).turn(pi).walk(25.0, 1.2).stand(15.0).walk(10.0, 0.8).stand(4.0)
-HOUSE = (
-    Route().stand(5.0).walk(8.0, 1.3).stairs(11).walk(1.2).turn(pi, 0.6).stairs(11).walk(5.0).turn(pi)
-    .lift(-6.8, speed=1.2).walk(7.0).stand(4.0).stairs(11, up=False).walk(5.0).turn(pi).lift(3.4).walk(6.0).stand(8.0)
-)  # fmt: skip
 
 
 @frozen(eq=False)
@@ -87,13 +83,6 @@ def test_short_stops_in_a_crowd_are_neither_lifts_nor_stairs(seed: int, kit: str
     assert found.reported() <= {Activity.STANDING, Activity.WALKING, Activity.UNKNOWN}
 
 
-@pytest.mark.parametrize("kit", KITS)
-def test_most_halts_in_a_crowd_are_seen_as_standing(kit: str) -> None:
-    found = outcome(Route().stand(3.0).crowded(25.0, 1).stand(4.0), kit, 1).seconds
-    stood = sum(count for (true, _), count in found.items() if true is Activity.STANDING)
-    assert found[Activity.STANDING, Activity.STANDING] > 0.8 * stood
-
-
 WEATHER = {
     "falling": Air(trend=-VERY_RAPIDLY),
     "rising": Air(trend=VERY_RAPIDLY),
@@ -105,16 +94,16 @@ WEATHER = {
 
 @pytest.mark.parametrize(
     "weather",
-    ["rising", "a storm", "a front", *(pytest.param(one, marks=pytest.mark.soak) for one in ("falling", "gusts"))],
+    ["rising", "a storm", *(pytest.param(one, marks=pytest.mark.soak) for one in ("a front", "falling", "gusts"))],
 )
-@pytest.mark.parametrize("seed", SEEDS[:2])
+@pytest.mark.parametrize("seed", SEEDS[:1])
 def test_weather_makes_neither_stairs_nor_lifts_of_level_ways_and_standing(seed: int, weather: str) -> None:
     found = outcome(LEVEL, "SensorTags", seed, WEATHER[weather])
     assert directions(found) == ([], [])
     assert found.reported() <= {Activity.STANDING, Activity.WALKING, Activity.UNKNOWN}
 
 
-@pytest.mark.parametrize("change", [-30.0, 30.0])
+@pytest.mark.parametrize("change", [-30.0, pytest.param(30.0, marks=pytest.mark.soak)])
 def test_a_door_in_the_way_makes_no_stairs(change: float) -> None:
     doors = tuple(PressureStep(t, change if k % 2 else -change, lasting=3.0) for k, t in enumerate((24.0, 31.0, 38.0)))
     found = outcome(LEVEL, "SensorTags", 1, Air(steps=doors))
@@ -122,39 +111,9 @@ def test_a_door_in_the_way_makes_no_stairs(change: float) -> None:
     assert not found.reported() & {*STAIRS, *LIFTS}
 
 
-@pytest.mark.parametrize("seed", SEEDS[:2])
-def test_wind_turns_neither_stairs_nor_lifts_round(seed: int) -> None:
-    still, windy = (outcome(HOUSE, "SensorTags", seed, air) for air in (STILL_AIR, Air(gusts=6.0, seed=seed)))
-    assert directions(still) == directions(windy) == ([True, True, False], [False, True])
-    for up, down in (STAIRS, LIFTS):
-        assert windy.seconds[up, down] == windy.seconds[down, up] == 0
-
-
 @pytest.mark.parametrize("kit", KITS)
-@pytest.mark.parametrize("height", [4.5, -4.5])
+@pytest.mark.parametrize("height", [4.5, pytest.param(-4.5, marks=pytest.mark.soak)])
 def test_who_walks_on_an_escalator_climbs_in_its_direction_and_takes_no_lift(height: float, kit: str) -> None:
     found = outcome(Route().stand(3.0).walk(6.0, 1.3).escalator(height, walking=True).walk(6.0).stand(4.0), kit, 1)
     assert directions(found) == ([height > 0.0], [])
     assert not found.reported() & {*LIFTS, STAIRS[1] if height > 0.0 else STAIRS[0]}
-
-
-@pytest.mark.parametrize("kit", KITS)
-@pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("height", [4.5, -6.5])
-def test_who_stands_on_an_escalator_stands(height: float, seed: int, kit: str) -> None:
-    found = outcome(Route().stand(3.0).walk(6.0, 1.3).escalator(height).walk(6.0).stand(4.0), kit, seed)
-    assert directions(found) == ([], [])
-    assert not found.reported() & {*STAIRS, *LIFTS}
-    right = sum(count for (true, reported), count in found.seconds.items() if true is reported)
-    assert right > 0.95 * found.seconds.total()
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize(
-    ("height", "acceleration"),
-    [(-6.8, 0.8), (6.8, 0.3), *(pytest.param(*one, marks=pytest.mark.soak) for one in ((3.4, 0.8), (-3.4, 0.3)))],
-)
-def test_a_slow_elevator_is_no_escalator(height: float, acceleration: float, seed: int) -> None:
-    lift = Route().stand(3.0).walk(6.0, 1.3).turn(pi).lift(height, speed=0.4, acceleration=acceleration, jerk=0.6)
-    found = outcome(lift.walk(6.0).stand(4.0), "insoles", seed)
-    assert directions(found) == ([], [height > 0.0])

@@ -63,46 +63,8 @@ def test_who_stands_on_the_ground_rides_nowhere() -> None:
     assert not rides(standing_events(lambda t: 0.0, 60.0))
 
 
-def test_a_slow_change_of_posture_is_no_ride() -> None:
-    assert not rides(standing_events(lambda t: 0.08 * min(1.0, max(0.0, (t - 20.0) / 20.0)), 60.0))
-
-
-def test_a_ride_is_found_whose_first_pulse_was_lost_in_shuffling_feet() -> None:
-    events = standing_events(
-        lambda t: pulse(t, 10.0, 0.8) - pulse(t, 18.0, 0.8), 45.0, shuffles=((9.0, 12.5), (26.0, 45.0))
-    )
-    (ride,) = rides(events)
-    assert ride.up
-    assert ride.t_start < 15.0 and abs(ride.t - 20.0) < 1.5
-
-
-def test_doors_take_their_time_so_two_rides_are_not_one() -> None:
-    rides_found = rides(
-        standing_events(
-            lambda t: pulse(t, 10.0, 0.6) - pulse(t, 15.0, 0.6) + pulse(t, 27.0, 0.6) - pulse(t, 32.0, 0.6), 60.0
-        )
-    )
-    assert [ride.up for ride in rides_found] == [True, True]
-
-
 def test_standing_that_may_still_be_a_ride_is_not_final_at_once() -> None:
     events = standing_events(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6), 40.0)
     changes = [event for event in events if isinstance(event, ActivityChanged)]
     riding = [event for event in changes if event.activity is Activity.ELEVATOR_UP]
     assert not riding[0].final and riding[-1].final and riding[0].known_at < 14.0
-
-
-def test_a_lift_is_reported_as_possible_within_its_first_pulse() -> None:
-    for sign, activity in ((1.0, Activity.ELEVATOR_UP), (-1.0, Activity.ELEVATOR_DOWN)):
-        events = standing_events(lambda t, sign=sign: sign * (pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6)), 40.0)  # type: ignore[misc]
-        first = next(event for event in events if isinstance(event, ActivityChanged) and event.activity is activity)
-        assert not first.final and first.known_at < 11.3 and first.probability is not None
-
-
-def test_a_push_that_no_second_one_follows_is_withdrawn() -> None:
-    events = standing_events(lambda t: pulse(t, 10.0, 0.6) if t < 10.6 else 0.0, 90.0)
-    changes = [event for event in events if isinstance(event, ActivityChanged)]
-    possible = [event for event in changes if event.activity is Activity.ELEVATOR_UP]
-    assert possible and not any(event.final for event in possible)
-    assert any(event.revises == possible[-1].t for event in changes)
-    assert changes[-1].activity is Activity.STANDING

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from math import cos, degrees, pi, radians, sin
+from math import cos, degrees, radians, sin
 
 import numpy as np
 import pytest
 from strides import stride
 
-from solepath.body.aiding.compass import SIZE, Compass
-from solepath.body.aiding.disturbance import Disturbance
+from solepath.body.aiding.compass import Compass
 from solepath.body.aiding.stance_field import StanceField
 from solepath.body.fuse.common_error import FEET, HEADING, CommonError
 from solepath.emulate.sensors.magnetic_field import MagneticField
@@ -132,15 +131,7 @@ def test_a_way_that_turns_keeps_its_heading_by_the_compass_and_the_filter_is_as_
     assert 0.2 < np.mean(squares) < 2.5
 
 
-@pytest.mark.parametrize("lengths", [(0.7, 6.0), (3.0, 30.0)], ids=["a shorter disturbance", "a longer one"])
-def test_a_building_whose_disturbance_has_other_lengths_than_expected_shows_the_heading_too(
-    lengths: tuple[float, float],
-) -> None:
-    walks = [Walked(turning, 1500.0, seed=seed, lengths=lengths) for seed in SEEDS]
-    assert rms(walks) < 0.2 * without_compass().degrees
-    assert not any(walked.faults for walked in walks)
-
-
+@pytest.mark.soak
 def test_without_any_disturbance_nothing_is_strange_and_no_iron_has_changed() -> None:
     walks = [Walked(turning, 3000.0, 0.0, seed=seed) for seed in SEEDS]
     assert rms(walks) < 3.0
@@ -181,14 +172,6 @@ def test_a_magnetometer_that_cannot_be_right_moves_nothing_and_is_reported_once(
         assert 1 <= len(sentences) <= 2  # what concerns one foot is reported of both
 
 
-@pytest.mark.parametrize("scale", [0.5, 2.0])
-def test_axes_that_are_turned_and_a_wrong_scale_do_no_harm(scale: float) -> None:
-    walks = [
-        Walked(turning, 1500.0, seed=seed, fault=lambda m, _, __: scale * m[[1, 0, 2]] * MIRRORED) for seed in SEEDS
-    ]
-    assert rms(walks) < 0.12 * without_compass().degrees
-
-
 def test_a_magnet_that_comes_to_one_shoe_is_noticed_and_learnt() -> None:
     magnet = np.array([60.0, 30.0, 20.0])
     walks = [
@@ -199,6 +182,7 @@ def test_a_magnet_that_comes_to_one_shoe_is_noticed_and_learnt() -> None:
     assert rms(walks) < 0.15 * without_compass().degrees
 
 
+@pytest.mark.soak
 def test_a_steel_floor_of_150_m_is_reported_and_its_field_is_not_used() -> None:
     def steel(heading: Heading) -> Fault:
         return lambda m, _, s: m + turned(np.array([-15.0, 35.0, 15.0]), -heading(s)) * (500.0 < s < 650.0)
@@ -209,6 +193,7 @@ def test_a_steel_floor_of_150_m_is_reported_and_its_field_is_not_used() -> None:
     assert rms(walks) < rms(undisturbed) + 6.0
 
 
+@pytest.mark.soak
 def test_the_steel_of_a_lift_does_not_turn_the_track() -> None:
     def lift(measured: np.ndarray, foot: int, s: float) -> np.ndarray:
         return measured + (np.array([-30.0, 25.0, 30.0]) if 700.0 < s < 708.0 else 0.0)
@@ -216,49 +201,3 @@ def test_the_steel_of_a_lift_does_not_turn_the_track() -> None:
     with_lift = [Walked(turning, 1500.0, seed=seed, fault=lift) for seed in SEEDS]
     assert rms(with_lift) < 1.3 * rms([usual_walk(seed) for seed in SEEDS])
     assert not any(walked.faults for walked in with_lift)
-
-
-def test_an_unseen_turn_is_found_by_the_compass() -> None:
-    walked = Walked(turning, 1000.0)
-    walked.error.inflate(25.0, 1.5)
-    assert walked.error.covariance[HEADING][HEADING] > 2.0
-    field, off = MagneticField(0.0), radians(100.0)
-    for k in range(64):
-        foot = k % 2
-        b = turned(1e6 * field.at(np.zeros((1, 2)))[0], off) + turned(
-            np.array([*walked.error.aids[4 + 2 * foot : 6 + 2 * foot], 0.0]), 0.3
-        )
-        walked.compass.feet[foot] = stance(b, 0.3)
-        walked.error.start_stride(foot, False)
-        (_, _, yaw), _ = walked.compass.add_stride(
-            stride((Foot.LEFT, Foot.RIGHT)[foot], 2000.0 + k), foot, 0.0, walked.error
-        )
-        off += yaw
-        walked.compass.turned(yaw)
-    assert abs((off + pi) % (2.0 * pi) - pi) < radians(25.0)
-
-
-def test_a_place_is_as_disturbed_as_its_three_axes_show() -> None:
-    rng = np.random.default_rng(3)
-    disturbance = Disturbance()
-    for k in range(600):
-        x, y, z = rng.normal(0.0, (5.0, 5.0, 5.0 * 2.0**0.5))
-        disturbance.add_stance(k % 2, (x, y), -40.0 + z)
-    assert disturbance.usual == pytest.approx(25.0, rel=0.25)
-    for k in range(12):
-        x, y, z = rng.normal(0.0, (3.0, 3.0, 4.0))
-        disturbance.add_stance(k % 2, (x, y), -40.0 + z)
-    assert disturbance.judge((20.0, 0.0)) == (True, False) and disturbance.judge((4.0, 0.0)) == (False, True)
-    for k in range(12):
-        x, y, z = rng.normal(0.0, (15.0, 15.0, 20.0))
-        disturbance.add_stance(k % 2, (x, y), -40.0 + z)
-    assert disturbance.judge((20.0, 0.0)) == (False, True)
-
-
-def test_another_device_starts_with_unknown_iron() -> None:
-    walked = Walked(turning, 500.0)
-    row = SIZE + 4
-    assert walked.error.covariance[row][row] < 20.0
-    walked.compass.reset(0, walked.error)
-    assert walked.error.covariance[row][row] == pytest.approx(144.0) and walked.error.aids[4] == 0.0
-    assert walked.error.covariance[row + 2][row + 2] < 20.0

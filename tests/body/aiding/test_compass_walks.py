@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from functools import cache
-from math import hypot, pi, radians
+from math import pi, radians
 from typing import Any
 
-import pytest
 from attrs import evolve
 
 from solepath import DefectFound, Session
 from solepath.body.aiding.compass import Compass
 from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.fuse.common_error import HEADING
-from solepath.emulate import CC2650, Insole, Route, emulate, sampled
+from solepath.emulate import Insole, Route, sampled
 from solepath.emulate.sensors.magnetic_field import MagneticField
 from solepath.emulate.sensors.parts import AK8963
 from solepath.emulate.walk import SampledWalk
@@ -62,26 +61,3 @@ def test_a_wrong_unit_is_reported_once_for_each_foot_and_as_nothing_else() -> No
     found = [event for event in Session().feed(samples) if isinstance(event, DefectFound)]
     assert [event.site for event in found] in (list(FEET), list(reversed(FEET)))
     assert all("give tesla" in event.what for event in found)
-
-
-def test_without_a_magnetic_field_there_is_no_compass_and_with_one_the_feet_are_the_same() -> None:
-    samples = list(arcs().samples)[:6000]
-    plain, with_compass = Session(), Session()
-    assert plain.feed([evolve(sample, mag=None) for sample in samples]) == with_compass.feed(samples)
-    assert track_of(plain).evidence.compass is None
-
-
-@pytest.mark.parametrize("rate", [10.0, 50.0])
-def test_the_field_of_a_sensortag_is_that_of_the_earth_in_the_world_frame(rate: float) -> None:
-    route = Route(speed=1.2).stand(2.0).walk(12.0).turn(0.5 * pi, 3.0).walk(12.0).turn(0.5 * pi, 3.0).walk(12.0)
-    devices = {site: CC2650(rate=rate) for site in FEET}
-    session = Session()
-    session.feed(emulate(route.stop(2.0), devices=devices, field=MagneticField(), seed=2).packets)
-    common = track_of(session).common
-    bx, by = common.aids[:2]
-    assert hypot(bx, by) == pytest.approx(20.0, abs=9.0)  # the iron is not well known after two turns
-    compass = track_of(session).evidence.compass
-    assert isinstance(compass, Compass)
-    assert compass.trust.evidence > 0.0
-    for _, vertical in compass.disturbance.vertical:
-        assert vertical == pytest.approx(-43.0, abs=20.0)

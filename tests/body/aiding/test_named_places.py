@@ -6,11 +6,9 @@ from math import hypot
 
 import numpy as np
 import pytest
-from lake import back_time, error, fed, loop, middle, off_by, passing_times
+from lake import error, fed, loop, middle, off_by, passing_times
 
 from solepath import Session
-from solepath.body.aiding.path_revision import estimate
-from solepath.body.fuse.both_feet import BothFeet
 from solepath.events import PositionRejected, PositionReported, TrackRevised
 
 
@@ -37,16 +35,6 @@ def test_a_named_place_where_the_wearer_cannot_be_is_rejected_by_its_name() -> N
     fed(walk, first + 25.0, session, first)
     rejected = session.here("gate", 0.2)[1]
     assert isinstance(rejected, PositionRejected) and "where gate was before" in rejected.what
-
-
-def test_places_are_forgotten_in_the_order_of_their_last_visit() -> None:
-    session = fed(loop(), 40.0)
-    assert session.now is not None
-    for name in "abcdefgh":
-        session.here(name)
-    assert len(session.here("a")) == 2, "it is noted"
-    session.here("i")
-    assert len(session.here("a")) == 2 and len(session.here("b")) == 1, "b was visited before all others"
 
 
 def test_two_rejected_places_that_agree_with_the_way_between_them_are_used() -> None:
@@ -77,51 +65,6 @@ def test_a_right_place_in_between_makes_a_wrong_one_no_likelier() -> None:
     assert isinstance(session.here(off_by(session, 0.3, 0.0))[1], TrackRevised)
     fed(walk, 100.0, session, 80.0)
     assert isinstance(session.here(off_by(session, 40.0, 0.0))[1], PositionRejected)
-
-
-def test_places_that_were_named_while_the_track_was_lost_move_with_it() -> None:
-    walk, session = loop(), fed(loop(), 60.0)
-    session.here(off_by(session, 40.0, 0.0))
-    fed(walk, 70.0, session, 60.0)
-    session.here("kiosk", 0.3)
-    kiosk = session.position
-    fed(walk, 80.0, session, 70.0)
-    assert isinstance(session.here(off_by(session, 40.0, 0.0))[1], TrackRevised)
-    part = next(part for part in session._state.wearer.parts if isinstance(part, BothFeet))
-    found = estimate(part.evidence.path.places["kiosk"].first, part.common)
-    assert kiosk is not None and hypot(found[0] - kiosk.position[0] - 40.0, found[1] - kiosk.position[1]) < 4.0
-
-
-def test_a_beacon_that_reports_all_the_time_leaves_the_path_as_fine_as_it_was() -> None:
-    walk, session = loop(), fed(loop(), 30.0)
-    for _ in range(300):
-        session.here(off_by(session, 0.0, 0.0))
-        session.here("beacon")
-    size = len(session.pack())
-    for _ in range(300):
-        session.here(off_by(session, 0.0, 0.0))
-        session.here("beacon")
-    assert abs(len(session.pack()) - size) < 200
-    fed(walk, 90.0, session, 30.0)
-    revised = session.here(off_by(session, 0.0, 0.0))[1]
-    assert isinstance(revised, TrackRevised) and len(revised.nodes) > 10
-
-
-def test_the_place_where_a_wearer_stands_before_the_first_stride_can_have_a_name() -> None:
-    session = fed(loop(), 1.0)
-    assert [type(event) for event in session.here("door", 0.2)] == [PositionReported]
-    back = fed(loop(), back_time(loop()), session, 1.0)
-    assert isinstance(back.here("door", 0.5)[1], TrackRevised)
-
-
-def test_a_position_is_a_pair_of_numbers_of_any_kind() -> None:
-    session = fed(loop(), 20.0)
-    assert session.here(np.array([1.0, 2.0]), 50.0)[0] == session.here([1, 2], 50.0)[0]  # type: ignore[arg-type]
-    for wrong in (3.0, (1.0,), ("a", "b"), (1.0, 2.0, 3.0)):
-        with pytest.raises(TypeError):
-            session.here(wrong)  # type: ignore[arg-type]
-    with pytest.raises(TypeError):
-        session.here((1.0, 2.0), level=5)  # type: ignore[arg-type]
 
 
 def test_a_place_without_a_name_or_with_too_long_a_one_is_an_error() -> None:

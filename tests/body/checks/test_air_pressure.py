@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 from math import exp, pi
-from typing import Any
 
 import pytest
 from attrs import evolve
@@ -98,11 +97,6 @@ def test_it_is_reported_once_for_each_foot_and_no_stride_is_degraded_by_it(route
     assert not any(event.degraded for event in events if isinstance(event, StrideTaken))
 
 
-@pytest.mark.parametrize("late", [0.5, *(pytest.param(late, marks=pytest.mark.soak) for late in (0.25, 1.0))])
-def test_it_is_reported_for_both_feet_when_one_foot_sends_later(late: float) -> None:
-    assert {event.site for event in defects(session(LEVEL, drifts, late)[1])} == set(FEET)
-
-
 def test_a_lift_is_as_high_as_its_pulses_when_the_barometer_drifts() -> None:
     one, events = session(LIFT, drifts)
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]
@@ -113,15 +107,3 @@ def test_stairs_are_climbed_with_a_barometer_that_is_stuck() -> None:
     one, events = session(STAIRS, stuck)
     (flight,) = [event for event in events if isinstance(event, FlightClimbed)]
     assert flight.up and height(one) == pytest.approx(3.4, abs=0.4)
-
-
-def test_another_device_at_the_foot_is_used_again() -> None:
-    one, _ = session(LEVEL, drifts)
-    again = Session.restore(one.snapshot())
-    assert again.snapshot() == one.snapshot()
-    parts: dict[str, Any] = {type(part).__name__: part for part in one._state.wearer.parts}
-    activities, altitude = parts["Activities"], parts["Altitude"]
-    assert altitude.faulty == [True, True] and set(activities.pressure_height.faulty) == set(Foot)
-    for part in parts.values():
-        part.reset(Site.LEFT_FOOT)
-    assert altitude.faulty == [False, True] and activities.pressure_height.faulty == [Foot.RIGHT]

@@ -10,16 +10,16 @@ from statistics import fmean, median
 import numpy as np
 import pytest
 from attrs import evolve
-from walks import LEFT, RIGHT, ROUGH, insoles, of, samples
+from walks import RIGHT, of, samples
 
-from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, Site, ToeOff
-from solepath.body.checks.clocks.foot_clocks import MEMORY, FootClocks
+from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, ToeOff
+from solepath.body.checks.clocks.foot_clocks import FootClocks
 from solepath.body.checks.clocks.offset import MIN_COMPARISONS
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import Defect, DefectFound, Event, SampleGap
+from solepath.events import Defect, DefectFound, Event
 from solepath.recording import open_source, shift_clock
 from solepath.recording.errors import printable
 from solepath.show.observer import Observer
@@ -77,7 +77,7 @@ def of_steps(events: Iterator[Event], part: FootClocks | None = None) -> list[De
     return [output for event in events for output in part.receive(event) if isinstance(output, DefectFound)]
 
 
-@pytest.mark.parametrize("delay", [0.05, -0.1, 0.3, -0.4])
+@pytest.mark.parametrize("delay", [0.05, -0.4])
 def test_feet_with_separate_clocks_are_reported_once_with_the_time_to_add_to_the_right_foot(delay: float) -> None:
     (defect,) = found(Session().feed(with_late_right_foot(level(), delay)))
     assert (defect.site, defect.spoils) == (RIGHT, False)
@@ -112,11 +112,6 @@ def test_feet_on_one_clock_are_not_reported(route: Route) -> None:
     assert len(session._state.wearer.find_attribute("comparisons")) >= MIN_COMPARISONS, "enough for a report"
 
 
-@pytest.mark.parametrize("foot", [LEFT, RIGHT])
-def test_one_foot_alone_has_nothing_to_be_compared_with(foot: Site) -> None:
-    assert not found(Session().feed([sample for sample in level() if sample.site is foot]))
-
-
 @pytest.mark.parametrize("foot", Foot)
 def test_contacts_from_cells_in_one_shoe_only_are_no_separate_clock(foot: Foot) -> None:
     walker = Walker(LEVEL, seed=4)
@@ -124,10 +119,6 @@ def test_contacts_from_cells_in_one_shoe_only_are_no_separate_clock(foot: Foot) 
         s for one in Foot for s in walker.samples(one, 100.0, LSM6DSOX, layout=layout(96, one) if one is foot else None)
     ]
     assert not found(Session().feed(sorted(walk, key=lambda sample: sample.t)))
-
-
-def test_a_poor_radio_connection_is_no_separate_clock() -> None:
-    assert not found(Session().feed(insoles(LEVEL, ROUGH).packets))
 
 
 def test_a_limp_shows_in_the_swings_and_is_no_separate_clock() -> None:
@@ -139,49 +130,12 @@ def test_a_limp_shows_in_the_swings_and_is_no_separate_clock() -> None:
     assert defect.sigma is not None and defect.sigma > 0.015, "less certain than of an even walker"
 
 
-def test_labels_that_scatter_as_those_of_a_hand_do_not_hide_an_offset_of_50_ms() -> None:
-    assert not of_steps(steps(200))
-    (defect,) = of_steps(steps(50, delay=-0.05))
-    assert defect.t < 20.0
-
-
 def test_a_clock_that_runs_200_ppm_fast_is_found_within_ten_minutes_and_again_as_its_offset_grows() -> None:
     defects = of_steps(steps(1600, rate=200e-6))
     assert 60.0 < defects[0].t < 300.0
     assert 3 <= len(defects) <= 6, "each report is half as much again as the one before"
     for defect in defects:
         assert defect.offset == pytest.approx(-200e-6 * defect.t, abs=0.01)
-
-
-def test_feet_that_move_independently_show_nothing_of_their_clocks() -> None:
-    left = [event for event in steps(200, scatter=0.03) if event.foot is Foot.LEFT]  # type: ignore[union-attr]
-    right = [event for event in steps(200, rate=0.08, scatter=0.03) if event.foot is Foot.RIGHT]  # type: ignore[union-attr]
-    assert not of_steps(iter(sorted([*left, *right], key=lambda event: event.t)))
-
-
-def test_times_of_a_clock_that_is_not_settled_are_not_compared() -> None:
-    part = FootClocks()
-    part.unsettle(RIGHT, 100.0)
-    assert not of_steps((event for event in steps(80, delay=0.1)), part)
-    part.unsettle(RIGHT, None)
-    assert of_steps(steps(80, delay=0.1), part)
-
-
-def test_a_cycle_with_missing_samples_is_not_compared() -> None:
-    def with_gaps() -> Iterator[Event]:
-        for event in steps(200, delay=0.1):
-            yield event
-            if isinstance(event, ToeOff):
-                site = LEFT if event.foot is Foot.LEFT else RIGHT
-                yield SampleGap(t=event.t, known_at=event.t, site=site, duration=0.1)
-
-    assert not of_steps(with_gaps())
-
-
-def test_the_memory_does_not_grow_with_the_walk() -> None:
-    part = FootClocks()
-    of_steps(steps(500), part)
-    assert len(part.comparisons) == MEMORY and len(part.left.swings) <= 3
 
 
 def test_nothing_compares_the_feet_after_their_clocks_were_found_apart() -> None:
@@ -201,25 +155,6 @@ def test_nothing_compares_the_feet_after_their_clocks_were_found_apart() -> None
         assert {getattr(gait.both, name) for name in BETWEEN} == {None}, "not in the means either"
         assert (gait.asymmetry("step_time"), gait.coordination) == (None, None)
     assert observer.defects == [f"right foot: {defect.what}"]
-
-
-def test_another_device_on_a_foot_starts_again_with_its_own_clock() -> None:
-    part = FootClocks()
-    assert len(of_steps(steps(60, delay=0.1), part)) == 1
-    part.reset(LEFT)
-    assert not of_steps(steps(60), part)
-    part.reset(RIGHT)
-    assert len(of_steps(steps(60, delay=0.1), part)) == 1
-
-
-def test_a_session_saved_before_the_clocks_are_found_apart_finds_them_at_the_same_moment() -> None:
-    walk = with_late_right_foot(level(), 0.07)
-    whole = Session().feed(walk)
-    session = Session()
-    first = session.feed(walk[:2200])
-    assert not found(first) and len(found(whole)) == 1
-    assert first + Session.restore(session.snapshot()).feed(walk[2200:]) == whole
-    assert first + Session.unpack(session.pack()).feed(walk[2200:]) == whole
 
 
 def means(events: list[Event]) -> dict[tuple[Foot, str], float]:

@@ -83,15 +83,3 @@ def test_it_is_named_which_sensor_repeats_its_values(acc: bool, gyro: bool, word
     assert event.what.startswith(f"{words}: samples come more often than")
     strides = of(StrideTaken, events)
     assert len(strides) > 10 and not any(stride.degraded for stride in strides)
-
-
-def test_a_coarse_gyroscope_whose_values_repeat_while_the_foot_stands_does_not_repeat_its_values() -> None:
-    def coarse(sample: Sample) -> Sample:
-        x, y, z = sample.gyro or (0.0, 0.0, 0.0)
-        return evolve(sample, gyro=(round(x, 1), round(y, 1), round(z, 1)))
-
-    samples = [coarse(sample) for sample in walk()]
-    repeats = sum(a.gyro == b.gyro for a, b in zip(samples, samples[1:], strict=False))
-    assert repeats > 0.2 * len(samples)
-    session = Session()
-    assert of(DefectFound, session.feed(samples) + session.finish()) == []

@@ -13,7 +13,6 @@ from one_foot import Change, clipped, run, scaled, signed, vectors
 from walks import of
 
 from solepath import Defect, DefectFound, Foot, HeelStrike, Sample, Session, Site, StrideTaken
-from solepath.body.checks.rates import RateCheck
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -133,18 +132,6 @@ def test_an_insole_of_noise_or_of_coarse_values_is_named() -> None:
     assert len(of(HeelStrike, events)) > 1.5 * len(of(StrideTaken, events))
 
 
-def test_a_session_that_is_saved_in_the_middle_of_a_check_goes_on_with_it() -> None:
-    _, change = DAMAGES["gyroscope y mirrored"]
-    damaged = [change(sample) for sample in WALK]
-    whole = run(damaged)[0]
-    for cut in (517, 900):
-        session = Session()
-        events = session.feed(damaged[:cut])
-        restored = Session.restore(session.snapshot())
-        events += restored.feed(damaged[cut:]) + restored.finish()
-        assert of(DefectFound, events) == whole != []
-
-
 RECORDED = ("openshoe_loops/m02", "xio_closed_walks/straightLine", "tripod_treadmill/PWS", "ipol_10m_uturn/1-1")
 
 
@@ -155,42 +142,6 @@ def test_a_recording_is_silent_and_with_a_mirrored_axis_it_is_not(name: str, dat
     for change in (vectors(gyro=signed(1.0, 1.0, -1.0)), vectors(acc=signed(1.0, -1.0, 1.0))):
         found, _ = run([change(sample) for sample in samples])
         assert {event.site for event in found if event.defect is Defect.AXES} == {sample.site for sample in samples}
-
-
-def test_a_sensor_at_rest_that_lacks_gravity_waits_for_motion() -> None:
-    still = [evolve(WALK[0], t=0.01 * i - 3.0, acc=(0.0, 0.0, 1.5), gyro=(0.0, 0.0, 0.0)) for i in range(300)]
-    assert run(still)[0] == []
-    assert Defect.NO_GRAVITY in {event.defect for event in run(still + without_gravity(WALK))[0]}
-
-
-def test_a_sensor_that_is_stuck_in_mid_walk_spoils_what_follows() -> None:
-    frozen = [evolve(sample, acc=WALK[1000].acc) if i > 1000 else sample for i, sample in enumerate(WALK)]
-    found, strides = run(frozen)
-    *_, event = [event for event in found if event.defect is Defect.REPEATED]
-    assert event.spoils and "the accelerometer repeats the same values while the foot moves" in event.what
-    later = [stride for stride in strides if stride.t_start > event.t]
-    assert len(later) >= 3 and all(stride.degraded for stride in later)
-
-
-def test_the_sensor_that_is_stuck_is_named_and_not_the_one_that_repeats_some_values() -> None:
-    check = RateCheck()
-    some = [(float(i - i % 6 // 5), 0.0, 9.8) for i in range(33)]
-    findings = [check.add_values(some, [(3.0, 0.0, 0.0)] * len(some)) for _ in range(5)]
-    (finding,) = [finding for finding in findings if finding is not None]
-    assert finding.what.startswith("the gyroscope repeats the same values") and finding.spoils
-
-
-def test_a_few_values_beyond_any_sensor_are_no_wrong_unit() -> None:
-    spike = vectors(acc=lambda v: (1000.0, v[1], v[2]))
-    found, strides = run([spike(sample) if i % 3 == 0 else sample for i, sample in enumerate(WALK)])
-    assert found == [] and len(strides) > 15
-
-
-def test_a_sensor_that_is_stuck_is_named_once_the_other_foot_walks() -> None:
-    stuck = [evolve(WALK[0], t=sample.t, known_at=None, site=Site.RIGHT_FOOT) for sample in WALK]
-    assert run(stuck)[0] == []
-    (event,) = run([sample for pair in zip(WALK, stuck, strict=True) for sample in pair])[0]
-    assert event.site is Site.RIGHT_FOOT and event.defect is Defect.REPEATED and "stuck" in event.what and event.spoils
 
 
 def test_a_gyroscope_with_a_large_bias_has_the_axes_that_it_has() -> None:

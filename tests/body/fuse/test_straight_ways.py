@@ -12,7 +12,7 @@ from solepath.body.fuse.straight_ways import StraightWays
 from solepath.calibration import HeadingCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import SampledWalk, sampled
-from solepath.events import Defect, DefectFound, Event, LiftRidden, StrideTaken
+from solepath.events import Defect, Event, StrideTaken
 from solepath.lab.emulated.heading_walks import heading_route, insoles_of, wearer_of
 from solepath.types import Foot
 from solepath.types.attrs import evolve
@@ -35,17 +35,6 @@ def test_a_wearer_whose_peaks_are_cut_off_still_shows_the_drift() -> None:
     strides = [event for event in events if isinstance(event, StrideTaken)]
     assert sum(stride.degraded for stride in strides) > 0.8 * len(strides)
     assert part.common.drift_variance(0.0) < 0.5 * BothFeet().common.drift_variance(0.0)
-
-
-def test_a_ride_in_a_lift_is_no_moving_ground_and_turns_nothing() -> None:
-    route = Route().stand(3).walk(30, 1.3).lift(9.0).walk(30, 1.3).stop(2)
-    walk = sampled(route, seed=4)
-    _, session, events = fed(walk)
-    assert [event for event in events if isinstance(event, LiftRidden)] != []
-    assert [event for event in events if isinstance(event, DefectFound)] == []
-    here = session.position
-    assert here is not None
-    assert abs(here.position[1]) < 1.0 and abs(here.position[0] - 60.0) < 1.0
 
 
 def test_a_calibration_is_dropped_although_the_strides_have_no_duration() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from math import hypot, inf, pi, sin
+from math import hypot, pi, sin
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,6 @@ from solepath import Foot, Sample, Session, Site, StrideTaken
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.truth import TrueStride
-from solepath.foot.navigate.stance_rhythm import FIRST_STANCE, StanceRhythm
 
 PULSE_TIME = 0.4
 """Duration of an error of the accelerometer before heel-strike, s."""
@@ -31,7 +30,7 @@ def drifted(sample: Sample, heel_strikes: list[float], drift: float) -> Sample:
 
 
 @pytest.mark.parametrize("speed", [1.3, 1.7])
-@pytest.mark.parametrize("drift", [0.5, 0.7, 0.9])
+@pytest.mark.parametrize("drift", [0.5, 0.9])
 def test_no_two_strides_merge_after_a_swing_with_a_wrong_velocity(speed: float, drift: float) -> None:
     walker = Walker(Route().stand(2.0).walk(40.0, speed).stop(2.0), seed=3)
     true = walker.truth().strides(Foot.LEFT)
@@ -47,27 +46,6 @@ def test_no_two_strides_merge_after_a_swing_with_a_wrong_velocity(speed: float, 
     assert session.position is not None and abs(session.position.position[2]) < 0.05
 
 
-def test_a_wearer_with_short_stances_needs_less_evidence() -> None:
-    rhythm = StanceRhythm()
-    assert rhythm.time_until_stance(inf, 0.5, 0.35) == 0.35
-    t = last = 0.0
-    for _ in range(30):  # stances of 0.2 s, swings of 0.4 s
-        for k in range(21):
-            rhythm.add(t + 0.01 * k, last)
-            last = t + 0.01 * k
-        t += 0.6
-    assert rhythm.time_until_stance(inf, 0.5, 0.35) == pytest.approx(0.1, abs=0.01)
-    assert rhythm.time_until_stance(0.1, 0.5, 0.35) == 0.35, "evidence in the first half of a swing"
-
-
-def test_standing_does_not_count_as_a_stance_of_walking() -> None:
-    rhythm = StanceRhythm()
-    rhythm.add(0.0, 0.0)
-    rhythm.add(20.0, 20.0 - 0.01)
-    rhythm.add(20.6, 20.0)
-    assert rhythm.usual_stance == FIRST_STANCE
-
-
 @cache
 def forty_metres() -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
     """Return the samples of the left foot, and its true strides."""
@@ -76,7 +54,7 @@ def forty_metres() -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
 
 
 @pytest.mark.parametrize("scale", [1.0, 1.05])
-@pytest.mark.parametrize("phase", [0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9])
+@pytest.mark.parametrize("phase", [0.15, 0.6])
 def test_a_recording_that_starts_in_mid_walk_has_each_stride_after_its_first_stance(phase: float, scale: float) -> None:
     walk, true = forty_metres()
     start = true[4].t_start + phase * (true[4].t_end - true[4].t_start)
@@ -95,24 +73,7 @@ def test_a_recording_that_starts_in_mid_walk_has_each_stride_after_its_first_sta
     assert abs(sum(stride.height_change for stride in found)) < 0.1
 
 
-def test_two_strides_between_which_the_foot_never_seems_to_stand_are_one_that_is_degraded() -> None:
-    walker = Walker(Route().stand(2.0).walk(30.0, 1.3).stop(2.0), seed=3)
-    shaken_one = walker.truth().strides(Foot.LEFT)[6]
-    samples = []
-    for sample in walker.samples(Foot.LEFT, 100.0, LSM6DSOX):
-        assert sample.gyro is not None and shaken_one.t_heel_strike is not None
-        shaken = shaken_one.t_heel_strike - 0.05 < sample.t < shaken_one.t_heel_strike + 0.75
-        x, y, z = sample.gyro
-        samples.append(evolve(sample, gyro=(x, y, z + 3.0 * sin(40.0 * pi * sample.t))) if shaken else sample)
-    session = Session()
-    found = [event for event in session.feed(samples) + session.finish() if isinstance(event, StrideTaken)]
-    covering = [
-        stride for stride in found if stride.t_start < shaken_one.t_end - 0.3 and stride.t_end > shaken_one.t_end + 0.3
-    ]
-    assert len(covering) == 1 and [stride for stride in found if stride.degraded] == covering
-
-
-@pytest.mark.parametrize("phase", [0.3, 0.4, 0.8])
+@pytest.mark.parametrize("phase", [0.4])
 @pytest.mark.parametrize(
     "name, key, start, longest",
     [("pyshoe_vicon/2017-12-15-18-00-13", "", 4.84, 1.5), ("ipol_10m_uturn/19-1", "_left", 13.17, 1.5)],
@@ -134,9 +95,7 @@ def test_a_real_walk_from_its_middle_has_no_long_stride(
     assert len(strides) >= 6 and max(stride.length for stride in strides) < longest
 
 
-@pytest.mark.parametrize(
-    "name, strides", [("m02", 47), ("m30", 51), ("m32", 50), ("m34", 50), ("m36", 51), ("m38", 51), ("m44", 43)]
-)
+@pytest.mark.parametrize("name, strides", [("m02", 47), ("m44", 43)])
 def test_each_stance_of_brisk_loops_is_found(data_dir: Path, name: str, strides: int) -> None:
     """`openshoe_loops`: 5 km/h and 7 km/h (m44), stances of 0.25 s, a sensor whose swings drift by up to 0.7 m/s."""
     data = np.load(data_dir / "openshoe_loops" / f"{name}.npz")
