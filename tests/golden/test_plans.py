@@ -1,0 +1,12 @@
+"""Floor plans of every kind, and pedestrians on them: each answer is what it was."""
+
+from __future__ import annotations
+
+import pytest
+from corpus import Case, differences
+from table import PARTS
+
+
+@pytest.mark.parametrize("case", PARTS["plans"], ids=lambda case: case.name)
+def test_every_event_is_what_it_was(case: Case) -> None:
+    assert differences(case) == [], "`.ci/golden check` prints the first event that differs"
