@@ -1,38 +1,239 @@
-"""Motion-BIDS: the official validator accepts the dataset, and reading it back gives the samples and their events."""
+"""Motion-BIDS, letter by letter: what is written of a few samples and read of other programs; and its validator accepts it."""
+
+from __future__ import annotations
 
 import json
 import subprocess
 import sys
-from math import degrees
 from pathlib import Path
 
 import pytest
 import walks
 from commands import one_line, run
 from recordings import recorded
+from strides import stride
 
-from solepath import Foot, HeelStrike, Packet, Sample, Session, Site, StrideTaken
+from solepath import ActivityChanged, HeelStrike, Session, ToeOff
 from solepath.recording import RecordingError, open_source
-from solepath.recording.bids.columns import read_table
+
+# contracts of the room, which `convert` calls; no shorter way in
 from solepath.recording.bids.names import Entities
 from solepath.recording.bids.reader import foot_of_point
 from solepath.recording.bids.writer import MotionWriter
-from solepath.recording.posed import PosedSession
+from solepath.recording.posed import PosedSample, PosedSession, PoseState
+from solepath.types import Activity, Foot, Phase, Sample, Site
 
-FIRST = Entities("01")
-START = {"began": "2026-11-21T09:30:00.25Z", "began_t": 0.0}
+LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
+ACC, GYRO = (0.5, -0.25, 9.75), (0.125, 0.0, -1.5)
+FULL = Sample(
+    2.02, LEFT, ACC, GYRO, (7.0, 8.0), quat=(0.5, 0.5, -0.5, 0.5), mag=(1e-5, 2e-5, -4e-5), air_pressure=101300.0,
+    saturated=True,
+)  # fmt: skip
+STATE = PoseState((1.0, 2.0, 3.0), (4.0, 5.0, 6.0), (1.0, 0.0, 0.0, 0.0), Phase.SWING)
+SAMPLES = [
+    PosedSample(Sample(2.0, LEFT, ACC, GYRO), None),
+    PosedSample(Sample(2.01, RIGHT, None, None, (7.0,)), None),
+    PosedSample(FULL, STATE),
+    PosedSample(Sample(2.04, LEFT, ACC, None), STATE),
+]
+EVENTS = [
+    ToeOff(t=2.03, known_at=2.05, foot=Foot.RIGHT),
+    HeelStrike(t=2.005, known_at=2.05, foot=Foot.LEFT),
+    HeelStrike(t=2.01, known_at=2.05, foot=Foot.LEFT, final=False),
+    ActivityChanged(t=2.0, known_at=2.05, activity=Activity.WALKING, probability=1.0),
+    stride(Foot.LEFT, 3.04, (3.0, 4.0, 0.5), heading_change=-0.25),
+]
+START = {"began": "2026-11-21T09:30:00.25Z", "began_t": 0.5}
+MOTION = [
+    "0.000000000 0.5 -0.25 9.75 0.125 0.0 -1.5 n/a n/a n/a n/a n/a n/a n/a n/a n/a n/a 0.0" + " n/a" * 10,
+    "0.020000000 0.5 -0.25 9.75 0.125 0.0 -1.5 1e-05 2e-05 -4e-05 0.5 0.5 -0.5 0.5 101300.0 7.0 8.0 1.0"
+    " 1.0 2.0 3.0 4.0 5.0 6.0 1.0 0.0 0.0 0.0",
+    "0.040000000 0.5 -0.25 9.75" + " n/a" * 13 + " 0.0 1.0 2.0 3.0 4.0 5.0 6.0 1.0 0.0 0.0 0.0",
+]
+CHANNELS = [
+    "latency n/a LATENCY s n/a",
+    *(f"acc_{c} {c} ACCEL m/s^2 sensor" for c in "xyz"),
+    *(f"gyro_{c} {c} GYRO rad/s sensor" for c in "xyz"),
+    *(f"mag_{c} {c} MAGN T sensor" for c in "xyz"),
+    *(f"device_quat_{c} quat_{c} ORNT n/a device" for c in "wxyz"),
+    "air_pressure n/a MISC Pa n/a",
+    *(f"pressure_{k} n/a MISC N n/a" for k in range(2)),
+    "saturated n/a MISC n/a n/a",
+    *(f"position_{c} {c} POS m world" for c in "xyz"),
+    *(f"velocity_{c} {c} VEL m/s world" for c in "xyz"),
+    *(f"attitude_quat_{c} quat_{c} ORNT n/a world" for c in "wxyz"),
+]
 
 
-def dataset(root: Path, items=None, entities: Entities = FIRST, **options) -> list[Path]:
-    """Write the items, by default a walk with insoles, into a dataset; return the files of the recording."""
-    writer = MotionWriter(root, entities, START, **options)
-    posed = PosedSession(Session(poses=True))
-    for item in walks.insoles().packets if items is None else items:
-        events = posed.session.feed(item)
-        writer.add(posed.take(), events)
-    events = posed.session.finish()
-    writer.add(posed.take(), events)
+def dataset(root: Path, entities: Entities, replace: bool = False, samples: list[PosedSample] = SAMPLES) -> list[Path]:
+    writer = MotionWriter(root, entities, START, replace=replace)
+    writer.add(samples, EVENTS)
     return writer.write()
+
+
+def rows(path: Path) -> list[list[str]]:
+    return [line.split("\t") for line in path.read_text("utf-8").splitlines()]
+
+
+def test_every_channel_of_a_sensor_is_written_under_its_name_unit_and_frame(tmp_path: Path) -> None:
+    root = tmp_path / "study"
+    files = dataset(root, Entities("01", "corridor", "a", 2))
+    stem = "sub-01_ses-a_task-corridor"
+    folder = root / "sub-01" / "ses-a" / "motion"
+    ends = [f"_tracksys-{side}foot_run-2_{end}" for side in ("left", "right")
+            for end in ("channels.json", "channels.tsv", "motion.json", "motion.tsv")]  # fmt: skip
+    assert files == [folder / f"{stem}{end}" for end in sorted([*ends, "_run-2_events.json", "_run-2_events.tsv"])]
+    left = folder / f"{stem}_tracksys-leftfoot_run-2_motion.tsv"
+    assert rows(left) == [line.split(" ") for line in MOTION]
+    names, *described = rows(left.with_name(left.name.replace("motion.tsv", "channels.tsv")))
+    assert names == ["name", "component", "type", "tracked_point", "units", "reference_frame", "description"]
+    assert [" ".join([*row[:3], *row[4:6]]) for row in described] == CHANNELS
+    assert {row[3] for row in described} == {"left_foot"}
+    (right,) = rows(left.with_name(left.name.replace("left", "right")))
+    assert right == ["0.010000000", "7.0"]
+    metadata = json.loads(left.with_suffix(".json").read_text())
+    assert metadata["SamplingFrequency"] == 50.0 and metadata["SamplingFrequencyEffective"] == pytest.approx(50.0)
+    assert (metadata["RecordingDuration"], metadata["StartTime"]) == (pytest.approx(0.04), 0.0)
+    assert (metadata["MotionChannelCount"], metadata["ACCELChannelCount"], metadata["MISCChannelCount"]) == (28, 3, 4)
+    other = json.loads((left.with_name(left.name.replace("left", "right"))).with_suffix(".json").read_text())
+    assert other["StartTime"] == pytest.approx(0.01)
+    assert (other["SamplingFrequency"], other["SamplingFrequencyEffective"]) == ("n/a", "n/a")
+    assert rows(folder / f"{stem}_run-2_events.tsv")[1:] == [
+        ["0.000000", "n/a", "walking", *["n/a"] * 5],
+        ["0.005000", "0", "heel_strike", "left", *["n/a"] * 4],
+        ["0.030000", "0", "toe_off", "right", *["n/a"] * 4],
+        ["0.040000", "1.000000", "stride", "left", "5.000000", "-0.250000", "0.500000", "0"],
+    ]
+
+
+def test_reading_back_gives_the_samples_of_both_feet(tmp_path: Path) -> None:
+    """Times differ by the start of the recording, from which latencies count."""
+    fed = [Sample(2.0 + 0.125 * k, (LEFT, RIGHT)[k % 2], (k, -0.5, 9.75), (0.0, k, 1.0), (k, 2.0)) for k in range(6)]
+    files = dataset(tmp_path, Entities("01"), samples=[PosedSample(sample, None) for sample in fed])
+    assert list(open_source(motion_file(files))) == [
+        Sample(one.t - 2.0, one.site, one.acc, one.gyro, one.pressure) for one in fed
+    ]
+
+
+def test_a_dataset_lists_each_recording_and_person_once_and_keeps_what_others_wrote(tmp_path: Path) -> None:
+    root = tmp_path / "study"
+    first, second = Entities("01", run=1), Entities("01", run=2)
+    scans = root / "sub-01" / "sub-01_scans.tsv"
+    for entities in (first, second, Entities("02")):
+        dataset(root, entities)
+    scans.write_text(scans.read_text().replace("acq_time", "acq_time\toperator").replace("Z\n", "Z\tme\n"))
+    (root / "participants.tsv").write_text("participant_id\tage\nsub-01\t44\nsub-02\t51\n")
+    with pytest.raises(RecordingError, match="sub-01_task-walk_run-1_events.json: the dataset has this recording"):
+        MotionWriter(root, first)
+    dataset(root, first, replace=True, samples=SAMPLES[:1])
+    dataset(root, Entities("03"))
+    moment = "2026-11-21T09:30:01.750000Z"
+    assert rows(scans) == [
+        ["filename", "acq_time", "operator"],
+        ["motion/sub-01_task-walk_tracksys-leftfoot_run-2_motion.tsv", moment, "me"],
+        ["motion/sub-01_task-walk_tracksys-rightfoot_run-2_motion.tsv", moment, "me"],
+        ["motion/sub-01_task-walk_tracksys-leftfoot_run-1_motion.tsv", moment, "n/a"],
+    ]
+    assert rows(root / "participants.tsv")[1:] == [["sub-01", "44"], ["sub-02", "51"], ["sub-03", "n/a"]]
+    left = [path.name for path in scans.parent.glob("motion/*run-1*")]
+    assert left and not [name for name in left if "right" in name], "a sensor that is no longer there"
+    with pytest.raises(RecordingError, match="has no samples, so that there is nothing to write"):
+        MotionWriter(root, Entities("04")).write()
+
+
+@pytest.mark.parametrize("labels", [("0_1",), ("",), ("01", ""), ("01", "walk", "a b"), ("01", "walk", "", -1)])
+def test_labels_that_no_dataset_may_have_are_rejected(labels: tuple) -> None:
+    with pytest.raises(ValueError, match="no label of BIDS|has a subject and a task|numbered from 1"):
+        Entities(*labels)
+
+
+def by_hand(
+    root: Path, left: str = "m/s^2", points: tuple[str, str] = ("LeftFoot", "r-shoe"), latency: str = "LATENCY"
+) -> Path:
+    """Write two tracking systems, of which the right one starts 0.05 s later; return the file of the left one."""
+    folder = root / "sub-7" / "motion"
+    folder.mkdir(parents=True)
+    (root / "dataset_description.json").write_text("{}")
+    (root / "task-go_motion.json").write_text('{"SamplingFrequency": 50, "SamplingFrequencyEffective": 0}')
+    (root / "task-other_motion.json").write_text('{"SamplingFrequency": 10}')
+    (root / "sub-7" / "sub-7_task-go_tracksys-R_motion.json").write_text('{"SamplingFrequencyEffective": 25}')
+    starts = "".join(f"motion/sub-7_task-go_tracksys-{side}_motion.tsv\t2026-03-01T09:30:{second}\n"
+                     for side, second in (("R", "01.05"), ("L", "01")))  # fmt: skip
+    (root / "sub-7" / "sub-7_scans.tsv").write_text("filename\tacq_time\n" + starts)
+    axes = "component\ttype\ttracked_point\tunits\tname"
+    for side, point, unit in zip("LR", points, (left, "g"), strict=True):
+        stem = f"sub-7_task-go_tracksys-{side}"
+        channels = [
+            f"{c}\t{kind}\t{point}\t{u}\t{kind}{c}" for kind, u in (("GYRO", "deg/s"), ("ACCEL", unit)) for c in "zxy"
+        ]
+        channels += [f"n/a\tMISC\t{point}\tN\tpressure_0", f"n/a\tMISC\t{point}\tN\ttotal"]
+        channels += ["n/a\tLATENCY\tn/a\ts\ttime" if side == "L" and latency else "n/a\tMISC\tn/a\ts\ttime"]
+        (folder / f"{stem}_channels.tsv").write_text("\n".join([axes, *channels]) + "\n\n")
+        force = {"g": 1.0, "mg": 1000.0}.get(unit, 9.80665)
+        lines = [f"3\t1\t2\t{force}\t0\t0\t{5 + k}\t99\t{0.01 * k}" for k in range(4)]
+        lines[2] = lines[2].replace(f"{force}\t0\t0", "n/a\tn/a\tn/a").replace("3\t1\t2", "n/a\t1\t2")
+        (folder / f"{stem}_motion.tsv").write_text("\n".join(lines) + "\n")
+    return folder / "sub-7_task-go_tracksys-L_motion.tsv"
+
+
+@pytest.mark.parametrize("unit", ["m/s^2", "g", "mg"])
+def test_files_of_another_program_give_the_samples_of_both_feet(tmp_path: Path, unit: str) -> None:
+    """Times are those of the latencies, or of the rate that the nearest metadata have; a row of n/a is no sample."""
+    samples = list(open_source(by_hand(tmp_path, unit), report=pytest.fail))
+    assert [(s.site, round(s.t, 6), s.pressure) for s in samples] == [
+        (LEFT, 0.0, (5.0,)), (LEFT, 0.01, (6.0,)), (LEFT, 0.03, (8.0,)),
+        (RIGHT, 0.05, (5.0,)), (RIGHT, 0.09, (6.0,)), (RIGHT, 0.17, (8.0,)),
+    ]  # fmt: skip
+    for sample in samples:
+        assert sample.acc == pytest.approx((0.0, 0.0, 9.80665))
+        assert sample.gyro == pytest.approx((0.01745329, 0.03490659, 0.05235988), abs=1e-8)
+    assert {s.site for s in open_source(tmp_path / "sub-7/motion/sub-7_task-go_tracksys-R_motion.tsv", Foot.RIGHT)} == {
+        RIGHT
+    }
+
+
+@pytest.mark.parametrize(
+    ("changed", "old", "new", "complaint"),
+    [
+        ("channels", "z\tACCEL", "w\tACCEL", "L_motion.tsv: acc of LeftFoot has no x, y and z"),
+        ("channels", "ACCEL\tLeftFoot\tm/s^2\tACCELy", "ACCEL\tLeftFoot\tg\tACCELy", "acc is in .*, not in one of"),
+        ("channels", "\ttotal\n", "\ttotal\nn/a\tMISC\tn/a\tN\tx\n", "has 9 columns, and channels.tsv describes 10"),
+        ("channels", "LeftFoot\tN\tpressure_0", "LeftFoot\tPa\tpressure_0", "pressure is in Pa, not in one of N, n/a"),
+        ("channels", "type", "kind", "L_channels.tsv: describes no channels, each with a type"),
+        ("channels", "LeftFoot", "r_toe", "several tracked points are on the right foot: r_toe, r-shoe"),
+        ("motion", "9.80665", "x", "L_motion.tsv: is no table of numbers"),
+        ("motion", "\n", "\t1\n", "L_motion.tsv: has 10 columns, and channels.tsv describes 9"),
+        ("motion", "9.80665", "0.3", r"L_motion.tsv: acc_left: the median of \|acc\| is 0.3 m/s\^2"),
+    ],
+)  # fmt: skip
+def test_a_fault_of_a_file_is_named(tmp_path: Path, changed: str, old: str, new: str, complaint: str) -> None:
+    path = by_hand(tmp_path)
+    file = path.with_name(path.name.replace("motion", changed))
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+    with pytest.raises(RecordingError, match=complaint):
+        list(open_source(path))
+
+
+def test_without_times_and_rates_and_without_feet_it_says_what_there_is(tmp_path: Path) -> None:
+    path = by_hand(tmp_path / "a", latency="")
+    assert next(iter(open_source(path))).t == 0.0, "by the rate of the dataset"
+    (tmp_path / "a" / "task-go_motion.json").unlink()
+    with pytest.raises(RecordingError, match="has no LATENCY channel, and its metadata have no SamplingFrequency"):
+        open_source(path)
+    with pytest.raises(RecordingError, match="no tracked point with ACCEL or GYRO is a foot; there are: neck, wrist"):
+        open_source(by_hand(tmp_path / "b", points=("wrist", "neck")))
+    path.unlink()
+    with pytest.raises(RecordingError, match="no such file"):
+        open_source(path)
+
+
+def test_a_session_that_was_fed_cannot_keep_its_samples_any_more() -> None:
+    session = Session()
+    session.feed(Sample(0.0, LEFT, ACC, GYRO))
+    with pytest.raises(ValueError, match="kept from its start"):
+        PosedSession(session)
 
 
 def validate(root: Path) -> dict:
@@ -55,7 +256,7 @@ def motion_file(files: list[Path], foot: str = "left") -> Path:
 def test_the_official_validator_accepts_two_persons_and_two_visits_of_one(tmp_path):
     """What a program cannot know is missing, and only recommended: authors, institution and the like."""
     for subject, visit in (("01", "a"), ("01", "b"), ("02", "a")):
-        dataset(tmp_path / "study", entities=Entities(subject, "walk", visit, 1))
+        dataset(tmp_path / "study", Entities(subject, "walk", visit, 1))
     report = validate(tmp_path / "study")
     assert issues(report, "error") == []
     assert {code for code, _, _ in issues(report, "warning")} <= {
@@ -63,103 +264,6 @@ def test_the_official_validator_accepts_two_persons_and_two_visits_of_one(tmp_pa
     }  # fmt: skip
     assert sorted(report["summary"]["subjects"]) == ["01", "02"]
     assert report["summary"]["tasks"] == ["walk"]
-
-
-def test_reading_back_gives_the_samples(tmp_path):
-    """Times differ by the start of the recording, from which latencies count."""
-    posed = PosedSession(Session(poses=True))
-    fed: list[Sample] = []
-    for packet in walks.insoles().packets:
-        posed.session.feed(packet)
-        fed += [one.sample for one in posed.take()]
-    posed.session.finish()
-    fed += [one.sample for one in posed.take()]
-    found = list(open_source(motion_file(dataset(tmp_path / "study"))))
-    start = min(sample.t for sample in fed)
-    expected = sorted(fed, key=lambda one: (one.t, one.site.value))
-    found.sort(key=lambda one: (one.t, one.site.value))
-    assert len(found) == len(expected)
-    for back, sample in zip(found, expected, strict=True):
-        assert isinstance(back, Sample)
-        assert back.t == pytest.approx(sample.t - start, abs=1e-9)
-        assert (back.site, back.acc, back.gyro, back.pressure) == (
-            sample.site, sample.acc, sample.gyro, sample.pressure,
-        )  # fmt: skip
-
-
-def test_the_events_and_the_starts_are_those_of_the_session(tmp_path):
-    session = Session()
-    events = [*session.feed(walks.insoles().packets), *session.finish()]
-    files = dataset(tmp_path / "study")
-    rows = read_table(next(path for path in files if path.name.endswith("events.tsv")))
-    strikes = [event for event in events if isinstance(event, HeelStrike) and event.final]
-    found = [row for row in rows if row["trial_type"] == "heel_strike"]
-    assert [row["foot"] for row in found] == [event.foot.value for event in sorted(strikes, key=lambda one: one.t)]
-    strides = [event for event in events if isinstance(event, StrideTaken) and event.final]
-    lengths = sorted(float(row["stride_length"]) for row in rows if row["trial_type"] == "stride")
-    assert lengths == pytest.approx(sorted(event.length for event in strides), abs=1e-6)
-    onsets = [float(row["onset"]) for row in rows]
-    assert onsets == sorted(onsets)
-    (scans,) = (tmp_path / "study").glob("sub-01/*_scans.tsv")
-    moments = {row["acq_time"] for row in read_table(scans)}
-    assert len(moments) == 1 and next(iter(moments)).startswith("2026-11-21T09:30:00.")
-
-
-def foreign(root: Path, tracked: dict[str, str], acc: float = 1.0, gyro: float = 1.0, units=("m/s^2", "rad/s")) -> Path:
-    """Write a dataset as another program would: one tracking system with several points, no latency channel."""
-    folder = root / "sub-07" / "motion"
-    folder.mkdir(parents=True)
-    (root / "dataset_description.json").write_text('{"Name": "x", "BIDSVersion": "1.9.0"}')
-    (root / "task-gait_motion.json").write_text('{"TaskName": "gait", "SamplingFrequency": 100}')
-    feet = {Site.LEFT_FOOT: [], Site.RIGHT_FOOT: []}
-    for sample in walks.samples():
-        feet[sample.site].append(sample)
-    header = ["name\tcomponent\ttype\ttracked_point\tunits"]
-    for point in tracked:
-        header += [f"{point}_A{c}\t{c}\tACCEL\t{point}\t{units[0]}" for c in "xyz"]
-        header += [f"{point}_G{c}\t{c}\tGYRO\t{point}\t{units[1]}" for c in "xyz"]
-    lines = []
-    for left, right in zip(*feet.values(), strict=True):
-        cells = []
-        for foot in tracked.values():
-            one = left if foot == "left" else right
-            cells += [repr(value * acc) for value in one.acc] + [repr(value * gyro) for value in one.gyro]
-        lines.append("\t".join(cells))
-    stem = folder / "sub-07_task-gait_tracksys-imu"
-    Path(f"{stem}_channels.tsv").write_text("\n".join(header) + "\n")
-    Path(f"{stem}_motion.tsv").write_text("\n".join(lines) + "\n")
-    return Path(f"{stem}_motion.tsv")
-
-
-def test_a_dataset_of_another_program_is_read_in_its_units(tmp_path):
-    points = {"LeftFoot": "left", "r_ankle": "right"}
-    path = foreign(tmp_path, points, 1 / 9.80665, degrees(1.0), ("g", "deg/s"))
-    found = list(open_source(path))
-    expected = walks.samples()
-    assert len(found) == len(expected)
-    for foot in Foot:
-        ours = next(one for one in found if isinstance(one, Sample) and one.site.foot is foot)
-        theirs = next(one for one in expected if one.site.foot is foot)
-        assert ours.acc == pytest.approx(theirs.acc) and ours.gyro == pytest.approx(theirs.gyro)
-        assert ours.t == 0.0
-    assert "strides" in run("track", path).stdout
-
-
-def test_what_cannot_be_read_is_one_sentence(tmp_path):
-    assert "there are: pelvis, sternum" in failure(foreign(tmp_path / "a", {"pelvis": "left", "sternum": "right"}))
-    units = ("furlong/s^2", "rad/s")
-    assert "furlong/s^2, not in one of m/s^2" in failure(foreign(tmp_path / "b", {"left_foot": "left"}, units=units))
-    path = foreign(tmp_path / "c", {"left_foot": "left"})
-    path.write_text(path.read_text() + "1\t2\n")
-    assert "no table of numbers" in failure(path)
-    path = foreign(tmp_path / "d", {"left_foot": "left", "left_heel": "left"})
-    assert "several tracked points are on the left foot" in failure(path)
-
-
-def failure(path: Path) -> str:
-    with pytest.raises(RecordingError) as raised:
-        list(open_source(path))
-    return str(raised.value)
 
 
 @pytest.mark.parametrize(
@@ -192,33 +296,10 @@ def test_convert_writes_a_dataset_which_track_reads(tmp_path):
     assert "no BIDS dataset" in one_line(run("convert", source, tmp_path / "other", "--subject", "01"))
 
 
-def test_convert_writes_storage_files_of_opensim(tmp_path):
-    source, out = recording(tmp_path, walks.insoles().packets), tmp_path / "walk.sto"
-    done = run("convert", source, out)
-    assert (done.returncode, done.stderr) == (0, "") and done.stdout.endswith(f" rows written to {out}\n")
-    assert "DataType=Quaternion" in out.read_text()
-    assert "exists; --force replaces it" in one_line(run("convert", source, out))
-    assert run("convert", source, out, "--positions", "--force").returncode == 0
-    assert "DataType=Vec3" in out.read_text()
-
-
-def test_damaged_files_of_a_dataset_are_named_in_one_line(tmp_path):
-    path = motion_file(dataset(tmp_path / "study"))
-    channels = path.with_name(path.name.replace("_motion.", "_channels."))
-    rows, described = path.read_bytes(), channels.read_bytes()
-    channels.write_bytes(bytes(range(128, 256)) * 20)
-    assert "channels.tsv: describes no channels" in one_line(run("track", path))
-    channels.write_bytes(described)
-    path.write_bytes(b"")
-    assert "holds no samples" in one_line(run("track", path))
-    path.write_bytes(rows)
-    assert run("track", path).stderr == ""
-
-
 def test_all_files_of_a_recording_may_be_named_and_none_of_another(tmp_path):
-    files = dataset(tmp_path / "study")
+    files = dataset(tmp_path / "study", Entities("01"))
     both = [motion_file(files, "left"), motion_file(files, "right")]
     assert len(open_source(both).samples) == len(open_source(both[0]).samples)
-    other = motion_file(dataset(tmp_path / "study", entities=Entities("02")))
+    other = motion_file(dataset(tmp_path / "study", Entities("02")))
     with pytest.raises(RecordingError, match="is no tracking system of the recording"):
         open_source([both[0], other])

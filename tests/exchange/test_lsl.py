@@ -6,19 +6,19 @@ import subprocess
 import sys
 import time
 import uuid
-from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
-import walks
+from strides import stride
 
-from solepath import HeelStrike, Sample, Session, Site
-from solepath.recording.posed import PosedSample, PosedSession
+from solepath import ActivityChanged, Foot, HeelStrike, Sample, Site, TurnMade
+from solepath.recording.posed import PosedSample, PoseState
+from solepath.types import Activity, Phase, Turn
 
 pylsl = pytest.importorskip("pylsl", reason="the extra lsl is not installed")
 from solepath.recording.lsl.inlet import LslError, LslInlet, stream_names  # noqa: E402
-from solepath.recording.lsl.outlet import POSE_CHANNELS, LslOutlets, marker_of  # noqa: E402
+from solepath.recording.lsl.outlet import POSE_CHANNELS, LslOutlets  # noqa: E402
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 RATE = 100.0
@@ -125,15 +125,6 @@ def test_no_sample_is_lost_in_ten_minutes() -> None:
     print(check(600.0))
 
 
-def posed_walk() -> Iterator[tuple[list[PosedSample], list]]:
-    posed = PosedSession(Session(poses=True))
-    for packet in walks.insoles().packets:
-        events = posed.session.feed(packet)
-        yield posed.take(), events
-    events = posed.session.finish()
-    yield posed.take(), events
-
-
 def received(name: str, kind: str) -> "pylsl.StreamInlet":
     (info,) = pylsl.resolve_byprop("name", name, timeout=30.0)
     assert info.type() == kind
@@ -154,35 +145,43 @@ def pulled(inlet: "pylsl.StreamInlet", count: int) -> tuple[list, list[float]]:
     return values, times
 
 
-def test_events_markers_and_poses_go_out_with_their_own_times() -> None:
+STATE = PoseState((1.0, 2.0, 3.0), (4.0, 5.0, 6.0), (0.5, 0.5, -0.5, -0.5), Phase.SWING)
+SENT = [
+    PosedSample(Sample(1.0, LEFT, (0.5, -0.25, 9.75), (0.125, 0.0, -1.5)), None),
+    PosedSample(Sample(1.25, LEFT, (1.0, 2.0, 3.0), None), STATE),
+    PosedSample(Sample(1.5, LEFT, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), STATE),
+]
+EVENTS = [
+    HeelStrike(t=2.0, known_at=2.5, foot=Foot.LEFT),
+    HeelStrike(t=2.125, known_at=2.5, foot=Foot.RIGHT, final=False),
+    stride(Foot.RIGHT, 2.25),
+    TurnMade(t=3.0, known_at=3.0, t_start=2.0, angle=1.5, turn=Turn.LEFT),
+    TurnMade(t=3.5, known_at=3.5, t_start=3.0, angle=0.1, turn=None),
+    ActivityChanged(t=2.5, known_at=4.0, activity=Activity.WALKING, probability=1.0),
+]
+
+
+def test_events_markers_samples_and_poses_go_out_with_their_own_times() -> None:
     """They are received by plain pylsl, as a recorder of the lab would."""
     name, offset = f"walk {uuid.uuid4().hex[:8]}", pylsl.local_clock()
     outlets = LslOutlets(offset, name)
-    walk = list(posed_walk())
-    outlets.push([posed for samples, _ in walk for posed in samples][:2], [])  # the streams of both feet begin
-    outlets.push([next(one for samples, _ in walk for one in samples if one.state and one.sample.site is LEFT)], [])
-    inlets = [
-        received(f"{name} markers", "Markers"), received(f"{name} events", "Events"),
-        received(f"{name} left_foot pose", "MoCap"),
-    ]  # fmt: skip
-    labels = inlets[2].info().get_channel_labels()
-    assert labels == [label for label, _ in POSE_CHANNELS]
-    for samples, events in walk:
-        outlets.push(samples, events)
-    all_events = [event for _, events in walk for event in events]
-    texts = [(marker_of(event), event.t) for event in all_events if marker_of(event) is not None]
-    values, times = pulled(inlets[0], len(texts))
-    assert [value for (value,) in values] == [text for text, _ in texts]
-    assert times == pytest.approx([t + offset for _, t in texts], abs=1e-9)
-    assert texts.count(("HeelStrike left", texts[0][1])) == 0 and ("WALKING" in [text for text, _ in texts])
-    values, _ = pulled(inlets[1], outlets.sent["events"])
-    strikes = [value for (text,) in values if (value := json.loads(text))["event"] == "HeelStrike"]
-    assert len(strikes) == sum(isinstance(event, HeelStrike) for event in all_events) > 6
-    states = [one for samples, _ in walk for one in samples if one.state and one.sample.site is LEFT]
-    values, times = pulled(inlets[2], len(states))
-    assert len(values) == len(states)
-    assert list(values[-1][:3]) == list(states[-1].state.position)
-    assert times[-1] == pytest.approx(states[-1].sample.t + offset, abs=1e-9)
+    outlets.push(SENT[2:], [])  # the streams of the foot begin
+    contents = {"markers": "Markers", "events": "Events", "left_foot samples": "IMU", "left_foot pose": "MoCap"}
+    inlets = {content: received(f"{name} {content}", kind) for content, kind in contents.items()}
+    assert inlets["left_foot pose"].info().get_channel_labels() == [label for label, _ in POSE_CHANNELS]
+    outlets.push(SENT, EVENTS)
+    steady = [*STATE.position, *STATE.velocity, *STATE.attitude, 3.0]
+    expected = {
+        "markers": [("HeelStrike left", 2.0), ("StrideTaken right", 2.25), ("TurnMade LEFT", 3.0), ("WALKING", 2.5)],
+        "events": [(json.dumps(event.to_dict()), event.t) for event in EVENTS],
+        "left_foot samples": [([0.5, -0.25, 9.75, 0.125, 0.0, -1.5], 1.0), ([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], 1.5)],
+        "left_foot pose": [(steady, 1.25), (steady, 1.5)],
+    }
+    for content, rows in expected.items():
+        values, times = pulled(inlets[content], len(rows))
+        assert [value if len(value) > 1 else value[0] for value in values] == [value for value, _ in rows]
+        assert times == pytest.approx([t + offset for _, t in rows], abs=1e-9)
+        assert outlets.sent[content] == len(rows) + content.startswith("left")
     outlets.close()
 
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from math import radians
-from random import Random
 
 import pytest
-from strides import cycle, cycles, stride
+from strides import cycle, cycles
 
 from solepath import TurnMade
 from solepath.events import Event
@@ -87,15 +86,3 @@ def test_turns_of_45_degrees_count_where_their_middle_is() -> None:
     turns += [turned(13.6, 15.2, 180.0), turned(14.0, 15.2, 90.0)]
     # 44 degrees are too few; the middles are at 12.5 and 14.4 s, and at 14.6 s, after the bout
     assert walking_bouts([*turns, *walked])[0].turns == 2
-
-
-def test_events_may_come_in_any_order_and_with_others() -> None:
-    walked: list[Event] = [
-        *cycles(L, 0.0, [1.0] * 9),
-        *cycles(R, 0.5, [1.0] * 9),
-        stride(L, 1.0),
-        turned(3.0, 4.0, 90.0),
-    ]
-    expected = walking_bouts(walked)
-    Random(3).shuffle(walked)
-    assert walking_bouts(walked) == expected and len(expected) == 1

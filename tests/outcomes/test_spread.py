@@ -78,13 +78,3 @@ def test_intervals_hold_the_truth_19_times_in_20(count: int, correlation: float)
         held[1] += index.low <= 2.0 * 0.04 / 2.04 <= index.high
     # 95 % of 600 walks is 570, with a standard deviation of 5.3
     assert min(held) > 550, held
-
-
-def test_independent_strides_need_50_for_a_variability() -> None:
-    rng = Random(4)
-    one = variability(_strides(rng, L, 4000, 0.0, 1.0, 0.03), "speed", L)
-    # 1 + 1.96^2 / (2 * 0.2^2) = 49.02
-    assert one is not None and 49 <= one.needed <= 53 and one.enough
-    # strides that resemble each other need more: (1 + 0.36) / (1 - 0.36) = 2.1 times as many
-    other = variability(_strides(rng, L, 4000, 0.6, 1.0, 0.03), "speed", L)
-    assert other is not None and 92 <= other.needed <= 118

@@ -8,11 +8,11 @@ import pytest
 from strides import cycle, stride
 from walks import run_session
 
-from solepath import StrideTaken, TurnMade
+from solepath import TurnMade
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
 from solepath.events import Event
-from solepath.show.outcomes import asymmetry, six_minute_walk, timed_up_and_go, variability
+from solepath.show.outcomes import six_minute_walk, timed_up_and_go
 from solepath.types import Foot, Turn
 
 L, R = Foot.LEFT, Foot.RIGHT
@@ -119,25 +119,15 @@ def there_and_back(crossings: int) -> Route:
 @pytest.mark.soak
 def test_an_emulated_six_minute_walk_there_and_back() -> None:
     walked = emulate(there_and_back(16), seed=11)
-    events = run_session(walked.packets)
-    six = six_minute_walk(events)
+    six = six_minute_walk(run_session(walked.packets))
     assert six is not None and six.complete and six.stops == 0
     first = min(walked.truth.feet[foot].toe_offs[0] for foot in Foot)
     assert six.t_start == pytest.approx(first, abs=0.1)
-    true = []
-    for foot in Foot:
-        shares = [
-            (first + 360.0 - s.t_toe_off) / (s.t_heel_strike - s.t_toe_off) for s in walked.truth.strides(foot)
-        ]  # fmt: skip
-        lengths = [s.length for s in walked.truth.strides(foot)]
-        true.append(sum(min(max(share, 0.0), 1.0) * length for share, length in zip(shares, lengths, strict=True)))
-    assert six.distance == pytest.approx(0.5 * sum(true), rel=0.015)
+    true = 0.0
+    for one in (one for foot in Foot for one in walked.truth.strides(foot)):
+        share = (first + 360.0 - one.t_toe_off) / (one.t_heel_strike - one.t_toe_off)
+        true += 0.5 * min(max(share, 0.0), 1.0) * one.length
+    assert six.distance == pytest.approx(true, rel=0.015)
     contacts = [t for foot in Foot for t in walked.truth.feet[foot].heel_strikes if first < t <= first + 360.0]
     assert six.steps == pytest.approx(len(contacts), abs=2)
-    turns = [event for event in events if isinstance(event, TurnMade)]
-    assert six.about_turns == len([turn for turn in turns if turn.t <= six.t_start + 360.0]) in (13, 14)
-    one, index = variability(events, "stride_time"), asymmetry(events, "stride_time")
-    assert one is not None and index is not None and one.enough and index.enough
-    assert index.low <= 0.0 <= index.high
-    assert max(six.minutes) - min(six.minutes) < 4.0
-    assert len([e for e in events if isinstance(e, StrideTaken)]) > 600
+    assert six.about_turns in (13, 14) and max(six.minutes) - min(six.minutes) < 4.0

@@ -135,15 +135,6 @@ def test_a_row_that_is_too_long_costs_only_itself(tmp_path: Path, size: int, end
     assert reports == ["line 7: is longer than 65536 characters; this row is left out"]
 
 
-def test_a_row_without_end_ends_the_table_there(tmp_path: Path) -> None:
-    path = tmp_path / "walk.csv"
-    path.write_text(COLUMNS + "".join(f"{k / 100},0,0,9.8\n" for k in range(5)))
-    with path.open("ab") as file:
-        file.truncate(path.stat().st_size + 3 * MAX_SKIPPED)
-    samples, reports = samples_of(path)
-    assert len(samples) == 5 and len(reports) == 1
-
-
 def test_a_line_without_end_ends_the_file_there(tmp_path: Path) -> None:
     path = recorded(tmp_path / "walk.jsonl", PACKETS)
     with path.open("ab") as file:

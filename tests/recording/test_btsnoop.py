@@ -27,7 +27,7 @@ from snooped import (
     start_connection,
 )
 
-from solepath import Packet, PacketRejected, Sample, Session, Site
+from solepath import Packet, Sample, Site
 from solepath.link.decoder import Decoder
 from solepath.recording import RecordingError
 from solepath.recording.btsnoop import open_btsnoop
@@ -69,9 +69,9 @@ ORPHE_INFO = bytes([100, 1, *bytes(6), 2, 3, *bytes(10)])
 """INFO of a right foot; 8 g, 2000 degrees/s."""
 
 
-def orphe(characteristics: dict[int, str] = ORPHE, info: bytes = ORPHE_INFO) -> Log:
+def orphe(characteristics: dict[int, str]) -> Log:
     log = start_connection(Log(), address=TAG, characteristics=characteristics)
-    log.add_request(0x40, "0a1500", b"\x0b" + info)
+    log.add_request(0x40, "0a1500", b"\x0b" + ORPHE_INFO)
     log.add_request(0x40, "1215000d04", "13")
     for k in range(30):
         head = struct.pack(">BHBBBH", 56, k, 1, 1, 1, k * 19)
@@ -80,23 +80,18 @@ def orphe(characteristics: dict[int, str] = ORPHE, info: bytes = ORPHE_INFO) -> 
 
 
 def test_one_characteristic_is_one_channel_where_it_is_read_and_another_where_it_is_written(tmp_path):
+    """The foot and the ranges are those that the insole reports, in what is read."""
     handles_given = {("", 0x12): "orphe/values", ("", 0x15): "orphe/mode"}
     for discovered, handles in ((ORPHE, {}), ({}, handles_given), ({}, handles_given | {("", 0x15): "orphe/info"})):
-        packets, reports = read(orphe(discovered), tmp_path, sites={TAG: Site.RIGHT_FOOT}, handles=handles)
-        assert data_of(packets, "orphe/info", TAG) == [ORPHE_INFO]
-        assert data_of(packets, "orphe/mode", TAG) == [b"\x0d\x04"]
-        assert len(data_of(packets, "orphe/values", TAG)) == 30 and reports == []
-
-
-def test_the_foot_and_the_ranges_of_another_makers_insole_are_those_that_it_reports(tmp_path):
-    path = orphe().save(tmp_path / "phone.log")
-    packets = list(open_btsnoop(path, report=pytest.fail))
-    assert {p.site for p in packets} == {Site.RIGHT_FOOT}
-    assert not [event for event in Session().feed(packets) if isinstance(event, PacketRejected)]
-    decoder = Decoder(Site.RIGHT_FOOT)
-    samples = [item for p in packets for item in decoder.feed(p) if isinstance(item, Sample)]
-    assert len(samples) > 40
-    assert samples[-1].acc == pytest.approx((GRAVITY, 0.0, 0.0)), "4096 counts at 8 g, not at 16"
+        log = orphe(discovered).save(tmp_path / "phone.log")
+        packets = list(open_btsnoop(log, {} if discovered else {TAG: Site.RIGHT_FOOT}, handles, report=pytest.fail))
+        assert {p.site for p in packets} == {Site.RIGHT_FOOT}
+        by_channel = {p.channel: p.data for p in packets}
+        assert (by_channel["orphe/info"], by_channel["orphe/mode"]) == (ORPHE_INFO, b"\x0d\x04")
+        decoder = Decoder(Site.RIGHT_FOOT)
+        samples = [item for p in packets for item in decoder.feed(p) if isinstance(item, Sample)]
+        assert len(samples) > 40
+        assert samples[-1].acc == pytest.approx((GRAVITY, 0.0, 0.0)), "4096 counts at 8 g, not at 16"
 
 
 def test_sensortags_share_characteristics_and_differ_in_the_others(tmp_path):
@@ -137,16 +132,6 @@ def test_other_peoples_devices_are_counted_not_described(tmp_path):
     packets, reports = read(log, tmp_path)
     assert {device for device, *_ in packets} == {LEFT}
     assert reports == ["1 other device left out"]
-
-
-@pytest.mark.parametrize("subevent", [0x01, 0x0A, 0x29])
-def test_a_connection_is_known_by_any_of_its_three_events(tmp_path, subevent):
-    log = Log()
-    log.connect(0x40, LEFT, subevent)
-    log.mtu(0x40, 247)
-    log.discover(0x40, INSOLE)
-    log.notify(0x40, FRAME, frames()[0])
-    assert data_of(read(log, tmp_path)[0], "insole/frame") == [frames()[0]]
 
 
 def test_a_handle_is_given_to_another_device_and_what_was_discovered_stays_with_the_first(tmp_path):

@@ -141,13 +141,13 @@ def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
     """Two insoles, of which one reconnects under the same handle, with ACL packets in pieces of both links."""
     log = Log(datalink, piece=piece)
     start_connection(log, 0x40, LEFT)
-    log.connect(0x41, RIGHT, subevent=0x0A)
+    log.connect(0x41, RIGHT, subevent=0x0A)  # the three events that tell of a connection
     log.mtu(0x41, 247)
     log.discover(0x41, INSOLE)
     for k, (left, right) in enumerate(zip(frames()[:60], frames(Site.RIGHT_FOOT), strict=False)):
         if k == 20:
             log.disconnect(0x40)
-            log.connect(0x40, LEFT)
+            log.connect(0x40, LEFT, subevent=0x29)
             log.mtu(0x40, 247)
         log.notify(0x40, FRAME, left)
         log.notify(0x41, FRAME, right)

@@ -24,32 +24,25 @@ with PacketWriter(sys.argv[1]) as writer:
     writer.write(Packet(1.0, Site.LEFT_FOOT, "insole/frame", b"first"))
     print("written", flush=True)
     sys.stdin.readline()
-    writer.write(Packet(2.0, Site.LEFT_FOOT, "insole/frame", b"second"))
 """
 
 
-def test_a_second_writer_in_another_process_is_rejected_and_changes_nothing(tmp_path: Path) -> None:
+def test_a_second_writer_in_another_process_is_rejected_and_the_lock_of_a_killed_one_is_free(tmp_path: Path) -> None:
     path = tmp_path / "both.jsonl"
     command = [sys.executable, "-c", RECORDER, str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as first:
         assert first.stdout is not None and first.stdout.readline() == "written\n"
         before = path.read_bytes()
-        with pytest.raises(RecordingError, match=r"both\.jsonl: another program is recording into it"):
-            PacketWriter(path)
-        second = subprocess.run([*command], input="", capture_output=True, text=True)
-        assert "another program is recording into it" in second.stderr and path.read_bytes() == before
-        first.communicate("go on\n")
-    assert [packet.data for packet in read_packets(path, report=pytest.fail)] == [b"first", b"second"]
-
-
-def test_the_lock_of_a_killed_writer_is_free(tmp_path: Path) -> None:
-    path = tmp_path / "walk.jsonl"
-    command = [sys.executable, "-c", RECORDER, str(path)]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as first:
-        assert first.stdout is not None and first.stdout.readline() == "written\n"
+        for replace in (False, True):
+            with pytest.raises(RecordingError, match=r"both\.jsonl: another program is recording into it"):
+                PacketWriter(path, replace=replace)
+        assert path.read_bytes() == before
         first.send_signal(signal.SIGKILL)
         first.communicate()
-    assert list(read_packets(recorded(path, PACKETS))) == PACKETS
+    assert [packet.data for packet in read_packets(path, report=pytest.fail)] == [b"first"]
+    with PacketWriter(path, replace=True) as writer:
+        writer.write(PACKETS[0])
+    assert list(read_packets(path)) == PACKETS[:1]
 
 
 def test_a_recording_stays_until_the_first_packet_comes(tmp_path: Path) -> None:

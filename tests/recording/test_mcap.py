@@ -153,22 +153,15 @@ def test_the_events_in_it_are_a_sessions(exported):
 
 
 def test_of_a_torn_file_all_but_the_last_chunk_is_read(tmp_path):
-    """Cut anywhere, the file holds the messages of every chunk that is whole, in their order."""
+    """Cut in the middle, the file holds the messages of every chunk that is whole, in their order."""
     content = write_mcap(tmp_path / "walk.mcap", walks.insoles().packets[:600]).read_bytes()
-
-    def read(part: bytes) -> list[Message]:
-        found = []
+    read: list[list[Message]] = []
+    for part in (content, content[: len(content) // 2]):
+        read.append([])
         with suppress(Exception):  # whatever the library says of an end in the middle
-            found += (one for one in StreamReader(io.BytesIO(part)).records if isinstance(one, Message))
-        return found
-
-    whole, counts = read(content), []
-    for cut in range(len(content) // 3, len(content), len(content) // 7):
-        found = read(content[:cut])
-        assert found == whole[: len(found)]
-        counts.append(len(found) / len(whole))
-        assert counts[-1] > cut / len(content) - 0.15
-    assert counts[0] > 0.1
+            read[-1] += (one for one in StreamReader(io.BytesIO(part)).records if isinstance(one, Message))
+    whole, half = read
+    assert half == whole[: len(half)] and len(half) > 0.35 * len(whole)
 
 
 ODD_PACKETS = [
@@ -204,16 +197,6 @@ def test_a_file_with_content_is_replaced_only_on_request(tmp_path):
         assert path.read_bytes() == b"of another program"
         writer.write(walks.insoles().packets[0])
     assert b"of another program" not in path.read_bytes() and messages(path)
-
-
-def test_of_two_writers_of_one_file_the_second_is_rejected(tmp_path):
-    path = tmp_path / "walk.mcap"
-    with McapWriter(path) as writer:
-        for replace in (False, True):
-            with pytest.raises(RecordingError, match=r"walk\.mcap: another program is recording into it"):
-                McapWriter(path, replace=replace)
-        writer.write(walks.insoles().packets[0])
-    assert messages(path)
 
 
 def test_what_cannot_be_written_is_one_clear_error(tmp_path):

@@ -5,14 +5,11 @@ from __future__ import annotations
 from math import hypot, radians
 from pathlib import Path
 
-import numpy as np
 import pytest
 from commands import rows_in, run
-from exported import LENGTH, VENDORS, G, strange, walked
+from exported import LENGTH, G, strange
 
 from solepath.recording import RecordingError, RecordingWarning, TableMapping, open_source, read_mapping, read_samples
-from solepath.recording.exports import EXPORTS
-from solepath.recording.mapping.mapping import FORMATS
 from solepath.types import Foot, Sample, Site
 
 FILES = Path(__file__).parent / "files"
@@ -102,43 +99,6 @@ def test_tables_of_other_programs_that_look_alike_are_not_taken_for_a_known_form
     path.write_text("// General information:\n//  Firmware Version: 4.4.0\n" + header + rows)
     with pytest.raises(RecordingError, match="is of no known format"):
         read_samples(path)
-
-
-def test_a_part_of_a_known_format_can_be_replaced() -> None:
-    turned = TableMapping.parse("gyro=Gyr_X,-Gyr_Z,Gyr_Y")
-    with pytest.warns(RecordingWarning):
-        first = next(read_samples(FILES / "dot.csv", Foot.RIGHT, mapping=turned))
-    assert first.site is RIGHT and first.acc == (0.1, -0.2, 9.8)
-    assert first.gyro == pytest.approx([radians(value) for value in (0.5, -90.0, -0.25)])
-
-
-START = {"mbientlab": 0.0, "moticon": 0.0, "physilog": 0.0, "ngimu": 0.0, "movella-dot": (2**32 - 10_000_000) * 1e-6}
-"""Time at which the walk starts in each format, s."""
-
-
-@pytest.mark.parametrize("vendor", VENDORS)
-def test_an_export_of_a_walk_gives_the_samples_of_the_walk(vendor: str, tmp_path: Path) -> None:
-    """As far as the decimal places of the format go; the gyroscope of a MetaMotion has times of its own."""
-    assert set(EXPORTS) == {*VENDORS, "solepath"} == set(FORMATS)
-    rate, cells = {"movella-dot": (120.0, 0), "physilog": (128.0, 0), "moticon": (100.0, 16)}.get(vendor, (100.0, 0))
-    rate = 200.0 if vendor == "mbientlab" else rate
-    recording = list(read_samples(VENDORS[vendor](tmp_path)))
-    assert [sample.t for sample in recording] == sorted(sample.t for sample in recording)
-    for foot in Foot:
-        read = [sample for sample in recording if sample.site.foot is foot]
-        late = {"mbientlab": 37, "moticon": 50 if foot is Foot.LEFT else 0}.get(vendor, 0)
-        true = walked(foot, rate, cells)[late:][: len(read)]
-        assert len(true) == len(read) >= 1200
-
-        base = read[0].t - true[0].t if vendor == "mbientlab" else START[vendor]
-        assert [s.t - base for s in read] == pytest.approx([s.t for s in true], abs=6e-4)
-        acc, gyro = (np.array([getattr(s, key) for s in read]) for key in ("acc", "gyro"))
-        if vendor != "mbientlab":
-            assert acc == pytest.approx(np.array([s.acc for s in true]), abs=1e-4)
-        assert gyro == pytest.approx(np.array([s.gyro for s in true]), abs=1e-4)
-        if cells:
-            pressure = np.array([s.pressure for s in true]) / 12.5
-            assert np.array([s.pressure for s in read]) == pytest.approx(pressure, abs=0.006)
 
 
 MAPPING = """

@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib.util
 import re
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -87,13 +86,6 @@ def test_a_name_that_occurs_twice_is_taken_by_its_number(tmp_path: Path) -> None
     assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping)))
 
 
-def test_signs_turn_axes(tmp_path: Path) -> None:
-    (tmp_path / "walk.csv").write_text(table())
-    mapping = TableMapping.parse("t=Zeit,acc=A y,-A x,A z,gyro=-G z,G y,G x", "ms")
-    (first, *_) = read_samples(tmp_path / "walk.csv", mapping=mapping)
-    assert first.acc == (-0.25, -0.5, 9.75) and first.gyro == (1.5, 0.0, 0.125)
-
-
 def test_a_rate_stands_for_times_and_a_row_that_is_left_out_keeps_its_time(tmp_path: Path) -> None:
     lines = table().splitlines()
     lines[3] = lines[3].replace("0.500", "oh no")
@@ -131,15 +123,6 @@ def test_numbers_are_read_with_either_decimal_mark(tmp_path: Path, decimal: str,
     (tmp_path / "walk.csv").write_text(f"t;pressure_0;pressure_1\n0;{cell};1\n1;{cell};1\n")
     samples = list(read_samples(tmp_path / "walk.csv", mapping=TableMapping(decimal=decimal)))
     assert [sample.pressure for sample in samples] == [(value, 1.0)] * 2
-
-
-def test_a_counter_that_starts_again_goes_on(tmp_path: Path) -> None:
-    rows = [f"{tick},0,0,9.75" for tick in (65530, 65533, 0, 3, 65532, 6)]
-    (tmp_path / "walk.csv").write_text("\n".join(["n,acc_x,acc_y,acc_z", *rows]) + "\n")
-    mapping = TableMapping({"t": "n", "acc": "acc_*"}, {"t": "ms"}, wrap=65536)
-    reports: list[str] = []
-    samples = list(read_samples(tmp_path / "walk.csv", mapping=mapping, report=reports.append))
-    assert [one.t for one in samples][:4] == pytest.approx([65.530, 65.533, 65.536, 65.539])
 
 
 def test_a_point_among_decimal_commas_is_no_number_because_it_may_be_a_thousand(tmp_path: Path) -> None:
@@ -180,16 +163,6 @@ def test_excel_and_parquet_are_read_with_either_library(
             frame.to_excel(book, startrow=2, index=False)
     only(monkeypatch, library)
     assert_expected(list(read_samples(path, mapping=MAPPING)))
-
-
-def test_dates_of_a_parquet_file_are_times(tmp_path: Path) -> None:
-    pandas = pytest.importorskip("pandas")
-    pytest.importorskip("pyarrow")
-    frame: Any = pandas.DataFrame(NUMBERS, columns=NAMES)
-    frame["Zeit"] = pandas.Timestamp("2026-03-01T09:30") + pandas.to_timedelta(frame["Zeit"], unit="ms")
-    frame.to_parquet(tmp_path / "walk.parquet")
-    mapping = TableMapping(MAPPING.columns, {})
-    assert_expected(list(read_samples(tmp_path / "walk.parquet", mapping=mapping)))
 
 
 @pytest.mark.parametrize("name", ["walk.xlsx", "walk.parquet"])

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from solepath.recording import RecordingError, TableMapping, read_mapping, read_samples
 from solepath.recording.mapping.mapping import join_names
-from solepath.recording.mapping.units import UNITS, find_unit
+from solepath.recording.mapping.units import find_unit
 
 LAB = """
 rate = 128
@@ -100,11 +100,6 @@ def test_a_value_that_a_mapping_cannot_have_is_explained(given: dict[str, Any], 
     with pytest.raises(ValueError, match=r"^[^\n]*$") as caught:
         TableMapping(**given)
     assert fault in str(caught.value)
-
-
-def test_no_unit_is_one_of_two_quantities() -> None:
-    units = [unit for factors in UNITS.values() for unit in factors]
-    assert len(set(units)) == len(units)
 
 
 def test_a_file_holds_a_mapping(tmp_path: Path) -> None:

@@ -68,20 +68,6 @@ def test_files_whose_names_lack_the_foot_need_the_feet_in_their_order(tmp_path: 
         load_samples(files, [Foot.RIGHT])
 
 
-def test_missing_feet_are_listed_at_once_with_unknown_columns(tmp_path: Path) -> None:
-    t = np.arange(200) / 100.0
-    names = "Zeit,AX,AY,AZ,GX,GY,GZ"
-    files = [write(tmp_path / name, names, t, 0.0, 0.0, 9.81, 0.1, 0.0, 0.0) for name in ("p1.csv", "p2.csv")]
-    with pytest.raises(RecordingError) as caught:
-        read_samples(files)
-    unknown, unnamed = caught.value.problems[:2], caught.value.problems[2:]
-    assert [problem.what for problem in unnamed] == ["nothing says of which foot it is"] * 2
-    columns = "t=Zeit,acc=AX,AY,AZ,gyro=GX,GY,GZ"
-    for problem in unknown:
-        assert problem.repair.startswith(f"this may fit: --columns {columns} ")
-        assert problem.repair.endswith(" --foot left,right")
-
-
 def test_a_file_that_is_given_twice_is_an_error(tmp_path: Path) -> None:
     file = acc_file(tmp_path / "one.csv", np.arange(20) / 100.0)
     (tmp_path / "folder").mkdir()
@@ -157,18 +143,6 @@ def test_one_mapping_serves_the_files_of_two_sensors_with_the_same_names(tmp_pat
     samples = list(read_samples(files, mapping=TableMapping.parse("t=seconds_elapsed,acc=x,y,z,gyro=x,y,z")))
     assert len(samples) == 50
     assert samples[3] == Sample(0.03, Site.RIGHT_FOOT, (1.0, 0.0, 9.81), (0.1, 0.2, 0.3))
-
-
-def test_columns_that_no_file_has_are_named_once_for_each_file(tmp_path: Path) -> None:
-    t = np.arange(50) / 100.0
-    files = [acc_file(tmp_path / "acc.csv", t), gyro_file(tmp_path / "gyro.csv", t)]
-    with pytest.raises(RecordingError) as caught:
-        read_samples(files, mapping=TableMapping.parse("t=t,acc=acc_x,acc_y,acc_z,gyro=gyr_x,gyr_y,gyr_z"))
-    assert [problem.path.name for problem in caught.value.problems] == ["acc.csv", "gyro.csv"]
-    last = caught.value.problems[-1]
-    assert last.what.startswith("names no column gyr_x, gyr_y, gyr_z") and last.repair.endswith(
-        "gyro=gyro_x,gyro_y,gyro_z"
-    )
 
 
 def test_archives_and_tables_of_two_feet_may_be_mixed(tmp_path: Path) -> None:

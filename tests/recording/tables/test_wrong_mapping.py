@@ -37,11 +37,6 @@ def written(path: Path, walker: Walker, change: Callable[[np.ndarray], np.ndarra
     return write(path, [NAMES, *(",".join(f"{value:.6f}" for value in row) for row in rows)])
 
 
-def test_the_right_mapping_has_nothing_to_repair(walker: Walker, tmp_path: Path) -> None:
-    done = run("check", written(tmp_path / "left.csv", walker), "--columns", RIGHT, "--units", UNITS)
-    assert done.returncode == 0 and "nothing must be mended" in done.stdout
-
-
 WRONG_AXES = {"two axes of the gyroscope exchanged": "gyro=GY,GX,GZ", "a left-handed accelerometer": "acc=AX,AY,-AZ"}
 
 
