@@ -1,4 +1,4 @@
-"""Motion-BIDS, letter by letter: what is written of a few samples and read of other programs; and its validator accepts it."""
+"""Motion-BIDS, letter by letter: what is written and what is read of others; and the official validator accepts it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from solepath.recording.bids.names import Entities
 from solepath.recording.bids.reader import foot_of_point
 from solepath.recording.bids.writer import MotionWriter
 from solepath.recording.posed import PosedSample, PosedSession, PoseState
-from solepath.types import Activity, Foot, Phase, Sample, Site
+from solepath.types import Activity, Foot, Packet, Phase, Sample, Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ACC, GYRO = (0.5, -0.25, 9.75), (0.125, 0.0, -1.5)
@@ -35,6 +35,10 @@ SAMPLES = [
     PosedSample(Sample(2.01, RIGHT, None, None, (7.0,)), None),
     PosedSample(FULL, STATE),
     PosedSample(Sample(2.04, LEFT, ACC, None), STATE),
+]
+BOTH = [
+    PosedSample(Sample(2.0 + 0.125 * k, (LEFT, RIGHT)[k % 2], (k, -0.5, 9.75), (0.0, k, 1.0), (k, 2.0)), None)
+    for k in range(6)
 ]
 EVENTS = [
     ToeOff(t=2.03, known_at=2.05, foot=Foot.RIGHT),
@@ -108,11 +112,10 @@ def test_every_channel_of_a_sensor_is_written_under_its_name_unit_and_frame(tmp_
 
 def test_reading_back_gives_the_samples_of_both_feet(tmp_path: Path) -> None:
     """Times differ by the start of the recording, from which latencies count."""
-    fed = [Sample(2.0 + 0.125 * k, (LEFT, RIGHT)[k % 2], (k, -0.5, 9.75), (0.0, k, 1.0), (k, 2.0)) for k in range(6)]
-    files = dataset(tmp_path, Entities("01"), samples=[PosedSample(sample, None) for sample in fed])
-    assert list(open_source(motion_file(files))) == [
-        Sample(one.t - 2.0, one.site, one.acc, one.gyro, one.pressure) for one in fed
-    ]
+    files = dataset(tmp_path, Entities("01"), samples=BOTH)
+    fed = [one.sample for one in BOTH]
+    expected = [Sample(one.t - 2.0, one.site, one.acc, one.gyro, one.pressure) for one in fed]
+    assert list(open_source(motion_file(files))) == expected
 
 
 def test_a_dataset_lists_each_recording_and_person_once_and_keeps_what_others_wrote(tmp_path: Path) -> None:
@@ -256,7 +259,7 @@ def motion_file(files: list[Path], foot: str = "left") -> Path:
 def test_the_official_validator_accepts_two_persons_and_two_visits_of_one(tmp_path):
     """What a program cannot know is missing, and only recommended: authors, institution and the like."""
     for subject, visit in (("01", "a"), ("01", "b"), ("02", "a")):
-        dataset(tmp_path / "study", Entities(subject, "walk", visit, 1))
+        dataset(tmp_path / "study", Entities(subject, "walk", visit, 1), samples=BOTH)
     report = validate(tmp_path / "study")
     assert issues(report, "error") == []
     assert {code for code, _, _ in issues(report, "warning")} <= {

@@ -58,7 +58,8 @@ def test_attitudes_between_samples_lie_on_the_turn_of_the_foot(tmp_path):
 def test_nothing_is_interpolated_over_a_gap(tmp_path):
     times = [0.01 * k for k in range(100) if not 30 < k < 60]
     samples = [posed(0.01 * k) for k in range(100)] + [posed(t, RIGHT) for t in times]
-    found = rows(opensim.TimeSeriesTableVec3(str(written(tmp_path / "a.sto", Quantity.POSITIONS, samples))))
+    table = opensim.TimeSeriesTableVec3(str(written(tmp_path / "a.sto", Quantity.POSITIONS, samples)))
+    found = rows(table)
     assert not [t for t, _ in found if 0.301 < t < 0.599]
     assert len(found) == pytest.approx(71, abs=2)
     assert LONGEST_INTERVAL < 0.3

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from recordings import PACKETS, recorded
+from tabled import saved, still
 
 from solepath.recording import (
     RecordingError,
@@ -45,9 +46,7 @@ def samples_of(path: Path) -> tuple[list[Sample], list[str]]:
     ("line", "complaint"),
     [
         ("hello\n", "is not JSON"),
-        ("[1, 2]\n", "is not a JSON object but [1, 2]"),
         ('{"t": NaN}\n', "NaN is not JSON"),
-        ("\x00\x01\n", "is not JSON"),
         ("[" * 30_000 + "\n", "is not JSON"),
         ('{"t": 1.0, "site": "left_foot", "channel": "x"}\n', '"data" is missing'),
         (line_of(t="1"), '"t" is not a number but "1"'),
@@ -55,14 +54,9 @@ def samples_of(path: Path) -> tuple[list[Sample], list[str]]:
         (line_of().replace("1.0", "1e999"), '"t" is not a finite number'),
         (line_of(t=10**400), '"t" is not a finite number'),
         (line_of(site="hand"), '"site" is not one of left_foot'),
-        (line_of(site=["left_foot"]), '"site" is not one of left_foot'),
-        (line_of(channel=7), '"channel" is not text but 7'),
         (line_of(channel=["a" * 60]), f'"channel" is not text but ["{"a" * 35}...;'),
         (line_of(data="f5 0"), '"data" is not pairs of hexadecimal digits but "f5 0"'),
-        (line_of(data="f5f"), '"data" is not pairs'),
-        (line_of(data=None), '"data" is not pairs'),
         (line_of(device=None), '"device" is not text but null'),
-        (line_of(data="00" * 40_000), "is longer than 65536 bytes"),
         ("\0" * 1_000_000 + line_of(), "is longer than 65536 bytes"),
         (line_of()[:30] + line_of(), "is not JSON"),
     ],
@@ -76,13 +70,6 @@ def test_a_damaged_line_is_named_and_costs_one_packet(tmp_path: Path, line: str,
     assert reports[0].endswith("; this line is left out")
 
 
-def test_bytes_that_are_not_text_are_named(tmp_path: Path) -> None:
-    path = tmp_path / "walk.jsonl"
-    path.write_bytes(HEADER.encode() + b'{"t": \xff}\n' + line_of().encode())
-    packets, reports = packets_of(path)
-    assert len(packets) == 1 and reports == ["line 2: is not text; this line is left out"]
-
-
 def test_of_many_damaged_lines_the_first_are_named_and_all_are_counted(tmp_path: Path) -> None:
     path = tmp_path / "walk.jsonl"
     path.write_text(HEADER + "".join(line_of(t=k) + ("?\n" if k % 3 == 0 else "") for k in range(30)))
@@ -92,22 +79,15 @@ def test_of_many_damaged_lines_the_first_are_named_and_all_are_counted(tmp_path:
     assert reports[-1] == "10 of 40 lines are left out"
 
 
-@pytest.mark.parametrize("good", [0, 1, 4])
-def test_a_recording_with_more_damaged_lines_than_whole_ones_is_rejected(tmp_path: Path, good: int) -> None:
+def test_a_recording_is_rejected_from_one_more_damaged_line_than_whole_ones_on(tmp_path: Path) -> None:
     path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + line_of() * good + "?\n" * 5)
-    with pytest.raises(RecordingError, match=rf"line {good + 2}: is not JSON; 5 of {good + 5} lines cannot be used"):
-        packets_of(path)
-
-
-def test_a_recording_with_as_many_damaged_lines_as_whole_ones_is_read(tmp_path: Path) -> None:
-    path = tmp_path / "walk.jsonl"
-    path.write_text(HEADER + "?\n" * 3 + line_of() * 3)
-    packets, reports = packets_of(path)
-    assert len(packets) == 3 and len(reports) == 3
-    path.write_text(HEADER + "?\n" * 4 + line_of() * 4)
+    path.write_bytes(HEADER.encode() + b"\xff\n" * 4 + line_of().encode() * 4)
     packets, reports = packets_of(path)
     assert len(packets) == 4 and reports[3:] == ["4 of 8 lines are left out"]
+    assert reports[0] == "line 2: is not text; this line is left out"
+    path.write_text(HEADER + line_of() * 4 + "?\n" * 5)
+    with pytest.raises(RecordingError, match=r"line 6: is not JSON; 5 of 9 lines cannot be used"):
+        packets_of(path)
 
 
 def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -143,26 +123,6 @@ def test_a_line_without_end_ends_the_file_there(tmp_path: Path) -> None:
     assert packets == PACKETS and len(reports) == 1 and "line 5: is longer than 65536 bytes" in reports[0]
 
 
-def still(n: int = 20) -> dict[str, np.ndarray]:
-    """Return the columns of a foot at rest."""
-    acc, gyro = np.tile([0.25, -0.5, 9.75], (n, 1)), np.tile([0.125, 0.0, -0.0625], (n, 1))
-    return {"t": np.arange(n) / 100.0, "acc": acc, "gyro": gyro, "pressure": np.tile([100.0, 200.0], (n, 1))}
-
-
-def saved(path: Path, columns: dict[str, np.ndarray]) -> Path:
-    """Write columns of one foot as .npz or .csv."""
-    if path.suffix == ".npz":
-        np.savez(path, **columns)
-        return path
-    names, values = ["t"], [columns["t"]]
-    for quantity, letters in (("acc", "xyz"), ("gyro", "xyz"), ("pressure", "01")):
-        names += [f"{quantity}_{letter}" for letter in letters]
-        values += list(columns[quantity].T)
-    rows = [",".join([repr(float(value)) for value in row]) for row in zip(*values, strict=True)]
-    path.write_text("\n".join([",".join(names), *rows]) + "\n")
-    return path
-
-
 @pytest.mark.parametrize(
     ("quantity", "value"),
     [(q, v) for q in ("acc", "gyro", "pressure") for v in (np.nan, np.inf, -np.inf) if (q, v) != ("pressure", np.nan)],
@@ -196,13 +156,6 @@ def test_one_time_stamp_out_of_order_costs_its_row(
     assert [sample.t for sample in samples] == [k / 100.0 for k in range(20) if k != row]
     place = f"t, row {row}" if name == "walk.npz" else f"line {row + 2}, t"
     assert reports == [f"{place}: time is out of order: {complaint}; this row is left out"]
-
-
-def test_of_a_clock_that_was_set_back_the_longer_part_is_used(tmp_path: Path) -> None:
-    columns = still()
-    columns["t"][14:] -= 1.0
-    samples, reports = samples_of(saved(tmp_path / "walk.npz", columns))
-    assert len(samples) == 14 and reports[-1] == "6 of 20 rows are left out" and len(reports) == 4
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from recordings import PACKETS, recorded
+from tabled import still
 
 from solepath.recording import RecordingError, open_source, read_packets, read_samples
 from solepath.recording.samples import npz, numbers, sheet
@@ -40,11 +41,6 @@ def complaints(*commands: tuple[object, ...]) -> list[str]:
     lines = done.stderr.splitlines()
     assert lines[1::2] == ["2"] * len(commands), done.stderr[-500:]
     return lines[::2]
-
-
-def still(n: int = 200) -> dict[str, np.ndarray]:
-    """Return the columns of a foot at rest."""
-    return {"t": np.arange(n) / 100.0, "acc": np.tile([0.0, 0.0, 9.81], (n, 1)), "gyro": np.zeros((n, 3))}
 
 
 def array_header(shape: tuple[int, ...], descr: str = "<f8") -> bytes:
