@@ -89,21 +89,18 @@ def test_a_wrong_option_gets_one_line(recording: Path, options: list[str], words
 def test_references_are_those_of_their_tables_and_formulas() -> None:
     woman, man = Person(72.0, Sex.FEMALE, 1.62, 68.0), Person(60.0, Sex.MALE, 1.75, 80.0)
     # 2.11 * 162 - 2.29 * 68 - 5.78 * 72 + 667 = 341.82 - 155.72 - 416.16 + 667 = 436.94; less 139 = 297.94
-    one = six_minute_reference(woman)
-    assert one is not None and (one.value, one.low) == pytest.approx((436.94, 297.94))
     # 7.57 * 175 - 5.02 * 60 - 1.76 * 80 - 309 = 1324.75 - 301.2 - 140.8 - 309 = 573.75; less 153 = 420.75
-    one = six_minute_reference(man)
-    assert one is not None and (one.value, one.low) == pytest.approx((573.75, 420.75))
-    assert six_minute_reference(Person(72.0, Sex.FEMALE)) is None
-    assert six_minute_reference(Person(39.0, Sex.MALE, 1.75, 80.0)) is None
-    for age, mean in ((60.0, 8.1), (69.9, 8.1), (70.0, 9.2), (99.0, 11.3)):
-        time = up_and_go_reference(Person(age, Sex.MALE))
-        assert time is not None and time.value == mean
-    assert up_and_go_reference(Person(59.0, Sex.MALE)) is up_and_go_reference(Person(100.0, Sex.MALE)) is None
-    speed, old = walking_speed_reference(man), walking_speed_reference(Person(85.0, Sex.FEMALE))
-    assert speed is not None and (speed.value, "men aged 60 to 69" in speed.words) == (1.34, True)
-    assert old is not None and (old.value, "women aged 80 to 99" in old.words) == (0.94, True)
-    assert walking_speed_reference(Person(19.0, Sex.MALE)) is None
+    for person, value, low in ((woman, 436.94, 297.94), (man, 573.75, 420.75)):
+        one = six_minute_reference(person)
+        assert one is not None and (one.value, one.low) == pytest.approx((value, low))
+    for unknown in (Person(72.0, Sex.FEMALE), Person(39.0, Sex.MALE, 1.75, 80.0)):
+        assert six_minute_reference(unknown) is None
+    times = [up_and_go_reference(Person(age, Sex.MALE)) for age in (59.0, 60.0, 69.9, 70.0, 99.0, 100.0)]
+    assert [time and time.value for time in times] == [None, 8.1, 8.1, 9.2, 11.3, None]
+    people = (man, Person(85.0, Sex.FEMALE), Person(19.0, Sex.MALE))
+    speeds = [speed and (speed.value, speed.words) for speed in map(walking_speed_reference, people)]
+    assert speeds[0] and speeds[0][0] == 1.34 and "men aged 60 to 69" in speeds[0][1]
+    assert speeds[1] and speeds[1][0] == 0.94 and "women aged 80 to 99" in speeds[1][1] and speeds[2] is None
 
 
 def test_the_page_of_documents_runs_and_names_the_columns() -> None:

@@ -62,8 +62,9 @@ def test_the_rest_of_one_value_is_not_added_to_another(tmp_path):
     log.add_request(0x40, "0a2000", b"\x0b" + b"w" * 22)
     log.add_request(0x40, "0c20002c00", "010c200007")
     log.notify(0x40, FRAME, frames()[0][:20])
+    log.add_request(0x40, "0a2000", b"\x0b" + b"x" * 22)  # the log ends before the rest
     found = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT})[0]
-    assert data_of(found, "device/firmware") == [b"v" * 22, b"w" * 22]
+    assert data_of(found, "device/firmware") == [b"v" * 22, b"w" * 22, b"x" * 22]
     assert data_of(found, "insole/info") == []
 
 

@@ -167,7 +167,7 @@ def test_of_a_torn_file_all_but_the_last_chunk_is_read(tmp_path):
 ODD_PACKETS = [
     Packet(-5.0, LEFT, "insole/frame", b""),
     Packet(1e300, LEFT, "\ud800/x", b"\xff", "\udfff"),
-    Packet(0.5, Site.PELVIS, "", b"\x00"),
+    Packet(0.0, Site.PELVIS, "", b"\x00"),
     *[Packet(1.0 + k, LEFT, f"odd/{k}", b"") for k in range(1200)],
 ]
 
@@ -179,7 +179,10 @@ def test_whatever_a_recording_holds_can_be_exported(tmp_path):
             writer.write(packet)
         with pytest.raises(ValueError, match="a packet at nan s cannot be recorded"):
             writer.write(Packet(float("nan"), LEFT, "insole/frame", b""))
-    assert writer.count == len(ODD_PACKETS) and writer.outside > 0
+    assert writer.count == len(ODD_PACKETS)
+    assert writer.outside == 4, "the log and the publish time of the first two packets"
+    with path.open("rb") as file:
+        assert [dict(one.metadata) for one in make_reader(file).iter_metadata()] == [{"began": "never", "?": "?"}]
     content_by_topic = messages(path)
     assert sum(len(rows) for topic, rows in content_by_topic.items() if "/packets" in topic) == len(ODD_PACKETS)
     assert 1000 <= len(content_by_topic) < 1010

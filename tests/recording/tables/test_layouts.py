@@ -71,12 +71,6 @@ def test_other_encodings_are_read(tmp_path: Path, encoding: str) -> None:
     assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping)))
 
 
-def test_a_table_without_names_has_numbers_for_names(tmp_path: Path) -> None:
-    (tmp_path / "walk.csv").write_text(table(names=[]).lstrip("\n"))
-    mapping = TableMapping.parse("t=1,acc=2,3,4,gyro=#5,#6,7", "ms")
-    assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping)))
-
-
 def test_a_name_that_occurs_twice_is_taken_by_its_number(tmp_path: Path) -> None:
     (tmp_path / "walk.csv").write_text(table(names=["Zeit", "X", "Y", "Z", "X", "Y", "Z"]))
     with pytest.raises(RecordingError) as caught:
@@ -84,6 +78,9 @@ def test_a_name_that_occurs_twice_is_taken_by_its_number(tmp_path: Path) -> None
     assert "names the column X twice: it is #2 or #5; repair: --columns 't=Zeit,acc=#2,#3,#4" in str(caught.value)
     mapping = TableMapping.parse("t=Zeit,acc=#2,#3,#4,gyro=#5,#6,#7", "ms")
     assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=mapping)))
+    for number in ("#0", "#8"):
+        with pytest.raises(RecordingError, match=f"names no column {number}"):
+            read_samples(tmp_path / "walk.csv", mapping=TableMapping.parse(f"t=Zeit,acc={number},#3,#4", "ms"))
 
 
 def test_a_rate_stands_for_times_and_a_row_that_is_left_out_keeps_its_time(tmp_path: Path) -> None:

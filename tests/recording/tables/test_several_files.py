@@ -56,6 +56,8 @@ def test_two_files_of_two_feet_are_one_recording(tmp_path: Path) -> None:
 
 def test_files_whose_names_lack_the_foot_need_the_feet_in_their_order(tmp_path: Path) -> None:
     files = [acc_file(tmp_path / name, np.arange(20) / 100.0) for name in ("one.csv", "two.csv")]
+    patterns = TableMapping(feet={"left": "*wo.csv", "right": "*ne.csv"})
+    assert [table.foot for table in load_samples(files, mapping=patterns).tables] == [Foot.RIGHT, Foot.LEFT]
     with pytest.raises(RecordingError) as caught:
         read_samples(files)
     assert [problem.what for problem in caught.value.problems] == ["nothing says of which foot it is"] * 2
@@ -75,12 +77,6 @@ def test_a_file_that_is_given_twice_is_an_error(tmp_path: Path) -> None:
     for feet in (None, [Foot.LEFT, Foot.RIGHT]):
         with pytest.raises(RecordingError, match=r"one\.csv: is given twice$"):
             read_samples([file, again], feet)
-
-
-def test_a_pattern_of_a_mapping_gives_the_foot(tmp_path: Path) -> None:
-    files = [acc_file(tmp_path / name, np.arange(20) / 100.0) for name in ("s1_li.csv", "s1_re.csv")]
-    mapping = TableMapping(feet={"left": "*_li.csv", "right": "*_re.csv"})
-    assert [table.foot for table in load_samples(files, mapping=mapping).tables] == [Foot.LEFT, Foot.RIGHT]
 
 
 def test_the_slower_sensor_is_interpolated_to_the_times_of_the_faster_one(tmp_path: Path) -> None:
