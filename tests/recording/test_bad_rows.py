@@ -88,6 +88,9 @@ def test_a_recording_is_rejected_from_one_more_damaged_line_than_whole_ones_on(t
     path.write_text(HEADER + line_of() * 4 + "?\n" * 5)
     with pytest.raises(RecordingError, match=r"line 6: is not JSON; 5 of 9 lines cannot be used"):
         packets_of(path)
+    path.write_text(HEADER + "?\n" * 3 + line_of() * 2)
+    with pytest.raises(RecordingError, match="3 of 5 lines cannot be used"):  # and nothing is said of single lines
+        list(read_packets(path, report=pytest.fail))
 
 
 def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -180,9 +180,10 @@ def test_whatever_a_recording_holds_can_be_exported(tmp_path):
         with pytest.raises(ValueError, match="a packet at nan s cannot be recorded"):
             writer.write(Packet(float("nan"), LEFT, "insole/frame", b""))
     assert writer.count == len(ODD_PACKETS)
-    assert writer.outside == 4, "the log and the publish time of the first two packets"
+    assert writer.outside == 6, "both times of the first two packets, and of the rejection of one"
     with path.open("rb") as file:
-        assert [dict(one.metadata) for one in make_reader(file).iter_metadata()] == [{"began": "never", "?": "?"}]
+        (header,) = (one.metadata for one in make_reader(file).iter_metadata())
+    assert header == {"format": "solepath-packets", "version": "1", "began": "never", "?": "?"}
     content_by_topic = messages(path)
     assert sum(len(rows) for topic, rows in content_by_topic.items() if "/packets" in topic) == len(ODD_PACKETS)
     assert 1000 <= len(content_by_topic) < 1010

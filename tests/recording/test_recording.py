@@ -174,8 +174,9 @@ def test_a_source_gives_one_foot_and_counts_how_far_it_is(tmp_path):
     with pytest.raises(RecordingError, match="walk.jsonl: holds no packets of the left foot"):
         list(open_source(path, Foot.LEFT))
     reports = []
-    assert list(open_source(recorded(path, []), report=reports.append)) == []
-    assert reports == [f"{path}: holds no packets"]
+    empty = recorded(tmp_path / "none.jsonl", [])
+    assert list(open_source(empty, report=reports.append)) == []
+    assert reports == [f"{empty}: holds no packets"]
 
 
 def test_a_source_of_samples_counts_them_and_has_a_title(tmp_path):

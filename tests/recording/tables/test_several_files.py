@@ -57,7 +57,7 @@ def test_two_files_of_two_feet_are_one_recording(tmp_path: Path) -> None:
 def test_files_whose_names_lack_the_foot_need_the_feet_in_their_order(tmp_path: Path) -> None:
     files = [acc_file(tmp_path / name, np.arange(20) / 100.0) for name in ("one.csv", "two.csv")]
     patterns = TableMapping(feet={"left": "*wo.csv", "right": "*ne.csv"})
-    assert [table.foot for table in load_samples(files, mapping=patterns).tables] == [Foot.RIGHT, Foot.LEFT]
+    assert [table.path for table in load_samples(files, mapping=patterns).tables] == files[::-1], "the left one first"
     with pytest.raises(RecordingError) as caught:
         read_samples(files)
     assert [problem.what for problem in caught.value.problems] == ["nothing says of which foot it is"] * 2
