@@ -20,7 +20,7 @@ from solepath.emulate.wearers.walker import Walker
 from solepath.recording import RecordingError, shift_clock
 from solepath.recording.samples import load_samples
 from solepath.recording.samples.shared_event import shared_offset
-from solepath.types import Foot, Packet, Sample
+from solepath.types import Foot, Sample
 
 LIFT = Route().stand(3.0).lift(3.2).stand(3.0).walk(26.0, 1.3).stop(1.0)
 """A lift ride from 3 s on, and a walk."""
@@ -60,13 +60,6 @@ def test_a_shifted_recording_has_the_same_samples_in_the_order_of_their_new_time
     assert [s for s in shifted if s.site is RIGHT] == right
 
 
-def test_packets_are_shifted_by_the_time_of_their_arrival() -> None:
-    packets = [Packet(float(k), (LEFT, RIGHT)[k % 2], "insole/frame", b"") for k in range(6)]
-    assert [(p.t, p.site) for p in shift_clock(packets, -1.5)] == [
-        (-0.5, RIGHT), (0.0, LEFT), (1.5, RIGHT), (2.0, LEFT), (3.5, RIGHT), (4.0, LEFT)
-    ]  # fmt: skip
-
-
 def test_a_fault_in_the_recording_comes_after_all_samples_before_it() -> None:
     walk = samples()[:100]
 
@@ -104,6 +97,7 @@ def test_walking_shows_no_offset_for_half_a_cycle_makes_the_feet_alike(tmp_path:
         shared_offset(recording, end, end + 5.0)
 
 
+@pytest.mark.soak
 def test_track_undoes_the_offset_on_request_only(tmp_path: Path) -> None:
     path = write(tmp_path / "ride.npz", 0.12)
     process = run("track", path, "--shared-event", "2,10")

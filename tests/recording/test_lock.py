@@ -75,6 +75,9 @@ def test_a_new_file_without_packets_has_a_header_or_is_removed(tmp_path: Path) -
     assert not (tmp_path / "other.jsonl").exists()
     PacketWriter(tmp_path / "walk.jsonl", replace=True).discard()
     assert read_header(tmp_path / "walk.jsonl")["note"] == "x"
+    (tmp_path / "empty.jsonl").touch()
+    PacketWriter(tmp_path / "empty.jsonl").discard()
+    assert (tmp_path / "empty.jsonl").read_bytes() == b""
 
 
 def test_a_new_recording_has_its_header_before_the_first_packet(tmp_path: Path) -> None:
@@ -84,13 +87,6 @@ def test_a_new_recording_has_its_header_before_the_first_packet(tmp_path: Path) 
         assert list(read_packets(tmp_path / "walk.jsonl", report=pytest.fail)) == []
         writer.write(PACKETS[0])
     assert list(read_packets(tmp_path / "walk.jsonl")) == PACKETS[:1]
-
-
-def test_an_empty_file_is_empty_again_when_its_recording_is_discarded(tmp_path: Path) -> None:
-    path = tmp_path / "walk.jsonl"
-    path.touch()
-    PacketWriter(path).discard()
-    assert path.read_bytes() == b""
 
 
 @pytest.mark.parametrize("how", ["appended", "replaced"])
