@@ -24,7 +24,8 @@ PARTS: dict[str, tuple[Case, ...]] = {
 @cache
 def all_cases() -> dict[str, Case]:
     """Return every case by its name, the long ones first, since several are computed at a time."""
-    parts = [case for name in ("plans", "places", "recipes", "devices", "body", "faults", "papers") for case in PARTS[name]]
+    order = ("plans", "places", "recipes", "devices", "body", "faults", "papers")
+    parts = [case for name in order for case in PARTS[name]]
     cases = [*parts, *recorded()]
     named = {case.name: case for case in cases}
     assert len(named) == len(cases), "two cases have one name"

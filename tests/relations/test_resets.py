@@ -121,9 +121,15 @@ WearerParts.reset: feet* height parts* sampled* unsettled
 
 What stays is what was learnt of wearer, device and mounting (axis, bias, scale, layout, tare, usual times); the track,
 what was reported of it, and counts; and values that are set again before they are read, with a field that was reset."""
-ELSEWHERE = {"Decoder._restart", "PeriodicClock._restart", "DeviceSetup.restart_clock", "PitchGauge.restart"}
-"""Methods that go on with a packet, see the relations of streams; and two whose records are no state of a session: a
-device's setup (tests/link/test_device_setup.py), and a shoe's gauge (tests/papers/kupt_dfpc/test_calibration.py)."""
+ELSEWHERE = {
+    "Decoder._restart",
+    "PeriodicClock._restart",
+    "DeviceSetup.restart_clock",
+    "Watchdog.restart_clock",
+    "PitchGauge.restart",
+}
+"""Methods that go on with a packet, see the relations of streams; and those whose records are no state of a session: a
+device's setup and its watchdog (tests/link/test_device_setup.py), and a shoe's gauge (tests/papers/kupt_dfpc)."""
 ROOMS = ("link", "foot", "body", "floorplan", "papers", "session", "saving")
 """Rooms whose records can be in the state of a session."""
 
