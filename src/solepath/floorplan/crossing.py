@@ -3,11 +3,7 @@
 A cell of the grid lists the walls within MAX_SHORT_MOVE of it and its distance from the nearest wall. A move that is
 shorter than this distance crosses nothing. Other moves up to MAX_SHORT_MOVE are tested against the walls of their first
 cell, and longer moves against the walls of all cells along them. The signed distances of both ends from a wall's line
-and of a wall's ends from the move's line decide for most walls; where they do not, the exact test (segments.py) does.
-
-A move of the length of a step among 500 walls in rooms of 15 m^2 takes 1.5 us, the mean over moves in all directions
-from anywhere. Among 10,000 walls it takes 1.8 times as long. A move of 4 m takes 4 us. Indexing takes about 0.05 ms and
-1.2 kB for each wall, for long walls in proportion to their length."""
+and of a wall's ends from the move's line decide for most walls; where they do not, the exact test (segments.py) does."""
 
 from __future__ import annotations
 
