@@ -3,7 +3,7 @@
 A cell of the grid lists the walls within MAX_SHORT_MOVE of it and its distance from the nearest wall. A move that is
 shorter than this distance crosses nothing. Other moves up to MAX_SHORT_MOVE are tested against the walls of their first
 cell, and longer moves against the walls of all cells along them. The signed distances of both ends from a wall's line
-and of a wall's ends from the move's line decide for most walls; where they do not, the exact test (segments.py) does."""
+and of a wall's ends from the move's line decide for most walls; else the exact test (segments.py) does."""
 
 from __future__ import annotations
 
