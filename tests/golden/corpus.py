@@ -18,6 +18,7 @@ from functools import cache
 from hashlib import sha256
 from itertools import cycle
 from pathlib import Path
+from types import NoneType
 from typing import Any
 
 import attrs
@@ -82,11 +83,21 @@ def given(name: str) -> tuple[Any, ...]:
     return read_items(FOLDER / "inputs" / f"{name}.jsonl.xz")
 
 
+@cache
+def _names(kind: type) -> tuple[str, ...] | None:
+    """Return the names of the fields of a record's class, or None for a class that is no record."""
+    return tuple(field.name for field in attrs.fields(kind)) if attrs.has(kind) else None
+
+
 def plain(value: Any) -> Any:
     """Return a record as JSON has it, with the name of its class and every number to its last bit."""
-    if attrs.has(type(value)):
-        fields = {field.name: plain(getattr(value, field.name)) for field in attrs.fields(type(value))}
-        return {"": type(value).__name__, **fields}
+    kind = type(value)
+    if kind in (float, int, str, bool, NoneType):
+        return value
+    if kind in (tuple, list):
+        return [plain(one) for one in value]
+    if (names := _names(kind)) is not None:
+        return {"": kind.__name__, **{name: plain(getattr(value, name)) for name in names}}
     if isinstance(value, Enum):
         return value.value
     if isinstance(value, dict):
