@@ -46,6 +46,7 @@ def test_a_script_that_makes_no_sense_is_named_with_its_line(tmp_path: Path) -> 
     assert f"{script}: line 2: " in complaint("emulate", "--faults", script)
 
 
+@pytest.mark.soak
 def test_a_server_that_is_no_controller_is_reported() -> None:
     """The server answers everything with a bare HCI Command Complete."""
     with socket.create_server(("127.0.0.1", 0)) as server:
@@ -106,6 +107,7 @@ def test_ctrl_c_again_and_again_does_not_kill_a_recording_that_is_ended(insoles:
     assert f"recorded in {file}" in out and list(read_packets(file))
 
 
+@pytest.mark.soak
 def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
     with started("emulate", "--listen", "127.0.0.1:0", "--distance", 5000) as process:
         assert process.stdout is not None

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from attrs import evolve
-from walks import LEFT, NAMES, Machine, machines
+from walks import LEFT, NAMES, Machine, machines, often
 
 from solepath import Packet, Session, SnapshotError
 
@@ -44,7 +44,7 @@ def test_time_that_is_no_number_cannot_pass(now: float) -> None:
         Session().advance(now)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
+@pytest.mark.parametrize("name", often(name for name in NAMES if name.startswith("session")))
 def test_a_finished_session_is_read_but_not_fed(name: str) -> None:
     machine: Machine = machines()[name]
     session = machine.start()

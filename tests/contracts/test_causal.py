@@ -10,7 +10,7 @@ import attrs
 import pytest
 from attrs import evolve
 from hypothesis import Phase, settings
-from walks import NAMES, insoles, machine_events, machines, of, samples
+from walks import NAMES, insoles, machine_events, machines, of, often, samples
 
 from solepath import (
     ActivityChanged,
@@ -39,7 +39,7 @@ def fed_singly(name: str) -> tuple[Any, ...]:
     return tuple(event for events in machine_events(name)[:-1] for event in events)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", often(NAMES))
 def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: str) -> None:
     machine = machines()[name]
     decoders = {site: Decoder(site) for site in Site}
@@ -52,7 +52,7 @@ def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: 
             assert event.known_at == event.t or event.known_at in (item.t, *sample_times), event
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
+@pytest.mark.parametrize("name", often(name for name in NAMES if name.startswith("session")))
 def test_an_activity_that_is_final_is_never_replaced_and_a_revision_names_what_it_replaces(name: str) -> None:
     machine_events: list[ActivityChanged] = []
     for event in of(ActivityChanged, list(fed_singly(name))):
@@ -65,7 +65,7 @@ def test_an_activity_that_is_final_is_never_replaced_and_a_revision_names_what_i
         machine_events.append(event)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
+@pytest.mark.parametrize("name", often(name for name in NAMES if name.startswith("session")))
 def test_events_of_a_foot_follow_each_other_and_times_never_run_back(name: str) -> None:
     follows = {HeelStrike: {ToeOff, HeelOff}, ToeOff: {HeelOff, FootFlat, HeelStrike}}
     machine_events = fed_singly(name)
@@ -129,7 +129,7 @@ def plain(value: Any) -> bool:
     return type(value) in PLAIN_TYPES or isinstance(value, Enum)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", often(NAMES))
 def test_events_and_samples_are_plain_frozen_and_equal_to_their_copies(name: str) -> None:
     for event in fed_singly(name)[::3]:
         assert plain(event), event

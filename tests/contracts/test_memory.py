@@ -101,6 +101,7 @@ def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
     check(sizes, stride_counts)
 
 
+@pytest.mark.soak
 def test_the_interpreter_holds_no_more_after_each_round() -> None:
     all_rounds = list(rounds(4, 400))  # each with the first steps of a round, after a pause
     session = Session()

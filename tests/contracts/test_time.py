@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
-from walks import LEFT, PACKET_NAMES, RIGHT, machines, of, samples
+from walks import LEFT, PACKET_NAMES, RIGHT, machines, of, often, samples
 
 from solepath import Foot, Sample, Session, StreamResumed, StreamStale, StrideTaken, recipes
 from solepath.emulate.routes.route import Route
@@ -18,7 +18,7 @@ from solepath.emulate.wearers.walker import Walker
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
 
 
-@pytest.mark.parametrize("name", [name for name in PACKET_NAMES if name.startswith("session")])
+@pytest.mark.parametrize("name", often(name for name in PACKET_NAMES if name.startswith("session")))
 def test_silence_becomes_an_event_when_time_passes(name: str) -> None:
     machine = machines()[name]
     middle = len(machine.items) // 2
@@ -104,7 +104,7 @@ def test_jitter_of_the_sample_times_does_not_bend_the_track(seed: int) -> None:
     assert not any(stride.degraded for stride in jittered_strides)
 
 
-@pytest.mark.parametrize("name", recipes.NAMES)
+@pytest.mark.parametrize("name", often(recipes.NAMES))
 def test_feet_whose_clocks_are_years_apart_have_no_event_that_was_known_before_it_happened(name: str) -> None:
     left, right = [[sample for sample in samples() if sample.site is site] for site in (LEFT, RIGHT)]
     later = evolve(left[0], t=1e8, known_at=1e8)

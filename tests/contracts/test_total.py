@@ -11,7 +11,7 @@ import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from walks import DEVICE_NAMES, LEFT, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
+from walks import DEVICE_NAMES, LEFT, RIGHT, SAMPLE_NAMES, insoles, machines, of, often, samples
 
 from solepath import FootMoved, Packet, PacketRejected, Rejection, Sample, SampleRejected, Session, Site, StrideTaken
 from solepath.link.catalogue import PROFILES
@@ -47,7 +47,7 @@ def check_times(events: list[Any]) -> None:
         assert isfinite(event.t) and isfinite(event.known_at) and event.known_at >= event.t, event
 
 
-@pytest.mark.parametrize("name", [*DEVICE_NAMES, "session, kupt-dfpc", "session, walking-modes"])
+@pytest.mark.parametrize("name", often([*DEVICE_NAMES, "session, kupt-dfpc", "session, walking-modes"]))
 @given(st.data())
 @settings(max_examples=12)
 def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(name: str, data: st.DataObject) -> None:
@@ -122,7 +122,7 @@ def around(items: tuple[Sample, ...], k: int) -> tuple[Sample, Sample]:
     return items[k], next(item for item in reversed(items[:k]) if item.site is items[k].site)
 
 
-@pytest.mark.parametrize("name", SAMPLE_NAMES)
+@pytest.mark.parametrize("name", often(SAMPLE_NAMES))
 def test_samples_that_cannot_be_used_change_nothing_and_are_named(name: str) -> None:
     machine = machines()[name]
     for k, saved in cuts(name)[1::4]:
@@ -148,7 +148,7 @@ _SAMPLES = st.builds(
 )
 
 
-@pytest.mark.parametrize("name", SAMPLE_NAMES)
+@pytest.mark.parametrize("name", often(SAMPLE_NAMES))
 @given(st.sampled_from(range(SNAPSHOT_COUNT)), st.lists(_SAMPLES, max_size=12))
 @settings(max_examples=15)
 def test_any_samples_at_all_give_events(name: str, cut: int, fed: list[Sample]) -> None:

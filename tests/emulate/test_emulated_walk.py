@@ -68,7 +68,7 @@ def test_every_step_over_a_bad_radio_is_found_in_its_time_and_length_and_called_
     for one in feet.values():
         assert one.length_errors.mean <= 0.03
         for kind in ("heel_strike", "foot_flat", "heel_off", "toe_off"):
-            assert one.events[kind].f1 == pytest.approx(1.0, abs=0.02)
+            assert one.events[kind].f1 == pytest.approx(1.0, abs=0.01)
             offsets = sorted(abs(offset) for offset in one.events[kind].offsets)
             assert offsets[len(offsets) // 2] <= 0.040 and offsets[int(0.9 * len(offsets))] <= 0.060
     steps = of(StrideTaken, events)
@@ -124,21 +124,21 @@ def test_insoles_of_any_kind_find_every_step(device: Insole) -> None:
 
 
 @pytest.mark.parametrize(
-    ("device", "least", "length_error", "contacts"),
+    ("device", "seeds", "least", "length_error", "contacts"),
     [
-        (CC2650(), 0.98, 0.20, 0.85),
-        pytest.param(CC2541(), 0.97, 0.20, 0.0, marks=SOAK),
-        (CC2541(rate=20.0), 0.98, 0.15, 0.9),
+        (CC2650(), (1, 2, 3), 0.99, 0.20, 0.85),
+        pytest.param(CC2541(), (1, 2, 3), 0.97, 0.20, 0.0, marks=SOAK),
+        (CC2541(rate=20.0), (1,), 0.98, 0.15, 0.9),
     ],
     ids=["CC2650 at 10 Hz", "CC2541 at 10 Hz", "CC2541 at 20 Hz"],
 )
 def test_sensor_tags_find_the_steps_of_a_walk_and_when_the_foot_struck_and_left_the_ground(
-    device: Device, least: float, length_error: float, contacts: float
+    device: Device, seeds: tuple[int, ...], least: float, length_error: float, contacts: float
 ) -> None:
-    feet = list(walked("thirty", Radio(), 1, device)[1].values())
+    feet = [foot for seed in seeds for foot in walked("thirty", Radio(), seed, device)[1].values()]
     assert f1(feet) >= least and sum(one.strides_invented for one in feet) <= 1
     assert all(one.strides_true >= 20 for one in feet)
-    assert sum(one.length_errors.mean or 0.0 for one in feet) / 2 <= length_error
+    assert sum(one.length_errors.mean or 0.0 for one in feet) / len(feet) <= length_error
     for kind in ("heel_strike", "toe_off") if contacts else ():
         offsets = sorted(abs(t) for one in feet for t in one.events[kind].offsets)
         # a rate that ends at 250 degrees/s and comes ten times a second does not always show the end of a push-off

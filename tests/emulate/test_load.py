@@ -18,7 +18,7 @@ from solepath.types.vector import GRAVITY
 from solepath.wire.insole_info import parse_info
 
 WEIGHT = 75.0 * GRAVITY
-STRAIGHT = Route().stand(1.0).walk(8.0, 1.3).stop(1.0)
+STRAIGHT = Route().stand(2.0).walk(20.0, 1.3).stop(2.0)
 BOTH = pytest.mark.parametrize("foot", Foot)
 
 
@@ -51,8 +51,9 @@ def test_the_load_shows_heel_strike_and_toe_off_within_a_sample(foot: Foot) -> N
     strides = walker().plan.strides[foot]
     late = rises - [one.heel_strike for one in strides]
     early = [one.toe_off for one in strides] - falls
-    assert late.min() > 0.0 and late.max() <= 0.02 and late[:-1].max() <= 0.0151
-    assert early.min() > -0.01 and early.max() <= 0.025 and early[1:].max() <= 0.01
+    # up to 10 ms until the next sample and a few until 20 N; starting and closing steps load and unload more slowly
+    assert late.min() > 0.0 and late.max() <= 0.02 and late[:-1].max() <= 0.0151 and np.median(late) < 0.013
+    assert early.min() > -0.01 and early.max() <= 0.02 and early[1:].max() <= 0.01
 
 
 @BOTH

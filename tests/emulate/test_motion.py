@@ -79,6 +79,8 @@ WAYS = {
     ),
 }
 ALL = pytest.mark.parametrize("name", WAYS)
+ROLLING = ("jogging", "swaying")
+"""Ways of which the last instant of a stance already rolls, within the arc of the sole."""
 MOVING = ("lift", "standing on an escalator", "walking down an escalator")
 
 
@@ -122,9 +124,9 @@ def test_positions_velocities_rates_and_forces_are_those_of_one_motion_without_a
     one, h = walker(name), 1e-5
     t = np.arange(0.5, one.duration - 0.5, 0.0137)
     early, now, late = (one.kinematics(foot, t + d, TILTED) for d in (-h, 0.0, h))
-    assert np.abs((late.position - early.position) / (2 * h) - now.velocity).max() < 2e-3
+    assert np.abs((late.position - early.position) / (2 * h) - now.velocity).max() < 1e-5
     change = np.abs((late.velocity - early.velocity) / (2 * h) - now.acceleration)
-    assert change.max() < 1.0 and np.median(change) < 1e-3  # the jerk jumps at joints
+    assert change.max() < 5e-3 and np.median(change) < 1e-6  # the jerk jumps at joints
     predicted = multiply_quaternions(early.attitude, from_rotation_vectors(2 * h * now.rate))
     assert np.abs(np.sum(predicted * late.attitude, axis=1)) == pytest.approx(1.0, abs=1e-9)
     turned = multiply_quaternions(early.attitude * (1.0, -1.0, -1.0, -1.0), late.attitude)
@@ -133,7 +135,7 @@ def test_positions_velocities_rates_and_forces_are_those_of_one_motion_without_a
     world = np.einsum("nij,nj->ni", matrices(now.attitude), now.force)
     assert world - now.acceleration == pytest.approx(np.tile((0.0, 0.0, GRAVITY), (len(t), 1)), abs=1e-6)
     found = one.kinematics(foot, times(one), ON_INSTEP)
-    assert np.linalg.norm(np.diff(found.velocity, axis=0), axis=1).max() < 0.5
+    assert np.linalg.norm(np.diff(found.velocity, axis=0), axis=1).max() < (0.25 if name == "jogging" else 0.15)
 
 
 @ALL
@@ -165,8 +167,9 @@ def test_a_foot_in_stationary_neither_slides_nor_turns_on_what_it_stands_on(name
             inside = (still >= ride.start) & (still <= ride.end)
             carried[inside] = ride.at(still[inside])[1]
         assert len(still) > 500
-        assert np.linalg.norm(found.velocity - carried, axis=1).max() < 0.02
-        assert np.abs(found.rate).max() < 0.15
+        slides, turns = (4e-3, 0.04) if name in ROLLING else (1e-3, 6e-3)
+        assert np.linalg.norm(found.velocity - carried, axis=1).max() < slides
+        assert np.abs(found.rate).max() < turns
 
 
 @pytest.mark.parametrize("name", [name for name, way in WAYS.items() if way.flat])
@@ -175,7 +178,7 @@ def test_a_sole_never_sinks_into_the_floor_and_clears_it_in_swing(name: str) -> 
     t = times(one)
     for foot in Foot:
         height = lowest(one, foot, t)
-        assert height.min() > -6e-4
+        assert height.min() > -4e-4
         for stride in one.plan.strides[foot]:
             swing = stride.heel_strike - stride.toe_off
             middle = (t > stride.toe_off + 0.4 * swing) & (t < stride.toe_off + 0.6 * swing)

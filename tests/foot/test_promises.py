@@ -262,6 +262,7 @@ class Lingering(Part):
         return [WearerMoved(t=now + self.cells, known_at=now, position=ZERO, covariance=(0.0,) * 6)]
 
 
+@pytest.mark.soak
 def test_parts_of_the_body_keep_their_promises_and_those_that_do_not_are_named() -> None:
     for part in recipes.DEFAULT.parts:
         assert broken(part, WALKED, CELLS) == []

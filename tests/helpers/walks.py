@@ -10,6 +10,7 @@ from typing import Any
 
 import declared
 import numpy as np
+import pytest
 from attrs import evolve, frozen
 from kept import kept
 
@@ -279,6 +280,35 @@ SAMPLE_NAMES = tuple(
 )
 NAMES = PACKET_NAMES + SAMPLE_NAMES
 """Names of `machines`, known without an emulation, since collecting tests must not emulate walks."""
+SELDOM = {
+    "kupt",
+    "kupt-dfpc-printed",
+    "zupt",
+    "pressure-contour-printed",
+    "gyroscope",
+    "walking-modes-printed",
+    "touchdown-height",
+    "touchdown-acceleration",
+    "touchdown-pressure",
+    "footstep-tracker-printed",
+    "shoe-sensing-printed",
+    "acceleration-magnitude",
+    "cc2541 at 20 Hz",
+    "AngularRate",
+    "MovingVariance",
+    "Graph",
+    "TwoArea",
+    "MaximumPressure",
+    "LinearDedrift with pressure",
+}
+"""Recipes, devices and detectors that share all but a part or a setting with another one."""
+
+
+def often(names: Iterable[str]) -> list[Any]:
+    """Return the names as parameters of a test, of which those of SELDOM are for the soak alone."""
+    return [
+        pytest.param(name, marks=pytest.mark.soak) if name.rpartition(", ")[2] in SELDOM else name for name in names
+    ]
 
 
 def of(kind: Any, events: list[Any]) -> list[Any]:

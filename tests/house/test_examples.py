@@ -108,6 +108,7 @@ def test_two_insoles_give_the_way_of_both_feet():
     assert any(line.split()[3] != line.split()[6] for line in lines[2:-1]), "no stride was calibrated by the other foot"
 
 
+@pytest.mark.soak
 def test_in_a_building_walls_leave_one_place_of_many():
     lines_out = run("indoors").splitlines()
     possible = [int(line.split()[2]) for line in lines_out if " possible place" in line]

@@ -7,6 +7,7 @@ import pickle
 from functools import cache
 from typing import Any
 
+import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -115,6 +116,7 @@ def test_the_changes_add_up_to_the_scene_of_a_late_watcher(data: st.DataObject) 
 
 @settings(max_examples=8)
 @given(st.lists(st.integers(0, MAX_POINTS + 2 * MAX_BEHIND), max_size=30))
+@pytest.mark.soak
 def test_a_long_track_is_thinned_alike_on_both_sides(read_indices: list[int]) -> None:
     agree(long_track(), read_indices)
 
@@ -133,6 +135,7 @@ def test_nothing_new_is_no_message() -> None:
     assert scene.message_since(cursor)[0] is None
 
 
+@pytest.mark.soak
 def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
     many = FootMoved | FootPressed | PacketsLost | PacketRejected | SampleGap
     once = [event for event in events_of_all_kinds() if not isinstance(event, many)]

@@ -53,6 +53,7 @@ def test_with_the_compass_fewer_strides_decide_where_the_wearer_is(part: Method)
     assert with_compass < 0.8 * without
 
 
+@pytest.mark.soak
 def test_a_north_that_is_wrong_leaves_the_true_place_among_the_candidates(part: Method) -> None:
     for seed in SEEDS:
         events = placed(misled(type(part), seed)[1])

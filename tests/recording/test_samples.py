@@ -60,6 +60,7 @@ STUCK_AT_FULL_SCALE = {"bicycling_01_18"}
 """Recordings of hugadb_daily with an accelerometer that reads 2 g on all axes most of the time, 34 m/s^2 in all."""
 
 
+@pytest.mark.soak
 def test_every_recording_of_the_data_folder_is_read_to_its_end(data_dir):
     paths = sorted(data_dir.glob("*/*.npz"))
     assert paths

@@ -24,6 +24,7 @@ from transforms import (
     run,
     worn,
 )
+from walks import SELDOM, often
 
 from solepath import Foot, Sample, Session, Site, StrideTaken, TouchedDown, WearerMoved, recipes
 from solepath.types.vector import from_rotation_vector
@@ -122,7 +123,9 @@ HEADED_AT = 3.2
 """Time at which both feet have ended a stride, s."""
 
 
-@pytest.mark.parametrize(("walk", "recipe"), CASES)
+@pytest.mark.parametrize(
+    ("walk", "recipe"), [pytest.param(*one, marks=pytest.mark.soak) if one[1] in SELDOM else one for one in CASES]
+)
 @pytest.mark.parametrize("name", RELATIONS)
 def test_the_events_of_a_walk_are_as_the_relation_says(name: str, walk: str, recipe: str) -> None:
     relation = RELATIONS[name]
@@ -158,7 +161,7 @@ def test_the_world_of_devices_may_be_turned_if_the_first_heading_in_it_is_given(
     assert len(after) > 10 and differences(before, after, {"": 1e-6}) == []
 
 
-@pytest.mark.parametrize("recipe", recipes.NAMES)
+@pytest.mark.parametrize("recipe", often(recipes.NAMES))
 def test_a_foot_that_is_turned_and_moved_at_a_foot_flat_goes_on_from_there(recipe: str) -> None:
     session, walk, strides = Session(recipes.by_name(recipe), poses=True), iter(worn()), 0
     while strides < 2:

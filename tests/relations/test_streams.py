@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from attrs import evolve
 from transforms import CALIBRATION, CLIMBING, Change, differences, in_order, run, worn
-from walks import LEFT, NAMES, RIGHT, insoles, machine_events, machines, of, pieces, run_machine
+from walks import LEFT, NAMES, RIGHT, insoles, machine_events, machines, of, often, pieces, run_machine
 
 from solepath import (
     ActivityChanged,
@@ -45,7 +45,7 @@ def exactly(events: Iterable[Any]) -> list[str]:
     return [repr(event) for event in events]
 
 
-@pytest.mark.parametrize("name", SESSIONS)
+@pytest.mark.parametrize("name", often(SESSIONS))
 def test_cut_anywhere_the_events_are_the_same_bit_for_bit(name: str) -> None:
     machine, cuts = machines()[name], Random(name)
     session = machine.start()
@@ -80,7 +80,7 @@ def test_saved_and_restored_anywhere_it_goes_on_as_if_nothing_had_happened(name:
     assert texts + exactly(session.finish()) == exactly(event for events in straight for event in events)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name.partition(", ")[2] not in recipes.NAMES])
+@pytest.mark.parametrize("name", often(name for name in NAMES if name.partition(", ")[2] not in recipes.NAMES))
 def test_later_by_twelve_days_the_events_are_the_same_at_that_time(name: str) -> None:
     machine, later = machines()[name], Change(later=2.0**20)
     items = [
@@ -118,7 +118,7 @@ def test_a_packet_that_comes_twice_is_rejected_and_changes_nothing(name: str) ->
     assert events + session.finish() == machine.events()
 
 
-@pytest.mark.parametrize("name", ["whole frames", "fragments", "cc2541", "dot", "thingy", "kupt-dfpc", "shoe-sensing"])
+@pytest.mark.parametrize("name", ["fragments", "cc2541", "thingy", "kupt-dfpc"])
 def test_of_packets_of_one_time_either_foot_may_come_first(name: str) -> None:
     machine, found = machines()[f"session, {name}"], []
     items = [evolve(item, t=0.05 * (item.t // 0.05 + 1.0)) for item in machine.items]
@@ -139,7 +139,9 @@ def gait(events: list[Any], since: float) -> list[Any]:
     return sorted(taken, key=lambda event: (type(event).__name__, event.foot.value, event.t))
 
 
-@pytest.mark.parametrize("how", ["clock", "samples", "device"])
+@pytest.mark.parametrize(
+    "how", ["samples", *(pytest.param(how, marks=pytest.mark.soak) for how in ("clock", "device"))]
+)
 @pytest.mark.parametrize("recipe", ["default", "kupt-dfpc", "footstep-tracker", "shoe-sensing", "walking-modes"])
 def test_after_a_reset_a_walk_is_what_it_is_for_a_fresh_session(recipe: str, how: str) -> None:
     session, second = Session(recipes.by_name(recipe), calibration=CALIBRATION), worn(CLIMBING)
@@ -161,7 +163,7 @@ def test_after_a_reset_a_walk_is_what_it_is_for_a_fresh_session(recipe: str, how
     assert moved[0] is moved[1]
 
 
-@pytest.mark.parametrize("recipe", recipes.NAMES)
+@pytest.mark.parametrize("recipe", often(recipes.NAMES))
 def test_a_longer_silence_changes_nothing_but_its_own_length(recipe: str) -> None:
     found = []
     for silence in (60.0, 6000.0):

@@ -39,12 +39,8 @@ ROUTES = {
 WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
 SOAK = pytest.mark.soak
-WALKED = [
-    pytest.param(name, seed, marks=[SOAK] if seed > 1 and name != "everything" else [])
-    for name in ROUTES
-    for seed in WEARERS
-]
-"""Routes with their wearers: the default one walks each, the others the one that has everything."""
+WALKED = [pytest.param(name, seed, marks=[SOAK] if seed > 1 else []) for name in ROUTES for seed in WEARERS]
+"""Routes with their wearers."""
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
 MAX_STAIRS, MIN_WALKING, MOST_WALKING = 0.02, 0.9, 0.8
 """Largest share of the time reported as stairs, and least share of walking reported as walking, ahead and otherwise."""
@@ -65,14 +61,14 @@ def confusion(name: str, seed: int, is_tag: bool) -> Counter[tuple[Activity, Act
     return Counter((walk.truth.activity(t), timeline.at(t)) for t in times)
 
 
-@pytest.mark.parametrize("is_tag", [False, True])
+@pytest.mark.parametrize("is_tag", [False, pytest.param(True, marks=SOAK)])
 @pytest.mark.parametrize(("name", "seed"), WALKED)
 def test_other_ways_of_walking_are_no_stairs(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     assert sum(count for (_, reported), count in found.items() if reported in STAIRS) < MAX_STAIRS * found.total()
 
 
-@pytest.mark.parametrize("is_tag", [False, True])
+@pytest.mark.parametrize("is_tag", [False, pytest.param(True, marks=SOAK)])
 @pytest.mark.parametrize(("name", "seed"), [one for one in WALKED if one.values[0] in ("up", "down")])
 def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
@@ -80,7 +76,7 @@ def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
     assert found[Activity.WALKING, Activity.WALKING] >= MIN_WALKING * walked
 
 
-@pytest.mark.parametrize("is_tag", [False, True])
+@pytest.mark.parametrize("is_tag", [False, pytest.param(True, marks=SOAK)])
 @pytest.mark.parametrize(("name", "seed"), [one for one in WALKED if one.values[0] in ("backwards", "sideways")])
 def test_feet_that_turn_little_stride_all_the_same(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)

@@ -12,6 +12,7 @@ from solepath.events import PositionRejected, PositionReported, StrideTaken, Tra
 from solepath.wire.receiver import PositionFrame, build_position
 
 
+@pytest.mark.soak
 def test_a_return_corrects_place_and_heading_and_the_strides_after_it() -> None:
     walk, back = loop(), back_time(loop())
     corrected, plain = session_back(), session_back()
@@ -69,6 +70,7 @@ def test_a_place_that_is_20_m_off_is_rejected_with_a_reason_and_changes_nothing(
     assert session.position == saved
 
 
+@pytest.mark.soak
 def test_a_packet_of_the_receiver_does_the_same_and_a_saved_session_too() -> None:
     walk = loop()
     one, other = fed(walk, 60.0), fed(walk, 60.0)

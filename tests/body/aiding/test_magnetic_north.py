@@ -42,6 +42,7 @@ def off(north: tuple[float, float]) -> float:
 
 
 @pytest.mark.parametrize("seed", [12, *(pytest.param(seed, marks=pytest.mark.soak) for seed in (11, 13))])
+@pytest.mark.soak
 def test_north_is_known_after_some_turns_within_three_standard_deviations(seed: int) -> None:
     found = norths(walked(seed))
     known = [north for north in found if north is not None]
@@ -50,6 +51,7 @@ def test_north_is_known_after_some_turns_within_three_standard_deviations(seed: 
     assert known[-1][1] < radians(8.0) and off(known[-1]) < radians(12.0)
 
 
+@pytest.mark.soak
 def test_a_magnetometer_with_a_mirrored_axis_shows_no_north() -> None:
     mirrored = tuple(
         sample if sample.mag is None else evolve(sample, mag=(sample.mag[0], -sample.mag[1], sample.mag[2]))

@@ -167,7 +167,9 @@ def means(events: list[Event]) -> dict[tuple[Foot, str], float]:
     }
 
 
-@pytest.mark.parametrize("name", ["1-1", "5-4", "11-4", "19-4"])
+@pytest.mark.parametrize(
+    "name", ["1-1", *(pytest.param(one, marks=pytest.mark.soak) for one in ("5-4", "11-4", "19-4"))]
+)
 def test_step_time_and_double_support_of_an_even_walker_are_right_to_20_ms_once_the_offset_is_undone(
     data_dir: Path, name: str
 ) -> None:
@@ -179,6 +181,7 @@ def test_step_time_and_double_support_of_an_even_walker_are_right_to_20_ms_once_
     assert means(Session().feed(shift_clock(damaged, defect.offset))) == pytest.approx(true, abs=0.02)
 
 
+@pytest.mark.soak
 def test_a_treadmill_whose_light_barrier_shows_clocks_75_ms_apart_has_even_steps_once_that_is_undone(
     data_dir: Path,
 ) -> None:
@@ -194,6 +197,7 @@ def test_a_treadmill_whose_light_barrier_shows_clocks_75_ms_apart_has_even_steps
         assert measured == pytest.approx(true, abs=0.02)
 
 
+@pytest.mark.soak
 def test_ten_recorded_walkers_on_one_clock_are_not_reported(data_dir: Path) -> None:
     paths = sorted((data_dir / "ipol_10m_uturn").glob("*-4.npz"))
     assert len(paths) == 10

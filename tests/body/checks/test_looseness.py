@@ -43,6 +43,7 @@ def continued(seed: int, samples: tuple[Sample, ...]) -> tuple[list[DefectFound]
     return found(tuple(sample for sample in samples if sample.t >= CAME_LOOSE), Session.unpack(packed_before(seed)))
 
 
+@pytest.mark.soak
 def test_a_sensor_that_swings_is_noticed_and_its_strides_are_degraded() -> None:
     """Within a minute in five of six walks; the stances of the sixth one are quiet moments of the swinging sensor."""
     noticed = 0
@@ -63,6 +64,7 @@ def test_a_fixed_sensor_has_not_come_loose(seed: int) -> None:
 
 
 @pytest.mark.parametrize(("seed", "duration"), [(2, 0.3), pytest.param(3, 0.5, marks=pytest.mark.soak)])
+@pytest.mark.soak
 def test_a_gap_in_the_samples_is_no_loose_sensor(seed: int, duration: float) -> None:
     samples = sampled(ROUTE.turn(pi, 0.6).walk(60, 1.3).stop(2), seed=seed).samples
     kept = [s for s in samples if s.site.foot is not Foot.LEFT or not 70.0 <= s.t < 70.0 + duration]

@@ -56,12 +56,14 @@ def walked(kind: str, known: Calibration) -> tuple[list[DefectFound], float]:
 
 
 @pytest.mark.parametrize("kind", ["right_angles", pytest.param("any_angles", marks=pytest.mark.soak)])
+@pytest.mark.soak
 def test_a_calibration_of_other_shoes_is_dropped_and_the_track_turned_back(kind: str) -> None:
     (one,), error = walked(kind, calibration(ANOTHER))
     assert "does not fit this walk" in one.what and not one.spoils
     assert error < 0.05, "0.8 rad of heading would be a fifth of the way or more"
 
 
+@pytest.mark.long
 def test_a_calibration_that_is_dropped_no_longer_changes_turns_either() -> None:
     """Its drift is wrong by 6 mrad a stride, and its turns by a twentieth."""
     wrong = {

@@ -40,7 +40,7 @@ def ground(events: list[Event]) -> list[DefectFound]:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("velocity", [(-0.5, 0.0), (0.0, 0.5)])
+@pytest.mark.parametrize("velocity", [(-0.5, 0.0), pytest.param((0.0, 0.5), marks=pytest.mark.soak)])
 def test_a_walkway_is_noticed_where_it_starts_and_where_it_ends(seed: int, velocity: tuple[float, float]) -> None:
     _, events, way = fed(seed, velocity)
     first, second = ground(events)
@@ -51,6 +51,7 @@ def test_a_walkway_is_noticed_where_it_starts_and_where_it_ends(seed: int, veloc
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.soak
 def test_the_covariance_holds_the_way_that_the_track_lacks(seed: int) -> None:
     standing, (session, _, way) = Session(), fed(seed, (0.65, 0.0))
     standing.feed(walk(seed).samples)

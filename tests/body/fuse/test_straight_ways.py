@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import cos, sin
 
+import pytest
+
 from solepath import Session
 from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.fuse.calibration_fit import DriftHypothesis
@@ -28,6 +30,7 @@ def fed(walk: SampledWalk) -> tuple[BothFeet, Session, list[Event]]:
     return part, session, events
 
 
+@pytest.mark.soak
 def test_a_wearer_whose_peaks_are_cut_off_still_shows_the_drift() -> None:
     route = heading_route("right_angles", STRONG_LANDING, lambda length, seconds: length >= 300.0)
     walk = sampled(route, wearer=wearer_of(STRONG_LANDING), insoles=insoles_of(STRONG_LANDING), seed=STRONG_LANDING)

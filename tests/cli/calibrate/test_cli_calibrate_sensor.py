@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 from commands import run
 from quoted import below, nearly_the_same
 from recordings import recorded
@@ -29,6 +30,7 @@ def packets(hand: Handling, site: Site) -> tuple[Packet, ...]:
     return tuple(radio.transmit(sent, site, np.random.default_rng(81)))
 
 
+@pytest.mark.soak
 def test_a_recording_of_packets_becomes_a_calibration_that_track_takes(tmp_path: Path) -> None:
     file, out = recorded(tmp_path / "turns.jsonl", packets(Handling(81), Site.LEFT_FOOT)), tmp_path / "me.json"
     write_calibration(out, Calibration(headings={Foot.LEFT: HeadingCalibration(0.001, 0.0, 1e-3, 1e-3)}))

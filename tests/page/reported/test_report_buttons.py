@@ -7,6 +7,7 @@ import json
 from math import hypot
 from typing import Any
 
+import pytest
 from browsers import Browser, Window
 from shown import open_page, scene_after, scene_on_plan
 
@@ -93,6 +94,7 @@ async def test_a_click_on_the_plan_reports_a_place_on_the_level_that_is_shown_an
         assert reports == []
 
 
+@pytest.mark.soak
 async def test_without_a_mouse_the_place_below_the_cross_is_reported_and_escape_reports_nothing(
     chromium: Browser,
 ) -> None:

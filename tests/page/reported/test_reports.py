@@ -111,6 +111,7 @@ def test_a_position_that_contradicts_the_track_is_shown_and_nothing_is_moved() -
     assert was["tracks"] == now["tracks"] and was["frame"]["wearer"] == now["frame"]["wearer"]
 
 
+@pytest.mark.soak
 def test_a_seek_over_reports_shows_the_same_as_playing() -> None:
     packets = PackedItems(reported_walk())
     times = [REPORT_TIMES[0] - 1.0, REPORT_TIMES[0] + 0.5, REPORT_TIMES[1] - 1.0, packets.end]

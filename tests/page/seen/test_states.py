@@ -25,15 +25,15 @@ OPERATED = ("plan", "finished")
 
 
 QUICK = ((360, "dark"), (1280, "light"))
-"""Screens of the state that is always tested."""
+"""Screens of the state that is tested most."""
 ALL = tuple((width, theme) for width in SCREENS | NARROWEST for theme in THEMES)
 
 
 @pytest.mark.parametrize(
     ("name", "screens"),
     [
-        ("plan", QUICK[:1]),
-        pytest.param("plan", QUICK, marks=pytest.mark.soak),
+        pytest.param("plan", QUICK[:1], marks=pytest.mark.soak),
+        pytest.param("plan", QUICK, marks=pytest.mark.long),
         *(pytest.param(name, ALL, marks=pytest.mark.long) for name in STATES),
     ],
 )
