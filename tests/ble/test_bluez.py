@@ -121,6 +121,7 @@ def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
     assert not any(device.is_connected for device in pair.peripherals)
 
 
+@pytest.mark.soak
 def test_bluetooth_that_is_switched_off_is_reported_and_waited_for(on_a_bus):
     worn = bench()
 
@@ -137,6 +138,7 @@ def test_bluetooth_that_is_switched_off_is_reported_and_waited_for(on_a_bus):
     assert len(of(before, "receiver/disconnected")) == len(of(after, "receiver/connected")) == 1
 
 
+@pytest.mark.soak
 def test_a_bluetooth_service_that_dies_is_reported_and_its_successor_used(on_a_bus):
     worn = bench()
 

@@ -9,6 +9,7 @@ import pytest
 from airs import TIERS, collect, in_virtual_time
 from attrs import evolve
 from benches import LEFT
+from soak import soaked
 
 from solepath import (
     ClockReset,
@@ -42,7 +43,7 @@ STAND = Route().stand(9.0)
 WALK = Route().stand(3.0).walk(12.0).stop(3.0)
 FOOT_ADDRESS = "F0:5E:00:00:00:01"
 SMALL_INSOLE = Insole(cells=8, rate=50.0)
-both = pytest.mark.parametrize("tier", ["memory", pytest.param("bumble", marks=pytest.mark.soak)])
+both = pytest.mark.parametrize("tier", ["memory", *soaked("bumble")])
 
 
 @cache

@@ -6,6 +6,7 @@ import asyncio
 
 import pytest
 from airs import TIERS, collect, in_virtual_time, troubles
+from soak import soaked
 
 from solepath.ble import DeviceConfig, Devices
 from solepath.emulate import Route
@@ -29,7 +30,7 @@ KINDS: dict[str, tuple[Profile, Device]] = {
 }
 
 
-both = pytest.mark.parametrize("tier", ["memory", pytest.param("bumble", marks=pytest.mark.soak)])
+both = pytest.mark.parametrize("tier", ["memory", *soaked("bumble")])
 
 
 def bench(faults: str, device: Device | None = None) -> Bench:

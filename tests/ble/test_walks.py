@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import pytest
 from airs import bumble, collect, in_virtual_time, whole
 from attrs import evolve
+from soak import soaked
 from walks import run_session
 
 from solepath import PacketRejected, PacketsLost, SampleGap, StrideTaken
@@ -50,7 +51,7 @@ def receive(
     return in_virtual_time(listen)
 
 
-@pytest.mark.parametrize("mtu", [247, pytest.param(23, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("mtu", [247, *soaked(23)])
 def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_the_walk_fed_directly(mtu: int) -> None:
     """Compared are, byte for byte, the frames that arrive with those of the emulator, and the delay of each; then the
     events of what arrived with the events of the emulator's own frames, stamped with the times at which they arrived
@@ -98,7 +99,8 @@ TAGS: dict[str, tuple[Profile, Device, float | None]] = {
 TAG_ROUTE = Route().stand(2.0).walk(14.0).stop(2.0)
 
 
-@pytest.mark.parametrize("tag", [*[*TAGS][:2], pytest.param([*TAGS][2], marks=pytest.mark.soak)])
+@pytest.mark.parametrize("tag", [*[*TAGS][:2], *soaked([*TAGS][2])])
+@pytest.mark.soak
 def test_sensortags_give_the_steps_of_a_walk_end_to_end(tag: str) -> None:
     profile, device, interval = TAGS[tag]
     bench = Bench(TAG_ROUTE, devices=dict.fromkeys(FEET, device), seed=11)

@@ -121,6 +121,7 @@ def test_a_lift_leaves_the_tracks_of_the_feet_as_they_are() -> None:
     assert session.position is not None and session.position.covariance[5] > 0.01
 
 
+@pytest.mark.soak
 def test_weather_and_a_door_do_not_move_who_walks_on_the_level() -> None:
     plain = samples(Route().stand(2.0).walk(8.0).stop(1.0), cells=0)
     windy = [

@@ -59,6 +59,7 @@ def test_feet_that_drift_apart_are_held_together() -> None:
     assert hypot(both.position.position[0] - 40.0, both.position.position[1]) < 0.1 * 40.0
 
 
+@pytest.mark.soak
 def test_a_foot_whose_steps_are_not_seen_any_more_does_not_hold_the_other_one_back() -> None:
     """Its sensor lies still, or always repeats one reading."""
     session = Session()
@@ -90,6 +91,7 @@ def test_a_foot_that_first_steps_aside_does_not_bend_either_track(first_directio
         assert max(abs(remainder(atan2(y, x) - first, 2.0 * pi)) for x, y, _ in own) < 0.3
 
 
+@pytest.mark.soak
 def test_a_foot_that_returns_pulls_nothing_before_it_is_aligned() -> None:
     """The right foot is silent in a bend and comes back tens of metres from where it was seen last."""
     route = Route().stand(3.0).walk(12.0, 1.3).turn(0.5 * pi, 1.0).walk(50.0, 1.3).stop(2.0)

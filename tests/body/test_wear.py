@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from attrs import evolve
+from soak import soaked
 from spoiled import silent
 from walks import LEFT, RIGHT, of, samples
 
@@ -47,7 +48,7 @@ def without(foot: Site, start: float, end: float) -> tuple[Sample, ...]:
     return tuple(s for s in walk() if s.site is not foot or not start <= s.t < end)
 
 
-@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+@pytest.mark.parametrize("foot", [LEFT, *soaked(RIGHT)])
 def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_it_gives_one(foot: Site) -> None:
     events = reported(FootSilent | FootResumed, without(foot, 6.0, 12.0))
     assert [type(event) for event in events] == [FootSilent, FootResumed]
@@ -101,7 +102,7 @@ def both_feet(route: Route) -> tuple[Sample, ...]:
     return samples(route, cells=0, rate=50.0)
 
 
-@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+@pytest.mark.parametrize("foot", [LEFT, *soaked(RIGHT)])
 def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
     alone = tuple(silent(both_feet(FAR), foot, 12.0))
     for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
@@ -112,7 +113,7 @@ def test_a_silent_foot_does_not_hold_the_wearer_back(foot: Site) -> None:
         assert across > least * whole[2] and along > least * whole[3], "one foot is known less well than two"
 
 
-@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+@pytest.mark.parametrize("foot", [LEFT, *soaked(RIGHT)])
 def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
     absent_samples = tuple(silent(both_feet(FAR), foot, 8.0, 20.0))
     for recipe, least in ((recipes.DEFAULT, 1.0), (MEAN, 1.2)):
@@ -121,7 +122,7 @@ def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
         assert across > least * place(both_feet(FAR), recipe)[2]
 
 
-@pytest.mark.parametrize("foot", [LEFT, RIGHT])
+@pytest.mark.parametrize("foot", [LEFT, *soaked(RIGHT)])
 def test_a_foot_that_was_away_while_the_wearer_turned_is_turned_too(foot: Site) -> None:
     x, y, _, _ = place(tuple(silent(both_feet(ROUND), foot, 11.0, 20.0)))
     u, v, _, _ = place(both_feet(ROUND))
@@ -139,19 +140,17 @@ def test_the_position_does_not_jump_when_a_foot_falls_silent_or_comes_back() -> 
             before = here
 
 
-@pytest.mark.parametrize("seed", [1])
-def test_exchanged_feet_are_reported_once_within_ten_strides_of_each(seed: int) -> None:
+def test_exchanged_feet_are_reported_once_within_ten_strides_of_each() -> None:
     session = Session()
-    events = session.feed(exchanged(walk(seed)))
+    events = session.feed(exchanged(walk()))
     (swapped,) = of(FeetSwapped, events)
     before = [step.foot for step in of(StrideTaken, events) if step.t <= swapped.t]
     assert 8 <= before.count(Foot.LEFT) <= 12
     assert 8 <= before.count(Foot.RIGHT) <= 12
 
 
-@pytest.mark.parametrize("seed", [1])
-def test_feet_that_are_worn_as_they_should_be_are_not_taken_for_exchanged(seed: int) -> None:
-    assert reported(FeetSwapped, walk(seed)) == []
+def test_feet_that_are_worn_as_they_should_be_are_not_taken_for_exchanged() -> None:
+    assert reported(FeetSwapped, walk()) == []
 
 
 def test_devices_that_report_the_right_feet_are_trusted() -> None:

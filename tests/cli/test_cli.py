@@ -48,7 +48,7 @@ def test_packets_need_no_numpy_and_the_commands_that_do_give_the_line_that_insta
 
 @pytest.fixture(scope="module")
 def demo(folder: Path) -> subprocess.CompletedProcess[str]:
-    return run("demo", "--seed", "5", "--record", folder / "demo.jsonl")
+    return run("demo", "--seed", "5", "--distance", "15", "--record", folder / "demo.jsonl")
 
 
 def test_the_demo_ends_with_a_table_against_the_truth_in_plain_text(demo):

@@ -14,6 +14,7 @@ from solepath.recording import read_packets
 from solepath.types import Site
 
 
+@pytest.mark.soak
 def test_scan_lists_the_insoles_that_are_there(insoles: str) -> None:
     result = run("scan", "--via", insoles, "--seconds", 1)
     rows = [line.split() for line in result.stdout.splitlines()[2:]]

@@ -61,6 +61,7 @@ def test_a_server_that_is_no_controller_is_reported() -> None:
         assert complaint("scan", "--via", where) == f"--via {where}: no Bluetooth controller answers at {where}"
 
 
+@pytest.mark.soak
 def test_a_port_in_use_is_named(insoles: str) -> None:
     where = insoles.removeprefix("tcp:")
     assert (
@@ -83,6 +84,7 @@ def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_director
     assert list(read_packets(tmp_path / "walk.jsonl"))
 
 
+@pytest.mark.soak
 def test_ctrl_c_during_the_search_ends_at_once_and_without_a_summary(insoles: str, tmp_path: Path) -> None:
     with started("record", "--via", insoles, "--out", tmp_path / "walk.jsonl", "--duration", 60) as process:
         assert process.stdout is not None

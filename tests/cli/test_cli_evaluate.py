@@ -30,6 +30,7 @@ def data(tmp_path_factory) -> Path:
     return folder
 
 
+@pytest.mark.soak
 def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path, monkeypatch):
     monkeypatch.setenv("SOLEPATH_DATA", str(data))
     result = run("evaluate", "--processes", 1, "--json", tmp_path / "scores.json")

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from attrs import evolve
+from soak import soaked
 from toys import BOTH
 from walks import LEFT, insoles, machines, of, run_session, samples
 
@@ -71,7 +72,7 @@ def plain(sample: Sample, number: Callable[[float], Any] = float) -> Sample:
     return foreign(sample, lambda value: float(number(value)))
 
 
-@pytest.mark.parametrize("kind", [*KINDS][-2:] + [pytest.param(kind, marks=pytest.mark.soak) for kind in [*KINDS][:-2]])
+@pytest.mark.parametrize("kind", [*KINDS][-2:] + soaked(*[*KINDS][:-2]))
 def test_a_walk_in_numbers_of_another_kind_gives_the_same_events_and_can_be_saved(kind: str) -> None:
     walk = samples()
     session = Session(poses=True, pressures=True)

@@ -10,6 +10,7 @@ from functools import cache
 
 import pytest
 from attrs import evolve
+from soak import soaked
 from walks import LEFT, RIGHT, insoles, of, samples
 
 from solepath import Packet, PacketRejected, PacketsLost, Sample, Session, Site, StrideTaken
@@ -89,7 +90,7 @@ def test_a_session_of_two_insoles_is_as_large_after_an_hour_as_after_a_minute() 
     check(*walk_on(Session(), 65))
 
 
-@pytest.mark.parametrize("seconds", [600.0, pytest.param(3600.0, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("seconds", [600.0, *soaked(3600.0)])
 def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
     fed = [sample for sample in samples(LOOP_ROUTE, cells=0, rate=25.0) if sample.site is LEFT]
     length = fed[-1].t + 0.04

@@ -49,7 +49,7 @@ def check_times(events: list[Any]) -> None:
 
 @pytest.mark.parametrize("name", often([*DEVICE_NAMES, "session, kupt-dfpc", "session, walking-modes"]))
 @given(st.data())
-@settings(max_examples=12)
+@settings(max_examples=6)
 def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
     k, saved = data.draw(st.sampled_from(cuts(name)))

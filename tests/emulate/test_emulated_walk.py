@@ -9,6 +9,7 @@ from random import Random
 import numpy as np
 import pytest
 from attrs import evolve
+from soak import soaked
 from walks import LEFT, RIGHT, of
 
 from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, Session, StrideTaken, ToeOff
@@ -36,7 +37,7 @@ ROUTES = {
 }
 Compared = tuple[list[Event], dict[Foot, FootComparison]]
 SOAK = pytest.mark.soak
-SEEDS = pytest.mark.parametrize("seed", [1, pytest.param(2, marks=SOAK)])
+SEEDS = pytest.mark.parametrize("seed", [1, *soaked(2)])
 
 
 def compared(walk: EmulatedWalk) -> Compared:

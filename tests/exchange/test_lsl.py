@@ -115,6 +115,7 @@ def check(seconds: float) -> str:
     )
 
 
+@pytest.mark.soak
 def test_no_sample_is_lost_and_times_are_right() -> None:
     print(check(2.0))
 
@@ -161,6 +162,7 @@ EVENTS = [
 ]
 
 
+@pytest.mark.soak
 def test_events_markers_samples_and_poses_go_out_with_their_own_times() -> None:
     """They are received by plain pylsl, as a recorder of the lab would."""
     name, offset = f"walk {uuid.uuid4().hex[:8]}", pylsl.local_clock()

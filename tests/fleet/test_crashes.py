@@ -47,6 +47,7 @@ def held(directory: Path) -> list[dict[str, Any]]:
     return list(table.sort_by([("wearer", "ascending"), ("number", "ascending")]).to_pylist())
 
 
+@pytest.mark.soak
 def test_killed_and_started_again_a_job_leaves_each_event_once(sent: Path, tmp_path: Path) -> None:
     lines = len(site()[0])
     job = [*JOB, sent, tmp_path / "events", tmp_path / "store"]

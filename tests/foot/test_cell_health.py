@@ -93,11 +93,7 @@ FAULTS = (
 
 @pytest.mark.parametrize(
     ("kind", "fault", "cells"),
-    [
-        pytest.param(*one, cells, marks=[] if cells == 96 or k % 3 == 0 else [pytest.mark.soak])
-        for k, one in enumerate(FAULTS)
-        for cells in COUNTS
-    ],
+    [pytest.param(*one, cells, marks=[] if cells == 96 else [pytest.mark.soak]) for one in FAULTS for cells in COUNTS],
 )
 def test_a_failed_cell_is_reported_once_and_the_walk_goes_on(cells: int, kind: CellFault, fault: Fault) -> None:
     cell_events, rest = run_walk(cells, fault)

@@ -71,6 +71,7 @@ def test_a_ramp_that_is_walked_keeps_its_height(grade: float) -> None:
     assert strides[-1].position[2] == pytest.approx(10.0 * grade, rel=0.15)
 
 
+@pytest.mark.soak
 def test_four_floors_of_stairs_up_and_down_end_at_the_height_of_their_start() -> None:
     route = Route().stand(2.0).walk(6.0)
     for up in (True, False):

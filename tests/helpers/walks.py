@@ -10,9 +10,9 @@ from typing import Any
 
 import declared
 import numpy as np
-import pytest
 from attrs import evolve, frozen
 from kept import kept
+from soak import soaked
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN, Radio
@@ -306,9 +306,7 @@ SELDOM = {
 
 def often(names: Iterable[str]) -> list[Any]:
     """Return the names as parameters of a test, of which those of SELDOM are for the soak alone."""
-    return [
-        pytest.param(name, marks=pytest.mark.soak) if name.rpartition(", ")[2] in SELDOM else name for name in names
-    ]
+    return [one for name in names for one in (soaked(name) if name.rpartition(", ")[2] in SELDOM else [name])]
 
 
 def of(kind: Any, events: list[Any]) -> list[Any]:

@@ -56,6 +56,7 @@ def live(away: float, packets: tuple[Packet, ...]) -> list[Any]:
     return events
 
 
+@pytest.mark.soak
 def test_a_walk_that_a_phone_held_back_has_all_its_strides_when_it_comes() -> None:
     events = live(20.0, walk())
     assert {event.site for event in of(StreamStale, events)} == {event.site for event in of(StreamResumed, events)}
@@ -82,6 +83,7 @@ def test_where_nothing_is_delivered_the_strides_before_and_after_are_found_and_t
     assert len(of(StrideTaken, events)) == pytest.approx(len(strides()) - 2 * 14, abs=4)
 
 
+@pytest.mark.soak
 def test_a_phone_whose_clock_stood_still_while_it_slept_sees_that_the_sensors_did_not() -> None:
     slept = 10.0
     packets = [packet for packet in walk() if packet.t < AWAY]

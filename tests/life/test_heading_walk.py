@@ -5,6 +5,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from soak import soaked
 
 from solepath import recipes
 from solepath.calibration import Calibration, CalibrationError, HeadingCalibration
@@ -74,7 +75,7 @@ def test_on_another_day_the_heading_drifts_by_a_part_of_what_it_did() -> None:
     assert drifts["with"] < 0.5 * drifts["without"]
 
 
-@pytest.mark.parametrize("name", ["default", "kupt-dfpc", "footstep-tracker-printed"])
+@pytest.mark.parametrize("name", ["default", *soaked("kupt-dfpc", "footstep-tracker-printed")])
 def test_recipes_that_follow_the_heading_in_different_ways_all_take_the_drift_off(name: str) -> None:
     """By as much in every stride as the calibration says, here a whole degree."""
     heading = HeadingCalibration(np.radians(1.0), 0.0, 1e-3, 1e-3)
@@ -91,6 +92,7 @@ def test_recipes_that_follow_the_heading_in_different_ways_all_take_the_drift_of
     assert np.median(more) == pytest.approx(1.0, abs=0.15)
 
 
+@pytest.mark.soak
 def test_turns_to_one_side_only_do_not_separate_turns_from_strides() -> None:
     route = Route().stand(5.0)
     for leg in range(8):
@@ -99,6 +101,7 @@ def test_turns_to_one_side_only_do_not_separate_turns_from_strides() -> None:
         heading_walk(walk_of(route.stop(3.0)))
 
 
+@pytest.mark.soak
 def test_a_foot_that_stops_sending_is_a_reason_and_the_other_one_can_be_learnt_alone() -> None:
     walk = walk_of(there_and_back(3.0, 6, 8.0))
     samples = [one for one in walk if one.site is not Site.RIGHT_FOOT or one.t < 20.0]

@@ -82,6 +82,7 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
         )
 
 
+@pytest.mark.soak
 async def test_the_page_says_that_the_program_has_ended_and_reconnects_on_request_to_another_one(
     chromium: Browser,
 ) -> None:

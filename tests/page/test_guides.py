@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import radians
 
+import pytest
 from browsers import Browser
 from page_events import foot_moved
 from shown import open_page, shown
@@ -14,6 +15,7 @@ from solepath.show.page.scene.scene import Scene
 from solepath.show.page.toe_out import ShownFoot, ShownToeOut
 
 
+@pytest.mark.soak
 async def test_the_page_shows_pitch_target_and_task_as_they_change(chromium: Browser) -> None:
     posture = ShownPosture(Foot.LEFT, "Stand flat.")
     scene = shown([foot_moved(1.0)], Scene("A shoe", "", guide=posture))

@@ -6,7 +6,7 @@ from functools import cache
 from math import hypot
 
 import pytest
-from walks import both_feet, of, run_session
+from walks import both_feet, of, often, run_session
 
 from solepath import Foot, StrideTaken, recipes
 from solepath.calibration import Calibration, InsoleCalibration
@@ -39,7 +39,7 @@ def events_of(recipe: str) -> list[Event]:
     return run_session(samples, recipes.by_name(recipe), calibration=LAYOUTS)
 
 
-@pytest.mark.parametrize("recipe", BOUNDS)
+@pytest.mark.parametrize("recipe", often(BOUNDS))
 def test_a_walk_of_20_m_has_its_strides_and_its_length(recipe: str) -> None:
     way, spread = BOUNDS[recipe]
     for foot in Foot:

@@ -197,6 +197,7 @@ def test_without_start_stairs_and_lifts_the_place_is_reported_as_lost(part: Meth
     assert lost(follow(part, pedestrian.received, bare)) == [what] and part.place is None
 
 
+@pytest.mark.soak
 def test_the_position_is_never_bent_to_the_plan() -> None:
     bare = Session(recipes.DEFAULT)
     on_plan = Session(recipes.DEFAULT, floorplan=square(30.0), start=Start("0", (15.0, 15.0), 0.3))

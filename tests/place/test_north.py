@@ -44,6 +44,7 @@ def decided(part: Method, received: list[FloorEvents], plan: IndexedPlan = PLAN)
     return next((k for k, place in enumerate(places) if place.candidates[0].weight >= 0.9), len(places))
 
 
+@pytest.mark.soak
 def test_with_the_compass_fewer_strides_decide_where_the_wearer_is(part: Method) -> None:
     new, with_compass, without = type(part), 0, 0
     for seed in SEEDS:

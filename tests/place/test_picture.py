@@ -125,6 +125,7 @@ def test_a_start_is_read_with_and_without_heading_and_commas_in_the_name_of_a_le
             start_of(wrong)
 
 
+@pytest.mark.soak
 def test_the_direction_of_walking_on_the_plan_is_that_of_the_last_stride(hall: Path, tmp_path: Path) -> None:
     route = Route().stand(2.0).walk(8.0).turn(radians(90.0)).walk(8.0).stop(2.0)
     walk = recorded(tmp_path / "turned.jsonl", emulate(route, seed=3).packets)
@@ -139,6 +140,7 @@ def test_the_direction_of_walking_on_the_plan_is_that_of_the_last_stride(hall: P
         assert float(row["frame_heading_deg"]) == pytest.approx(30.0, abs=12.0)
 
 
+@pytest.mark.soak
 def test_a_plan_without_stairs_gets_no_warning_with_a_start(walk: Path, tmp_path: Path) -> None:
     corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (0.0, 20.0)]
     walls = tuple(Wall(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))

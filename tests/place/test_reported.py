@@ -93,6 +93,7 @@ def test_a_revision_of_the_track_moves_nobody_on_the_plan(part: Method) -> None:
     assert lost(events) == [] and off(part, pedestrian.place) < 1.0
 
 
+@pytest.mark.soak
 def test_a_session_on_a_plan_corrects_track_and_place_by_a_position_on_a_level() -> None:
     walk = corridor()
     samples = sampled(walk.route)

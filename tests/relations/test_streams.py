@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from attrs import evolve
+from soak import soaked
 from transforms import CALIBRATION, CLIMBING, Change, differences, in_order, run, worn
 from walks import LEFT, NAMES, RIGHT, insoles, machine_events, machines, of, often, pieces, run_machine
 
@@ -139,9 +140,7 @@ def gait(events: list[Any], since: float) -> list[Any]:
     return sorted(taken, key=lambda event: (type(event).__name__, event.foot.value, event.t))
 
 
-@pytest.mark.parametrize(
-    "how", ["samples", *(pytest.param(how, marks=pytest.mark.soak) for how in ("clock", "device"))]
-)
+@pytest.mark.parametrize("how", ["samples", *soaked("clock", "device")])
 @pytest.mark.parametrize("recipe", ["default", "kupt-dfpc", "footstep-tracker", "shoe-sensing", "walking-modes"])
 def test_after_a_reset_a_walk_is_what_it_is_for_a_fresh_session(recipe: str, how: str) -> None:
     session, second = Session(recipes.by_name(recipe), calibration=CALIBRATION), worn(CLIMBING)

@@ -19,6 +19,7 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return recorded(tmp_path_factory.mktemp("walk") / "walk.jsonl", walk.packets)
 
 
+@pytest.mark.soak
 def test_the_options_are_shown_in_the_report(recording: Path, tmp_path: Path) -> None:
     bands, report = tmp_path / "bands.csv", tmp_path / "r.html"
     bands.write_text("measure,low,high,source\ncadence_steps_per_min,100,125,A laboratory\n")

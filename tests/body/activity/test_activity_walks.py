@@ -89,6 +89,7 @@ def test_feet_without_gyroscopes_still_show_standing_moving_and_lifts() -> None:
     assert [event.up for event in events if isinstance(event, LiftRidden)] == [False]
 
 
+@pytest.mark.soak
 def test_a_ride_is_reported_with_its_times_and_its_height() -> None:
     events, _ = run(samples(HOUSE, 100.0))
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]
@@ -110,6 +111,7 @@ def test_flights_are_reported_with_their_direction() -> None:
     assert [event.up for event in events if isinstance(event, FlightClimbed)] == [True, True]
 
 
+@pytest.mark.soak
 def test_everything_is_reported_within_a_few_seconds_of_its_start() -> None:
     first: dict[Activity, float] = {}
     for event in run(samples(HOUSE, 100.0))[0]:

@@ -12,6 +12,7 @@ from math import pi
 import numpy as np
 import pytest
 from attrs import frozen
+from soak import soaked
 
 from solepath import Session, recipes
 from solepath.emulate.routes.route import Route
@@ -25,7 +26,7 @@ from solepath.events import ActivityChanged, FlightClimbed, LiftRidden
 from solepath.show.timeline import Timeline
 from solepath.types import Activity, Site
 
-SEEDS = (1, pytest.param(2, marks=pytest.mark.soak), pytest.param(3, marks=pytest.mark.soak))
+SEEDS = (1, *soaked(2, 3))
 """Seeds of wearers; those beyond the first repeat a walk with another gait and other sensor errors."""
 KITS = {"SensorTags": CC2541(rate=20.0), "insoles": Insole(cells=8)}
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
@@ -75,8 +76,9 @@ def directions(found: Outcome) -> tuple[list[bool], list[bool]]:
     return [flight.up for flight in found.flights], [ride.up for ride in found.rides]
 
 
-@pytest.mark.parametrize("kit", KITS)
+@pytest.mark.parametrize("kit", ["insoles", *soaked("SensorTags")])
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.soak
 def test_short_stops_in_a_crowd_are_neither_lifts_nor_stairs(seed: int, kit: str) -> None:
     found = outcome(Route().stand(3.0).crowded(25.0, seed).stand(4.0), kit, seed)
     assert directions(found) == ([], [])
@@ -92,10 +94,7 @@ WEATHER = {
 }
 
 
-@pytest.mark.parametrize(
-    "weather",
-    ["a storm", *(pytest.param(one, marks=pytest.mark.soak) for one in ("rising", "a front", "falling", "gusts"))],
-)
+@pytest.mark.parametrize("weather", ["a storm", *soaked("rising", "a front", "falling", "gusts")])
 @pytest.mark.parametrize("seed", SEEDS[:1])
 def test_weather_makes_neither_stairs_nor_lifts_of_level_ways_and_standing(seed: int, weather: str) -> None:
     found = outcome(LEVEL, "SensorTags", seed, WEATHER[weather])
@@ -103,7 +102,8 @@ def test_weather_makes_neither_stairs_nor_lifts_of_level_ways_and_standing(seed:
     assert found.reported() <= {Activity.STANDING, Activity.WALKING, Activity.UNKNOWN}
 
 
-@pytest.mark.parametrize("change", [-30.0, pytest.param(30.0, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("change", [-30.0, *soaked(30.0)])
+@pytest.mark.soak
 def test_a_door_in_the_way_makes_no_stairs(change: float) -> None:
     doors = tuple(PressureStep(t, change if k % 2 else -change, lasting=3.0) for k, t in enumerate((24.0, 31.0, 38.0)))
     found = outcome(LEVEL, "SensorTags", 1, Air(steps=doors))
@@ -111,8 +111,8 @@ def test_a_door_in_the_way_makes_no_stairs(change: float) -> None:
     assert not found.reported() & {*STAIRS, *LIFTS}
 
 
-@pytest.mark.parametrize("kit", KITS)
-@pytest.mark.parametrize("height", [4.5, pytest.param(-4.5, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("kit", ["insoles", *soaked("SensorTags")])
+@pytest.mark.parametrize("height", [4.5, *soaked(-4.5)])
 def test_who_walks_on_an_escalator_climbs_in_its_direction_and_takes_no_lift(height: float, kit: str) -> None:
     found = outcome(Route().stand(3.0).walk(6.0, 1.3).escalator(height, walking=True).walk(6.0).stand(4.0), kit, 1)
     assert directions(found) == ([height > 0.0], [])

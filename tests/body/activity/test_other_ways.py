@@ -10,6 +10,7 @@ from functools import cache
 from math import pi
 
 import pytest
+from soak import soaked
 
 from solepath import Session, recipes
 from solepath.emulate.routes.route import Route
@@ -38,9 +39,13 @@ ROUTES = {
 }  # fmt: skip
 WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
-SOAK = pytest.mark.soak
-WALKED = [pytest.param(name, seed, marks=[SOAK] if seed > 1 else []) for name in ROUTES for seed in WEARERS]
-"""Routes with their wearers."""
+SOAK, OFTEN = pytest.mark.soak, ("up", "backwards", "sideways")
+WALKED = [
+    pytest.param(name, seed, marks=[SOAK] if seed > 1 or name not in OFTEN else [])
+    for name in ROUTES
+    for seed in WEARERS
+]
+"""Routes with their wearers: the default one walks what differs most from walking ahead, the soak everything."""
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
 MAX_STAIRS, MIN_WALKING, MOST_WALKING = 0.02, 0.9, 0.8
 """Largest share of the time reported as stairs, and least share of walking reported as walking, ahead and otherwise."""
@@ -61,14 +66,14 @@ def confusion(name: str, seed: int, is_tag: bool) -> Counter[tuple[Activity, Act
     return Counter((walk.truth.activity(t), timeline.at(t)) for t in times)
 
 
-@pytest.mark.parametrize("is_tag", [False, pytest.param(True, marks=SOAK)])
+@pytest.mark.parametrize("is_tag", [False, *soaked(True)])
 @pytest.mark.parametrize(("name", "seed"), WALKED)
 def test_other_ways_of_walking_are_no_stairs(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     assert sum(count for (_, reported), count in found.items() if reported in STAIRS) < MAX_STAIRS * found.total()
 
 
-@pytest.mark.parametrize("is_tag", [False, pytest.param(True, marks=SOAK)])
+@pytest.mark.parametrize("is_tag", [False, *soaked(True)])
 @pytest.mark.parametrize(("name", "seed"), [one for one in WALKED if one.values[0] in ("up", "down")])
 def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
@@ -76,7 +81,7 @@ def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
     assert found[Activity.WALKING, Activity.WALKING] >= MIN_WALKING * walked
 
 
-@pytest.mark.parametrize("is_tag", [False, pytest.param(True, marks=SOAK)])
+@pytest.mark.parametrize("is_tag", [False, *soaked(True)])
 @pytest.mark.parametrize(("name", "seed"), [one for one in WALKED if one.values[0] in ("backwards", "sideways")])
 def test_feet_that_turn_little_stride_all_the_same(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
@@ -84,7 +89,7 @@ def test_feet_that_turn_little_stride_all_the_same(name: str, seed: int, is_tag:
     assert found[Activity.WALKING, Activity.WALKING] >= MOST_WALKING * walked
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=SOAK), pytest.param(3, marks=SOAK)])
+@pytest.mark.parametrize("seed", [1, *soaked(2, 3)])
 def test_with_insoles_turning_on_the_spot_is_walking_or_standing(seed: int) -> None:
     reported = {reported for _, reported in confusion("on the spot", seed, False)}
     assert reported <= {Activity.UNKNOWN, Activity.STANDING, Activity.WALKING}

@@ -8,6 +8,7 @@ from math import cos, degrees, radians, sin
 
 import numpy as np
 import pytest
+from soak import soaked
 from strides import stride
 
 from solepath.body.aiding.compass import Compass
@@ -120,7 +121,7 @@ def rms(walks: list[Walked]) -> float:
     return float(np.sqrt(np.mean([walked.degrees**2 for walked in walks])))
 
 
-@pytest.mark.parametrize("disturbance", [20.0, pytest.param(30.0, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("disturbance", [20.0, *soaked(30.0)])
 def test_a_way_that_turns_keeps_its_heading_by_the_compass_and_the_filter_is_as_uncertain_as_it_is(
     disturbance: float,
 ) -> None:
@@ -138,6 +139,7 @@ def test_without_any_disturbance_nothing_is_strange_and_no_iron_has_changed() ->
     assert not any(walked.faults for walked in walks)
 
 
+@pytest.mark.soak
 def test_the_iron_of_each_shoe_is_learnt() -> None:
     for seed in SEEDS:
         walked = Walked(turning, 1500.0, 12.0, seed=seed)
@@ -172,6 +174,7 @@ def test_a_magnetometer_that_cannot_be_right_moves_nothing_and_is_reported_once(
         assert 1 <= len(sentences) <= 2  # what concerns one foot is reported of both
 
 
+@pytest.mark.soak
 def test_a_magnet_that_comes_to_one_shoe_is_noticed_and_learnt() -> None:
     magnet = np.array([60.0, 30.0, 20.0])
     walks = [

@@ -34,6 +34,7 @@ def test_a_return_corrects_place_and_heading_and_the_strides_after_it() -> None:
     assert error(walk, corrected) < 0.5 * error(walk, plain)
 
 
+@pytest.mark.soak
 def test_the_path_so_far_is_revised_towards_the_truth() -> None:
     walk, back = loop(), back_time(loop())
     session = Session()

@@ -8,6 +8,7 @@ from math import exp, pi
 
 import pytest
 from attrs import evolve
+from soak import soaked
 
 from solepath import ActivityChanged, DefectFound, LiftRidden, Sample, Session, StrideTaken
 from solepath.body.height.barometric import SCALE_HEIGHT, STANDARD_PRESSURE
@@ -73,12 +74,12 @@ def height(one: Session) -> float:
     return one.position.position[2]
 
 
-@pytest.mark.parametrize("route", [LIFT, *(pytest.param(one, marks=pytest.mark.soak) for one in (LEVEL, STAIRS))])
+@pytest.mark.parametrize("route", [LIFT, *soaked(LEVEL, STAIRS)])
 def test_a_barometer_that_shows_the_height_is_not_reported(route: Route) -> None:
     assert not defects(session(route, true)[1])
 
 
-@pytest.mark.parametrize("disturb", [drifts, pytest.param(door, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("disturb", [drifts, *soaked(door)])
 def test_pressure_alone_is_neither_a_ride_nor_stairs(disturb: Disturb) -> None:
     one, events = session(LEVEL, disturb)
     reported = {event.activity for event in events if isinstance(event, ActivityChanged)}

@@ -10,6 +10,7 @@ from statistics import fmean, median
 import numpy as np
 import pytest
 from attrs import evolve
+from soak import soaked
 from walks import RIGHT, of, samples
 
 from solepath import Foot, GaitCycleMeasured, HeelStrike, Sample, Session, ToeOff
@@ -77,7 +78,7 @@ def of_steps(events: Iterator[Event], part: FootClocks | None = None) -> list[De
     return [output for event in events for output in part.receive(event) if isinstance(output, DefectFound)]
 
 
-@pytest.mark.parametrize("delay", [0.05, -0.4])
+@pytest.mark.parametrize("delay", [-0.4, *soaked(0.05)])
 def test_feet_with_separate_clocks_are_reported_once_with_the_time_to_add_to_the_right_foot(delay: float) -> None:
     (defect,) = found(Session().feed(with_late_right_foot(level(), delay)))
     assert (defect.site, defect.spoils) == (RIGHT, False)
@@ -101,8 +102,10 @@ def test_clocks_half_a_second_apart_are_found_although_the_steps_look_nearly_sim
     [
         LEVEL,
         Route().stand(1.5).jog(60.0, 2.8).stop(1.0),
-        Route().stand(1.5).walk(4.0).stairs(24, True, 0.16, 0.30).walk(4.0).stairs(24, False, 0.16, 0.30).stop(1.0),
-        Route().stand(1.5).walk(60.0, 1.2, ).turn(12.0, radius=1.0).walk(10.0).stop(1.0),
+        *soaked(
+            Route().stand(1.5).walk(4.0).stairs(24, True, 0.16, 0.30).walk(4.0).stairs(24, False, 0.16, 0.30).stop(1.0),
+            Route().stand(1.5).walk(60.0, 1.2).turn(12.0, radius=1.0).walk(10.0).stop(1.0),
+        ),
     ],
     ids=["level", "running", "stairs", "a tight circle"],
 )  # fmt: skip
@@ -112,7 +115,7 @@ def test_feet_on_one_clock_are_not_reported(route: Route) -> None:
     assert len(session._state.wearer.find_attribute("comparisons")) >= MIN_COMPARISONS, "enough for a report"
 
 
-@pytest.mark.parametrize("foot", Foot)
+@pytest.mark.parametrize("foot", [Foot.RIGHT, *soaked(Foot.LEFT)])
 def test_contacts_from_cells_in_one_shoe_only_are_no_separate_clock(foot: Foot) -> None:
     walker = Walker(LEVEL, seed=4)
     walk = [
@@ -167,9 +170,8 @@ def means(events: list[Event]) -> dict[tuple[Foot, str], float]:
     }
 
 
-@pytest.mark.parametrize(
-    "name", ["1-1", *(pytest.param(one, marks=pytest.mark.soak) for one in ("5-4", "11-4", "19-4"))]
-)
+@pytest.mark.parametrize("name", ["1-1", *soaked("5-4", "11-4", "19-4")])
+@pytest.mark.soak
 def test_step_time_and_double_support_of_an_even_walker_are_right_to_20_ms_once_the_offset_is_undone(
     data_dir: Path, name: str
 ) -> None:

@@ -71,6 +71,7 @@ def test_a_gap_in_the_samples_is_no_loose_sensor(seed: int, duration: float) -> 
     assert found(tuple(kept))[0] == []
 
 
+@pytest.mark.soak
 def test_feet_that_are_absent_in_turn_are_not_loose() -> None:
     """Each foot is silent for 15 s of every 30 s."""
     kept = [s for s in walk(1).samples if (s.t % 30.0 < 15.0) is (s.site.foot is Foot.LEFT) or s.t < 35.0]

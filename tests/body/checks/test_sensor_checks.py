@@ -76,6 +76,7 @@ def test_gravity_that_a_device_removed_is_named() -> None:
     assert Defect.NO_GRAVITY in {event.defect for event in run(without_gravity(WALK))[0]}
 
 
+@pytest.mark.soak
 def test_the_axes_that_are_offered_close_the_strides(data_dir: Path) -> None:
     _, change = DAMAGES["axes exchanged"]
     damaged = [change(sample) for sample in read_samples(data_dir / "openshoe_loops" / "m30.npz")]
@@ -165,6 +166,7 @@ def test_a_lift_is_no_wrong_scale() -> None:
     assert event.defect is Defect.WRONG_SCALE
 
 
+@pytest.mark.soak
 def test_a_runner_has_no_wrong_scale_and_no_wrong_axes() -> None:
     for speed in (2.2, 2.8, 3.5):
         jog = Walker(Route().stand(1.5).jog(60.0, speed).stop(1.0), seed=102)

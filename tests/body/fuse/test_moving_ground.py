@@ -7,6 +7,7 @@ from math import hypot, pi
 
 import pytest
 from disturbed import on_walkway
+from soak import soaked
 
 from solepath import Session
 from solepath.emulate.routes.route import Route
@@ -18,7 +19,7 @@ HELD = 5.991
 """Squared error within which a position is with 95 % probability (chi-square, 2)."""
 
 
-SEEDS = (1, pytest.param(2, marks=pytest.mark.soak), pytest.param(3, marks=pytest.mark.soak))
+SEEDS = (1, *soaked(2, 3))
 """Seeds of walks; those beyond the first repeat it with another gait and other sensor errors."""
 
 
@@ -40,7 +41,7 @@ def ground(events: list[Event]) -> list[DefectFound]:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("velocity", [(-0.5, 0.0), pytest.param((0.0, 0.5), marks=pytest.mark.soak)])
+@pytest.mark.parametrize("velocity", [(-0.5, 0.0), *soaked((0.0, 0.5))])
 def test_a_walkway_is_noticed_where_it_starts_and_where_it_ends(seed: int, velocity: tuple[float, float]) -> None:
     _, events, way = fed(seed, velocity)
     first, second = ground(events)

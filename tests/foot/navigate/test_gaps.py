@@ -46,7 +46,7 @@ holes = st.lists(st.tuples(st.floats(1.0, 13.0), st.floats(0.02, 1.5)), min_size
 
 
 @given(holes=holes)
-@settings(max_examples=25)
+@settings(max_examples=10)
 def test_whatever_the_gaps_phases_follow_each_other_in_time_and_none_is_known_before_it_was(
     holes: list[tuple[float, float]],
 ) -> None:

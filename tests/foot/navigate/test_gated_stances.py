@@ -31,6 +31,7 @@ def drifted(sample: Sample, heel_strikes: list[float], drift: float) -> Sample:
 
 @pytest.mark.parametrize("speed", [1.3, 1.7])
 @pytest.mark.parametrize("drift", [0.5, 0.9])
+@pytest.mark.soak
 def test_no_two_strides_merge_after_a_swing_with_a_wrong_velocity(speed: float, drift: float) -> None:
     walker = Walker(Route().stand(2.0).walk(40.0, speed).stop(2.0), seed=3)
     true = walker.truth().strides(Foot.LEFT)
@@ -96,6 +97,7 @@ def test_a_real_walk_from_its_middle_has_no_long_stride(
 
 
 @pytest.mark.parametrize("name, strides", [("m02", 47), ("m44", 43)])
+@pytest.mark.soak
 def test_each_stance_of_brisk_loops_is_found(data_dir: Path, name: str, strides: int) -> None:
     """`openshoe_loops`: 5 km/h and 7 km/h (m44), stances of 0.25 s, a sensor whose swings drift by up to 0.7 m/s."""
     data = np.load(data_dir / "openshoe_loops" / f"{name}.npz")

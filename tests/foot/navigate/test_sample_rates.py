@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from soak import soaked
 
 from solepath import Sample, Session, Site, StrideTaken
 
@@ -29,8 +30,9 @@ def lengths_of_strides(times: np.ndarray, acc: np.ndarray, gyro: np.ndarray) -> 
     return [event.length for event in session.feed(samples) + session.finish() if isinstance(event, StrideTaken)]
 
 
-@pytest.mark.parametrize("factor", [2, pytest.param(4, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("factor", [2, *soaked(4)])
 @pytest.mark.parametrize("foot, strides", [("left", 72), ("right", 74)])
+@pytest.mark.soak
 def test_a_hard_landing_loses_no_stance_at_a_higher_rate(data_dir: Path, foot: str, strides: int, factor: int) -> None:
     """`ms_patient`, 102 Hz: its landings give an error of up to 1.5 m/s, at 410 Hz 60 strides were left of 74."""
     data = np.load(data_dir / "gaitmap_examples" / "ms_patient.npz")

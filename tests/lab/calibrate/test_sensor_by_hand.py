@@ -7,6 +7,7 @@ from math import cos, radians, sin
 import numpy as np
 import pytest
 from attrs import evolve
+from soak import soaked
 
 from solepath import CalibrationError, Foot, Sample
 from solepath.emulate.handling import CLUMSY, STEADY, Handling
@@ -33,7 +34,7 @@ def changed(
     return result
 
 
-@pytest.mark.parametrize("chip", ["LSM6DSOX", pytest.param("MPU-9250", marks=pytest.mark.soak)])
+@pytest.mark.parametrize("chip", ["LSM6DSOX", *soaked("MPU-9250")])
 def test_a_clumsy_hand_finds_scale_to_a_fifth_of_a_percent_and_axes_to_a_fifth_of_a_degree(chip: str) -> None:
     one = hand_errors(HandJob(chip, "clumsy", 72))
     assert one.gyro is not None and one.gyro_sigma is not None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 from browsers import Browser, Window
 from shown import open_page, shown
 
@@ -85,6 +86,7 @@ async def follows(view: Window, x: float, y: float) -> None:
     )
 
 
+@pytest.mark.soak
 async def test_rooms_have_names_and_outer_walls_are_found(chromium: Browser) -> None:
     scene = shown(along(2.0, 1.0, 4), Scene("a flat", "default", "live", plan=FLAT))
     async with open_page(chromium, scene) as (view, _):
@@ -97,6 +99,7 @@ async def test_rooms_have_names_and_outer_walls_are_found(chromium: Browser) -> 
         assert await view.tab.evaluate(ROOM, [20.0, 1.0]) == -1
 
 
+@pytest.mark.soak
 async def test_the_view_follows_the_wearer_once_the_place_is_decided(chromium: Browser) -> None:
     scene = Scene("a building", "default", "live", plan=BUILDING)
     async with open_page(chromium, scene) as (view, _):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from browsers import Browser, Window
 from shown import empty_scene, open_page, scene_after, show, square_walk
 
@@ -23,6 +24,7 @@ async def visible(view: Window, name: str) -> bool:
     return found
 
 
+@pytest.mark.soak
 async def test_the_first_seconds_have_words_on_what_is_missing_and_no_dashes(chromium: Browser) -> None:
     scene = empty_scene()
     async with open_page(chromium, scene) as (view, _):
@@ -55,6 +57,7 @@ async def test_a_recording_at_its_end_is_shown_as_finished_with_the_means_of_the
         assert await view.text("speed-label") == "mean speed, m/s"
 
 
+@pytest.mark.soak
 async def test_what_needs_attention_is_at_the_top_the_worst_first(chromium: Browser) -> None:
     scene = scene_after(12.0)
     words = "document.getElementById('notice').innerText"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from browsers import Browser
 from page_events import foot_moved
 from shown import open_page, shown
@@ -45,6 +46,7 @@ DOWN = TouchedDown(
 )
 
 
+@pytest.mark.soak
 async def test_the_page_draws_the_legs_and_names_the_figures_of_the_fused_stride(chromium: Browser) -> None:
     scene = shown([foot_moved(1.0)])
     async with open_page(chromium, scene) as (view, _):

@@ -68,6 +68,7 @@ def near(at: tuple[float, float], position: PositionFrame) -> bool:
     return hypot(position.position[0] - at[0], position.position[1] - at[1]) < 0.3
 
 
+@pytest.mark.soak
 async def test_a_click_on_the_plan_reports_a_place_on_the_level_that_is_shown_and_one_on_the_track_in_its_frame(
     chromium: Browser,
 ) -> None:
@@ -123,6 +124,7 @@ async def test_without_a_mouse_the_place_below_the_cross_is_reported_and_escape_
         view.complaints.clear()  # the browser tries again, and nobody is there
 
 
+@pytest.mark.soak
 async def test_a_revision_and_a_rejection_are_shown_and_announced_once(chromium: Browser) -> None:
     scene = scene_after(20.0)
     assert scene.wearer.moved is not None

@@ -74,6 +74,7 @@ def whole(player: Player) -> Any:
 
 
 @pytest.mark.parametrize("report", [0, 1])
+@pytest.mark.soak
 def test_the_drawn_track_ends_where_the_session_is_after_a_revision(report: int) -> None:
     session, before, scene, events = show_until(reported_walk(), report)
     assert isinstance(events[1], TrackRevised) and hypot(*events[1].by) > 0.08
@@ -101,6 +102,7 @@ def test_a_revision_is_a_sentence_and_a_mark() -> None:
     assert [*scene.reports.marks.items] == [(round(reported.t, 3), None, x, y, True)]
 
 
+@pytest.mark.soak
 def test_a_position_that_contradicts_the_track_is_shown_and_nothing_is_moved() -> None:
     _, before, scene, events = show_until(reported_walk((30.0, 0.0)), 0)
     rejected = events[1]

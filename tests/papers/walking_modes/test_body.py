@@ -9,6 +9,7 @@ from math import hypot, pi
 import pytest
 from attrs import evolve
 from hypothesis import strategies as st
+from soak import soaked
 from walks import of
 
 from solepath.body.part import TrackPart
@@ -97,7 +98,7 @@ def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
     assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
 
 
-SLOWLY = [pytest.param(mode, marks=pytest.mark.soak) for mode in (WalkingMode.STRAIGHT, WalkingMode.RIGHT_WIDE)]
+SLOWLY = soaked(WalkingMode.STRAIGHT, WalkingMode.RIGHT_WIDE)
 STEADY_OUTWARD = Wearer()
 VARIED_AS_MEASURED = Wearer(load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN, load_variation=0.004)
 
