@@ -45,7 +45,7 @@ def line_of(process: subprocess.Popen[str], start: str) -> str:
     raise AssertionError(f"no line starts with {start!r}")
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_what_live_publishes_is_run_by_lsl_and_published_again(tmp_path: Path) -> None:
     names = ["--left", "solepath L", "--right", "solepath R"]
     with (
@@ -66,7 +66,7 @@ def test_what_live_publishes_is_run_by_lsl_and_published_again(tmp_path: Path) -
     assert len(strikes) > 6 and all(-0.5 < event["t"] < 9.0 for event in strikes)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_stream_that_is_not_there_is_one_sentence() -> None:
     done = run("live", "--left", "lsl:none of these", expect=2)
     assert "there is no stream 'none of these'; there are: none" in done.stderr

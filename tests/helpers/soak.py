@@ -10,3 +10,8 @@ import pytest
 def soaked(*values: Any) -> list[Any]:
     """Return each value as a case of the soak, for a test with one parameter."""
     return [pytest.param(value, marks=pytest.mark.soak) for value in values]
+
+
+def longer(*values: Any) -> list[Any]:
+    """Return each value as a case of what takes minutes."""
+    return [pytest.param(value, marks=pytest.mark.long) for value in values]

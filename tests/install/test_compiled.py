@@ -78,7 +78,7 @@ def go_on(folder: Path, state: Any, packets: list[Packet], place: Path) -> list[
     return found
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_compiled_modules_give_the_same_events_and_states_bit_for_bit(compiled: Path, tmp_path: Path) -> None:
     third = len(PACKETS) // 3
     session = Session()

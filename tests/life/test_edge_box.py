@@ -73,7 +73,7 @@ def strides(database: Path) -> int:
         return 0
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_killed_twice_in_mid_walk_a_box_has_every_row_once_and_gives_systemd_signs_of_life(tmp_path: Path) -> None:
     database, notify = tmp_path / "box.db", tmp_path / "notify"
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as systemd, emulator("--duration", "600") as (_, address):

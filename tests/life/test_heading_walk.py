@@ -59,7 +59,7 @@ def test_the_walk_explains_most_of_what_its_legs_are_apart() -> None:
         assert 2e-4 < fit.heading.drift_sigma < 1e-3 and fit.heading.turning_sigma < 0.004
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_on_another_day_the_heading_drifts_by_a_part_of_what_it_did() -> None:
     """Arcs to both sides, which show no drift by themselves."""
     route = Route().stand(3.0)

@@ -40,7 +40,7 @@ def score_walk(recipe: str, seed: int, with_heading: bool = False) -> PlaceScore
     return emulated_place.score(planned_walk, walk.walker, walk.truth, session.feed(walk.packets) + session.finish())
 
 
-@pytest.mark.soak
+@pytest.mark.long
 @pytest.mark.parametrize(("recipe", "walks"), [("footstep-tracker", 50), ("default", 25)])
 def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: int) -> None:
     scores = [score_walk(recipe, seed) for seed in range(1, walks + 1)]
@@ -60,7 +60,7 @@ def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: 
     assert dropped == 0
 
 
-@pytest.mark.soak
+@pytest.mark.long
 @pytest.mark.parametrize(("recipe", "mean", "most"), [("footstep-tracker", 1.0, 3.5), ("default", 0.6, 1.5)])
 def test_with_the_first_heading_the_ends_of_the_building_are_distinguished(
     recipe: str, mean: float, most: float

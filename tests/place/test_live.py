@@ -13,7 +13,7 @@ from programs import emulator, run
 from solepath.floorplan.importers.geojson import write_floorplan
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> None:
     plan, out_directory = tmp_path / "office.geojson", tmp_path / "out"
     write_floorplan(plan, office())

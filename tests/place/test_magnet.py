@@ -59,7 +59,7 @@ def activities(found: list[Event]) -> list[tuple[str, float]]:
     return [(str(event), event.t) for event in found if isinstance(event, ActivityChanged | LiftRidden)]
 
 
-@pytest.mark.soak
+@pytest.mark.long
 @pytest.mark.parametrize(("magnet", "by_north"), [(NEAR_MAGNET, True), (AT_SENSOR, False)])
 def test_the_place_stays_right_and_the_activities_are_the_same(magnet: Vec3, by_north: bool) -> None:
     plain, disturbed = events(None), events(magnet, by_north)
@@ -71,7 +71,7 @@ def test_the_place_stays_right_and_the_activities_are_the_same(magnet: Vec3, by_
         assert any(is_near(candidate, level, x, y) for candidate in one.candidates)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_magnet_at_the_sensor_is_reported() -> None:
     found = [event for event in events(AT_SENSOR) if isinstance(event, DefectFound)]
     assert {event.defect for event in found} == {Defect.COMPASS} and not any(event.spoils for event in found)

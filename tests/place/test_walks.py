@@ -83,7 +83,7 @@ def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metr
     assert len(lost(result.events)) == 1 and "no start" in lost(result.events)[0]
 
 
-@pytest.mark.soak
+@pytest.mark.long
 @pytest.mark.parametrize("method", METHODS)
 def test_the_true_candidate_is_never_dropped_in_fifty_walks_and_the_mean_error_is_below_a_metre(method: Method) -> None:
     results = [follow_and_score(method(), tour(seed).received) for seed in range(1, 51)]

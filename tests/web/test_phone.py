@@ -122,7 +122,7 @@ async def check_pocket(view: Window) -> None:
     await view.tab.mouse.up()
 
 
-@pytest.mark.soak
+@pytest.mark.long
 async def test_a_walk_goes_on_while_the_page_is_hidden_and_after_it_was_frozen(
     chromium: Browser, site: Path, tmp_path: Path
 ) -> None:

@@ -46,7 +46,7 @@ def strides(packets: tuple[Packet, ...]) -> list[int]:
     return [sum(event.foot is foot for event in taken) for foot in Foot]
 
 
-@pytest.mark.soak
+@pytest.mark.long
 async def test_two_insoles_walk_are_lost_and_go_on_after_the_tab_was_killed(
     chromium: Browser, site: Path, tmp_path: Path
 ) -> None:

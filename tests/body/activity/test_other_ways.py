@@ -41,7 +41,7 @@ WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
 SOAK, OFTEN = pytest.mark.soak, ("up", "backwards", "sideways")
 WALKED = [
-    pytest.param(name, seed, marks=[SOAK] if seed > 1 or name not in OFTEN else [])
+    pytest.param(name, seed, marks=[pytest.mark.long] if seed > 1 else [SOAK] if name not in OFTEN else [])
     for name in ROUTES
     for seed in WEARERS
 ]

@@ -7,7 +7,7 @@ from math import atan2, cos, radians, sin
 
 import pytest
 from attrs import evolve
-from soak import soaked
+from soak import longer
 
 from solepath import Session
 from solepath.emulate import Insole, sampled
@@ -42,7 +42,7 @@ def off(north: tuple[float, float]) -> float:
     return abs(atan2(sin(north[0] - TRUE), cos(north[0] - TRUE)))
 
 
-@pytest.mark.parametrize("seed", [12, *soaked(11, 13)])
+@pytest.mark.parametrize("seed", [12, *longer(11, 13)])
 @pytest.mark.soak
 def test_north_is_known_after_some_turns_within_three_standard_deviations(seed: int) -> None:
     found = norths(walked(seed))

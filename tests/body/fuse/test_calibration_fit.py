@@ -56,8 +56,7 @@ def walked(kind: str, known: Calibration) -> tuple[list[DefectFound], float]:
     return session.misfits, error
 
 
-@pytest.mark.parametrize("kind", ["right_angles", *soaked("any_angles")])
-@pytest.mark.soak
+@pytest.mark.parametrize("kind", [*soaked("right_angles"), pytest.param("any_angles", marks=pytest.mark.long)])
 def test_a_calibration_of_other_shoes_is_dropped_and_the_track_turned_back(kind: str) -> None:
     (one,), error = walked(kind, calibration(ANOTHER))
     assert "does not fit this walk" in one.what and not one.spoils
@@ -90,7 +89,7 @@ def test_ways_that_weave_are_no_evidence_against_a_calibration() -> None:
     assert stretches(*[-0.0022, -0.0020, 0.0012, -0.0021, -0.0023, -0.0019]).count == inf
 
 
-@pytest.mark.parametrize("kind", ["right_angles", *soaked("any_angles", "arcs", "ring")])
-@pytest.mark.soak
+@pytest.mark.parametrize("kind", ["right_angles", "any_angles", "arcs", "ring"])
+@pytest.mark.long
 def test_a_calibration_of_these_shoes_is_kept_on_ways_of_any_form(kind: str) -> None:
     assert walked(kind, calibration(WEARER))[0] == []

@@ -7,7 +7,7 @@ from math import hypot, pi
 
 import pytest
 from disturbed import on_walkway
-from soak import soaked
+from soak import longer, soaked
 
 from solepath import Session
 from solepath.emulate.routes.route import Route
@@ -19,7 +19,7 @@ HELD = 5.991
 """Squared error within which a position is with 95 % probability (chi-square, 2)."""
 
 
-SEEDS = (1, *soaked(2, 3))
+SEEDS = (1, *longer(2, 3))
 """Seeds of walks; those beyond the first repeat it with another gait and other sensor errors."""
 
 

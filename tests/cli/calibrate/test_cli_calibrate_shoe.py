@@ -47,7 +47,7 @@ def test_options_of_the_sensor_without_live_are_rejected(tmp_path: Path) -> None
     assert "--left is an option of --live" in commands.run(*arguments).stderr
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_person_measures_five_postures_while_the_shoe_s_sensor_gives_the_pitch(tmp_path: Path) -> None:
     table, out = tmp_path / "postures.csv", tmp_path / "me.json"
     with measuring(tmp_path, HOLD, "--times", 1, "--height", 0.029) as (terminal, process, _):
@@ -86,7 +86,7 @@ def shown_until(terminal: int, pitch: float) -> None:
         text = part
 
 
-@pytest.mark.soak
+@pytest.mark.long
 @pytest.mark.parametrize(("end", "status", "words"), [(b"\x04", 2, "no posture was measured"), (b"\x03", 130, "")])
 def test_who_ends_before_any_measurement_changes_nothing(tmp_path: Path, end: bytes, status: int, words: str) -> None:
     """Ends are the end of the input (Ctrl-D) and Ctrl-C; the letter q ends a later test."""

@@ -21,7 +21,7 @@ def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: 
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_person_walks_and_the_strides_and_angles_are_shown(tmp_path: Path) -> None:
     file, out = tmp_path / "walk.jsonl", tmp_path / "me.json"
     with emulator("--device", "cc2541-20hz", "--distance", 14) as (_, where):

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from commands import run, run_failing
-from soak import soaked
 
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes.laps import straight
@@ -34,7 +33,8 @@ def test_the_papers_own_figures_are_those_that_they_print():
     assert printed["Gyroscope m"] == (4.87, 2.75) and printed["Pressure m"] == (4.30, 3.15)
 
 
-@pytest.mark.parametrize("name", [*soaked("kupt-dfpc"), pytest.param("shoe-sensing", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["kupt-dfpc", "shoe-sensing"])
 def test_the_fewest_walks_give_a_table_json_and_a_figure_and_are_not_walked_again(tmp_path, name, monkeypatch):
     pytest.importorskip("matplotlib")
     monkeypatch.setattr(kupt_walks, "CORRIDOR_LENGTH", 20.0)
