@@ -334,6 +334,7 @@ def run_tests(folder: Path, *arguments: str, timeout: float | None = None, **var
     """Run the tests of a copy of the project; return status and output, or -1 for a run that does not end."""
     path = os.pathsep.join([str(folder / "src"), str(Path(__file__).parent)])
     environment = os.environ | {"PYTHONPATH": path, "SOLEPATH_DATA": str(folder / "no-recorded-data"), **variables}
+    environment |= {"PYTHONPYCACHEPREFIX": str(folder / ".bytecode"), "PYTHONDONTWRITEBYTECODE": ""}  # "" is no
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-p", "mutations", *arguments]
     process = subprocess.Popen(
         command,
