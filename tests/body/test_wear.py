@@ -123,6 +123,7 @@ def test_a_foot_that_comes_back_is_set_beside_the_other(foot: Site) -> None:
 
 
 @pytest.mark.parametrize("foot", [LEFT, *soaked(RIGHT)])
+@pytest.mark.soak
 def test_a_foot_that_was_away_while_the_wearer_turned_is_turned_too(foot: Site) -> None:
     x, y, _, _ = place(tuple(silent(both_feet(ROUND), foot, 11.0, 20.0)))
     u, v, _, _ = place(both_feet(ROUND))

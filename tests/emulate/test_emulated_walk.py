@@ -153,6 +153,7 @@ def f1(feet: list[FootComparison]) -> float:
     return 2.0 * found / sum(one.strides_true + one.strides_found + one.strides_invented for one in feet)
 
 
+@pytest.mark.soak
 def test_a_link_cut_nearly_once_a_second_loses_no_step_and_little_of_its_length() -> None:
     walk = emulate(ROUTES["thirty"], devices={site: Insole(cells=24) for site in (LEFT, RIGHT)}, seed=1)
     random, packets = Random(1), walk.packets

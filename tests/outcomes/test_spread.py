@@ -67,6 +67,7 @@ def _strides(rng: Random, foot: Foot, count: int, correlation: float, mean: floa
 
 
 @pytest.mark.parametrize(("count", "correlation"), [(15, 0.6), (60, 0.0)])
+@pytest.mark.soak
 def test_intervals_hold_the_truth_19_times_in_20(count: int, correlation: float) -> None:
     rng, walks = Random(count), 600
     held = [0, 0]

@@ -74,6 +74,7 @@ def test_walls_that_contradict_the_compass_are_reported_once_and_it_is_used_no_l
     assert found > 0
 
 
+@pytest.mark.soak
 def test_a_compass_that_is_right_is_not_contradicted(part: Method) -> None:
     for seed in SEEDS:
         pedestrian = tour(seed)

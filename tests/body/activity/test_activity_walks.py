@@ -99,6 +99,7 @@ def test_a_ride_is_reported_with_its_times_and_its_height() -> None:
     assert ride.height is not None and abs(ride.height - true.height) < 1.0
 
 
+@pytest.mark.soak
 def test_a_barometer_measures_the_ride() -> None:
     events, _ = run(sensortag_walk().packets)
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]

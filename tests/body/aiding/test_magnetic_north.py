@@ -61,5 +61,6 @@ def test_a_magnetometer_with_a_mirrored_axis_shows_no_north() -> None:
     assert set(norths(mirrored)) == {None}
 
 
+@pytest.mark.soak
 def test_without_a_magnetometer_there_is_no_north() -> None:
     assert set(norths(tuple(evolve(sample, mag=None) for sample in walked(12)[:6000]))) == {None}

@@ -89,6 +89,7 @@ def test_pressure_alone_is_neither_a_ride_nor_stairs(disturb: Disturb) -> None:
 
 
 @pytest.mark.parametrize(("route", "disturb"), [(LEVEL, drifts), (LEVEL, door), (STAIRS, stuck)])
+@pytest.mark.soak
 def test_it_is_reported_once_for_each_foot_and_no_stride_is_degraded_by_it(route: Route, disturb: Disturb) -> None:
     _, events = session(route, disturb)
     found = defects(events)

@@ -59,6 +59,7 @@ def test_a_sensor_that_swings_is_noticed_and_its_strides_are_degraded() -> None:
 
 
 @pytest.mark.parametrize("seed", [1])
+@pytest.mark.soak
 def test_a_fixed_sensor_has_not_come_loose(seed: int) -> None:
     assert continued(seed, walk(seed).samples)[0] == []
 

@@ -35,6 +35,7 @@ def changed(
 
 
 @pytest.mark.parametrize("chip", ["LSM6DSOX", *soaked("MPU-9250")])
+@pytest.mark.soak
 def test_a_clumsy_hand_finds_scale_to_a_fifth_of_a_percent_and_axes_to_a_fifth_of_a_degree(chip: str) -> None:
     one = hand_errors(HandJob(chip, "clumsy", 72))
     assert one.gyro is not None and one.gyro_sigma is not None
