@@ -14,17 +14,13 @@ from time import process_time
 from typing import Any
 
 from measure import RUNS, machine, measure_memory, no_garbage_collection, seconds
-from parts import building_part_times, part_time, part_times
-from yardstick import TunedFilter, UsualFilter
+from yardstick import UsualFilter
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
-from solepath.body.checks.sensors import SensorChecks
 from solepath.calibration import InsoleCalibration
 from solepath.cli.main import form
 from solepath.emulate.radio import CLEAN
-from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
-from solepath.emulate.routes.ways import wandering
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -33,7 +29,6 @@ from solepath.emulate.sensors.suit import limb_samples
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.emulate.wearers.walker import Walker
-from solepath.floorplan.index import IndexedPlan
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.stance.cycle import Cycle
 from solepath.link.decoder import Decoder
@@ -41,8 +36,6 @@ from solepath.types import SITE_OF_FOOT
 
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
 """A walk of about 43 s; the feet stand still for 10 % of it."""
-LONG_ROUTE = Route().stand(2.0).walk(390.0, 1.3).stop(2.0)
-"""A walk of about five minutes, as long as the time after which checks examine strides again."""
 
 
 def time_each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
@@ -87,31 +80,6 @@ def _time_of(sample: Sample) -> float:
     return sample.t
 
 
-def add_parts(
-    add: Callable[[str, float], None],
-    inertial_samples: list[Sample],
-    pressure_samples: list[Sample],
-    session_with_cells: Callable[[], Session],
-) -> None:
-    """Add the rows of single parts."""
-    for name, times in part_times(inertial_samples, Session).items():
-        add(f"of a foot sample, inertial: {name}", times)
-    long_samples = Walker(LONG_ROUTE, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
-    long_times = [part_time(long_samples, Session(), SensorChecks) for _ in range(RUNS)]
-    add("of a foot sample, inertial, five minutes: checks", median(long_times))
-    pressure_times = part_times(pressure_samples, session_with_cells)
-    add("of a foot sample, 96 cells: cells", pressure_times["cells"])
-
-    building_walk = wandering(1)
-    indoor_walker = Walker(building_walk.route, seed=1)
-    indoor_samples = [sample for foot in Foot for sample in indoor_walker.samples(foot, 100.0, LSM6DSOX)]
-    indoor_samples.sort(key=_time_of)
-    for recipe in (recipes.DEFAULT, recipes.by_name("footstep-tracker"), recipes.by_name("shoe-sensing")):
-        times = building_part_times(indoor_samples, recipe, IndexedPlan(BUILDING))
-        for name, what in (("activity", "activities"), ("turns", "turns"), ("place", "place on a floor plan")):
-            add(f"of it {what}, {recipe.name}", times[name])
-
-
 def main() -> None:
     walker = Walker(ROUTE, seed=1)
     inertial_samples: list[Sample] = walker.samples(Foot.LEFT, 100.0, LSM6DSOX)
@@ -142,7 +110,6 @@ def main() -> None:
         return session
 
     add("yardstick: numpy, nine states, SHOE, the usual way", yardstick_time)
-    add("the same, tuned", time_each(inertial_samples, TunedFilter))
     add("foot sample, inertial", time_each(inertial_samples, Session))
     add("foot sample, inertial at 200 Hz", time_each(samples_200_hz, Session))
     add("foot sample, inertial, FootMoved", time_each(inertial_samples, lambda: Session(poses=True)))
@@ -178,9 +145,6 @@ def main() -> None:
         "us a packet",
     )
     add("insole fragment of 20 bytes: session", time_each(fragments, Session), "us a packet")
-
-    if form() == "pure":  # a compiled foot has no place for a wrapper of a part
-        add_parts(add, inertial_samples, pressure_samples, session_with_cells)
 
     duration = walk.packets[-1].t
     real_time = duration / seconds(lambda: feed_session(walk.packets))
