@@ -4,9 +4,6 @@ A separate process feeds a session with two insoles of 96 cells at 100 Hz, in re
 a page without a client, a page in a browser (Chromium, 1280 x 900), and a page whose client has stopped reading. Each
 takes `--minutes`. The share of a core is the processor time of that process from the first packet to the last. It
 includes the page's server and not the browser.
-
-With `--frames` it prints alone how smoothly the page is drawn while such insoles send, on a track and on a floor plan,
-on a desktop's screen and on a phone's.
 """
 
 from __future__ import annotations
@@ -22,7 +19,6 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import AsyncExitStack, contextmanager
-from functools import partial
 from pathlib import Path
 from statistics import median, quantiles
 from time import process_time
@@ -33,12 +29,9 @@ sys.path[:0] = [str(HELPERS), str(HELPERS / "page")]
 
 from attrs import define, field  # noqa: E402
 from browsers import Browser, Browsing, Window, browsing, program, why_not, window  # noqa: E402
-from page_states import building_walk  # noqa: E402
-from shown import PacketEvents, open_page, show, square_walk, squares, walked  # noqa: E402
+from shown import squares, walked  # noqa: E402
 
 from solepath import Session  # noqa: E402
-from solepath.emulate.routes.building import BUILDING  # noqa: E402
-from solepath.floorplan.plan import FloorPlan  # noqa: E402
 from solepath.show.page.scene.scene import Scene  # noqa: E402
 from solepath.show.page.server.server import Page  # noqa: E402
 
@@ -53,24 +46,6 @@ SQUARE_DURATION = 40.0
 """Shortest time in which the emulated wearer walks a square, s."""
 SETTLING_MINUTES = 1.0
 """Time from the start to the first measurement of the page's memory, minutes."""
-
-
-FILMED = 10.0
-"""Time for which frames are counted, s."""
-START = 25.0
-"""Time in the walk at which the count of frames starts, s."""
-SCREENS = ((1280, 900), (360, 740))
-"""Sizes of a desktop's window and of a phone's screen, px."""
-COUNT_FRAMES = """() => {
-    let [frames, last] = [solepath.frames, performance.now()];
-    globalThis.gaps = [];
-    const check = (now) => {
-        if (solepath.frames !== frames) { gaps.push(now - last); [frames, last] = [solepath.frames, now]; }
-        requestAnimationFrame(check);
-    };
-    requestAnimationFrame(check);
-}"""
-"""Records the times between drawn frames, ms, in `gaps`."""
 
 
 async def serve(case: str, seconds: float) -> None:
@@ -174,38 +149,6 @@ async def resident(browser: Browser) -> int:
     return 1024 * sum(int(share[1]) for share in shares if share)
 
 
-def print_frames(browser: Browsing) -> None:
-    print(f"{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}, {program()}; {FILMED:g} s each\n")
-    print(f"{'walk':10} {'screen, px':>11} {'frames/s':>9} {'ms between frames: median':>26} {'99 %':>6} {'thread':>7}")
-    for walk, packets, plan in (("on a track", square_walk(), None), ("on a plan", building_walk(), BUILDING)):
-        for size in SCREENS:
-            gaps, work = browser.run(partial(drawn, packets=packets, plan=plan, size=size))
-            print(
-                f"{walk:10} {size[0]:5} x {size[1]:3} {1000.0 * len(gaps) / sum(gaps):9.1f} {median(gaps):26.0f} "
-                f"{quantiles(gaps, n=100)[98]:6.0f} {100.0 * work:5.0f} %",
-                flush=True,
-            )
-
-
-async def drawn(
-    chromium: Browser, packets: tuple[PacketEvents, ...], plan: FloorPlan | None, size: tuple[int, int]
-) -> tuple[list[float], float]:
-    """Return the times between frames during a part of the walk, ms, and the share in which the page's thread works."""
-    scene = Scene("a walk of the benchmark", "default", "demo", plan=plan)
-    for packet, events in packets:
-        if packet.t <= START:
-            scene.take(packet, events)
-    part = [one for one in packets if START < one[0].t <= START + FILMED]
-    async with open_page(chromium, scene, width=size[0], height=size[1]) as (view, _):
-        await view.devtools.send("Performance.enable")
-        await view.tab.evaluate(COUNT_FRAMES)
-        worked = await work_time(view)
-        await show(scene, part)
-        share = (await work_time(view) - worked) / FILMED
-        gaps: list[float] = await view.tab.evaluate("gaps")
-    return gaps, share
-
-
 def start(process: subprocess.Popen[str]) -> None:
     assert process.stdin is not None
     print(file=process.stdin, flush=True)
@@ -234,7 +177,6 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=1.0, help="of each of the four (default: 1)")
     parser.add_argument("--serve", choices=CASES, help=argparse.SUPPRESS)
-    parser.add_argument("--frames", action="store_true", help="print alone how smoothly the page is drawn")
     options = parser.parse_args()
     seconds = options.minutes * MINUTE
     if options.serve is not None:
@@ -243,10 +185,6 @@ def main() -> None:
     reason = why_not()
     if reason is not None:
         sys.exit(reason)
-    if options.frames:
-        with browsing() as browser:
-            print_frames(browser)
-        return
     print(f"Python {platform.python_version()}, {os.cpu_count()} cores, {program()}; {options.minutes:g} min each\n")
     print(f"{'the session, and':30} {'of a core':>10} {'more':>8}")
     base_share: float | None = None
