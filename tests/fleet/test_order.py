@@ -11,7 +11,7 @@ from here import PROTOCOL
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.fleet import End, Fleet, NumberedEvent, Sent, Tick, read_line
+from solepath.fleet import End, Fleet, Sent, Tick, read_line
 from solepath.fleet.step.sent import MAX_COUNT
 
 STORIES = json.loads((PROTOCOL / "fleet" / "stories.json").read_text())
@@ -86,24 +86,3 @@ def test_how_rows_are_cut_into_calls_changes_nothing_whatever_they_are(arrived: 
     assert keyed.feed(arrived) == emitted
     assert keyed.state() == state
     assert [one.number for one in emitted] == list(range(len(emitted)))
-
-
-def run(of: int, count: int, first: int = 0) -> list[Sent]:
-    return [shown(number, of) for number in range(first, first + count)]
-
-
-def used(emitted: list[NumberedEvent]) -> list[tuple[int | None, int | None]]:
-    return [(of, number) for what, of, number, _ in uses(emitted) if what == "used"]
-
-
-ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MAX_COUNT), st.integers(0, 3) | st.integers(0, MAX_COUNT))
-ENDS = st.builds(lambda number, of: Sent(WEARER, number, End(), of), st.integers(0, 9), st.integers(0, 3))
-
-
-@settings(max_examples=60)
-@given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MAX_COUNT))
-def test_whatever_came_before_a_new_run_is_used_except_a_window_of_rows(before: list[Sent], new: int) -> None:
-    before = [one for one in before if one.run != new]
-    _, emitted = NARROW_FLEET.step(WEARER, None, [*before, *run(new, 20)])
-    used_numbers = [number for of, number in used(emitted) if of == new]
-    assert len(used_numbers) >= 17 and used_numbers[-13:] == list(range(7, 20))

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from attrs import astuple, evolve
-from fleets import WEARER, shown, uses, walked
+from fleets import WEARER, shown, walked
 from here import PROTOCOL
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -71,17 +71,6 @@ def test_a_state_is_as_in_the_protocol(vector: dict[str, Any]) -> None:
     assert [held_as_fields(place, what) for place, what in rest.held_rows.items()] == fields["held"]
     assert write_state(head, rest) == state
     assert FLEET.open(WEARER, state).state() == state
-
-
-@settings(max_examples=40)
-@given(state=st.one_of(st.binary(max_size=80), st.binary(max_size=60).map(lambda rest: halfway()[0][:41] + rest)))
-def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> None:
-    sent = [shown(MIDDLE, 5), Unreadable(WEARER, "no row"), shown(MIDDLE + 1, 5)]
-    after, emitted = Fleet(window=0).step(WEARER, state, sent)
-    assert isinstance(emitted[0].event, StateRejected)
-    assert [one.number for one in emitted] == list(range(emitted[0].number, emitted[0].number + len(emitted)))
-    assert [what for what, *_ in uses(emitted[1:])][-3:] == ["used", "rejected", "used"]
-    assert Fleet(window=0).step(WEARER, after, [shown(MIDDLE + 2, 5)])[1][0].number == emitted[-1].number + 1
 
 
 @settings(max_examples=40)
