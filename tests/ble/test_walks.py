@@ -1,4 +1,4 @@
-"""Whole walks through true ATT: two insoles, and SensorTags at the rates that they have."""
+"""A whole walk of two insoles through true ATT."""
 
 from __future__ import annotations
 
@@ -15,14 +15,7 @@ from solepath import PacketRejected, PacketsLost, SampleGap, StrideTaken
 from solepath.ble import DeviceConfig, Devices
 from solepath.emulate import Route, emulate
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.sensors import sensortags
-from solepath.emulate.sensors.device import Device
-from solepath.lab.emulated.compare import compare
-from solepath.lab.evaluate.gathered import EventCollection
-from solepath.link.devices.cc2541 import PROFILE_20HZ as CC2541_20HZ
-from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
-from solepath.link.profile import Profile
 from solepath.types import Foot, Packet, Site
 
 FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
@@ -33,19 +26,14 @@ INSOLE_ROUTES = {
 """Route of the insoles for each MTU, bytes."""
 
 
-def receive(
-    bench: Bench, configs: Sequence[DeviceConfig], seconds: float, interval: float | None = None
-) -> tuple[list[Packet], float]:
-    """What arrives from the beginning of the search until the walk has lasted so long; and when it began.
-
-    `interval`: of the links, s.
-    """
+def receive(bench: Bench, configs: Sequence[DeviceConfig], seconds: float) -> tuple[list[Packet], float]:
+    """What arrives from the beginning of the search until the walk has lasted so long; and when it began."""
 
     async def listen() -> tuple[list[Packet], float]:
         started_at = asyncio.get_running_loop().time() + 5.0
         bench.walk_from(started_at)
         bench.prepare()
-        async with bumble(bench, interval) as backend, Devices(configs, backend=backend) as devices:
+        async with bumble(bench) as backend, Devices(configs, backend=backend) as devices:
             return await collect(devices, 5.0 + seconds), started_at
 
     return in_virtual_time(listen)
@@ -88,29 +76,3 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
     assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
     if mtu == 23:
         assert len(packets) > 9 * len(arrived)
-
-
-TAGS: dict[str, tuple[Profile, Device, float | None]] = {
-    "cc2650 at 10 Hz": (CC2650, sensortags.CC2650(), None),
-    "cc2541 at 20 Hz": (CC2541_20HZ, sensortags.CC2541(rate=20.0), None),
-    "cc2650 at 10 Hz, waiting for connection events": (CC2650, sensortags.CC2650(), 0.03),
-}
-"""Profile, device and interval of the link, s."""
-TAG_ROUTE = Route().stand(2.0).walk(14.0).stop(2.0)
-
-
-@pytest.mark.parametrize("tag", [*[*TAGS][:2], *soaked([*TAGS][2])])
-@pytest.mark.soak
-def test_sensortags_give_the_steps_of_a_walk_end_to_end(tag: str) -> None:
-    profile, device, interval = TAGS[tag]
-    bench = Bench(TAG_ROUTE, devices=dict.fromkeys(FEET, device), seed=11)
-    configs = [DeviceConfig(worn.site, worn.address, profile) for worn in bench.peripherals]
-    packets, started_at = receive(bench, configs, bench.truth().duration, interval)
-    collection = EventCollection()
-    for event in run_session([evolve(packet, t=packet.t - started_at) for packet in packets], poses=True):
-        collection.add(event)
-    feet = compare(bench.truth(), {foot: collection.foot(foot) for foot in Foot})
-    true, found, invented = (
-        sum(getattr(foot, f"strides_{what}") for foot in feet) for what in ("true", "found", "invented")
-    )
-    assert true > 10 and 2 * found / (found + invented + true) >= 0.95, f"{found} of {true} found, {invented} invented"

@@ -35,9 +35,9 @@ async def memory(bench: Bench) -> AsyncIterator[Backend]:
     yield MemoryRadio(bench.peripherals).backend
 
 
-def bumble(bench: Bench, interval: float | None = None) -> AbstractAsyncContextManager[Backend]:
-    """Return a backend of the devices behind virtual controllers; `interval` is between connection events, s."""
-    return virtual_link(bench.peripherals, interval=interval)
+def bumble(bench: Bench) -> AbstractAsyncContextManager[Backend]:
+    """Return a backend of the devices behind virtual controllers."""
+    return virtual_link(bench.peripherals)
 
 
 TIERS = {"memory": memory, "bumble": bumble}
