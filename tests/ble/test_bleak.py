@@ -86,24 +86,3 @@ def test_a_rejection_beside_the_stream_is_reported_with_its_channel_and_the_foot
             assert not [words for words in troubles(packets) if not words.startswith("device/battery cannot be sub")]
         assert len([packet for packet in packets if packet.channel == "insole/frame"]) > 300
         assert len([packet for packet in packets if packet.channel == "receiver/connected"]) == 1
-
-
-def test_a_stream_that_is_rejected_is_no_connection() -> None:
-    backend = raising(logged_radio(strap()).backend, "start_notify", REJECTIONS[1], where="strap/beat", until=3.0)
-    packets = received(backend, DeviceConfig(PELVIS, address(1), STRAP), seconds=12.0)
-    assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
-    assert [packet for packet in packets if packet.channel == "strap/beat"]
-
-
-def test_an_insole_with_unreadable_info_is_reported_with_a_remedy() -> None:
-    bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
-    base: Any = MemoryRadio(bench.peripherals).backend
-
-    class Client(base.client):  # type: ignore[misc]
-        async def read_gatt_char(self, one: Any, **more: Any) -> bytearray:
-            found = await super().read_gatt_char(one, **more)
-            return bytearray(len(found)) if one.obj.channel == "insole/info" else found  # type: ignore[no-any-return]
-
-    packets = received(Backend(Client, base.scanner), DeviceConfig(LEFT, bench[LEFT].address), seconds=9.0)
-    [words] = troubles(packets)
-    assert words.startswith("the INFO record of solepath L cannot be read (") and "switch it off and on" in words

@@ -10,14 +10,12 @@ from memory_radio import MemoryRadio
 from virtual import now, virtually
 
 from solepath.ble import ConnectionState, DeviceConfig, Devices, scan
-from solepath.emulate.devices import cc2650
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.sensortags import CC2650 as Tag
-from solepath.link.devices.cc2541 import PROFILE as CC2541
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.types import Packet, Site
@@ -117,13 +115,6 @@ def test_indistinguishable_configs_are_an_error_before_anything_is_done(configs:
         Devices(configs)
 
 
-def test_distinguishable_configs_are_no_error() -> None:
-    Devices([DeviceConfig(LEFT, profile=INSOLE), DeviceConfig(RIGHT, profile=INSOLE)])
-    Devices([DeviceConfig(LEFT, profile=CC2650), DeviceConfig(RIGHT, profile=CC2541)])
-    Devices([DeviceConfig(None, profile=INSOLE)] * 2)
-    Devices([DeviceConfig(LEFT, "one"), DeviceConfig(None, profile=INSOLE)])
-
-
 def test_a_device_of_unknown_kind_is_reported_and_left() -> None:
     packets = got((strap(),), [DeviceConfig(PELVIS, address(1))], seconds=20.0)
     assert not connected(packets)
@@ -144,23 +135,6 @@ def test_a_device_of_ones_own_kind_is_found_by_name_or_by_what_it_advertises() -
         packets = got((strap(1),), [configs])
         assert connected(packets) == {PELVIS: address(1)}
         assert streams(packets, "strap/beat") == {PELVIS}
-
-
-def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
-    """The services may have been discovered only in part, or the firmware is new."""
-
-    class Late(cc2650.CC2650Peripheral):
-        def visible(self, now: float) -> bool:
-            self.services = () if now < 20.0 else self.all
-            return super().visible(now)
-
-    bench = feet(Tag())
-    late = bench[LEFT]
-    late.__class__ = Late
-    late.all = late.services  # type: ignore[attr-defined]
-    packets = got((late,), [DeviceConfig(LEFT, "CC2650 SensorTag")], seconds=120.0)
-    assert connected(packets) == {LEFT: late.address}
-    assert troubles(packets)[0] == "CC2650 SensorTag is no cc2650: it has no cc2650/movement"
 
 
 def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:

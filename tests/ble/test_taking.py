@@ -117,16 +117,6 @@ async def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once
 
 
 @virtually
-async def test_a_second_reader_of_the_next_packet_is_an_error() -> None:
-    async with Devices([ONE], backend=logged_radio().backend) as devices:
-        first = asyncio.create_task(anext(devices))
-        await asyncio.sleep(0.1)
-        with pytest.raises(RuntimeError, match="somebody else"):
-            await anext(devices)
-        assert (await first).channel == "receiver/tick"
-
-
-@virtually
 async def test_who_gives_up_waiting_loses_no_packet() -> None:
     found = []
     async with Devices([ONE], backend=logged_radio(strap()).backend) as devices:
@@ -154,9 +144,3 @@ async def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets(
         with pytest.raises(ZeroDivisionError, match="a fault"):
             await anext(devices)
     assert not others()
-
-
-@virtually
-async def test_devices_that_were_never_entered_do_not_end_silently() -> None:
-    with pytest.raises(RuntimeError, match="entered"):
-        await anext(Devices([ONE], backend=logged_radio().backend))

@@ -6,40 +6,11 @@ import asyncio
 from collections.abc import Awaitable, Callable
 
 import pytest
-from bleak import BleakScanner
 from bleak.exc import BleakError, BleakGATTProtocolError
-from strap import BATTERY, BEAT, BOOK, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, standard
-from virtual import ONE, TWO, Host, find, linked, now, strap, virtually
+from strap import BEAT, BOOK, CONTROL, LEVEL, PAGE
+from virtual import Host, find, linked, now, strap, virtually
 
 from solepath.emulate.controllers.server import virtual_link
-
-
-@virtually
-async def test_a_scan_finds_names_services_and_addresses_of_all_advertisers() -> None:
-    async with virtual_link([strap(), strap("two", TWO, advertised=[HEART_RATE, LOG])]) as backend:
-        received = await BleakScanner.discover(1.0, return_adv=True, backend=backend.scanner)
-        assert {address: data.local_name for address, (_, data) in received.items()} == {ONE: "one", TWO: "two"}
-        assert received[ONE][1].service_uuids == [HEART_RATE]
-        assert set(received[TWO][1].service_uuids) == {HEART_RATE, LOG}
-        only = await BleakScanner.discover(1.0, service_uuids=[LOG], backend=backend.scanner)
-        assert [device.address for device in only] == [TWO]
-
-
-@virtually
-async def test_discovery_shows_the_services_characteristics_and_descriptors_of_the_device() -> None:
-    async with linked(strap()) as (host, _):
-        services = {service.uuid: service for service in host.client.services}
-        assert {HEART_RATE, BATTERY, LOG} <= services.keys()
-        beat, control = services[HEART_RATE].characteristics
-        assert (beat.uuid, beat.properties) == (BEAT, ["notify"])
-        assert (control.uuid, set(control.properties)) == (CONTROL, {"read", "write", "write-without-response"})
-        assert [each.uuid for each in beat.descriptors] == [standard(0x2901), standard(0x2902)]
-        assert [each.uuid for each in control.descriptors] == [standard(0x2901)]
-        assert await host.client.read_gatt_descriptor(beat.descriptors[0]) == b"strap/beat"
-        assert await host.client.read_gatt_descriptor(beat.descriptors[1]) == b"\x00\x00"
-        assert await host.client.read_gatt_char(LEVEL) == b"\x57"
-        assert await host.client.read_gatt_char(PAGE) == BOOK
-        assert host.client.name == "one"
 
 
 @pytest.mark.parametrize(("of_device", "of_host", "agreed"), [(247, 185, 185), (185, 247, 185), (23, 247, 23)])

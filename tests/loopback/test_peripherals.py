@@ -12,10 +12,9 @@ from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.device import Device, device_rng
 from solepath.emulate.sensors.insole_device import TICK_RATE, Insole
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
-from solepath.link.decoder import Decoder
 from solepath.link.devices import cc2541, cc2650, insole
-from solepath.link.profile import Access, Profile
-from solepath.types import Packet, Sample, Site
+from solepath.link.profile import Profile
+from solepath.types import Site
 from solepath.wire.insole import InsoleFrame, parse_frame
 from solepath.wire.insole_control import Resend, SetInterval, build_control
 from solepath.wire.insole_info import parse_info
@@ -32,23 +31,6 @@ def frames(received: Received) -> list[InsoleFrame]:
 
 
 # every device
-
-
-@pytest.mark.parametrize(("device", "profile"), DEVICES)
-def test_a_device_after_its_setup_decodes_to_samples_only(device: Device, profile: Profile) -> None:
-    tag, decoder, decoded = worn(device), Decoder(site=LEFT), []
-    start(tag, *(c.name for c in profile.channels if c.access is Access.NOTIFY))
-    setup = [(name, tag.read(name, 0.0)) for name in profile.reads]
-    for write in profile.setup:
-        tag.write(write.channel, write.value, 0.0)
-        setup += [(write.channel, write.value), *((name, tag.read(name, 0.0)) for name in write.then_read)]
-    for name, value in setup:
-        decoded += decoder.feed(Packet(0.0, LEFT, name, value or b""))
-    for t, outgoing in played(tag, walker().duration):
-        decoded += decoder.feed(Packet(t, LEFT, outgoing.channel, outgoing.value))
-    samples = [one for one in decoded if isinstance(one, Sample)]
-    assert len(samples) == pytest.approx(walker().duration * profile.nominal_rate, rel=0.05)
-    assert {type(one).__name__ for one in decoded} <= {"Sample", "LayoutKnown", "BatteryLevel"}
 
 
 @pytest.mark.parametrize(("device", "profile"), DEVICES)
