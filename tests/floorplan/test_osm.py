@@ -61,15 +61,13 @@ def house() -> Map:
 
 
 @pytest.mark.parametrize(("text", "found"), [
-    ("0", [0.0]), ("-1", [-1.0]), ("0.5", [0.5]), ("0;1", [0.0, 1.0]), ("0-3", [0.0, 1.0, 2.0, 3.0]),
-    ("-3--1", [-3.0, -2.0, -1.0]), ("-1;2-4", [-1.0, 2.0, 3.0, 4.0]), ("1 ; 1", [1.0]), ("0.5-2", [0.5, 1.0, 2.0]),
-    ("-1-1", [-1.0, 0.0, 1.0]), ("3-1", [1.0, 2.0, 3.0]), ("-0", [0.0]),
+    ("0.5", [0.5]), ("-3--1", [-3.0, -2.0, -1.0]), ("-1;2-4", [-1.0, 2.0, 3.0, 4.0]), ("1 ; 1", [1.0]), ("3-1", [1.0, 2.0, 3.0]),
 ])  # fmt: skip
 def test_levels_are_single_ones_lists_and_ranges(text: str, found: list[float]) -> None:
     assert parse_levels(text) == found
 
 
-@pytest.mark.parametrize("text", ["", "EG", "0;", "1-", "1--", "0,1", "1e3", "٣", "0-99999", "nan"])
+@pytest.mark.parametrize("text", ["", "EG", "1-", "0,1", "٣", "0-99999"])
 def test_other_values_have_no_levels(text: str) -> None:
     with pytest.raises(FloorPlanError):
         parse_levels(text)
