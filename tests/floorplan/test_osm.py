@@ -61,7 +61,8 @@ def house() -> Map:
 
 
 @pytest.mark.parametrize(("text", "found"), [
-    ("0.5", [0.5]), ("-3--1", [-3.0, -2.0, -1.0]), ("-1;2-4", [-1.0, 2.0, 3.0, 4.0]), ("1 ; 1", [1.0]), ("3-1", [1.0, 2.0, 3.0]),
+    ("0.5", [0.5]), ("-3--1", [-3.0, -2.0, -1.0]), ("-1;2-4", [-1.0, 2.0, 3.0, 4.0]), ("1 ; 1", [1.0]),
+    ("3-1", [1.0, 2.0, 3.0]),
 ])  # fmt: skip
 def test_levels_are_single_ones_lists_and_ranges(text: str, found: list[float]) -> None:
     assert parse_levels(text) == found
