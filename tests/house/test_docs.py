@@ -172,19 +172,6 @@ def test_links_of_all_pages_lead_somewhere():
                 assert anchor in anchors(whole.read_text()), f"{page}: {target}"
 
 
-def test_every_page_can_be_reached_from_the_readme():
-    reached, new = set(), {"README.md"}
-    while new:
-        reached |= new
-        found = {
-            (ROOT / page).parent.joinpath(target).resolve().relative_to(ROOT).as_posix()
-            for page in new
-            for target in re.findall(r"\]\(([^)#]+\.md)[)#]", PAGES[page])
-        }
-        new = {page for page in found if page in PAGES} - reached
-    assert reached == PAGES.keys()
-
-
 def test_columns_are_those_that_are_written():
     assert f"`{','.join(TRACK_COLUMNS)}`" in PAGES["docs/commands.md"]
     assert f"`{','.join(STRIDE_COLUMNS)}`" in PAGES["docs/commands.md"]
