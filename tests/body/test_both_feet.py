@@ -108,7 +108,7 @@ def test_a_foot_that_returns_pulls_nothing_before_it_is_aligned() -> None:
     assert max(steps) < 0.5
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_feet_whose_peaks_are_cut_off_turn_each_other_by_little() -> None:
     """Of this wearer most strides are degraded, and now and then one is not."""
     seed = 140

@@ -109,7 +109,7 @@ def test_ctrl_c_again_and_again_does_not_kill_a_recording_that_is_ended(insoles:
     assert f"recorded in {file}" in out and list(read_packets(file))
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
     with started("emulate", "--listen", "127.0.0.1:0", "--distance", 5000) as process:
         assert process.stdout is not None

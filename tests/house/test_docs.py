@@ -185,7 +185,7 @@ def test_the_table_of_parts_has_them_all():
     assert emitted == {InsoleLoads, *map(part_class, PARTS)}
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_the_demonstration_of_100_m_comes_to_what_is_quoted():
     done = run(*figures.LONG_DEMO)
     *fresh, fresh_end = figures.lines("figure", figures.walked(done.stdout))

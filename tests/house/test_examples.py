@@ -73,7 +73,7 @@ def test_the_tables_of_a_lab_become_strides_and_a_report(tmp_path):
     assert all([name in str(stopped.value) for name in ("Time_ms", "GX", "GY", "GZ")])
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_fleet_that_is_killed_twice_has_every_event_once(tmp_path):
     lines = run("fleet", tmp_path / "fleet").splitlines()
     assert [line.split()[0] for line in lines[:3]] == ["killed", "killed", "finished"]

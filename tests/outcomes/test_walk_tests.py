@@ -116,7 +116,7 @@ def there_and_back(crossings: int) -> Route:
     return route.stop(3.0)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_an_emulated_six_minute_walk_there_and_back() -> None:
     walked = emulate(there_and_back(16), seed=11)
     six = six_minute_walk(run_session(walked.packets))

@@ -37,7 +37,7 @@ def track_of(session: Session) -> BothFeet:
     return next(part for part in session._state.wearer.parts if isinstance(part, BothFeet))
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_compass_makes_the_heading_of_arcs_more_certain_and_is_saved_with_the_session() -> None:
     samples = list(arcs().samples)
     plain, with_compass = Session(), Session()

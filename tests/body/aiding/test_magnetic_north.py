@@ -43,7 +43,7 @@ def off(north: tuple[float, float]) -> float:
 
 
 @pytest.mark.parametrize("seed", [12, *longer(11, 13)])
-@pytest.mark.soak
+@pytest.mark.long
 def test_north_is_known_after_some_turns_within_three_standard_deviations(seed: int) -> None:
     found = norths(walked(seed))
     known = [north for north in found if north is not None]

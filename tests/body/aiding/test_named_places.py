@@ -12,7 +12,7 @@ from solepath import Session
 from solepath.events import PositionRejected, PositionReported, TrackRevised
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_place_with_a_name_is_noted_and_corrects_the_track_when_the_wearer_is_there_again() -> None:
     walk, (first, again) = loop(), passing_times()
     session, plain = fed(walk, first), fed(walk, again)

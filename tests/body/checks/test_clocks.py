@@ -183,7 +183,7 @@ def test_step_time_and_double_support_of_an_even_walker_are_right_to_20_ms_once_
     assert means(Session().feed(shift_clock(damaged, defect.offset))) == pytest.approx(true, abs=0.02)
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_treadmill_whose_light_barrier_shows_clocks_75_ms_apart_has_even_steps_once_that_is_undone(
     data_dir: Path,
 ) -> None:

@@ -43,7 +43,7 @@ def continued(seed: int, samples: tuple[Sample, ...]) -> tuple[list[DefectFound]
     return found(tuple(sample for sample in samples if sample.t >= CAME_LOOSE), Session.unpack(packed_before(seed)))
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_sensor_that_swings_is_noticed_and_its_strides_are_degraded() -> None:
     """Within a minute in five of six walks; the stances of the sixth one are quiet moments of the swinging sensor."""
     noticed = 0

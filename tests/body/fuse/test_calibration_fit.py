@@ -7,7 +7,7 @@ from math import inf
 from typing import Any
 
 import pytest
-from soak import soaked
+from soak import longer
 
 from solepath import Session
 from solepath.body.fuse.calibration_fit import CalibrationFit, DriftHypothesis
@@ -56,7 +56,7 @@ def walked(kind: str, known: Calibration) -> tuple[list[DefectFound], float]:
     return session.misfits, error
 
 
-@pytest.mark.parametrize("kind", [*soaked("right_angles"), pytest.param("any_angles", marks=pytest.mark.long)])
+@pytest.mark.parametrize("kind", longer("right_angles", "any_angles"))
 def test_a_calibration_of_other_shoes_is_dropped_and_the_track_turned_back(kind: str) -> None:
     (one,), error = walked(kind, calibration(ANOTHER))
     assert "does not fit this walk" in one.what and not one.spoils

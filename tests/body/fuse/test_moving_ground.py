@@ -52,7 +52,7 @@ def test_a_walkway_is_noticed_where_it_starts_and_where_it_ends(seed: int, veloc
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.soak
+@pytest.mark.long
 def test_the_covariance_holds_the_way_that_the_track_lacks(seed: int) -> None:
     standing, (session, _, way) = Session(), fed(seed, (0.65, 0.0))
     standing.feed(walk(seed).samples)

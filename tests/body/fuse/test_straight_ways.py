@@ -30,7 +30,7 @@ def fed(walk: SampledWalk) -> tuple[BothFeet, Session, list[Event]]:
     return part, session, events
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_a_wearer_whose_peaks_are_cut_off_still_shows_the_drift() -> None:
     route = heading_route("right_angles", STRONG_LANDING, lambda length, seconds: length >= 300.0)
     walk = sampled(route, wearer=wearer_of(STRONG_LANDING), insoles=insoles_of(STRONG_LANDING), seed=STRONG_LANDING)
