@@ -101,13 +101,6 @@ def test_a_file_of_damaged_lines_is_not_read_to_its_end(tmp_path: Path, monkeypa
         packets_of(path)
 
 
-def test_junk_at_the_start_costs_nothing_of_the_good_rows_behind_it(tmp_path: Path) -> None:
-    recording, table = tmp_path / "walk.jsonl", tmp_path / "walk.csv"
-    recording.write_text(HEADER + "?\n" * 2000 + line_of() * 2500)
-    table.write_text(COLUMNS + "?\n" * 2000 + "".join(f"{k / 100},0,0,9.8\n" for k in range(2500)))
-    assert len(packets_of(recording)[0]) == len(samples_of(table)[0]) == 2500
-
-
 @pytest.mark.parametrize("end", ["\n", "0.05,0,0,9.8\n", "\n0.05,0,0,9.8\n", ""])
 @pytest.mark.parametrize("size", [65_537, 70_000, 1_000_000])
 def test_a_row_that_is_too_long_costs_only_itself(tmp_path: Path, size: int, end: str) -> None:
@@ -159,41 +152,6 @@ def test_one_time_stamp_out_of_order_costs_its_row(
     assert [sample.t for sample in samples] == [k / 100.0 for k in range(20) if k != row]
     place = f"t, row {row}" if name == "walk.npz" else f"line {row + 2}, t"
     assert reports == [f"{place}: time is out of order: {complaint}; this row is left out"]
-
-
-@pytest.mark.parametrize(
-    ("row", "complaint"),
-    [
-        ("0.03,0,0", "line 5: has 3 columns instead of 4"),
-        ("0.03,0,0,9.8,1", "line 5: has 5 columns instead of 4"),
-        ("0.03,0,,9.8", "line 5: acc_y is blank, not a number"),
-        ("0.03,0,n/a,9.8", 'line 5: acc_y is "n/a", not a number'),
-        ('0.03,0,"0,9.8', "line 5: has 3 columns instead of 4"),
-    ],
-)
-def test_a_row_that_is_no_row_is_named_and_costs_one_sample(tmp_path: Path, row: str, complaint: str) -> None:
-    path = tmp_path / "walk.csv"
-    rows = [f"{0.01 * n:.2f},0,0,9.8" for n in range(6)]
-    rows[3] = row
-    path.write_text(COLUMNS + "\n".join(rows) + "\n")
-    samples, reports = samples_of(path)
-    assert [sample.t for sample in samples] == [0.0, 0.01, 0.02, 0.04, 0.05]
-    assert reports == [f"{complaint}; this row is left out"]
-
-
-def test_faults_of_all_kinds_are_counted_together_and_a_row_of_both_feet_once(tmp_path: Path) -> None:
-    path = tmp_path / "walk.csv"
-    rows = [[0.01 * k, 0, 0, 9.8, 0, 0, 9.8] for k in range(30)]
-    rows[4][0] = -1.0  # of both feet
-    rows[9][1] = rows[12][6] = np.nan
-    lines = [",".join(map(str, row)) for row in rows]
-    lines[20] = "and so on"
-    path.write_text(
-        "t,acc_x_left,acc_y_left,acc_z_left,acc_x_right,acc_y_right,acc_z_right\n" + "\n".join(lines) + "\n"
-    )
-    samples, reports = samples_of(path)
-    assert len(samples) == 2 * 28 - 2
-    assert reports[-1] == "4 of 30 rows are left out"
 
 
 @pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])

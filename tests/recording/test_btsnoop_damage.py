@@ -7,10 +7,8 @@ import struct
 import pytest
 from snooped import FRAME, Log, data_of, frames, read, start_connection
 
-from solepath import Packet
-from solepath.recording import RecordingError
-from solepath.recording.btsnoop import is_btsnoop, open_btsnoop, values
 from solepath.recording.btsnoop import log as module  # their limits are those of hours
+from solepath.recording.btsnoop import open_btsnoop, values
 
 
 def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path):
@@ -34,17 +32,6 @@ def test_packets_of_other_channels_are_counted_where_they_might_have_been_ours(t
     packets, reports = read(log, tmp_path)
     assert data_of(packets, "insole/frame") == [frames()[0]]
     assert reports == ["packets of channels that are not followed (EATT perhaps): 1"]
-
-
-def test_records_that_the_logger_cut_short_or_dropped_are_counted(tmp_path):
-    log = start_connection(Log())
-    log.notify(0x40, FRAME, frames()[0])
-    log.record(2, struct.pack("<HHHHBH", 0x2040, 184, 180, 4, 0x1B, FRAME) + b"\xf5", sent=False, original=189)
-    log.drops = 7
-    log.notify(0x40, FRAME, frames()[1])
-    packets, reports = read(log, tmp_path)
-    assert data_of(packets, "insole/frame") == [*frames()[:2]]
-    assert reports == ["records that the logger cut short: 1", "records that the logger says it dropped: 7"]
 
 
 def test_an_insole_is_found_among_connections_that_never_end(tmp_path):
@@ -97,38 +84,3 @@ def test_a_torn_tail_costs_one_record_and_is_reported(tmp_path, cut):
     assert packets == [*frames()[: 4 if cut else 5]]
     torn = f"{path}: record {len(log.records)}: cut off in the middle; everything before it is used"
     assert reports == ([torn] if cut else [])
-
-
-def test_a_damaged_record_is_named_after_everything_before_it(tmp_path):
-    log = start_connection(Log())
-    log.notify(0x40, FRAME, frames()[0])
-    number = len(log.records) + 1
-    log.records.append(struct.pack(">IIIIq", 5, 0xFFFFFFFF, 1, 0, 0))
-    path = log.save(tmp_path / "phone.log")
-    opened, packets = iter(open_btsnoop(path, report=pytest.fail)), list[Packet]()
-    with pytest.raises(RecordingError, match=f"record {number}: is damaged: it claims 4294967295 of 5 bytes"):
-        while True:
-            packets.append(next(opened))
-    assert [p.channel for p in packets] == ["receiver/connected", "insole/frame"]
-
-
-@pytest.mark.parametrize(
-    ("content", "complaint"),
-    [
-        (b"", "is empty"),
-        (b"btsnoop", "does not begin as a btsnoop log"),
-        (b"PK\x03\x04" + bytes(40), "does not begin as a btsnoop log"),
-        (b"btsnoop\0" + struct.pack(">II", 2, 1002), "is btsnoop of version 2; this release reads version 1"),
-        (
-            b"btsnoop\0" + struct.pack(">II", 1, 1003),
-            r"is btsnoop of datalink 1003; this release reads 1001 \(H1\), 1002 \(H4\), 2001 \(MONITOR\)",
-        ),
-        (b"btsnoop\0" + struct.pack(">II", 1, 1002), "holds no packets of a device whose place is known"),
-    ],
-)
-def test_an_unsupported_log_is_rejected(tmp_path, content, complaint):
-    path = tmp_path / "phone.log"
-    path.write_bytes(content)
-    assert is_btsnoop(path) == (content[:8] == b"btsnoop\0")
-    with pytest.raises(RecordingError, match=complaint):
-        open_btsnoop(path)

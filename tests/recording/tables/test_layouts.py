@@ -43,20 +43,6 @@ def test_separator_decimal_mark_and_lines_before_the_header_are_found(
     assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=MAPPING)))
 
 
-def test_rows_may_have_a_cell_more_than_there_are_names(tmp_path: Path) -> None:
-    head, *rows = table().splitlines()
-    (tmp_path / "walk.csv").write_text("\n".join(["Labor 7", "", head, *(f"{row}," for row in rows)]) + "\n")
-    assert_expected(list(read_samples(tmp_path / "walk.csv", mapping=MAPPING)))
-    (tmp_path / "walk.csv").write_text("\n".join(["Labor 7", "", head, *(f"{row},1" for row in rows)]) + "\n")
-    with pytest.raises(RecordingError, match="has 8 columns instead of 7"):
-        list(read_samples(tmp_path / "walk.csv", mapping=MAPPING))
-
-
-def test_half_of_the_cells_may_be_words(tmp_path: Path) -> None:
-    (tmp_path / "walk.csv").write_text("t,note,pressure_0,place\n0,good,1.5,hall\n1,good,2.5,hall\n")
-    assert [sample.pressure for sample in read_samples(tmp_path / "walk.csv")] == [(1.5,), (2.5,)]
-
-
 def test_columns_apart_by_blanks_and_a_line_of_units_are_read(tmp_path: Path) -> None:
     names = [name.replace(" ", "_") for name in NAMES]
     rows = "\n".join("  ".join(f"{v:9.3f}" for v in row) for row in NUMBERS)

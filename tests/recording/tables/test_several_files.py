@@ -90,23 +90,6 @@ def test_the_slower_sensor_is_interpolated_to_the_times_of_the_faster_one(tmp_pa
             assert sample.acc[0] == pytest.approx(sample.t) and sample.gyro[0] == pytest.approx(0.2 * sample.t)
 
 
-def test_at_equal_rates_the_accelerometer_has_the_times_and_equal_times_are_joined_exactly(tmp_path: Path) -> None:
-    t = np.arange(50) / 100.0
-    acc, gyro = acc_file(tmp_path / "r_acc.csv", t), gyro_file(tmp_path / "r_gyro.csv", t + 0.004)
-    assert [s.t for s in read_samples([gyro, acc])] == pytest.approx(list(t[1:]))
-    gyro_file(tmp_path / "r_gyro.csv", t)
-    samples = list(read_samples([gyro, acc]))
-    assert samples[7] == Sample(0.07, Site.RIGHT_FOOT, (0.07, 0.0, 9.81), (0.014, 0.0, 0.0)) and len(samples) == 50
-
-
-def test_a_gap_of_one_sensor_is_a_gap_of_both_and_two_missing_samples_are_none(tmp_path: Path) -> None:
-    t = np.arange(100) / 100.0
-    gyro_t = np.concatenate([t[:20], t[22:50], t[60:]])
-    acc, gyro = acc_file(tmp_path / "r_acc.csv", t), gyro_file(tmp_path / "r_gyro.csv", gyro_t)
-    times = [sample.t for sample in read_samples([acc, gyro])]
-    assert times == pytest.approx([*t[:50], *t[60:]])
-
-
 def test_files_without_a_foot_that_hold_different_sensors_are_of_one_foot(tmp_path: Path) -> None:
     t = np.arange(50) / 100.0
     files = [acc_file(tmp_path / "Accelerometer.csv", t), gyro_file(tmp_path / "Gyroscope.csv", t)]
