@@ -12,8 +12,6 @@ from solepath.recording.samples import load_samples
 from solepath.recording.samples.feet import foot_of_text
 from solepath.types import Foot, Sample, Site
 
-MAPPING = TableMapping({"t": "time"})
-
 
 def write(path: Path, names: str, t: np.ndarray, *columns: np.ndarray | float) -> Path:
     rows = np.column_stack([t, *(np.broadcast_to(column, t.shape) for column in columns)])
