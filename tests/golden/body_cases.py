@@ -46,6 +46,16 @@ def loose(items: tuple[Any, ...], since: float) -> Iterator[Sample]:
         yield item
 
 
+def stood(items: tuple[Any, ...], since: float) -> Iterator[Sample]:
+    """Let the right foot stand from a time on while the left one walks on."""
+    last, drawn = None, draws(4)
+    for item in items:
+        if item.site is RIGHT and item.t > since:
+            last = last or item
+            item = evolve(last, t=item.t, known_at=item.known_at, gyro=(0.002 * next(drawn), 0.0, 0.0))
+        yield item
+
+
 def in_bursts(item: Sample) -> Sample:
     """Give a sample the time of the packet of 0.2 s that brings it, and a little more for each sample in it."""
     start = int(item.t / 0.2) * 0.2
@@ -136,6 +146,8 @@ BODY: tuple[Case, ...] = (
     Case("a calibration that turns the track far", of("there-and-back", until=45.0), "default",
          lambda: {"calibration": of_other_shoes(-0.05)}),
     Case("a sensor that comes loose", of("there-and-back", partial(loose, since=38.0)), "default"),
+    Case("a foot that stands while the other walks on to the right",
+         of("building-8", partial(stood, since=15.3), until=24.0), "default"),
     Case("named places", of("there-and-back", NAMED, until=58.0), "default"),
     Case("a place that is reported often", of("there-and-back", OFTEN, until=46.0), "default"),
     Case("a foot that first steps aside", half(ASIDE, until=12.0), "default", live),

@@ -153,7 +153,7 @@ def said(case: Case) -> Iterator[dict[str, Any]]:
 def kept(snapshot: Any) -> dict[str, Any]:
     """Return the numbers that a session keeps, in order of size, since a record may have another name or place.
 
-    Evidence that leads to no event on a walk shows its faults here: of sensors on the wrong feet, of north, of drift."""
+    Evidence that leads to no event on a walk shows its faults here: of exchanged feet, of north, of drift."""
     numbers: list[float] = []
     left = [snapshot["state"]]
     while left:
