@@ -294,7 +294,7 @@ WHOLE = ("kupt-dfpc", "pressure-contour", "footstep-tracker")
 """Recipes that are fed the whole day; the others half of it."""
 DAMAGED = (*WHOLE, "walking-modes", "shoe-sensing", "gyroscope", "walking-modes-printed")
 """Recipes that are fed losses: each part of a recipe is in one of them."""
-CALIBRATED = ("pressure-contour", "walking-modes", "walking-modes-printed", "footstep-tracker")
+CALIBRATED = ("kupt-dfpc", "pressure-contour", "walking-modes", "walking-modes-printed", "footstep-tracker")
 """Recipes that use all that can be calibrated."""
 AT_20_HZ = ("footstep-tracker", "footstep-tracker-printed", "shoe-sensing", "shoe-sensing-printed")
 OF_LIMBS = ("walking-modes", "walking-modes-printed", "touchdown-height")

@@ -209,7 +209,7 @@ def archives() -> Iterator[Any]:
         ({**one, "t": t[:, None]}, ""), ({**one, "t": t[::-1]}, ""), ({**one, "t": np.array([str(x) for x in t])}, ""),
         ({f"{key}_left": value for key, value in one.items()}, ""), ({**one, "acc_left": acc}, ""),
         ({"t": t, "acc_left": acc, "acc_right": acc}, ""), ({"t": t}, ""), ({"acc": acc}, ""), ({}, ""),
-        ({"t": t, "acc": acc[:, :0]}, ""),
+        ({"t": t, "pressure": cells[:, :0]}, ""),
         ({"t": t[:0], "acc": acc[:0]}, ""), ({"t": t, "pressure": cells[:, 0]}, ""), ({"t": t, "pressure": cells}, ""),
         ({"zeit": 1e3 * t, "a": acc / 9.80665}, "t=zeit,acc=a"), ({"zeit": t, "a": acc}, "t=zeit,acc=b"),
         ({"zeit": t, "ax": acc[:, 0], "ay": acc[:, 1], "az": acc[:, 2]}, "t=zeit,acc=ax,-ay,az"),
