@@ -32,8 +32,6 @@ class Shell:
     receive: Callable[[str], str]
     devices: dict[str, Peripheral]
     now: float = 0.0
-    disconnects: bool = True
-    """False for a system that takes very long to end a connection."""
     messages: list[dict[str, Any]] = field(factory=list, init=False)
     """All messages that were received."""
     _connections: int = field(default=0, init=False)
@@ -57,7 +55,7 @@ class Shell:
                 continue
             if message["type"] in REQUESTS:
                 self._requests.append((self.now + self._delays.uniform(0.0, MAX_DELAY), message))
-            elif message["type"] == "disconnect" and self.disconnects:
+            elif message["type"] == "disconnect":
                 self._lose(device)
                 if not message["wrong"]:
                     self._retry_at[device] = self.now + RETRY_DELAY
