@@ -1,18 +1,13 @@
 """The programs of docs/formats.md run, and its commands do what the page says."""
 
 import inspect
-import shlex
 from typing import Any
 
 import pytest
 import walks
 from programs import run
-from quoted import PAGES, blocks, run_page
+from quoted import run_page
 from recordings import recorded
-
-from solepath.cli.main import parser
-
-PAGE = PAGES["docs/formats.md"]
 
 
 @pytest.fixture(scope="module")
@@ -28,14 +23,6 @@ def test_the_programs_are_whole(names: dict[str, Any], tmp_path) -> None:
     with pytest.raises(ValueError, match="no label"):
         names["Entities"]("0_1")
     assert names["MotionWriter"](tmp_path / "study", names["Entities"]("01", "walk"))
-
-
-def test_every_command_of_the_page_is_understood() -> None:
-    lines = [line.partition(" #")[0].strip() for text in blocks(PAGE, "sh") for line in text.splitlines()]
-    commands = [line for line in lines if line.startswith("solepath ")]
-    assert len(commands) > 8
-    for line in commands:
-        assert parser().parse_args(shlex.split(line)[1:]).command
 
 
 @pytest.mark.soak

@@ -1,7 +1,8 @@
-"""The lab streaming layer between two processes of this machine: nothing is lost, and times are right to 1 ms."""
+"""The lab streaming layer between processes of this machine: nothing is lost, and times are right to 1 ms."""
 
 import json
 import os
+import re
 import subprocess
 import sys
 import time
@@ -10,6 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
+from programs import emulator, run, started
 from strides import stride
 
 from solepath import ActivityChanged, Foot, HeelStrike, Sample, Site, TurnMade
@@ -229,3 +231,38 @@ def test_what_is_wrong_with_a_stream_is_one_sentence() -> None:
     assert LslInlet(LEFT, "bare", channels=["-", *[f"{q}_{a}" for q in ("acc", "gyro") for a in "xyz"]], units=units)
     assert {"bare", "unitless"} <= set(stream_names())
     assert len(outlets) == 2
+
+
+def line_of(process: subprocess.Popen[str], start: str) -> str:
+    """Return the first line of a program that starts so."""
+    assert process.stdout is not None
+    for line in process.stdout:
+        if line.startswith(start):
+            return line
+    raise AssertionError(f"no line starts with {start!r}")
+
+
+@pytest.mark.long
+def test_what_live_publishes_is_run_by_lsl_and_published_again(tmp_path: Path) -> None:
+    names = ["--left", "solepath L", "--right", "solepath R"]
+    with (
+        emulator("--distance", 120) as (_, address),
+        started("live", "--via", address, *names, "--lsl", "lab", "--duration", 300) as live,
+    ):
+        line_of(live, "   ")  # the streams are there since the first sample
+        streams = run("scan", "--lsl").stdout.splitlines()
+        assert {f"lab {foot}_foot {content}" for foot in ("left", "right") for content in ("samples", "pose")} <= set(
+            streams
+        )
+        given = ["--left", "lsl:lab left_foot samples", "--right", "lsl:lab right_foot samples"]
+        done = run("live", *given, "--lsl", "--duration", 8, "--out", tmp_path / "out")
+    assert re.search(r"^left +\d{3,} +\d+\.\d +[3-9] ", done.stdout, re.MULTILINE)
+    assert re.search(r"published: \d+ in solepath markers, \d+ in solepath events, ", done.stdout)
+    events = [json.loads(line) for line in (tmp_path / "out" / "events.jsonl").read_text().splitlines()]
+    strikes = [event for event in events if event["event"] == "HeelStrike"]
+    assert len(strikes) > 6 and all(-0.5 < event["t"] < 9.0 for event in strikes)
+
+
+def test_a_stream_without_a_name_or_with_other_units_is_one_sentence() -> None:
+    assert "lsl: names no stream" in run("live", "--left", "lsl:", expect=2).stderr
+    assert "not ACC,GYRO" in run("live", "--left", "lsl:x", "--units", "g", expect=2).stderr
