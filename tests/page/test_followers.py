@@ -12,7 +12,7 @@ from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from page_events import events_of_all_kinds, rough_walk
-from shown import later, shown
+from shown import later
 
 from solepath import (
     Event,
@@ -125,14 +125,6 @@ def test_a_page_that_is_far_behind_gets_the_whole_scene_again() -> None:
     events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(MAX_BEHIND + 10)]
     assert agree(events, []).scene_count == 2
     assert agree(events, [MAX_BEHIND // 2]).scene_count == 1
-
-
-def test_nothing_new_is_no_message() -> None:
-    scene = shown(rough_walk()[1])
-    _, cursor = scene.whole_message()
-    assert scene.message_since(cursor) == (None, cursor)
-    scene.tick(scene.now)
-    assert scene.message_since(cursor)[0] is None
 
 
 @pytest.mark.soak

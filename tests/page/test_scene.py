@@ -11,8 +11,6 @@ from shown import frame, later, shown
 from walks import insoles
 
 from solepath import (
-    Activity,
-    ActivityChanged,
     Connected,
     Disconnected,
     Event,
@@ -108,16 +106,6 @@ def test_a_link_is_waiting_then_ok_then_lost_and_ok_again() -> None:
     for events, state in steps:
         link = frame(shown(events, scene))["links"]["left foot"]
         assert link["state"] == state
-
-
-def test_an_activity_that_was_taken_back_is_not_shown() -> None:
-    def changed(t: float, activity: Activity, revises: float | None = None) -> ActivityChanged:
-        return ActivityChanged(t=t, known_at=t + 1.0, activity=activity, probability=None, revises=revises, final=False)
-
-    scene = shown([changed(1.0, Activity.WALKING), changed(5.0, Activity.ELEVATOR_UP)])
-    assert frame(scene)["activity"] == {"now": "ELEVATOR_UP", "since": 5.0, "last": None}
-    shown([changed(5.0, Activity.WALKING, revises=5.0)], scene)
-    assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
 
 
 def test_numbers_that_are_not_finite_are_shown_as_null() -> None:

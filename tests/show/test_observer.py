@@ -8,11 +8,10 @@ import pytest
 from attrs import evolve
 from walks import SHORT, insoles
 
-from solepath import Connected, Disconnected, Packet, Sample, SampleGap, Session, Site, StreamStale
+from solepath import Packet, Sample, Session, Site
 from solepath.emulate.radio import CLEAN, Radio
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate
-from solepath.show.links import LinkLedger
 from solepath.show.observer import Observer
 from solepath.show.tables.summary import status
 
@@ -50,20 +49,6 @@ def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_o
         assert link.received + link.lost == pytest.approx(sent, abs=6), "what is no frame of samples are a few"
 
 
-def test_the_rate_leaves_gaps_and_silences_out() -> None:
-    link = LinkLedger()
-    for k in range(100):
-        link.add_sample(0.01 * k, 0.01 * k)
-    link.add_event(SampleGap(t=0.99, known_at=1.49, site=LEFT, duration=0.5))
-    for k in range(100):
-        link.add_sample(1.49 + 0.01 * k, 1.49 + 0.01 * k)
-    link.add_event(StreamStale(t=3.5, known_at=3.5, site=LEFT, silent_for=1.0))
-    for k in range(100):
-        link.add_sample(60.0 + 0.01 * k, 60.0 + 0.01 * k)
-    assert link.rate == pytest.approx(100.0)
-    assert (link.gaps, link.gap_time, link.silences) == (1, 0.5, 1)
-
-
 def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
     shifted = [evolve(p, t=p.t + (5000.0 if p.t < 3.0 else 1000.0)) for p in insoles().packets]
     session, observer = Session(poses=True), Observer()
@@ -73,16 +58,3 @@ def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
     assert observer.covered_time.total == pytest.approx(shifted[-1].t - 1000.0, abs=1.0)
     for line in status(observer):
         assert " 100 Hz" in line or " 99 Hz" in line, line
-
-
-def test_a_link_is_lost_until_samples_come_that_are_no_stragglers() -> None:
-    link = LinkLedger()
-    link.add_event(Connected(t=0.0, known_at=0.0, site=LEFT, device="", name="sole", signal=-50))
-    assert link.state(0.0) == "waiting"
-    link.add_sample(0.1, 0.1)
-    assert (link.state(0.2), link.state(2.0)) == ("ok", "silent")
-    link.add_event(Disconnected(t=1.0, known_at=1.0, site=LEFT))
-    link.add_sample(1.1, 1.2)
-    assert link.state(1.2) == "lost"
-    link.add_sample(3.0, 3.0)
-    assert (link.state(3.0), link.name, link.connections) == ("ok", "sole", 1)

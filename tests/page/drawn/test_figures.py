@@ -8,23 +8,8 @@ from page_events import foot_moved
 from shown import frame, shown
 from walks import insoles
 
-from solepath import (
-    Activity,
-    ActivityChanged,
-    Event,
-    Foot,
-    FootPressed,
-    GaitCycleMeasured,
-    LayoutKnown,
-    Packet,
-    PacketsLost,
-    Session,
-    Site,
-    ToeOff,
-)
+from solepath import Activity, ActivityChanged, Event, Foot, GaitCycleMeasured, Packet, PacketsLost, Session, Site
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.insoles import layout
-from solepath.show.page.scene.scales import FIRST_ENDS
 from solepath.show.page.scene.scene import Scene
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
@@ -74,26 +59,6 @@ def test_a_wearer_who_stands_or_whose_sensors_are_silent_has_no_pace() -> None:
     assert frame(scene)["pace"] is None
     scene = shown([changed(7.9, Activity.STANDING)], scene_until(8.0))
     assert frame(scene)["pace"] is None, "no stride came since"
-
-
-def pressed(t: float, foot: Foot, kilopascals: list[float]) -> FootPressed:
-    cells = layout(96, foot).cells
-    values = tuple(1000.0 * one * cell.area for one, cell in zip(kilopascals, cells, strict=True))
-    return FootPressed(t=t, known_at=t, foot=foot, values=values, force=sum(values), centre=None)
-
-
-def layout_events() -> list[Event]:
-    known = [event for event in walk() if isinstance(event, LayoutKnown)]
-    assert all(event.layout.scale is not None for event in known)
-    return list(known)
-
-
-def test_a_scale_has_the_peaks_of_one_stance_and_not_of_several() -> None:
-    heel, toes = [300.0] * 20 + [0.0] * 76, [0.0] * 76 + [300.0] * 20
-    down, up = ([pressed(t + 0.01 * k, LEFT, some) for k in range(9)] for t, some in ((2.0, heel), (2.1, toes)))
-    toe_off = ToeOff(t=2.09, known_at=2.09, foot=LEFT)
-    assert frame(shown([*layout_events(), *down, *up]))["scales"]["kPa"]["top"] == 400.0
-    assert frame(shown([*layout_events(), *down, toe_off, *up]))["scales"]["kPa"]["top"] == FIRST_ENDS["kPa"]
 
 
 def test_a_loss_is_that_of_the_last_ten_seconds() -> None:

@@ -1,4 +1,4 @@
-"""Tests the plan of the page: names of rooms, outer walls, and how the view follows the wearer."""
+"""Tests the plan of the page: how the view follows the wearer."""
 
 from __future__ import annotations
 
@@ -6,48 +6,13 @@ from typing import Any
 
 import pytest
 from browsers import Browser, Window
-from shown import open_page, shown
+from shown import open_page
 
 from solepath.emulate.routes.building import BUILDING
 from solepath.events import Candidate, Placed, WearerMoved
-from solepath.floorplan.plan import Door, FloorPlan, Level, Wall, with_rooms
 from solepath.show.page.scene.scene import Scene
 
-FLAT = FloorPlan(
-    "flat",
-    (
-        with_rooms(
-            Level(
-                "0",
-                "ground floor",
-                0,
-                0.0,
-                (
-                    Wall((0.0, 0.0), (9.0, 0.0)),
-                    Wall((9.0, 0.0), (9.0, 6.0)),
-                    Wall((0.0, 6.0), (9.0, 6.0)),
-                    Wall((0.0, 0.0), (0.0, 6.0)),
-                    Wall((5.0, 0.0), (5.0, 4.0)),
-                    Wall((0.0, 4.0), (9.0, 4.0)),
-                ),
-                (Door((2.0, 4.0), (2.9, 4.0)),),
-            ),
-            [
-                (((0.0, 0.0), (5.0, 0.0), (5.0, 4.0), (0.0, 4.0)), "Kitchen"),
-                (((5.0, 0.0), (9.0, 0.0), (9.0, 4.0), (5.0, 4.0)), ""),
-                (((0.0, 4.0), (9.0, 4.0), (9.0, 6.0), (0.0, 6.0)), "Hall"),
-            ],
-        ),
-    ),
-)
-"""A plan of three rooms, one of them without a name; the first four walls are outer ones."""
 PART = "solepath.track.shownPart"
-LABELS = "JSON.parse(document.getElementById('track').dataset.labels ?? '[]')"
-OUTER = """import('./outer.js').then(({ outerWalls }) => {
-    const level = solepath.state.plan.levels[0];
-    return outerWalls(level, [], [0, 0, 9, 6]);
-})"""
-ROOM = "(place) => import('./rooms.js').then(({ roomAt }) => roomAt(solepath.state.plan.levels[0], place))"
 
 
 def placed(
@@ -84,19 +49,6 @@ async def follows(view: Window, x: float, y: float) -> None:
         " solepath.track.following; }",
         [x, y],
     )
-
-
-@pytest.mark.soak
-async def test_rooms_have_names_and_outer_walls_are_found(chromium: Browser) -> None:
-    scene = shown(along(2.0, 1.0, 4), Scene("a flat", "default", "live", plan=FLAT))
-    async with open_page(chromium, scene) as (view, _):
-        await view.until(f"{LABELS}.some(([words]) => words === 'Kitchen')")
-        labels = await view.tab.evaluate(LABELS)
-        assert {"Kitchen", "Hall"} <= {label[0] for label in labels}
-        assert await view.tab.evaluate(OUTER) == [True, True, True, True, False, False]
-        assert await view.tab.evaluate(ROOM, [1.0, 1.0]) == 0
-        assert await view.tab.evaluate(ROOM, [6.0, 1.0]) == 1
-        assert await view.tab.evaluate(ROOM, [20.0, 1.0]) == -1
 
 
 @pytest.mark.soak

@@ -1,4 +1,4 @@
-"""Tests what a page shows of positions that a person reports: the revised track, sentences and marks."""
+"""Tests what a page shows of positions that a person reports: the revised track, also after a seek."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from shown import frame, walked
 
 from solepath import Event, Foot, Packet, Session, Site
 from solepath.emulate.routes.route import Route
-from solepath.events import PositionRejected, PositionReported, TrackRevised
+from solepath.events import TrackRevised
 from solepath.show.page.messages import encode
 from solepath.show.page.player.packed_items import PackedItems
 from solepath.show.page.player.player import Player
@@ -26,13 +26,13 @@ REPORT_TIMES = (9.0, 18.9)
 """Times at which the wearer reports a position, s; at the second the wearer has stood for a while."""
 
 
-def position_packet(t: float, position: tuple[float, float] | None, sigma: float = 0.1) -> Packet:
-    return Packet(t, Site.LEFT_FOOT, "receiver/position", build_position(PositionFrame(position, sigma)))
+def position_packet(t: float, position: tuple[float, float]) -> Packet:
+    return Packet(t, Site.LEFT_FOOT, "receiver/position", build_position(PositionFrame(position, 0.1)))
 
 
 @cache
-def reported_walk(off: tuple[float, float] = (0.3, -0.2)) -> tuple[Packet, ...]:
-    """Return a walk with reports at REPORT_TIMES of positions that are `off`, m, from where the track then is."""
+def reported_walk() -> tuple[Packet, ...]:
+    """Return a walk with reports at REPORT_TIMES of positions 0.36 m from where the track then is."""
     session, due = Session(poses=True), list(REPORT_TIMES)
     packets: list[Packet] = []
     for packet in walked(HALF_ROUND, cells=8):
@@ -40,7 +40,7 @@ def reported_walk(off: tuple[float, float] = (0.3, -0.2)) -> tuple[Packet, ...]:
             due.pop(0)
             assert session.position is not None
             x, y, _ = session.position.position
-            packets.append(position_packet(packet.t, (x + off[0], y + off[1])))
+            packets.append(position_packet(packet.t, (x + 0.3, y - 0.2)))
             session.feed(packets[-1])
         packets.append(packet)
         session.feed(packet)
@@ -60,10 +60,6 @@ def show_until(packets: tuple[Packet, ...], report: int) -> tuple[Session, Scene
         report -= is_report
         scene.take(packet, session.feed(packet))
     raise AssertionError("there is no such report")
-
-
-def lines_here(scene: Scene) -> list[str]:
-    return [text for _, kind, text in scene.log.lines.items if kind == "here"]
 
 
 def whole(player: Player) -> Any:
@@ -88,29 +84,6 @@ def test_the_drawn_track_ends_where_the_session_is_after_a_revision(report: int)
     for foot in Foot:
         was, now = before.feet[foot].track.points[-1], scene.feet[foot].track.points[-1]
         assert (now[1] or 0.0) - (was[1] or 0.0) == pytest.approx(events[1].by[0], abs=0.06)
-
-
-def test_a_revision_is_a_sentence_and_a_mark() -> None:
-    _, _, scene, events = show_until(reported_walk(), 0)
-    reported, revised = events
-    assert isinstance(reported, PositionReported) and isinstance(revised, TrackRevised)
-    first, second = lines_here(scene)
-    assert first.startswith("reported: at x ")
-    assert second == f"track revised: moved by {hypot(*revised.by):.1f} m, turned by 0 degrees"
-    assert reported.position is not None
-    x, y = (round(value, 3) for value in reported.position)
-    assert [*scene.reports.marks.items] == [(round(reported.t, 3), None, x, y, True)]
-
-
-@pytest.mark.soak
-def test_a_position_that_contradicts_the_track_is_shown_and_nothing_is_moved() -> None:
-    _, before, scene, events = show_until(reported_walk((30.0, 0.0)), 0)
-    rejected = events[1]
-    assert isinstance(rejected, PositionRejected)
-    assert lines_here(scene)[-1] == f"position rejected: {rejected.what}"
-    assert scene.reports.marks.items[-1][4] is False
-    was, now = (json.loads(encode(one.whole_message()[0])) for one in (before, scene))
-    assert was["tracks"] == now["tracks"] and was["frame"]["wearer"] == now["frame"]["wearer"]
 
 
 @pytest.mark.soak
