@@ -13,7 +13,7 @@ from quoted import PAGES, blocks
 from recordings import recorded
 from walks import insoles, of
 
-from solepath import ClockReset, DefectFound, LayoutKnown, Packet, PacketRejected, Rejection, Session, Site, StrideTaken
+from solepath import ClockReset, DefectFound, LayoutKnown, Packet, PacketRejected, Session, Site, StrideTaken
 
 CUT, TORN, FULL, *_, PHONE = blocks(PAGES["docs/app_life.md"], "python")
 PACKETS = insoles(cells=24).packets
@@ -57,15 +57,6 @@ def test_the_walk_goes_on_from_where_it_was_and_the_change_is_reported(by: float
     end, expected = session.position, undisturbed.position
     assert end is not None and expected is not None
     assert dist(end.position[:2], expected.position[:2]) < 1.0 < dist(end.position[:2], (0.0, 0.0))
-
-
-def test_without_bind_every_packet_is_rejected_with_both_identifiers() -> None:
-    session = moved(0.0)
-    session.restart_clock(PACKETS[HALF].t)
-    events = session.feed(second_half(0.0))
-    assert {event.reason for event in events} == {Rejection.WRONG_DEVICE}
-    advice = "Session.bind lets another device send"
-    assert {event.detail for event in events} == {f"of {NEW[site]}, not {OLD[site]}; {advice}" for site in OLD}
 
 
 def test_the_lines_of_the_page_continue_on_the_new_phone_and_after_it_was_killed(

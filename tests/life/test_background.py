@@ -83,17 +83,6 @@ def test_where_nothing_is_delivered_the_strides_before_and_after_are_found_and_t
     assert len(of(StrideTaken, events)) == pytest.approx(len(strides()) - 2 * 14, abs=4)
 
 
-@pytest.mark.soak
-def test_a_phone_whose_clock_stood_still_while_it_slept_sees_that_the_sensors_did_not() -> None:
-    slept = 10.0
-    packets = [packet for packet in walk() if packet.t < AWAY]
-    packets += [evolve(packet, t=packet.t - slept + 1.0) for packet in walk() if packet.t >= AWAY + slept]
-    events = Session().feed(packets)
-    assert {event.site for event in of(ClockReset, events)} == {LEFT, RIGHT}
-    assert not of(PacketRejected, events)
-    assert all(0.5 < stride.t_end - stride.t_start < 2.0 for stride in of(StrideTaken, events)[2:])
-
-
 def test_the_lines_of_the_page_stamp_what_comes_and_let_time_pass(run: Callable[..., dict[str, Any]]) -> None:
     names = run(CUT, TORN, FULL, BACKGROUND)
     session = names["session"]

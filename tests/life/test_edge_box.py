@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import configparser
 import importlib.util
 import json
 import os
@@ -123,11 +122,3 @@ def test_after_a_reboot_the_clock_restarts_and_after_a_kill_it_does_not(tmp_path
         resets.append(sum(row["event"] == "ClockReset" for _, _, row in rows(database)))
     assert resets == [0, 0, 0, 2]
     assert not [row for _, _, row in rows(database) if row["event"] == "PacketRejected"]
-
-
-def test_systemd_is_told_to_start_it_again_after_every_end() -> None:
-    unit = configparser.RawConfigParser(strict=False)
-    unit.read(EXAMPLES / "edge_box.service")
-    service = unit["Service"]
-    assert (service["Restart"], service["Type"]) == ("always", "notify") and float(service["WatchdogSec"]) >= 5.0
-    assert service["ExecStart"].split()[1].endswith("/edge_box.py") and len(service["ExecStart"].split()) == 5

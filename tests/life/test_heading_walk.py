@@ -101,16 +101,6 @@ def test_turns_to_one_side_only_do_not_separate_turns_from_strides() -> None:
         heading_walk(walk_of(route.stop(3.0)))
 
 
-@pytest.mark.soak
-def test_a_foot_that_stops_sending_is_a_reason_and_the_other_one_can_be_learnt_alone() -> None:
-    walk = walk_of(there_and_back(3.0, 6, 8.0))
-    samples = [one for one in walk if one.site is not Site.RIGHT_FOOT or one.t < 20.0]
-    with pytest.raises(CalibrationError, match="right foot: 2 straight legs.*the left foot alone"):
-        heading_walk(samples)
-    (alone,) = heading_walk([one for one in samples if one.site is Site.LEFT_FOOT])
-    assert alone.foot is Foot.LEFT
-
-
 @pytest.mark.parametrize(
     ("route", "reason"),
     [

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import resource
+import time
 from collections.abc import Callable, Iterator
+from datetime import UTC, datetime, timedelta
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -18,7 +20,7 @@ from walks import insoles, of
 from solepath import ClockReset, PacketRejected, Rejection, Session, StrideTaken
 from solepath.recording import RecordingWarning, read_packets
 
-CUT, TORN, FULL, _, REBOOTED, *_ = blocks(PAGES["docs/app_life.md"], "python")
+CUT, TORN, FULL, _, REBOOTED, ZONE, _ = blocks(PAGES["docs/app_life.md"], "python")
 """The programs of the page, in their order."""
 PACKETS = insoles(cells=24).packets
 HALF = len(PACKETS) // 2
@@ -123,3 +125,19 @@ def test_after_a_reboot_no_packet_is_lost_and_the_track_continues(run: Run, shif
     strides = of(StrideTaken, events)
     assert len(strides) >= len(of(StrideTaken, Session().feed(PACKETS[HALF:]))) > 0
     assert position is not None and abs(strides[0].position[0] - position.position[0]) < 3.0
+
+
+def test_the_header_of_a_recording_gives_the_time_of_day_in_the_zone_of_whoever_reads_it(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TZ", "EAST-9")
+    time.tzset()
+    try:
+        names = run(CUT, TORN, FULL, ZONE)
+        names["writer"].close()
+        now = names["time_of_day"](time.monotonic() + 3600.0, "today.jsonl")
+    finally:
+        monkeypatch.undo()
+        time.tzset()
+    assert now.utcoffset() == timedelta(hours=9)
+    assert abs(now - datetime.now(UTC) - timedelta(hours=1)) < timedelta(seconds=5)
