@@ -7,12 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import run, run_failing
-from recordings import recorded
+from commands import run
 from walks import columns_of
 
 from solepath.emulate.routes.route import Route
-from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
 
@@ -62,14 +60,6 @@ def test_values_that_can_be_read_but_not_be_right_are_named_too(columns: dict[st
     assert "the sensor's range is 2 times the range that is assumed" in done.stdout
 
 
-def test_axes_that_fit_are_offered(data_dir: Path, tmp_path: Path) -> None:
-    with np.load(data_dir / "openshoe_loops" / "m30.npz") as file:
-        walk = {key: file[key] for key in ("t", "acc", "gyro")}
-    done = run("check", saved(tmp_path, walk, gyro=walk["gyro"][:, [1, 0, 2]]), "--foot", "right")
-    assert done.returncode == 1
-    assert "the gyroscope's axes +y +x +z fit the accelerometer's +x +y +z" in done.stdout
-
-
 def test_degraded_strides_are_counted_and_explained_by_the_gaps_in_them(
     columns: dict[str, np.ndarray], tmp_path: Path
 ) -> None:
@@ -82,21 +72,6 @@ def test_degraded_strides_are_counted_and_explained_by_the_gaps_in_them(
     assert re.fullmatch(rf"{degraded} \(\d\d gaps of 20 ms\)", reason)
 
 
-def test_a_recording_of_packets_is_checked_too(tmp_path: Path) -> None:
-    walk = emulate(Route().stand(2.0).walk(4.0).stop(1.0), seed=3)
-    done = run("check", recorded(tmp_path / "walk.jsonl", walk.packets))
-    assert done.returncode == 0 and "too few strides to check everything" in done.stdout
-
-
-BROKEN = {"walk.jsonl": b"this is no packet\n"}
-
-
-@pytest.mark.parametrize("name", BROKEN)
-def test_a_file_that_is_no_recording_is_an_error_and_gets_no_verdict(name: str, tmp_path: Path) -> None:
-    (tmp_path / name).write_bytes(BROKEN[name])
-    assert name in run_failing("check", tmp_path / name)
-
-
 def test_a_row_that_cannot_be_read_is_named_and_the_others_are_checked(
     columns: dict[str, np.ndarray], tmp_path: Path
 ) -> None:
@@ -106,9 +81,3 @@ def test_a_row_that_cannot_be_read_is_named_and_the_others_are_checked(
     assert done.returncode == 0 and done.stderr == ""
     assert re.search(r"^walk.npz: 2\d.\d s, left foot 2\d strides$", done.stdout, re.MULTILINE)
     assert "\n  acc, row 2000: is nan, not a finite number (t = 20 s); this row is left out\n" in done.stdout
-
-
-def test_a_lone_file_of_the_left_foot_is_taken_as_such(columns: dict[str, np.ndarray], tmp_path: Path) -> None:
-    np.savez(tmp_path / "Left_shoe.npz", **columns)
-    done = run("track", tmp_path / "Left_shoe.npz")
-    assert done.returncode == 0 and "taken as the left one" in done.stderr and "left " in done.stdout

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from commands import run, run_failing
 from recordings import recorded
-from walks import columns_of
 
 from solepath.calibration import Calibration, InsoleCalibration, Limbs
 from solepath.calibration.file import read_calibration, write_calibration
@@ -19,7 +18,6 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole, boot
 from solepath.emulate.sensors.suit import suit
 from solepath.emulate.walk import emulate
-from solepath.emulate.wearers.walker import Walker
 from solepath.recipes import NAMES, by_name
 from solepath.types import Foot, Site, WalkingMode
 from solepath.types.attrs import evolve
@@ -48,28 +46,6 @@ def test_a_recipe_of_pressure_rejects_samples_without_any(bare):
     for name in PRESSED:
         expected = f"solepath: recipe {name} needs pressure cells; {bare} has none\n"
         assert run_failing("track", bare, "--recipe", name) == expected
-
-
-def test_evaluate_runs_with_a_calibration_and_rejects_a_file_that_is_none(folder, tmp_path):
-    loops = tmp_path / "xio_closed_walks"
-    loops.mkdir()
-    np.savez(loops / "loop.npz", **columns_of(Walker(ROUTE, seed=3), Foot.RIGHT))
-    (loops / "dataset.json").write_text(
-        json.dumps({"recordings": {"loop": {"closed_loop": True, "path_m_about": 8.0}}})
-    )
-    write_calibration(folder / "known.json", Calibration(drift={Foot.RIGHT: (0.05, 0.0)}))
-    ends = []
-    for calibration in ([], ["--calibration", folder / "known.json"]):
-        scores_file = tmp_path / "scores.json"
-        arguments = ("--recipe", "gyroscope", "--processes", 1, "--json", scores_file, *calibration)
-        assert run("evaluate", tmp_path, *arguments).returncode == 0
-        scores = json.loads(scores_file.read_text())["gyroscope"]["xio_closed_walks"]["recordings"]["loop"]
-        ends.append(scores["end_error_2d"])
-    # 5 cm/s taken off for the 7 s that the foot does not stand: another end, by decimetres
-    assert abs(ends[1] - ends[0]) > 0.1
-    assert "none.json: there is no such file" in run_failing(
-        "evaluate", tmp_path, "--calibration", tmp_path / "none.json"
-    )
 
 
 POSTURES = "pitch_deg,L_r_m,L_p2t_m\n" + "".join(

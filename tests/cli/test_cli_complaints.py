@@ -107,14 +107,3 @@ def test_ctrl_c_again_and_again_does_not_kill_a_recording_that_is_ended(insoles:
         out, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "")
     assert f"recorded in {file}" in out and list(read_packets(file))
-
-
-@pytest.mark.long
-def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
-    with started("emulate", "--listen", "127.0.0.1:0", "--distance", 5000) as process:
-        assert process.stdout is not None
-        assert process.stdout.readline() == "working out a walk of 5000 m ...\n"
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=TAKES)
-    # Python itself ends by the signal when it came while a dataclass of some import was made
-    assert process.returncode in (130, -signal.SIGINT) and (out, err) == ("", "")

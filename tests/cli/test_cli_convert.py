@@ -118,14 +118,6 @@ def test_impossible_file_names_are_rejected(log, tmp_path):
     assert "--site and --handle are for btsnoop logs" in complaint(walk, tmp_path / "walk.mcap", *site)
 
 
-def test_a_file_that_is_replaced_keeps_its_mode(log, tmp_path):
-    out = tmp_path / "walk.jsonl"
-    out.write_text("old")
-    out.chmod(0o440)
-    assert convert(log, out, "--force").returncode == 0
-    assert out.stat().st_mode & 0o777 == 0o440 and out.stat().st_size > 1000
-
-
 def test_a_new_file_has_the_mode_that_new_files_have_and_a_link_stays_one(log, tmp_path):
     plain, there, link = tmp_path / "plain", tmp_path / "there.jsonl", tmp_path / "link.jsonl"
     plain.write_text("")

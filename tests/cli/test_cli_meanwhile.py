@@ -77,11 +77,3 @@ def test_two_calibrations_at_once_keep_what_both_learn(tmp_path: Path) -> None:
         _, err = process.communicate(timeout=TAKES)
     assert (process.returncode, err) == (0, "")
     assert set(read_calibration(out).insoles) == set(Foot)
-
-
-def test_an_empty_file_becomes_a_calibration(tmp_path: Path) -> None:
-    gauge, out = tmp_path / "gauge.csv", tmp_path / "me.json"
-    gauge.write_text(GAUGE)
-    out.touch()
-    assert run("calibrate", "newton", gauge, "--out", out).returncode == 0
-    assert set(read_calibration(out).insoles) == set(Foot)

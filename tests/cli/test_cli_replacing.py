@@ -16,39 +16,6 @@ from programs import TAKES, started
 from recordings import into, written
 from watchers import ANYWHERE, address
 
-from solepath.saving.files import FileReplacements
-
-
-def test_a_file_is_removed_when_ctrl_c_comes_while_it_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    files = FileReplacements()
-    made = Path.open
-
-    def opened_then_stopped(*arguments: object) -> None:
-        made(*arguments).close()  # type: ignore[call-overload]
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(Path, "open", opened_then_stopped)
-    with pytest.raises(KeyboardInterrupt):
-        files.temporary_path(tmp_path / "track.csv")
-    monkeypatch.undo()
-    assert len(list(tmp_path.iterdir())) == 1
-    files.discard()
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("kept", [True, False])
-def test_a_file_is_there_as_it_was_until_it_is_kept(kept: bool, tmp_path: Path) -> None:
-    earlier = tmp_path / "track.csv"
-    earlier.write_text("earlier")
-    files = FileReplacements()
-    files.temporary_path(earlier).write_text("later")
-    assert earlier.read_text() == "earlier"
-    if kept:
-        files.move_to_targets()
-    files.discard()
-    assert earlier.read_text() == ("later" if kept else "earlier")
-    assert list(tmp_path.iterdir()) == [earlier]
-
 
 @pytest.fixture(scope="module")
 def long_recording(recording: Path) -> Path:
@@ -108,11 +75,11 @@ def test_a_run_that_is_ended_leaves_what_an_earlier_one_wrote(
 def test_a_run_writes_through_links_and_into_pipes_and_leaves_who_may_read(recording: Path, tmp_path: Path):
     kept, link, pipe = tmp_path / "kept.html", tmp_path / "link.html", tmp_path / "pipe"
     kept.write_text("")
-    kept.chmod(0o600)
+    kept.chmod(0o440)
     link.symlink_to(kept)
     os.mkfifo(pipe)
     assert run("track", recording, "--report", link).returncode == 0
-    assert link.is_symlink() and kept.stat().st_mode & 0o777 == 0o600
+    assert link.is_symlink() and kept.stat().st_mode & 0o777 == 0o440
     with subprocess.Popen(["cat", str(pipe)], stdout=subprocess.PIPE) as reader:
         assert run("track", recording, "--report", pipe).returncode == 0
         assert reader.communicate(timeout=TAKES)[0] == kept.read_bytes() != b""
@@ -128,5 +95,3 @@ def test_names_that_are_no_text_and_hold_control_codes_are_shown_without(recordi
     assert (result.returncode, result.stderr) == (0, "")
     assert "\x1b" not in result.stdout and result.stdout.encode("utf-8")
     assert "\x1b" not in (here / "r.html").read_text(encoding="utf-8")
-    result = run("demo", "--terminal", "--distance", 1, "--record", here / "demo.jsonl")
-    assert result.returncode == 0 and "\x1b" not in result.stdout and result.stdout.encode("utf-8")

@@ -99,12 +99,6 @@ def test_a_damaged_recording_is_played_and_a_public_page_is_reported(recording: 
     assert re.match(r"the page: http://[^/]+:\d+/#token=\S{16,}\n", result.stdout)
 
 
-@pytest.mark.parametrize("where", ["8765", "127.0.0.1:70000"])
-def test_an_invalid_address_is_rejected(where: str, recording: Path):
-    for command in (("demo",), ("track", recording), ("live",)):
-        assert "that is not HOST:PORT, as in 127.0.0.1:8765" in run_failing(*command, f"--view={where}")
-
-
 def test_without_aiohttp_the_message_names_the_package(recording: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(sys.modules, "aiohttp", None)
     for command in (("demo",), ("track", recording), ("live",)):

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from commands import one_line, run
+from commands import run
 
 from solepath.cli import completion
 from solepath.recipes import NAMES
@@ -48,9 +48,3 @@ def test_the_tab_key_completes_files(tmp_path: Path) -> None:
 def test_the_code_for_a_shell_names_the_program(shell: str) -> None:
     done = run("completion", shell)
     assert done.returncode == 0 and "solepath" in done.stdout and completion.COMPLETING in done.stdout
-
-
-def test_without_argcomplete_there_is_a_line_that_installs_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("solepath.cli.common.failure.is_installed", lambda package: package != "argcomplete")
-    line = one_line(run("completion", "bash"))
-    assert line.startswith("solepath: completion needs argcomplete: install the extra completion")

@@ -9,24 +9,10 @@ import pytest
 from commands import no_control_codes
 from programs import TAKES, drawn, in_terminal
 
-from solepath.show.tables.progress import ERASE, progress_text
+from solepath.show.tables.progress import ERASE
 
 AT_ONCE = "import solepath.show.tables.progress as p; p.FIRST_UPDATE = p.UPDATE_INTERVAL = 0.001; "
 """Code that shows progress from the start, so that a short recording has some."""
-
-
-@pytest.mark.parametrize(
-    ("done", "total", "elapsed", "text"),
-    [
-        (0, 100, 3.0, "walk.csv: 3 s"),
-        (1, 100, 3.0, "walk.csv: 1 %"),
-        (25, 100, 3.0, "walk.csv: 25 %, about 9 s left"),
-        (120, 100, 3.0, "walk.csv: 100 %, about 0 s left"),
-        (500, 0, 12.4, "walk.csv: 12 s"),
-    ],
-)
-def test_the_line_has_the_share_and_the_remaining_time(done: int, total: int, elapsed: float, text: str) -> None:
-    assert progress_text("walk.csv", done, total, elapsed) == text
 
 
 @pytest.mark.soak
