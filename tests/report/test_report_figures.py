@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 import pytest
+from attrs import evolve
+from reported_walks import events_of
+from walks import of
 
 from solepath import FootPressed, GaitCycleMeasured
 from solepath.show.report.soles import STATIONS, ReportSole
 from solepath.types import Cell, Foot, Layout
-
-L, R = Foot.LEFT, Foot.RIGHT
-
-
-def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMeasured:
-    nothing = dict.fromkeys(
-        ("step_time", "initial_double_support", "terminal_double_support", "single_support", "phase", "stride_length",
-         "speed", "step_length", "step_width", "clearance", "toe_off_angle", "heel_strike_angle", "turning_angle",
-         "rise"))  # fmt: skip
-    known = {"foot": L, "number": 1, "t": end, "known_at": end, "t_start": start, "t_toe_off": off}
-    times = {"stride_time": end - start, "stance_time": off - start, "swing_time": end - off, "cadence": 110.0}
-    return GaitCycleMeasured(**(nothing | known | times | {"degraded": False, "steady": True} | other))  # type: ignore[arg-type]
 
 
 def add_second(sole: ReportSole, start: float, heel: float) -> None:
@@ -29,15 +20,16 @@ def add_second(sole: ReportSole, start: float, heel: float) -> None:
         values = (load * (1.0 - share), load * share)
         centre = (0.05 + 0.15 * share, 0.0) if load else None
         t = start + 0.01 * k
-        sole.add_sample(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
+        sole.add_sample(FootPressed(t=t, known_at=t, foot=Foot.LEFT, values=values, force=load, centre=centre))
 
 
 def walked_sole() -> ReportSole:
-    sole = ReportSole(Layout(1, L, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
+    sole = ReportSole(Layout(1, Foot.LEFT, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
+    walked = next(iter(of(GaitCycleMeasured, events_of("walk"))))
     for k in range(4):
         add_second(sole, 1.0 * k, 100.0)
         if k:
-            sole.add_cycle(stride(1.0 * k, k + 0.6, k + 1.0))
+            sole.add_cycle(evolve(walked, t_start=1.0 * k, t_toe_off=k + 0.6, degraded=False))
     return sole
 
 

@@ -15,7 +15,7 @@ from walks import of
 from solepath import Defect, DefectFound, Site
 from solepath.events import Event, GaitCycleMeasured
 from solepath.show.outcomes.references import Person, Sex
-from solepath.show.report import Report, ReportDetails
+from solepath.show.report import Report
 from solepath.show.report.bands import Band, BandError, mean_bands, read_bands
 from solepath.show.report.sections.facts import facts_of
 from solepath.types import Foot
@@ -33,18 +33,6 @@ def cards(page: Node) -> dict[str, str]:
     """Return the value of each large figure, with its unit, by its label."""
     found = [one for one in page.all("div") if one.attributes.get("class") == "card"]
     return {one.first("h3").text: one.named("value").text for one in found}
-
-
-@pytest.mark.parametrize(
-    ("details", "when", "title"),
-    [
-        (ReportDetails(date="2026-01-02"), "2026-11-26 09:40 UTC", "Walk of 2 January 2026"),
-        (ReportDetails(title="After the operation", date="2026-01-02"), "", "After the operation"),
-    ],
-)
-def test_the_title_is_that_of_the_person_or_of_the_date(details: ReportDetails, when: str, title: str) -> None:
-    page = shown(report_of(events_of("walk"), details=details, when=when))
-    assert page.first("h1").text == page.first("title").text == title
 
 
 def test_the_first_sentence_has_distance_time_speed_and_cadence() -> None:

@@ -15,8 +15,6 @@ ROUTES = {
     "walk": Route().stand(1.5).walk(40.0, 1.3).stop(1.0),
     "slow": Route().stand(1.5).walk(25.0, 0.9).stop(1.0),
     "run": Route().stand(1.5).jog(50.0, 3.0).stop(1.0),
-    "stairs": Route().stand(1.5).walk(8.0).stairs(12, up=True).walk(8.0).stop(1.0),
-    "lift": Route().stand(1.5).walk(8.0).stop(1.0).lift(6.0).walk(8.0).stop(1.0),
     "standing": Route().stand(20.0),
 }
 
