@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
-import socket
-import threading
 import time
-from contextlib import suppress
 from pathlib import Path
 
 import commands
@@ -44,21 +41,6 @@ def test_a_script_that_makes_no_sense_is_named_with_its_line(tmp_path: Path) -> 
     script = tmp_path / "faults.txt"
     script.write_text("1 left_foot disconnect\n2 left_foot stumble\n")
     assert f"{script}: line 2: " in complaint("emulate", "--faults", script)
-
-
-@pytest.mark.soak
-def test_a_server_that_is_no_controller_is_reported() -> None:
-    """The server answers everything with a bare HCI Command Complete."""
-    with socket.create_server(("127.0.0.1", 0)) as server:
-
-        def answer() -> None:
-            with server.accept()[0] as client, suppress(OSError):
-                while command := client.recv(1024):
-                    client.sendall(b"\x04\x0e\x04\x01" + command[1:3] + b"\x00")
-
-        threading.Thread(target=answer, daemon=True).start()
-        where = f"tcp:127.0.0.1:{server.getsockname()[1]}"
-        assert complaint("scan", "--via", where) == f"--via {where}: no Bluetooth controller answers at {where}"
 
 
 @pytest.mark.soak

@@ -218,14 +218,10 @@ def test_a_stream_of_another_program_is_read_in_its_units() -> None:
 @pytest.mark.soak
 def test_what_is_wrong_with_a_stream_is_one_sentence() -> None:
     outlets = [stream("bare", None, None), stream("unitless", LABELS, None)]
-    with pytest.raises(LslError, match="there is no stream 'none of these'; there are: .*bare"):
-        LslInlet(LEFT, "none of these", timeout=0.5)
     with pytest.raises(LslError, match="has no acc_x, _y and _z; its channels are: 7 without labels"):
         LslInlet(LEFT, "bare")
     with pytest.raises(LslError, match="the unit of acc of the stream 'unitless' is none, not one of m/s\\^2"):
         LslInlet(LEFT, "unitless")
-    with pytest.raises(LslError, match="the unit of gyro is furlong, not one of rad/s, deg/s"):
-        LslInlet(LEFT, "of no stream", units={"acc": "g", "gyro": "furlong"})
     units = {"acc": "g", "gyro": "dps"}
     assert LslInlet(LEFT, "unitless", units=units).received == 0
     assert LslInlet(LEFT, "bare", channels=["-", *[f"{q}_{a}" for q in ("acc", "gyro") for a in "xyz"]], units=units)

@@ -8,7 +8,7 @@ from contextlib import AsyncExitStack
 import pytest
 from attrs import evolve
 from browsers import UNREACHABLE, Browser, window
-from shown import CONNECTED, empty_scene, frame, open_page, packets_between, repeat_walk, scene_after, show, square_walk
+from shown import CONNECTED, frame, open_page, packets_between, scene_after, show
 
 from solepath import Candidate, Connected, LinkTrouble, Placed, Site, WearerMoved
 from solepath.emulate.routes.building import BUILDING
@@ -18,8 +18,6 @@ from solepath.show.page.server.server import Page
 from solepath.types import Foot
 
 PHONE_WIDTH = 360  # px
-MINUTE = 60.0
-MAX_HEAP_GROWTH = 0.7e6  # bytes; eight more minutes of tracks are 1800 points
 CANVASES = ("sole-left", "sole-right", "track", "ribbon")
 PICTURES = "names => names.map((name) => document.getElementById(name).toDataURL())"
 
@@ -111,16 +109,3 @@ async def test_device_names_are_shown_as_text(chromium: Browser) -> None:
         assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= PHONE_WIDTH
         assert await view.tab.locator("main img, main script, header img, header script").count() == 0
         assert await view.tab.title() != "broken"
-
-
-@pytest.mark.long
-async def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(chromium: Browser) -> None:
-    scene, walk = empty_scene(), repeat_walk(square_walk(), 10.0 * MINUTE)
-    async with open_page(chromium, scene) as (view, _):
-        await show(scene, walk, 40.0, until=2.0 * MINUTE)
-        heap, elements = await view.memory()
-        await show(scene, walk, 80.0, until=10.0 * MINUTE)
-        final_memory = await view.memory()
-        assert final_memory[0] < heap + MAX_HEAP_GROWTH
-        assert final_memory[1] == elements
-        assert await view.tab.locator("#log > *").count() <= 50

@@ -36,11 +36,14 @@ def test_any_text_is_a_command_or_none(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "", "{", "null", "[]", '"play"', "{}", '{"do":"stop"}', '{"do":["play"]}', '{"do":"play","value":1}',
-        '{"do":"play","do":"play"}', '{"do":"seek"}', '{"do":"seek","value":null}', '{"do":"seek","value":true}',
-        '{"do":"seek","value":"1"}', '{"do":"seek","value":NaN}', '{"do":"seek","value":1e999}',
-        '{"do":"speed","value":0}', '{"do":"speed","value":32.01}', '{"do":"seek","value":Infinity}',
-        '{"do":"seek","value":1' + "0" * 999 + "}", '{"do":"speed","value":-1}', "[" * 5000,
+        "", "{", "null", '"play"', "{}", '{"do":"stop"}', '{"do":["play"]}', '{"do":"play","value":1}',
+        '{"do":"play","do":"play"}', '{"do":"seek"}', '{"do":"seek","value":true}', '{"do":"seek","value":NaN}',
+        '{"do":"seek","value":1e999}', '{"do":"speed","value":0}', '{"do":"speed","value":32.01}', "[" * 5000,
+        '{"do":"here"}', '{"do":"here","value":1}', '{"do":"here","sigma":0}', '{"do":"here","sigma":1e5}',
+        '{"do":"here","sigma":NaN}', '{"do":"here","sigma":1,"at":[1]}', '{"do":"here","sigma":1,"at":[1,"2"]}',
+        '{"do":"here","sigma":1,"at":[1,2e6]}', '{"do":"here","sigma":1,"level":"0"}', '{"do":"play","sigma":1}',
+        '{"do":"here","sigma":1,"at":[1,2],"level":0}', '{"do":"here","sigma":1,"at":[1,2],"level":"\\ud800"}',
+        '{"do":"here","sigma":1,"at":[1,2],"level":"' + "x" * 65 + '"}', '{"do":"here","sigma":1,"place":"door"}',
     ],
 )  # fmt: skip
 def test_text_that_is_no_command_is_rejected(text: str) -> None:

@@ -6,9 +6,8 @@ import base64
 from math import inf, nan
 
 from attrs import evolve
-from page_events import feed_session, foot_moved, rough_walk
+from page_events import foot_moved, rough_walk
 from shown import frame, later, shown
-from walks import insoles
 
 from solepath import (
     Connected,
@@ -22,8 +21,6 @@ from solepath import (
     StrideTaken,
     WearerMoved,
 )
-from solepath.emulate.routes.route import Route
-from solepath.show.tables.gait import gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 
@@ -55,22 +52,6 @@ def test_cells_are_one_byte_each_of_the_highest_so_far() -> None:
     assert content["force"] == round(sum(values), 1)
     highest = max(pressed, key=lambda event: max(event.values))
     assert max(base64.b64decode(frame(shown([highest]))["feet"]["left"]["cells"])) == 255
-
-
-def test_the_gait_is_the_table_of_the_terminal() -> None:
-    _, events = feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)
-    scene = shown(events)
-    content, means = frame(scene)["gait"], scene.observer.gait
-    parameters = means.of(False)
-    assert parameters is not None
-    assert content["cadence"] == round(parameters.cadence or 0.0, 1)
-    lines = gait_lines(means)
-    assert [row["name"] for row in content["rows"]] == [row.name for row in gait_rows(parameters)]
-    for row in content["rows"]:
-        line = next(line for line in lines if line.startswith(f"{row['label']} {row['unit']} "))
-        for one in ("left", "right"):
-            assert row[one] is not None and f"{row[one]:.{row['digits']}f}" in line
-        assert f"{row['both']:.{row['digits']}f}" in line
 
 
 def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:

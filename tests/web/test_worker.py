@@ -13,8 +13,6 @@ from walks import insoles
 
 from solepath import Packet
 from solepath.emulate import Route
-from solepath.saving.codec import SnapshotError
-from solepath.show.web.live_walk import LiveWalk
 from solepath.show.web.rehearsal import connect, send_frames
 from solepath.show.web.worker import Worker
 
@@ -72,12 +70,6 @@ def test_a_time_without_packets_is_shown_as_a_gap_and_a_clock_that_was_set_back_
     assert any("clock" in words for _, _, words in shown(worker)["log"])
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '{"session": {}}', '{"session": {}, "scene": {}}'])
-def test_another_text_than_a_saved_walk_is_rejected(text: str) -> None:
-    with pytest.raises(SnapshotError):
-        LiveWalk.restore(text, None)
-
-
 def test_a_position_that_is_reported_during_a_walk_is_shown_and_recorded_and_none_is_after_its_end(
     worker: Worker,
 ) -> None:
@@ -109,11 +101,3 @@ def test_a_recording_is_played_and_may_be_controlled(worker: Worker) -> None:
     report = call(worker, "report", "", "a walk")
     assert "left foot took" in report and "solepath 1.2.3" in report
     assert report == call(worker, "report", "walk.jsonl", "a walk")
-
-
-def test_a_recording_that_was_cut_is_played_with_a_note(worker: Worker) -> None:
-    path = Path("walk.jsonl")
-    recorded(path, PACKETS[:50])
-    path.write_bytes(path.read_bytes()[:-20])
-    (note,) = call(worker, "open", "walk.jsonl")["notes"]
-    assert "cut off in the middle" in note

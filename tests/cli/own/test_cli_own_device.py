@@ -9,7 +9,6 @@ import pytest
 from commands import rows_in, run, run_failing
 from here import EXAMPLES
 from recordings import recorded
-from snooped import LEFT, T_START, Log, start_connection
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
@@ -82,18 +81,6 @@ def test_the_example_is_a_device_of_track_and_check(walk: Path, tmp_path: Path) 
     assert len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
     done = run("check", walk, "--driver", OWN)
     assert done.returncode == 0 and f"left foot {STRIDES} strides" in done.stdout
-
-
-def test_a_phone_s_log_of_it_is_converted(packets: list[Packet], tmp_path: Path) -> None:
-    motion = runpy.run_path(str(OWN))["MOTION"]
-    log = start_connection(Log(), characteristics={0x12: motion.characteristic})
-    for packet in packets:
-        log.notify(0x40, 0x12, packet.data, t=T_START + 1_000_000 + round(packet.t * 1e6))
-    words = ["convert", log.save(tmp_path / "phone.log"), tmp_path / "walk.jsonl", "--site", f"{LEFT}=left_foot"]
-    assert "holds no packets of a device" in run_failing(*words)
-    assert run(*words, "--driver", OWN).returncode == 0
-    done = run("track", tmp_path / "walk.jsonl", "--driver", OWN, "--out", tmp_path / "out")
-    assert done.returncode == 0 and len(rows_in(tmp_path / "out" / "strides.csv")) == STRIDES
 
 
 BAD = {

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Callable, Coroutine, Iterable, Iterator
+from collections.abc import AsyncIterator, Callable, Coroutine, Iterable
 from contextlib import asynccontextmanager
 from functools import cache
-from itertools import chain
 from math import pi
 from typing import Any
 from urllib.parse import urlsplit
@@ -112,17 +111,6 @@ def _take_until(scene: Scene, walk: Iterable[PacketEvents], seconds: float) -> S
             break
         scene.take(packet, events)
     return scene
-
-
-def repeat_walk(walk: tuple[PacketEvents, ...], seconds: float) -> Iterator[PacketEvents]:
-    """Yield the walk again and again, with times that go on, for `seconds` at least."""
-    length = walk[-1][0].t - walk[0][0].t + 0.01
-    return chain.from_iterable(_shift_walk(walk, k * length) for k in range(int(seconds / length) + 1))
-
-
-def _shift_walk(walk: tuple[PacketEvents, ...], by: float) -> Iterator[PacketEvents]:
-    for packet, events in walk:
-        yield evolve(packet, t=packet.t + by), tuple(later(event, by) for event in events)
 
 
 def later(event: Event, by: float) -> Event:

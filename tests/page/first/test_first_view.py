@@ -3,45 +3,17 @@
 from __future__ import annotations
 
 import pytest
-from browsers import Browser, Window
-from shown import empty_scene, open_page, scene_after, show, square_walk
+from browsers import Browser
+from shown import open_page, scene_after, square_walk
 
 from solepath import CellFault, CellsFailed, Disconnected, FeetSwapped, Site
 from solepath.show.page.player.playback import Playback
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
-FIGURES = ("speed", "cadence", "symmetry", "distance")
 
 
 def text_is(name: str, words: str) -> str:
     return f"document.getElementById('{name}').textContent === {words!r}"
-
-
-async def visible(view: Window, name: str) -> bool:
-    found: bool = await view.tab.evaluate(
-        f"document.getElementById('{name}').checkVisibility({{visibilityProperty: true}})"
-    )
-    return found
-
-
-@pytest.mark.soak
-async def test_the_first_seconds_have_words_on_what_is_missing_and_no_dashes(chromium: Browser) -> None:
-    scene = empty_scene()
-    async with open_page(chromium, scene) as (view, _):
-        await view.until(f"{text_is('activity', 'Waiting')} && {text_is('where', 'for the sensors')}")
-        assert (await view.text("first")).startswith("No sensor is connected yet.")
-        assert not any([await visible(view, name) for name in (*FIGURES, "soles-heading", "gait-heading")])
-        for packet, events in square_walk():
-            if packet.t > 0.8:
-                break
-            scene.take(packet, events)
-        await view.until(
-            "document.getElementById('first').textContent.startsWith('Stand still for a moment, then walk.')"
-        )
-        assert await visible(view, "soles-heading") and not await visible(view, "speed")
-        await show(scene, (one for one in square_walk() if 0.8 < one[0].t < 6.0), 4.0)
-        await view.until(f"{text_is('first', '')} && {text_is('activity', 'Walking')}")
-        assert all([await visible(view, name) for name in FIGURES])
 
 
 async def test_a_recording_at_its_end_is_shown_as_finished_with_the_means_of_the_whole_walk(chromium: Browser) -> None:
