@@ -44,15 +44,6 @@ def test_a_script_that_makes_no_sense_is_named_with_its_line(tmp_path: Path) -> 
 
 
 @pytest.mark.soak
-def test_a_port_in_use_is_named(insoles: str) -> None:
-    where = insoles.removeprefix("tcp:")
-    assert (
-        complaint("emulate", "--listen", where)
-        == f"--listen {where}: another program has this port: name another one, or 0 for any that is free"
-    )
-
-
-@pytest.mark.soak
 def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_directory(insoles: str, tmp_path: Path) -> None:
     if not Path("/dev/full").exists():
         pytest.skip("no /dev/full here")

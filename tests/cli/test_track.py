@@ -83,8 +83,6 @@ def test_steps_and_track_are_tables_of_the_same_walk(tracked):
     for foot in ("left", "right"):
         times = [float(row["t_s"]) for row in track if row["foot"] == foot]
         assert times == sorted(times) and len(times) > 1000
-        walked = sum(float(row["stride_length_m"]) for row in steps if row["foot"] == foot)
-        assert walked == pytest.approx(8.0, rel=0.1)
         last = [row for row in track if row["foot"] == foot][-1]
         assert hypot(float(last["x_m"]), float(last["y_m"])) == pytest.approx(8.0, rel=0.1)
 

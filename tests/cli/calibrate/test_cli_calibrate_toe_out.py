@@ -4,21 +4,12 @@ import os
 from math import degrees
 from pathlib import Path
 
-import commands
 import pytest
 from programs import TAKES, drawn, emulator, in_terminal
 
 from solepath.calibration.file import read_calibration
 from solepath.emulate.wearers.gait import Wearer
 from solepath.recording import read_packets
-
-
-def test_without_a_terminal_one_line_names_the_terminal_that_it_needs(tmp_path: Path) -> None:
-    arguments = ("calibrate", "toe-out", tmp_path / "walk.jsonl", "--live", "--out", tmp_path / "me.json")
-    assert commands.run(*arguments).stderr == (
-        "solepath: calibrate toe-out --live shows a person how to walk: it needs a terminal\n"
-    )
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.long

@@ -18,7 +18,9 @@ from browsers import Window
 
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.peripheral import Peripheral
+from solepath.link.devices.insole import PROFILE
 
+STREAM = PROFILE.streams[0]
 SUBSCRIPTION = "00002902-0000-1000-8000-00805f9b34fb"
 """Descriptor of a characteristic that notifies (Bluetooth Core, vol 3 part G, 3.3.3.3)."""
 UNLIKELY_ERROR = 0x0E
@@ -59,10 +61,8 @@ class EmulatedSensor:
 class WebBluetooth:
     """Emulated devices that a page in Chromium can choose and connect."""
 
-    def __init__(
-        self, view: Window, devices: Iterable[Peripheral], stream: str = "insole/frame", starts: str = "insole/control"
-    ) -> None:
-        self.view, self.stream, self.starts = view, stream, starts
+    def __init__(self, view: Window, devices: Iterable[Peripheral]) -> None:
+        self.view = view
         self.sensors = {device.address: EmulatedSensor(device) for device in devices}
         self.reachable = True
         """False while the devices are too far away for a connection."""
@@ -103,24 +103,20 @@ class WebBluetooth:
         await asyncio.gather(*self._tasks, return_exceptions=True)
         await self._send("disable")
 
-    async def choose(self, address: str | None) -> None:
-        """Tap "connect" and choose a device; None cancels the chooser."""
+    async def choose(self, address: str) -> None:
+        """Tap "connect" and choose a device."""
         devtools = await self.view.tab.context.new_cdp_session(self.view.tab)
         prompted: asyncio.Future[dict[str, Any]] = asyncio.get_running_loop().create_future()
 
         def on_prompt(prompt: dict[str, Any]) -> None:
-            offered = {one["id"] for one in prompt["devices"]}
-            if not prompted.done() and (address is None or address in offered):
+            if not prompted.done() and address in {one["id"] for one in prompt["devices"]}:
                 prompted.set_result(prompt)
 
         devtools.on("DeviceAccess.deviceRequestPrompted", on_prompt)
         await devtools.send("DeviceAccess.enable")
         await self.view.tab.locator("#connect").click()
         prompt = await asyncio.wait_for(prompted, 20.0)
-        if address is None:
-            await devtools.send("DeviceAccess.cancelPrompt", {"id": prompt["id"]})
-        else:
-            await devtools.send("DeviceAccess.selectPrompt", {"id": prompt["id"], "deviceId": address})
+        await devtools.send("DeviceAccess.selectPrompt", {"id": prompt["id"], "deviceId": address})
         await devtools.detach()
 
     @property
@@ -179,7 +175,7 @@ class WebBluetooth:
             for one in self.sensors.values():
                 if one.connected:
                     for outgoing in one.device.poll(now):
-                        if outgoing.channel == self.stream:
+                        if outgoing.channel == STREAM:
                             one.unread.append(outgoing.value)
                             one.arrived.set()
             await asyncio.sleep(0.002)
@@ -214,7 +210,7 @@ class WebBluetooth:
             added = await self._send("addService", address=address, serviceUuid=service.uuid)
             for characteristic in service.characteristics:
                 properties = {
-                    "read": "read" in characteristic.properties or characteristic.channel == self.stream,
+                    "read": "read" in characteristic.properties or characteristic.channel == STREAM,
                     "write": "write" in characteristic.properties,
                     "notify": "notify" in characteristic.properties,
                 }
@@ -241,15 +237,15 @@ class WebBluetooth:
         channel, now, answer = one.channels[identifier], asyncio.get_running_loop().time(), b""
         code = 0
         try:
-            if kind == "read" and channel == self.stream:
+            if kind == "read" and channel == STREAM:
                 answer = await self._next_frame(one)
             elif kind == "read":
                 answer = one.device.read(channel, now) or b""
             elif kind == "write":
                 one.device.write(channel, b64decode(data), now)
-                if not one.is_read and channel == self.starts:  # a read before that would keep the write waiting
+                if not one.is_read and channel == PROFILE.setup[-1].channel:  # a read before would keep it waiting
                     one.is_read = True
-                    uuid = self._uuid(one, self.stream)
+                    uuid = PROFILE.channel(STREAM).characteristic
                     self._task(self.view.tab.evaluate(READ_FRAMES, [one.device.name, uuid]))
             elif kind == "subscribe-to-notifications":
                 one.device.subscribe(channel, True, now)
@@ -262,11 +258,6 @@ class WebBluetooth:
         await self._send(
             "simulateCharacteristicOperationResponse", characteristicId=identifier, type=kind, code=code, **response
         )
-
-    @staticmethod
-    def _uuid(one: EmulatedSensor, channel: str) -> str:
-        every = (one for service in one.device.services for one in service.characteristics)
-        return next(characteristic.uuid for characteristic in every if characteristic.channel == channel)
 
     async def _next_frame(self, one: EmulatedSensor) -> bytes:
         while not one.unread:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
@@ -14,18 +13,7 @@ from watchers import ANYWHERE, Watcher, address, watch
 from solepath.emulate.routes.building import BUILDING
 from solepath.recording import read_packets
 from solepath.show.page.live_commands import position_of
-from solepath.show.page.messages import parse_command
 from solepath.wire.receiver import PositionFrame, parse_position
-
-HERE = '{"do":"here","sigma":0.5,"at":[3.25,-1.5]}'
-
-
-def test_a_command_holds_the_position_that_it_reports() -> None:
-    assert parse_command('{"do":"here","sigma":1}').position == PositionFrame(None, 1.0)
-    assert parse_command(HERE).position == PositionFrame((3.25, -1.5), 0.5)
-    level = BUILDING.levels[0].id
-    command = parse_command(json.dumps({"do": "here", "sigma": 2, "at": [1, 2], "level": level}))
-    assert position_of(command, BUILDING) == PositionFrame((1.0, 2.0), 2.0, level=level)
 
 
 @pytest.mark.parametrize(
