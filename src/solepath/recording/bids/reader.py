@@ -115,7 +115,7 @@ class _TrackingSystem:
         columns: dict[str, Floats] = {}
         names = {"t": "latency"}
         for quantity, numbers in self._columns(point).items():
-            units = {self.channels[number].get("units", "") for number in numbers}
+            units = dict.fromkeys(self.channels[number].get("units", "") for number in numbers)
             factors = {_factor_of(unit, quantity) for unit in units}
             if len(factors) != 1 or (factor := factors.pop()) is None:
                 known = ", ".join(CELL_UNITS if quantity == "pressure" else UNITS[quantity])
