@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import asyncio
-
 import pytest
 from browsers import Browser
 from measures import NARROWEST, OPEN_ALL, SCREENS, SCRIPT, THEMES, axe_faults, key_faults, tab_faults, text_faults
 from page_states import STATES
 
-REDRAWING = 0.3
-"""Time in which the page is drawn again in another size or theme, s."""
+REDRAWN = """async () => {
+    for (let k = 0; k < 20; k++) await new Promise(requestAnimationFrame);
+}"""
+"""Waits until the page is drawn again in another size or theme: it is noticed in a frame, and drawn within some more."""
 NOTE = "document.getElementById('track-note').innerText"
 AREA = "document.querySelector('.track .legend .of-track').hidden"
 SEEN = {
@@ -48,7 +48,7 @@ async def test_all_is_readable_reached_by_keys_and_without_violation_by_axe(
         for width, theme in screens:
             await view.tab.set_viewport_size({"width": width, "height": (SCREENS | NARROWEST)[width]})
             await view.tab.emulate_media(color_scheme=theme)
-            await asyncio.sleep(REDRAWING)
+            await view.tab.evaluate(REDRAWN)
             found[f"{width} {theme}"] = await text_faults(view)
             if (width, theme) in QUICK:
                 found[f"{width} {theme}, by axe and by Tab"] = await axe_faults(view) + await tab_faults(view)
