@@ -10,7 +10,7 @@ from page_states import STATES
 REDRAWN = """async () => {
     for (let k = 0; k < 20; k++) await new Promise(requestAnimationFrame);
 }"""
-"""Waits until the page is drawn again in another size or theme: it is noticed in a frame, and drawn within some more."""
+"""Waits until the page is drawn again in another size or theme, which takes some frames."""
 NOTE = "document.getElementById('track-note').innerText"
 AREA = "document.querySelector('.track .legend .of-track').hidden"
 SEEN = {
