@@ -51,7 +51,9 @@ def first_half(name: str) -> tuple[Any, float, tuple[Item, ...]]:
     return machine.save(session), session.now, machine.items[middle:]
 
 
-@pytest.mark.parametrize("name", often(SESSIONS))
+@pytest.mark.parametrize(
+    "name", often(SESSIONS, ("whole frames", "cc2650", "dot", "kupt-dfpc", "shoe-sensing", "particles"))
+)
 def test_every_session_goes_on_the_same_whatever_the_new_clock_shows(name: str) -> None:
     saved, now, rest = first_half(name)
     found = {}

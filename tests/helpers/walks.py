@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from functools import cache, partial
 from math import radians
 from typing import Any
@@ -304,9 +304,13 @@ SELDOM = {
 """Recipes, devices and detectors that share all but a part or a setting with another one."""
 
 
-def often(names: Iterable[str]) -> list[Any]:
-    """Return the names as parameters of a test, of which those of SELDOM are for the soak alone."""
-    return [one for name in names for one in (soaked(name) if name.rpartition(", ")[2] in SELDOM else [name])]
+def often(names: Iterable[str], few: Collection[str] = ()) -> list[Any]:
+    """Return the names as parameters of a test, of which those of SELDOM, or all but `few`, are for the soak alone."""
+
+    def is_often(kind: str) -> bool:
+        return kind in few if few else kind not in SELDOM
+
+    return [one for name in names for one in ([name] if is_often(name.rpartition(", ")[2]) else soaked(name))]
 
 
 def of(kind: Any, events: list[Any]) -> list[Any]:

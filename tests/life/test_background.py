@@ -70,6 +70,7 @@ def test_a_walk_that_a_phone_held_back_has_all_its_strides_when_it_comes() -> No
         assert stride.length == pytest.approx(undisturbed.length, abs=0.03)
 
 
+@pytest.mark.soak
 def test_where_nothing_is_delivered_the_strides_before_and_after_are_found_and_the_one_between_is_degraded() -> None:
     packets = tuple(packet for packet in walk() if not AWAY <= packet.t < AWAY + 15.0)
     events = live(15.0, packets)

@@ -60,6 +60,7 @@ def test_the_path_so_far_is_revised_towards_the_truth() -> None:
 
 
 @pytest.mark.parametrize("angle", [0.0, 2.0])
+@pytest.mark.soak
 def test_a_place_that_is_20_m_off_is_rejected_with_a_reason_and_changes_nothing(angle: float) -> None:
     walk, back = loop(), back_time(loop())
     session = session_back()

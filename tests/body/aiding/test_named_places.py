@@ -39,6 +39,7 @@ def test_a_named_place_where_the_wearer_cannot_be_is_rejected_by_its_name() -> N
     assert isinstance(rejected, PositionRejected) and "where gate was before" in rejected.what
 
 
+@pytest.mark.soak
 def test_two_rejected_places_that_agree_with_the_way_between_them_are_used() -> None:
     walk, session = loop(), fed(loop(), 60.0)
     off = np.array([30.0, -20.0])
@@ -60,6 +61,7 @@ def test_two_rejected_places_that_agree_with_the_way_between_them_are_used() -> 
     assert report(session, 100.0) == [PositionReported, TrackRevised]
 
 
+@pytest.mark.soak
 def test_a_right_place_in_between_makes_a_wrong_one_no_likelier() -> None:
     walk, session = loop(), fed(loop(), 60.0)
     assert isinstance(session.here(off_by(session, 40.0, 0.0))[1], PositionRejected)
