@@ -147,6 +147,22 @@ def test_two_outputs_are_two_files(recording: Path, tmp_path: Path) -> None:
     assert sentence == f"solepath: {out / 'events.jsonl'}: two outputs cannot be one file\n"
 
 
+def test_a_report_may_be_in_the_directory_that_is_made(recording: Path, tmp_path: Path) -> None:
+    out = tmp_path / "new" / "walk"
+    assert run("track", recording, "--out", out, "--report", out / "r.html").returncode == 0
+    assert {"r.html", "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"} == {f.name for f in out.iterdir()}
+
+
+@pytest.mark.soak
+def test_a_recording_stays_if_no_sensor_sends_anything(insoles: str, tmp_path: Path) -> None:
+    path = recorded(tmp_path / "walk.jsonl", PACKETS)
+    before = written(tmp_path)
+    done = run("record", "--via", insoles, "--left", "nobody", "--out", path, "--duration", 3, "--force")
+    assert done.returncode == 2
+    assert done.stderr.endswith(f"solepath: no sensor sent anything: {path} is unchanged\n")
+    assert written(tmp_path) == before
+
+
 def test_a_recording_comes_through_a_pipe_as_from_a_file(recording: Path, tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)

@@ -1,4 +1,4 @@
-"""examples/two_recipes.ipynb runs in a kernel of Jupyter, from the file to the figure."""
+"""examples/two_recipes.ipynb: Jupyter opens it, it is small, without outputs, and runs from the file to the figure."""
 
 from __future__ import annotations
 
@@ -28,7 +28,15 @@ def printed(notebook: Any) -> str:
     return "\n".join(one.get("text") or one.get("data", {}).get("text/plain", "") for one in outputs)
 
 
-@pytest.mark.long
+def test_it_is_a_valid_notebook_without_outputs() -> None:
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    nbformat.validate(notebook)
+    for cell in notebook.cells:
+        assert not cell.get("outputs") and cell.get("execution_count") is None
+    assert NOTEBOOK.stat().st_size < 12_000
+
+
+@pytest.mark.soak
 def test_it_runs_from_an_emulated_walk_to_a_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     notebook = executed(tmp_path, monkeypatch)
     text = printed(notebook)

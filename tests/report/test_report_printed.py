@@ -9,7 +9,7 @@ import pytest
 from browsers import Browser, window
 from measures import axe_faults
 from reported_walks import events_of, pressed_events, report_of
-from soak import longer
+from soak import longer, soaked
 
 from solepath.show.report import Report, ReportDetails
 from solepath.show.report.bands import Band
@@ -62,8 +62,7 @@ async def test_a_report_ends_on_two_pages_of_paper_or_on_one_without_gait_and_no
         assert await view.tab.evaluate(CUT) == []
 
 
-@pytest.mark.parametrize("dark", [False, *longer(True)])
-@pytest.mark.soak
+@pytest.mark.parametrize("dark", [*soaked(False), *longer(True)])
 async def test_on_a_screen_nothing_is_cut_no_letter_is_small_and_axe_finds_no_violation(
     chromium: Browser, dark: bool, tmp_path: Path
 ) -> None:

@@ -76,9 +76,8 @@ def directions(found: Outcome) -> tuple[list[bool], list[bool]]:
     return [flight.up for flight in found.flights], [ride.up for ride in found.rides]
 
 
-@pytest.mark.parametrize("kit", ["insoles", *soaked("SensorTags")])
+@pytest.mark.parametrize("kit", KITS)
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.soak
 def test_short_stops_in_a_crowd_are_neither_lifts_nor_stairs(seed: int, kit: str) -> None:
     found = outcome(Route().stand(3.0).crowded(25.0, seed).stand(4.0), kit, seed)
     assert directions(found) == ([], [])

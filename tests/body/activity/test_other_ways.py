@@ -39,11 +39,14 @@ ROUTES = {
 }  # fmt: skip
 WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
-SOAK, OFTEN = pytest.mark.soak, ("up", "backwards", "sideways")
+OFTEN = ("up", "backwards", "sideways")
+MARKS = ((), pytest.mark.soak, pytest.mark.long)
+"""Marks of what is always walked, of the other walks of the default wearer, and of other wearers."""
 WALKED = [
-    pytest.param(name, seed, marks=[pytest.mark.long] if seed > 1 else [SOAK] if name not in OFTEN else [])
+    pytest.param(name, seed, is_tag, marks=MARKS[2 if seed > 1 else is_tag or name not in OFTEN])
     for name in ROUTES
     for seed in WEARERS
+    for is_tag in (False, True)
 ]
 """Routes with their wearers: the default one walks what differs most from walking ahead, the soak everything."""
 STAIRS = (Activity.STAIRS_UP, Activity.STAIRS_DOWN)
@@ -66,23 +69,22 @@ def confusion(name: str, seed: int, is_tag: bool) -> Counter[tuple[Activity, Act
     return Counter((walk.truth.activity(t), timeline.at(t)) for t in times)
 
 
-@pytest.mark.parametrize("is_tag", [False, *soaked(True)])
-@pytest.mark.parametrize(("name", "seed"), WALKED)
+@pytest.mark.parametrize(("name", "seed", "is_tag"), WALKED)
 def test_other_ways_of_walking_are_no_stairs(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     assert sum(count for (_, reported), count in found.items() if reported in STAIRS) < MAX_STAIRS * found.total()
 
 
-@pytest.mark.parametrize("is_tag", [False, *soaked(True)])
-@pytest.mark.parametrize(("name", "seed"), [one for one in WALKED if one.values[0] in ("up", "down")])
+@pytest.mark.parametrize(("name", "seed", "is_tag"), [one for one in WALKED if one.values[0] in ("up", "down")])
 def test_a_ramp_is_walking(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     walked = sum(count for (true, _), count in found.items() if true is Activity.WALKING)
     assert found[Activity.WALKING, Activity.WALKING] >= MIN_WALKING * walked
 
 
-@pytest.mark.parametrize("is_tag", [False, *soaked(True)])
-@pytest.mark.parametrize(("name", "seed"), [one for one in WALKED if one.values[0] in ("backwards", "sideways")])
+@pytest.mark.parametrize(
+    ("name", "seed", "is_tag"), [one for one in WALKED if one.values[0] in ("backwards", "sideways")]
+)
 def test_feet_that_turn_little_stride_all_the_same(name: str, seed: int, is_tag: bool) -> None:
     found = confusion(name, seed, is_tag)
     walked = sum(count for (true, _), count in found.items() if true is Activity.WALKING)

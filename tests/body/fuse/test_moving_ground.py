@@ -7,7 +7,7 @@ from math import hypot, pi
 
 import pytest
 from disturbed import on_walkway
-from soak import longer, soaked
+from soak import longer
 
 from solepath import Session
 from solepath.emulate.routes.route import Route
@@ -41,7 +41,7 @@ def ground(events: list[Event]) -> list[DefectFound]:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("velocity", [(-0.5, 0.0), *soaked((0.0, 0.5))])
+@pytest.mark.parametrize("velocity", [(-0.5, 0.0), *longer((0.0, 0.5))])
 def test_a_walkway_is_noticed_where_it_starts_and_where_it_ends(seed: int, velocity: tuple[float, float]) -> None:
     _, events, way = fed(seed, velocity)
     first, second = ground(events)
