@@ -73,6 +73,13 @@ def test_a_fault_of_bleak_in_one_foots_client_is_reported_and_survived_and_does_
         assert type(error).__name__ in words and str(error) in words and "sought again" in words
 
 
+def test_a_stream_that_is_rejected_is_no_connection() -> None:
+    backend = raising(logged_radio(strap()).backend, "start_notify", REJECTIONS[1], where="strap/beat", until=3.0)
+    packets = received(backend, DeviceConfig(PELVIS, address(1), STRAP), seconds=12.0)
+    assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
+    assert [packet for packet in packets if packet.channel == "strap/beat"]
+
+
 @pytest.mark.parametrize("error", REJECTIONS, ids=["winrt", "bluez"])
 def test_a_rejection_beside_the_stream_is_reported_with_its_channel_and_the_foot_streams(error: Exception) -> None:
     for request in ("read_gatt_char", "start_notify"):

@@ -79,6 +79,12 @@ def test_every_public_class_method_and_property_has_a_docstring() -> None:
     assert [name for name, thing in members() if not documented(thing)] == []
 
 
+def test_a_session_has_the_words_that_the_design_promises() -> None:
+    for name in ("feed", "advance", "finish", "position", "snapshot", "restore"):
+        assert hasattr(solepath.Session, name)
+    assert list(inspect.signature(solepath.Packet).parameters)[:4] == ["t", "site", "channel", "data"]
+
+
 def test_a_session_and_its_recipe_print_short() -> None:
     session = solepath.Session()
     assert (repr(session), repr(session.recipe)) == ("<Session default at None s>", "<Recipe default>")

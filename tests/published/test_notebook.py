@@ -36,7 +36,7 @@ def test_it_is_a_valid_notebook_without_outputs() -> None:
     assert NOTEBOOK.stat().st_size < 12_000
 
 
-@pytest.mark.soak
+@pytest.mark.long
 def test_it_runs_from_an_emulated_walk_to_a_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     notebook = executed(tmp_path, monkeypatch)
     text = printed(notebook)

@@ -104,6 +104,7 @@ def test_a_layout_that_does_not_fit_is_an_error_though_the_setup_is_understood(
     assert done.returncode == 1 and sentence in done.stdout and "nothing must be mended" not in done.stdout
 
 
+@pytest.mark.soak
 def test_every_second_packet_cut_is_a_fault_and_a_bad_radio_is_none(tmp_path: Path) -> None:
     good = list(emulate(WALKER.route, seed=3).packets)
     cut = [evolve(one, data=one.data[: len(one.data) // (1 + k // 2 % 2)]) for k, one in enumerate(good)]
