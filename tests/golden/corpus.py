@@ -217,23 +217,6 @@ def write_table(table: dict[str, Rows], recorded: bool) -> None:
 
 
 @cache
-def table_of(recorded: bool) -> tuple[str, dict[str, Rows]]:
-    """Return a table, read once a process."""
-    return read_table(recorded)
-
-
-def differences(case: Case) -> list[str]:
-    """Return the kinds of events of a case that are not as in its table.
-
-    Where the platform is not the table's, only the numbers of events are compared: values may differ in their last bits
-    there (contract 7), and `.ci/golden check` compares them with those of the older code."""
-    platform, table = table_of(case.recorded)
-    before, now = table[case.name], rows_of(case)
-    compared = slice(None) if platform == this_platform() else slice(1)
-    return [kind for kind in {**before, **now} if before.get(kind, ())[compared] != now.get(kind, ())[compared]]
-
-
-@cache
 def this_platform() -> str:
     """Return the name of a platform with the same bits of all numbers: its C library rounds sin, cos and exp alike."""
     rounded = sha256()

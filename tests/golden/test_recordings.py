@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from corpus import Case, differences
-from table import PARTS
+from corpus import Case
+from table import PARTS, differences
 
 
 @pytest.mark.parametrize("case", PARTS["recordings"], ids=lambda case: case.name)

@@ -1,14 +1,17 @@
 """Results that take long and that many tests share: computed once a run, by one of the workers, and kept for the next.
 
-A result is a file below `.pytest_cache/kept`, named by a hash of all code of solepath and of the helpers, so that it is
-never that of other code. Workers that want the same result wait for the first."""
+A result is a file below `.pytest_cache/kept`, named by a hash of all on which it can depend: solepath, the helpers and
+the golden corpus, `protocol/`, Python and numpy. So it is never that of other code. Workers that want the same result
+wait for the first."""
 
 from __future__ import annotations
 
 import pickle
+import sys
 from collections.abc import Callable
 from functools import cache, wraps
 from hashlib import sha256
+from importlib.metadata import version
 from pathlib import Path
 from shutil import rmtree
 from typing import ParamSpec, TypeVar
@@ -24,19 +27,20 @@ except ImportError:  # Windows: two workers may compute the same
         """Lock nothing."""
 
 
-HELPERS = Path(__file__).resolve().parent
-FOLDER = HELPERS.parents[1] / ".pytest_cache" / "kept"
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / ".pytest_cache" / "kept"
 P = ParamSpec("P")
 T = TypeVar("T")
 
 
 @cache
 def code() -> str:
-    """Return a hash of all code on which a result can depend."""
-    digest = sha256()
-    for folder in (Path(solepath.__file__).parent, HELPERS):
-        for path in sorted(folder.rglob("*.py")):
-            digest.update(path.read_bytes())
+    """Return a hash of all on which a result can depend."""
+    digest = sha256(f"{sys.version} {version('numpy')}".encode())
+    for folder in (Path(solepath.__file__).parent, *map(ROOT.joinpath, ("tests/helpers", "tests/golden", "protocol"))):
+        for path in sorted(folder.rglob("*")):
+            if path.is_file() and path.suffix != ".pyc":
+                digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
 
