@@ -10,6 +10,7 @@ import pytest
 from commands import run, run_failing
 from programs import TAKES, started
 from recordings import PACKETS, recorded, written
+from soak import soaked
 
 from solepath.calibration.file import read_calibration
 from solepath.recording import PacketWriter, read_packets
@@ -18,7 +19,7 @@ from solepath.types import Foot
 GAUGE = "counts,newtons\n" + "".join(f"{counts},{0.1 * counts:.1f}\n" for counts in (60, 100, 400, 800, 1200, 1900))
 
 
-@pytest.mark.parametrize("replaced", [False, True])
+@pytest.mark.parametrize("replaced", [False, *soaked(True)])
 def test_a_recording_that_waits_for_its_first_packet_is_not_replaced(
     recording: Path, tmp_path: Path, replaced: bool
 ) -> None:
@@ -37,7 +38,9 @@ def test_a_recording_that_waits_for_its_first_packet_is_not_replaced(
     assert list(read_packets(path)) == PACKETS[2:]
 
 
-@pytest.mark.parametrize(("force", "is_complete"), [((), True), (("--force",), False)])
+@pytest.mark.parametrize(
+    ("force", "is_complete"), [((), True), pytest.param(("--force",), False, marks=pytest.mark.soak)]
+)
 def test_a_recording_that_is_made_during_a_run_is_not_replaced_at_its_end(
     recording: Path, tmp_path: Path, force: tuple[str, ...], is_complete: bool
 ) -> None:

@@ -15,6 +15,7 @@ from attrs import evolve
 from encoded import other
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
+from soak import soaked
 from walks import NAMES, machines, of
 
 from solepath import Packet, Session, SnapshotError, StrideTaken
@@ -72,7 +73,7 @@ def test_a_session_goes_on_in_another_process(tmp_path: Path) -> None:
     assert elsewhere(tmp_path, saved, machine.items[800:]) == [repr(event) for event in remaining]
 
 
-@pytest.mark.parametrize("name", ["session, four samples a frame", "session, cc2541 at 20 Hz"])
+@pytest.mark.parametrize("name", ["session, four samples a frame", *soaked("session, cc2541 at 20 Hz")])
 def test_the_same_packets_give_the_same_events_in_every_process_whatever_its_hashes(name: str, tmp_path: Path) -> None:
     machine = machines()[name]
     expected = [repr(event) for event in machine.events()]

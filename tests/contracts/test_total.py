@@ -49,7 +49,7 @@ def check_times(events: list[Any]) -> None:
 
 @pytest.mark.parametrize("name", often([*DEVICE_NAMES, "session, kupt-dfpc", "session, walking-modes"]))
 @given(st.data())
-@settings(max_examples=6)
+@settings(max_examples=4)
 def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
     k, saved = data.draw(st.sampled_from(cuts(name)))
@@ -150,7 +150,7 @@ _SAMPLES = st.builds(
 
 @pytest.mark.parametrize("name", often(SAMPLE_NAMES))
 @given(st.sampled_from(range(SNAPSHOT_COUNT)), st.lists(_SAMPLES, max_size=12))
-@settings(max_examples=15)
+@settings(max_examples=8)
 def test_any_samples_at_all_give_events(name: str, cut: int, fed: list[Sample]) -> None:
     machine = machines()[name]
     k, saved = cuts(name)[cut]

@@ -82,8 +82,8 @@ def test_every_step_over_a_bad_radio_is_found_in_its_time_and_length_and_called_
         ("slow", 0),
         pytest.param("fast", 0, marks=SOAK),
         ("left", 90),
-        ("right", -90),
-        ("about", 180),
+        pytest.param("right", -90, marks=SOAK),
+        pytest.param("about", 180, marks=SOAK),
         pytest.param("halts", 0, marks=SOAK),
     ],
 )
@@ -116,7 +116,7 @@ def test_standing_has_no_step_and_a_walk_over_a_clean_radio_none_that_is_degrade
         Insole(cells=24, mtu=23, rate=50.0),
         pytest.param(Insole(cells=60, batch=4), marks=SOAK),
         pytest.param(Insole(cells=35, rate=50.0, quaternion=True), marks=SOAK),
-        Insole(cells=24, rate=200.0, batch=8),
+        pytest.param(Insole(cells=24, rate=200.0, batch=8), marks=SOAK),
     ],
     ids=["fragments", "four a frame", "50 Hz", "200 Hz"],
 )
@@ -129,7 +129,7 @@ def test_insoles_of_any_kind_find_every_step(device: Insole) -> None:
     [
         (CC2650(), (1, 2, 3), 0.99, 0.20, 0.85),
         pytest.param(CC2541(), (1, 2, 3), 0.97, 0.20, 0.0, marks=SOAK),
-        (CC2541(rate=20.0), (1,), 0.98, 0.15, 0.9),
+        pytest.param(CC2541(rate=20.0), (1,), 0.98, 0.15, 0.9, marks=SOAK),
     ],
     ids=["CC2650 at 10 Hz", "CC2541 at 10 Hz", "CC2541 at 20 Hz"],
 )

@@ -48,6 +48,11 @@ def modules() -> dict[str, Path]:
 
 
 MODULES = modules()
+NAMED: dict[type, str] = {
+    ast.Name: "id", ast.Attribute: "attr", ast.arg: "arg", ast.keyword: "arg", ast.alias: "name",
+    ast.FunctionDef: "name", ast.AsyncFunctionDef: "name", ast.ClassDef: "name", ast.ExceptHandler: "name",
+}  # fmt: skip
+"""Field of a node that holds a name."""
 
 
 @cache
@@ -60,7 +65,7 @@ def read(name: str) -> tuple[set[str], set[str], set[str]]:
     others: set[str] = set()
     names: set[str] = set()
     for node in ast.walk(ast.parse(MODULES[name].read_text("utf-8"))):
-        names |= {value for key in ("id", "attr", "arg", "name") if isinstance(value := getattr(node, key, ""), str)}
+        names.add(getattr(node, NAMED.get(type(node), ""), None) or "")
         if isinstance(node, ast.ImportFrom) and node.level:
             target = ".".join((*package[: len(package) - node.level + 1], *filter(None, [node.module])))
             inner = [f"{target}.{alias.name}".removeprefix(".") for alias in node.names]

@@ -15,6 +15,7 @@ import pytest
 from attrs import evolve
 from quoted import PAGES, blocks
 from recordings import recorded
+from soak import soaked
 from walks import insoles, of
 
 from solepath import ClockReset, PacketRejected, Rejection, Session, StrideTaken
@@ -51,7 +52,11 @@ def test_a_recording_that_was_cut_gives_the_session_up_to_its_last_whole_line(ru
 
 @pytest.mark.parametrize(
     ("damage", "saved_after"),
-    [*((damage, HALF + 200) for damage in ("torn", "changed", "absent", "none")), ("none", HALF // 3)],
+    [
+        ("torn", HALF + 200),
+        *(pytest.param(damage, HALF + 200, marks=pytest.mark.soak) for damage in ("changed", "absent", "none")),
+        ("none", HALF // 3),
+    ],
 )
 def test_whatever_became_of_the_snapshot_all_that_was_recorded_is_used(run: Run, damage: str, saved_after: int) -> None:
     recorded(Path("walk-0002.jsonl"), PACKETS[HALF : HALF + 300])
@@ -110,7 +115,7 @@ def test_on_a_full_disk_the_walk_goes_on_and_its_packets_are_written_when_there_
     assert "safe" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("shift", [-1e5, 1e5], ids=["after a reboot", "set forward"])
+@pytest.mark.parametrize("shift", [-1e5, *soaked(1e5)], ids=["after a reboot", "set forward"])
 def test_after_a_reboot_no_packet_is_lost_and_the_track_continues(run: Run, shift: float) -> None:
     names = run(CUT, TORN)
     position = names["session"].position

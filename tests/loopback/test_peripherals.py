@@ -54,7 +54,7 @@ def test_only_what_is_subscribed_is_sent_and_only_while_connected(device: Device
 
 
 @pytest.mark.parametrize(("device", "profile"), DEVICES)
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(st.lists(st.tuples(st.integers(0, 30), st.binary(max_size=4)), max_size=12))
 def test_every_write_is_obeyed_or_rejected(device: Device, profile: Profile, writes: list[tuple[int, bytes]]) -> None:
     tag = _lasting(device)

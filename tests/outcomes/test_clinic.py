@@ -15,6 +15,7 @@ from walks import run_session
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import emulate
+from solepath.recording import read_packets
 from solepath.show.outcomes import Person, Sex, mobility_outcomes, variability, walking_bouts
 from solepath.show.outcomes.clinic import LABEL
 from solepath.show.outcomes.files import BOUT_COLUMNS, OUTCOME_COLUMNS
@@ -43,9 +44,9 @@ def rows_of(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_the_files_hold_the_outcomes_of_the_events(tracked: tuple[str, Path]) -> None:
+def test_the_files_hold_the_outcomes_of_the_events(tracked: tuple[str, Path], recording: Path) -> None:
     _, out = tracked
-    events = run_session(emulate(ROUTE, seed=3).packets)
+    events = run_session(read_packets(recording))
     bouts = walking_bouts(events)
     assert [
         (int(row["number"]), float(row["t_start_s"]), int(row["strides"])) for row in rows_of(out / "bouts.csv")

@@ -10,6 +10,7 @@ import sys
 from collections import defaultdict
 from collections.abc import Iterator
 from copy import deepcopy
+from functools import cache
 from typing import Any
 
 import attrs
@@ -142,13 +143,18 @@ def fresh(record: Any) -> Any:
     return type(record)(**{f.alias: getattr(record, f.name) for f in fields if f.default is attrs.NOTHING})
 
 
+@cache
+def state_fields(kind: type) -> tuple[str, ...] | None:
+    """Return the names of a record's fields without settings, or None for what is no record."""
+    return tuple(f.name for f in attrs.fields(kind) if f.name != "settings") if attrs.has(kind) else None
+
+
 def records(value: Any) -> Iterator[Any]:
     """Yield the records within a state, without settings."""
-    if attrs.has(type(value)):
+    if (names := state_fields(type(value))) is not None:
         yield value
-        for f in attrs.fields(type(value)):
-            if f.name != "settings":
-                yield from records(getattr(value, f.name))
+        for name in names:
+            yield from records(getattr(value, name))
     elif isinstance(value, dict | list | tuple) and value:
         for one in value.values() if isinstance(value, dict) else value:
             if isinstance(one, float | int | str | None):
@@ -156,6 +162,7 @@ def records(value: Any) -> Iterator[Any]:
             yield from records(one)
 
 
+@cache
 def resets(kind: type) -> list[str]:
     """Return the methods of a class that reset it."""
     return [name for name in METHODS if hasattr(kind, name) and getattr(kind, name) is not getattr(Part, name, None)]

@@ -39,7 +39,7 @@ ROUTES = {
 }  # fmt: skip
 WEARERS = {1: Wearer(), 2: SUBJECTS[2], 3: SUBJECTS[3]}
 """Wearer of each seed: the default one, the smallest subject and the tallest one."""
-OFTEN = ("up", "backwards", "sideways")
+OFTEN = ("up", "sideways")
 MARKS = ((), pytest.mark.soak, pytest.mark.long)
 """Marks of what is always walked, of the other walks of the default wearer, and of other wearers."""
 WALKED = [

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from lake import back_time, error, fed, loop, middle, session_back
+from walks import samples
 
 from solepath import Packet, Session, Site
 from solepath.body.aiding.walked_path import MOST_NODES
@@ -89,7 +90,7 @@ def test_before_the_first_stride_a_place_has_no_effect_and_impossible_ones_are_e
     session = Session()
     with pytest.raises(ValueError, match="has samples"):
         session.here()
-    fed(loop(), 1.0, session)
+    session.feed(samples()[:200])
     assert [type(event) for event in session.here()] == [PositionReported]
     for position, sigma in (((float("nan"), 0.0), 1.0), ((0.0, 2e6), 1.0), (None, 0.0), (None, -1.0)):
         with pytest.raises((ValueError, TypeError), match="position"):

@@ -7,6 +7,7 @@ from math import hypot
 import numpy as np
 import pytest
 from lake import error, fed, loop, middle, off_by, passing_times
+from walks import samples
 
 from solepath import Session
 from solepath.events import PositionRejected, PositionReported, TrackRevised
@@ -72,7 +73,8 @@ def test_a_right_place_in_between_makes_a_wrong_one_no_likelier() -> None:
 
 
 def test_a_place_without_a_name_or_with_too_long_a_one_is_an_error() -> None:
-    session = fed(loop(), 5.0)
+    session = Session()
+    session.feed(samples())
     for place in ("", "x" * 65):
         with pytest.raises(ValueError):
             session.here(place)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from commands import run
 from exported import columns, write
+from soak import soaked
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
@@ -40,7 +41,7 @@ def written(path: Path, walker: Walker, change: Callable[[np.ndarray], np.ndarra
 WRONG_AXES = {"two axes of the gyroscope exchanged": "gyro=GY,GX,GZ", "a left-handed accelerometer": "acc=AX,AY,-AZ"}
 
 
-@pytest.mark.parametrize("wrong", WRONG_AXES)
+@pytest.mark.parametrize("wrong", [*WRONG_AXES][:1] + soaked(*[*WRONG_AXES][1:]))
 def test_wrong_axes_are_caught_and_the_line_that_is_offered_repairs_them(
     wrong: str, walker: Walker, tmp_path: Path
 ) -> None:
