@@ -121,20 +121,6 @@ def test_a_lift_leaves_the_tracks_of_the_feet_as_they_are() -> None:
     assert session.position is not None and session.position.covariance[5] > 0.01
 
 
-@pytest.mark.soak
-def test_weather_and_a_door_do_not_move_who_walks_on_the_level() -> None:
-    plain = samples(Route().stand(2.0).walk(8.0).stop(1.0), cells=0)
-    windy = [
-        evolve(sample, air_pressure=pressure(-0.03 * sample.t + (2.5 if 4.0 < sample.t < 6.0 else 0.0)))
-        if k % 20 < 2
-        else sample
-        for k, sample in enumerate(plain)
-    ]
-    events = Session().feed(plain)
-    assert any([isinstance(event, StrideTaken) for event in events])
-    assert heights(windy)[0] == heights(list(plain))[0]
-
-
 def ride(height: float | None, lasted: float, up: bool = True) -> LiftRidden:
     return LiftRidden(t=100.0 + lasted, known_at=110.0 + lasted, t_start=100.0, up=up, height=height)
 

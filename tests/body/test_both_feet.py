@@ -17,8 +17,6 @@ from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.walk import sampled
 from solepath.emulate.wearers.walker import Walker
 from solepath.events import Event, StrideTaken
-from solepath.lab.emulated.heading import yaw_of
-from solepath.lab.emulated.heading_walks import heading_route, insoles_of, wearer_of
 from solepath.session import Session
 from solepath.types import Foot, Sample, Vec3
 
@@ -59,19 +57,6 @@ def test_feet_that_drift_apart_are_held_together() -> None:
     assert hypot(both.position.position[0] - 40.0, both.position.position[1]) < 0.1 * 40.0
 
 
-@pytest.mark.soak
-def test_a_foot_whose_steps_are_not_seen_any_more_does_not_hold_the_other_one_back() -> None:
-    """Its sensor lies still, or always repeats one reading."""
-    session = Session()
-    for sample in _samples(102):
-        stuck = sample.site.foot is Foot.LEFT and sample.t > 15.0
-        session.feed(evolve(sample, acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0)) if stuck else sample)
-    alone, _ = _walked("mean")
-    (x, y, _), (u, v, _) = session.feet[Foot.RIGHT].position, alone.feet[Foot.RIGHT].position
-    assert hypot(x, y) > 0.95 * hypot(u, v)
-    assert session.position is not None and session.position.position[0] > 0.9 * 40.0
-
-
 @pytest.mark.parametrize("first_direction", [-1.0, 3.1])
 def test_a_foot_that_first_steps_aside_does_not_bend_either_track(first_direction: float) -> None:
     session = Session()
@@ -106,23 +91,3 @@ def test_a_foot_that_returns_pulls_nothing_before_it_is_aligned() -> None:
             steps.append(0.0 if before is None else dist(here, before))
             before = here
     assert max(steps) < 0.5
-
-
-@pytest.mark.long
-def test_feet_whose_peaks_are_cut_off_turn_each_other_by_little() -> None:
-    """Of this wearer most strides are degraded, and now and then one is not."""
-    seed = 140
-    route = heading_route("any_angles", seed, lambda length, seconds: seconds >= 200.0)
-    walk = sampled(route, wearer=wearer_of(seed), insoles=insoles_of(seed), seed=seed)
-    session = Session()
-    (part,) = [part for part in session._state.wearer.parts if isinstance(part, BothFeet)]
-    first: dict[Foot, float] = {}
-    degraded = []
-    for event in (event for sample in walk.samples if sample.t < 175.0 for event in session.feed(sample)):
-        if isinstance(event, StrideTaken):
-            degraded.append(event.degraded)
-            w, x, y, z = walk.truth.pose(event.foot, event.t_end).attitude[0].tolist()
-            track = part.left if event.foot is Foot.LEFT else part.right
-            off = yaw_of((w, x, y, z)) - yaw_of(session.feet[event.foot].attitude) - track.turn
-            assert abs(remainder(off - first.setdefault(event.foot, off), 2.0 * pi)) < 0.09
-    assert 0.7 * len(degraded) < sum(degraded) < len(degraded)

@@ -12,7 +12,6 @@ from solepath.calibration import Calibration, CalibrationError, HeadingCalibrati
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import sampled
 from solepath.events import StrideTaken
-from solepath.lab.emulated.heading import follow
 from solepath.lab.emulated.heading_walks import calibration_samples, insoles_of, wearer_of
 from solepath.session import Session
 from solepath.session.heading_walk import HeadingFit, heading_calibration, heading_walk
@@ -57,22 +56,6 @@ def test_the_walk_explains_most_of_what_its_legs_are_apart() -> None:
         assert fit.legs == 10 and 90.0 < fit.duration < 180.0
         assert fit.after < 0.2 * fit.before and fit.after < np.radians(0.8)
         assert 2e-4 < fit.heading.drift_sigma < 1e-3 and fit.heading.turning_sigma < 0.004
-
-
-@pytest.mark.long
-def test_on_another_day_the_heading_drifts_by_a_part_of_what_it_did() -> None:
-    """Arcs to both sides, which show no drift by themselves."""
-    route = Route().stand(3.0)
-    for side in (1.0, -1.0) * 2:
-        route = route.turn(side * pi, 7.0, 1.3)
-    walk = sampled(route.stop(3.0), wearer=wearer_of(SEED), insoles=insoles_of(SEED), seed=SEED)
-    drifts = {}
-    for name, calibration in (("without", Calibration()), ("with", learnt())):
-        track = follow(Session(calibration=calibration), walk)
-        drifts[name] = abs(np.polyfit(track.t, track.headings, 1)[0])
-        assert track.heading_sigmas[-1] > 0.0
-    assert np.degrees(drifts["without"]) * 60.0 > 3.0
-    assert drifts["with"] < 0.5 * drifts["without"]
 
 
 @pytest.mark.parametrize("name", ["default", *soaked("kupt-dfpc", "footstep-tracker-printed")])

@@ -138,14 +138,3 @@ def test_the_direction_of_walking_on_the_plan_is_that_of_the_last_stride(hall: P
     assert float(last["walking_direction_deg"]) == pytest.approx(120.0, abs=12.0)
     for row in (first, last):
         assert float(row["frame_heading_deg"]) == pytest.approx(30.0, abs=12.0)
-
-
-@pytest.mark.soak
-def test_a_plan_without_stairs_gets_no_warning_with_a_start(walk: Path, tmp_path: Path) -> None:
-    corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (0.0, 20.0)]
-    walls = tuple(Wall(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
-    write_floorplan(tmp_path / "one.geojson", FloorPlan("one", (Level("0", "floor", 0, 0.0, walls),), ()))
-    options = ("track", walk, "--floorplan", tmp_path / "one.geojson")
-    assert "no stairs and no lifts" in run(*options).stderr
-    assert "no stairs and no lifts" in run(*options, "--start", "heading=30").stderr
-    assert run(*options, "--start", "0,10,10,30").stderr == ""

@@ -94,16 +94,3 @@ def test_a_real_walk_from_its_middle_has_no_long_stride(
     session = Session()
     strides = [event for event in session.feed(samples) + session.finish() if isinstance(event, StrideTaken)]
     assert len(strides) >= 6 and max(stride.length for stride in strides) < longest
-
-
-@pytest.mark.parametrize("name, strides", [("m02", 47), ("m44", 43)])
-@pytest.mark.soak
-def test_each_stance_of_brisk_loops_is_found(data_dir: Path, name: str, strides: int) -> None:
-    """`openshoe_loops`: 5 km/h and 7 km/h (m44), stances of 0.25 s, a sensor whose swings drift by up to 0.7 m/s."""
-    data = np.load(data_dir / "openshoe_loops" / f"{name}.npz")
-    session = Session()
-    rows = zip(data["t"].tolist(), data["acc"].tolist(), data["gyro"].tolist(), strict=True)
-    samples = [Sample(t=t, site=Site.RIGHT_FOOT, acc=tuple(acc), gyro=tuple(gyro)) for t, acc, gyro in rows]
-    events = session.feed(samples) + session.finish()
-    lengths = [event.length for event in events if isinstance(event, StrideTaken)]
-    assert len(lengths) == strides and max(lengths) < 2.2

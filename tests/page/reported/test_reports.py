@@ -14,7 +14,6 @@ from solepath import Event, Foot, Packet, Session, Site
 from solepath.emulate.routes.route import Route
 from solepath.events import TrackRevised
 from solepath.show.page.messages import encode
-from solepath.show.page.player.packed_items import PackedItems
 from solepath.show.page.player.player import Player
 from solepath.show.page.scene.saved_scene import restore_scene, save_scene
 from solepath.show.page.scene.scene import Scene
@@ -84,17 +83,3 @@ def test_the_drawn_track_ends_where_the_session_is_after_a_revision(report: int)
     for foot in Foot:
         was, now = before.feet[foot].track.points[-1], scene.feet[foot].track.points[-1]
         assert (now[1] or 0.0) - (was[1] or 0.0) == pytest.approx(events[1].by[0], abs=0.06)
-
-
-@pytest.mark.soak
-def test_a_seek_over_reports_shows_the_same_as_playing() -> None:
-    packets = PackedItems(reported_walk())
-    times = [REPORT_TIMES[0] - 1.0, REPORT_TIMES[0] + 0.5, REPORT_TIMES[1] - 1.0, packets.end]
-    session, scene = Session(poses=True, pressures=True), Scene("a walk", "default", "recording")
-    player = Player(packets, session, scene, spacing=3.0)
-    straight: dict[int, Any] = {}
-    for k in (0, 1, 2, 3, 0, 1, 3, 2, 0, 3):
-        player.seek(times[k])
-        player.feed_due(lambda: False)
-        assert whole(player) == straight.setdefault(k, whole(player))
-    assert [len(straight[k]["reports"]) for k in range(4)] == [0, 1, 1, 2]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import inf, isinf
 
 import pytest
-from attrs import evolve
 
 from solepath.calibration import Calibration, ShoeGeometry
 from solepath.foot.navigate.dedrift import LinearDedrift
@@ -75,10 +74,6 @@ def test_the_wearers_own_shoe_is_taken_from_the_calibration() -> None:
     known = KnownVelocity().calibrated(Foot.LEFT, Calibration(shoe=shoe))
     assert known.settings.shoe == shoe
     assert KnownVelocity().calibrated(Foot.LEFT, Calibration()).settings == KnownVelocity().settings
-
-
-NO_AREAS = evolve(BOTH_LOADED, heel=None, forefoot=None, centre=None)
-"""A load without a layout."""
 
 
 def test_a_shoe_that_nobody_measured_is_as_long_as_its_insole() -> None:

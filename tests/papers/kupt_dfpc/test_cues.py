@@ -103,8 +103,4 @@ def test_as_printed_a_toe_off_is_not_where_the_load_moves_quickly_to_the_toes() 
     assert cues_of(rows) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 1, 5)]
 
 
-PHASE_OF_STAGE = dict(zip(StrideStage, (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING), strict=True))
-"""Phase of a foot that corresponds to a stage of its stride."""
-
-
 WALK = Route().stand(2.0).walk(12.0, 1.2).stop(1.5)

@@ -6,7 +6,6 @@ from typing import Any
 
 import pytest
 from attrs import evolve
-from hypothesis import strategies as st
 from strides import stride
 
 from solepath.emulate.routes.route import Route
@@ -121,19 +120,6 @@ def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> N
 
 
 WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
-
-
-INDICES = st.one_of(st.none(), st.floats(0.0, 50.0), st.sampled_from([0.0, float("nan"), float("inf"), -1.0]))
-COPS = st.lists(st.tuples(st.floats(-0.1, 0.4), st.floats(-0.1, 0.1)), max_size=32)
-STEPS = st.builds(
-    stride_of,
-    st.sampled_from(Foot),
-    st.floats(0.0, 60.0),
-    st.floats(0.0, 5.0),
-    index=INDICES,
-    cop=st.one_of(COPS.map(tuple), st.just(COP_PATH), st.just(((0.1, 0.0),) * 9)),
-    lasts=st.floats(0.0, 5.0),
-)
 
 
 def numbers_in(value: Any) -> list[float]:

@@ -13,8 +13,6 @@ from solepath.papers.shoe_sensing.printed import GatedTilt
 from solepath.types import Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, levelling, multiply, normalise, rotate
 
-Vec4 = tuple[float, float, float, float]
-
 STILL = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
 PITCH = 0.4
 """Angle about y, rad."""

@@ -28,7 +28,7 @@ from solepath.papers.walking_modes.recipe import WALKING_MODES, WALKING_MODES_PR
 from solepath.papers.walking_modes.settings import ModeRule, ModesSettings
 from solepath.recipes import DEFAULT
 from solepath.session import Session
-from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from solepath.types import SITE_OF_FOOT, Foot, Sample, WalkingMode
 from solepath.types.vector import sub
 
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
@@ -99,7 +99,6 @@ def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
 
 
 SLOWLY = soaked(WalkingMode.STRAIGHT, WalkingMode.RIGHT_WIDE)
-STEADY_OUTWARD = Wearer()
 VARIED_AS_MEASURED = Wearer(load_law=LoadLaw.HEEL_OUT_FOREFOOT_IN, load_variation=0.004)
 
 
@@ -157,5 +156,4 @@ def test_a_first_heading_is_taken_by_the_recipes_with_body_sensors_and_by_no_oth
             WALKING_MODES.headed(wrong)
 
 
-SITES = st.sampled_from(list(Site))
 NUMBERS = st.floats() | st.sampled_from((0.0, 1.0, -9.8, 1e300))

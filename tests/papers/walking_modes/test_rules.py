@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from attrs import evolve
 
 from solepath.emulate.sensors.insoles import layout
 from solepath.papers.walking_modes.compensation import TABLE_1
@@ -18,7 +17,7 @@ from solepath.papers.walking_modes.mode import (
 from solepath.papers.walking_modes.recognition import Recognition
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.papers.walking_modes.touchdown import FootState
-from solepath.types import Cell, Foot, WalkingMode
+from solepath.types import Foot, WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 NO_LOAD = dict.fromkeys(REGION_POINTS, 0.0)
@@ -126,13 +125,3 @@ def test_a_contact_gives_each_region_as_a_multiple_of_the_mean_cell() -> None:
 
 def test_a_slow_bend_leaves_less_of_a_mark_and_counts_for_more() -> None:
     assert at_reference_speed(shares_of(R1=2.0), 0.8)["R1"] > 2.0 > at_reference_speed(shares_of(R1=2.0), 1.4)["R1"]
-
-
-UNUSABLE_LAYOUTS = {
-    "guessed": evolve(layout(96, LEFT), cells=tuple(Cell(cell.x, 0.0) for cell in layout(96, LEFT).cells)),
-    "few": evolve(layout(96, LEFT), cells=layout(96, LEFT).cells[:6]),
-    "none": evolve(layout(96, LEFT), cells=()),
-    "no length": evolve(layout(96, LEFT), length=0.0),
-    "no insole's length": evolve(layout(96, LEFT), length=1e308),
-    "far away": evolve(layout(96, LEFT), cells=tuple(Cell(1e308, -1e308) for _ in range(96))),
-}
